@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Basic types of the kernel: points of the x-y plane, discs, and 64-byte aligned arrays.
+/// SI units everywhere; angles in radians.
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace flexpm {
+
+/// Grains (and contacts) that are stepped together: a block holds this many, one in each lane.
+/// Fixed, so that results do not depend on the instruction set chosen at run time.
+constexpr int lanes = 8;
+
+/// A point or vector of the plane [m].
+struct Point {
+    double x = 0.0;
+    double y = 0.0;
+};
+
+/// A disc of the packing: the seed of one grain.
+struct Disc {
+    Point centre;         ///< [m]
+    double radius = 0.0;  ///< [m]
+};
+
+/// Allocator on cache lines, so that a block of eight doubles never straddles two of them.
+template <class T> struct AlignedAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t alignment { 64 };
+
+    AlignedAllocator() = default;
+    template <class U> AlignedAllocator(const AlignedAllocator<U>&) { }
+
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), alignment)); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, alignment); }
+
+    template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
+    template <class U> bool operator!=(const AlignedAllocator<U>&) const { return false; }
+};
+
+template <class T> using Array = std::vector<T, AlignedAllocator<T>>;
+
+}  // namespace flexpm
