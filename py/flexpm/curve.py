@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Record of a test step by step, and the measures taken from it, paper Sec. 4. SI units.
+
+Axial stress and strain count positive in the sense of the loading: compression in compression
+tests, tension in tension tests. The lateral strain has the sign of the axial one, so a specimen
+that bulges under compression has a negative lateral strain.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+#: Columns of the record: the columns of curve.csv.
+COLUMNS = (
+    "step",
+    "axial_strain",
+    "lateral_strain",
+    "axial_stress",
+    "confinement",
+    "tensile_cracks",
+    "shear_cracks",
+    "unbalanced_ratio",
+    "kinetic_energy",
+    "elastic_energy",
+    "damage_energy",
+    "friction_energy",
+    "damping_energy",
+    "boundary_work",
+)
+INTEGERS = ("step", "tensile_cracks", "shear_cracks")
+ENERGIES = (
+    "kinetic_energy",
+    "elastic_energy",
+    "damage_energy",
+    "friction_energy",
+    "damping_energy",
+)
+
+#: E and nu are fitted between these fractions of the peak.
+ELASTIC_WINDOW = (0.05, 0.25)
+#: The largest stress counts as a peak once the stress has fallen by this fraction of it.
+PEAK_DROP = 0.10
+
+
+class Curve:
+    """Rows of a running test; amortised constant time to append, columns as numpy views."""
+
+    def __init__(self) -> None:
+        self._data = np.empty((256, len(COLUMNS)))
+        self._rows = 0
+
+    def append(self, **values: float) -> None:
+        """Add one row; every column must be named (nan where a quantity is not defined)."""
+        if values.keys() != set(COLUMNS):
+            wrong = sorted(values.keys() ^ set(COLUMNS))
+            raise TypeError(f"Curve.append: columns {wrong} missing or unknown")
+        if self._rows == len(self._data):
+            self._data = np.concatenate([self._data, np.empty_like(self._data)])
+        self._data[self._rows] = [values[name] for name in COLUMNS]
+        self._rows += 1
+
+    def __len__(self) -> int:
+        return self._rows
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        """View of one column; it stays valid, but does not grow with later rows."""
+        return self._data[: self._rows, COLUMNS.index(column)]
+
+    @property
+    def array(self) -> np.ndarray:
+        """All rows, in the order of `COLUMNS`."""
+        return self._data[: self._rows]
+
+    @classmethod
+    def from_array(cls, array: np.ndarray) -> Curve:
+        """Restore a record from `array` (rows, columns in the order of `COLUMNS`)."""
+        array = np.asarray(array, dtype=float).reshape(-1, len(COLUMNS))
+        curve = cls()
+        curve._rows = len(array)
+        curve._data = np.concatenate([array, np.empty((256, len(COLUMNS)))])
+        return curve
+
+    def csv(self) -> str:
+        """The record as CSV text; numbers are written so that they read back unchanged."""
+        lines = [",".join(COLUMNS)]
+        whole = [name in INTEGERS for name in COLUMNS]
+        for row in self.array.tolist():
+            cells = (
+                str(int(value)) if integer else repr(value)
+                for value, integer in zip(row, whole, strict=True)
+            )
+            lines.append(",".join(cells))
+        return "\n".join(lines) + "\n"
+
+
+def differential_stress(curve: Curve) -> np.ndarray:
+    """Axial stress above the confinement [Pa]; what deforms the specimen axially."""
+    return curve["axial_stress"] - curve["confinement"]
+
+
+def peak_row(curve: Curve) -> int | None:
+    """Row of the largest axial stress, or None while no peak has been passed."""
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.any(np.isfinite(stress)):
+        return None
+    row = int(np.nanargmax(stress))
+    if not stress[row] > 0.0 or not np.nanmin(stress[row:]) <= (1.0 - PEAK_DROP) * stress[row]:
+        return None
+    return row
+
+
+def elastic_rows(curve: Curve) -> slice:
+    """Rows of the loading branch between 5 and 25 % of the largest stress."""
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.nanmax(stress, initial=0.0) > 0.0:
+        return slice(0, 0)
+    low, high = (fraction * np.nanmax(stress) for fraction in ELASTIC_WINDOW)
+    end = int(np.argmax(stress > high))  # the first row above the window
+    below = np.flatnonzero(stress[:end] < low)
+    return slice(int(below[-1]) + 1 if len(below) else 0, end)
+
+
+def youngs_modulus(curve: Curve) -> float | None:
+    """Slope of stress over axial strain in the elastic window [Pa], by least squares."""
+    rows = elastic_rows(curve)
+    return _slope(curve["axial_strain"][rows], differential_stress(curve)[rows])
+
+
+def poissons_ratio(curve: Curve) -> float | None:
+    """Minus the slope of lateral over axial strain in the elastic window [-]."""
+    rows = elastic_rows(curve)
+    slope = _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
+    return None if slope is None else -slope
+
+
+def softening_slope(curve: Curve) -> float | None:
+    """Slope of stress over strain from the peak down to half of it [Pa], negative."""
+    peak = peak_row(curve)
+    if peak is None:
+        return None
+    stress = differential_stress(curve)
+    fallen = np.flatnonzero(stress[peak:] <= 0.5 * stress[peak])
+    rows = slice(peak, peak + int(fallen[0]) + 1 if len(fallen) else len(stress))
+    return _slope(curve["axial_strain"][rows], stress[rows], fewest=2)
+
+
+def energy_error(curve: Curve) -> float | None:
+    """Largest |work + initial energy - sum of the energies| over the largest |work| [-]."""
+    work = curve["boundary_work"]
+    total = sum(curve[name] for name in ENERGIES)
+    if len(work) == 0 or not np.all(np.isfinite(total + work)):
+        return None
+    largest = np.max(np.abs(work))
+    if not largest > 0.0:
+        return None
+    initial = total[0] - work[0]
+    return float(np.max(np.abs(work + initial - total)) / largest)
+
+
+def unbalanced_ratio(curve: Curve) -> float | None:
+    """Largest unbalanced-force ratio from 5 % of the peak up to the peak [-].
+
+    Below that the contact forces, which the ratio refers to, are too small to say anything.
+    """
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.nanmax(stress, initial=0.0) > 0.0:
+        return None
+    peak = int(np.nanargmax(stress))
+    start = int(np.argmax(stress >= ELASTIC_WINDOW[0] * stress[peak]))
+    ratios = curve["unbalanced_ratio"][start : peak + 1]
+    return float(np.nanmax(ratios)) if np.any(np.isfinite(ratios)) else None
+
+
+def _slope(x: np.ndarray, y: np.ndarray, fewest: int = 3) -> float | None:
+    """Least-squares slope of y over x, or None for too few or coincident points."""
+    if len(x) < fewest or not np.all(np.isfinite(x) & np.isfinite(y)):
+        return None
+    centred = x - np.mean(x)
+    spread = float(centred @ centred)
+    return float(centred @ (y - np.mean(y))) / spread if spread > 0.0 else None

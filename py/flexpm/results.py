@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Outcome of a test: its numbers, its record, its cracks, and the files they go to. SI units."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import curve as measures
+from .curve import Curve
+from .files import output_folder, write_text
+
+#: A test whose unbalanced-force ratio exceeds this before its peak is not quasi-static [-].
+QUASISTATIC_RATIO = 0.1
+#: Statuses that mean that a simulation has failed.
+FAILED = ("no_peak", "diverged")
+
+TENSILE, SHEAR = 1, 2
+_MODES = {TENSILE: "tensile", SHEAR: "shear"}
+
+
+class Crack(NamedTuple):
+    """One contact point that has lost its bond."""
+
+    step: int
+    strain: float  #: axial strain when it broke [-]
+    x: float  #: position when it broke [m]
+    y: float  #: [m]
+    mode: int  #: TENSILE if the point was opening, else SHEAR
+    contact: int  #: index of the contact
+    point: int  #: index of the point in its contact
+
+
+@dataclass
+class Result:
+    """Numbers of one test: the keys of result.json, then the record and the cracks.
+
+    None stands for a quantity that the test has not reached or does not define.
+    """
+
+    flexpm: str  #: version of flexpm
+    yade: str  #: version of YADE
+    test: str
+    model: str
+    material: dict[str, Any]  #: name and effective parameters
+    seed: int | None
+    grains: int
+    contacts: int
+    nodes: int | None
+    triangles: int | None
+    youngs_modulus: float | None = None  #: [Pa]
+    poissons_ratio: float | None = None  #: [-]
+    peak_stress: float | None = None  #: [Pa]
+    peak_strain: float | None = None  #: [-]
+    confinement: float | None = None  #: [Pa]
+    steps: int = 0
+    step_time: float | None = None  #: median wall time of a step [s]
+    tensile_cracks: int = 0  #: cracked points
+    shear_cracks: int = 0  #: cracked points
+    unbalanced_ratio: float | None = None  #: largest up to the peak [-]
+    energy_error: float | None = None  #: relative to the largest work [-]
+    status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
+    curve: Curve = field(default_factory=Curve, repr=False)
+    cracks: list[Crack] = field(default_factory=list, repr=False)
+
+    @property
+    def failed(self) -> bool:
+        """Whether the simulation failed: it diverged or passed no peak."""
+        return self.status in FAILED
+
+    @property
+    def softening_slope(self) -> float | None:
+        """Slope of stress over strain after the peak [Pa], negative."""
+        return measures.softening_slope(self.curve)
+
+    def measure(self, *, diverged: bool = False, max_unbalanced: float = QUASISTATIC_RATIO) -> None:
+        """Fill the measured quantities and the status from `curve`.
+
+        Args:
+            diverged: The simulation met a number that is not finite.
+            max_unbalanced: Largest unbalanced-force ratio taken as quasi-static [-].
+        """
+        record = self.curve
+        self.youngs_modulus = measures.youngs_modulus(record)
+        self.poissons_ratio = measures.poissons_ratio(record)
+        self.unbalanced_ratio = measures.unbalanced_ratio(record)
+        self.energy_error = measures.energy_error(record)
+        if len(record):
+            self.steps = int(record["step"][-1])
+            self.confinement = float(record["confinement"][-1])
+            self.tensile_cracks = int(record["tensile_cracks"][-1])
+            self.shear_cracks = int(record["shear_cracks"][-1])
+        peak = measures.peak_row(record)
+        if peak is not None:
+            self.peak_stress = float(record["axial_stress"][peak])
+            self.peak_strain = float(record["axial_strain"][peak])
+        self.status = self._status(diverged, peak, max_unbalanced)
+
+    def _status(self, diverged: bool, peak: int | None, max_unbalanced: float) -> str:
+        stress = self.curve["axial_stress"]
+        if diverged or (len(stress) and not math.isfinite(stress[-1])):
+            return "diverged"
+        if peak is None:
+            return "no_peak"
+        ratio = self.unbalanced_ratio
+        return "ok" if ratio is not None and ratio <= max_unbalanced else "not_quasistatic"
+
+    def as_dict(self) -> dict[str, Any]:
+        """The content of result.json; numbers that are not finite become None."""
+        hidden = ("curve", "cracks")
+        return {
+            name: _plain(getattr(self, name))
+            for name in self.__dataclass_fields__
+            if name not in hidden
+        }
+
+    def write(self, folder: Path | str) -> None:
+        """Write result.json, curve.csv and cracks.csv into `folder`, each whole or not at all."""
+        folder = output_folder(folder)
+        write_text(folder / "curve.csv", self.curve.csv())
+        write_text(folder / "cracks.csv", cracks_csv(self.cracks))
+        text = json.dumps(self.as_dict(), indent=2, allow_nan=False)
+        write_text(folder / "result.json", text + "\n")
+
+
+def cracks_csv(cracks: Sequence[Crack]) -> str:
+    """Cracks as CSV text in the order given; numbers read back unchanged."""
+    lines = [",".join(Crack._fields)]
+    for crack in cracks:
+        step, strain, x, y, mode, contact, point = crack
+        numbers = (repr(float(value)) for value in (strain, x, y))
+        lines.append(",".join([str(int(step)), *numbers, _MODES[mode], str(contact), str(point)]))
+    return "\n".join(lines) + "\n"
+
+
+def cracks_from_snapshot(
+    snapshot: Mapping[str, np.ndarray], curve: Curve
+) -> list[Crack]:
+    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
+    steps = np.asarray(snapshot["crack_step"])
+    contacts, points = np.nonzero(steps >= 0)
+    order = np.lexsort((points, contacts, steps[contacts, points]))
+    contacts, points = contacts[order], points[order]
+    steps = steps[contacts, points]
+    strains = (
+        np.interp(steps, curve["step"], curve["axial_strain"])
+        if len(curve)
+        else np.full(len(steps), np.nan)
+    )
+    modes = np.asarray(snapshot["crack_mode"])[contacts, points]
+    places = np.asarray(snapshot["crack_position"])[contacts, points]
+    return [
+        Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
+        for step, strain, (x, y), mode, contact, point in zip(
+            steps, strains, places, modes, contacts, points, strict=True
+        )
+    ]
+
+
+def _plain(value: Any) -> Any:
+    """Turn numpy numbers into Python's and numbers that are not finite into None."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

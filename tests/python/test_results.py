@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures of records with known answers, and the files of a result."""
+
+import csv
+import json
+import os
+
+import numpy as np
+import pytest
+from flexpm import curve as measures
+from flexpm.curve import COLUMNS, Curve
+from flexpm.errors import InputError
+from flexpm.files import output_folder, whole_file
+from flexpm.results import Crack, Result, cracks_csv, cracks_from_snapshot
+from hypothesis import given
+from hypothesis import strategies as st
+
+YOUNG, POISSON, PEAK, SOFTENING = 24.3e9, 0.23, 120e6, -80e9
+KEYS = (
+    "flexpm yade test model material seed grains contacts nodes triangles youngs_modulus "
+    "poissons_ratio peak_stress peak_strain confinement steps step_time tensile_cracks "
+    "shear_cracks unbalanced_ratio energy_error status"
+).split()
+
+
+def row(**values):
+    return dict.fromkeys(COLUMNS, 0.0) | values
+
+
+def triangular_record(confinement=0.0, last_stress=0.4 * PEAK):
+    """Linear loading to PEAK, then linear softening to `last_stress`."""
+    strain_at_peak = PEAK / YOUNG
+    record = Curve()
+    rising = np.linspace(0.0, strain_at_peak, 401)
+    falling = strain_at_peak + np.linspace(0.0, (last_stress - PEAK) / SOFTENING, 101)[1:]
+    for step, strain in enumerate([*rising, *falling]):
+        past = max(strain - strain_at_peak, 0.0)
+        stress = YOUNG * min(strain, strain_at_peak) + SOFTENING * past
+        record.append(
+            **row(
+                step=10 * step,
+                axial_strain=strain,
+                lateral_strain=-POISSON * strain,
+                axial_stress=stress + confinement,
+                confinement=confinement,
+                unbalanced_ratio=0.5 if past or strain < 1e-6 else 1e-3,
+                boundary_work=strain,
+                elastic_energy=0.25 * strain + 7.0,
+                damping_energy=0.75 * strain,
+            )
+        )
+    return record
+
+
+def result_of(record, **values):
+    basic = {
+        "flexpm": "0.1",
+        "yade": "2023.02a",
+        "test": "uniaxial",
+        "model": "flexible",
+        "material": {"name": "m"},
+        "seed": 1,
+        "grains": 4,
+        "contacts": 5,
+        "nodes": 40,
+        "triangles": 30,
+        "curve": record,
+    }
+    return Result(**(basic | values))
+
+
+@pytest.mark.parametrize("confinement", [0.0, 4e6])
+def test_measures_of_a_triangular_record(confinement):
+    result = result_of(triangular_record(confinement))
+    result.measure()
+    assert result.status == "ok"
+    assert result.youngs_modulus == pytest.approx(YOUNG, rel=1e-10)
+    assert result.poissons_ratio == pytest.approx(POISSON, rel=1e-10)
+    assert result.peak_stress == pytest.approx(PEAK + confinement, rel=1e-12)
+    assert result.peak_strain == pytest.approx(PEAK / YOUNG, rel=1e-12)
+    assert result.softening_slope == pytest.approx(SOFTENING, rel=1e-9)
+    assert result.unbalanced_ratio == 1e-3  # neither the first rows nor those after the peak
+    assert result.energy_error == pytest.approx(0.0, abs=1e-12)
+    assert (result.steps, result.confinement) == (5000, confinement)
+
+
+def record_through(*points):
+    """Record whose stress is piecewise linear through (strain, stress) points."""
+    record = Curve()
+    strains, stresses = np.transpose(points)
+    for strain in np.linspace(0.0, strains[-1], 2001):
+        stress = np.interp(strain, strains, stresses)
+        record.append(**row(axial_strain=strain, axial_stress=stress))
+    return record
+
+
+def test_kinks_outside_5_to_25_percent_of_the_peak_do_not_count():
+    outside = record_through((0, 0), (0.02, 4), (0.24, 26), (0.5, 100), (0.9, 10))
+    assert measures.youngs_modulus(outside) == pytest.approx(100.0, rel=1e-9)
+    inside = record_through((0, 0), (0.02, 4), (0.18, 20), (0.5, 100), (0.9, 10))
+    assert measures.youngs_modulus(inside) > 105.0
+
+
+@given(noise=st.integers(0, 2**31), factor=st.floats(1e-6, 1e6))
+def test_youngs_modulus_scales_with_stress_and_resists_noise(noise, factor):
+    record = triangular_record()
+    record["axial_stress"][:] += 1e-3 * PEAK * np.random.default_rng(noise).normal(size=501)
+    modulus = measures.youngs_modulus(record)
+    assert modulus == pytest.approx(YOUNG, rel=0.02)
+    record["axial_stress"][:] *= factor
+    assert measures.youngs_modulus(record) == pytest.approx(factor * modulus, rel=1e-9)
+
+
+def test_no_peak_while_the_stress_has_not_fallen():
+    result = result_of(triangular_record(last_stress=0.95 * PEAK))
+    result.measure()
+    assert (result.status, result.peak_stress, result.peak_strain) == ("no_peak", None, None)
+    assert result.youngs_modulus == pytest.approx(YOUNG, rel=1e-10)
+    assert result.failed
+
+
+def test_not_quasistatic_above_the_threshold():
+    result = result_of(triangular_record())
+    result.measure(max_unbalanced=0.9e-3)
+    assert (result.status, result.failed) == ("not_quasistatic", False)
+
+
+def test_diverged_by_flag_and_by_a_stress_that_is_no_number():
+    record = triangular_record()
+    result = result_of(record)
+    result.measure(diverged=True)
+    assert result.status == "diverged"
+    record["axial_stress"][-1] = np.nan
+    result.measure()
+    assert result.status == "diverged"
+
+
+def test_energy_error_is_the_share_of_the_work_that_is_missing():
+    record = triangular_record()
+    record["damping_energy"][:] *= 0.9  # loses 0.9 * 0.75 of the work
+    assert measures.energy_error(record) == pytest.approx(0.075, rel=1e-9)
+    assert measures.energy_error(Curve.from_array(record.array[:1])) is None
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2])
+def test_short_records_give_none_and_not_zero(rows):
+    result = result_of(Curve.from_array(triangular_record().array[:rows]))
+    result.measure()
+    found = result.as_dict()
+    for key in ("youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"):
+        assert found[key] is None
+    assert result.softening_slope is None
+
+
+def test_append_wants_every_column():
+    with pytest.raises(TypeError, match="axial_stress"):
+        Curve().append(**{name: 0.0 for name in COLUMNS if name != "axial_stress"})
+    with pytest.raises(TypeError, match="stres"):
+        Curve().append(**row(stres=1.0))
+
+
+def test_rows_survive_growth():
+    record = Curve()
+    for step in range(1000):
+        record.append(**row(step=step, axial_stress=step / 3))
+    assert np.array_equal(record["step"], np.arange(1000))
+    assert np.array_equal(record["axial_stress"], np.arange(1000) / 3)
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=9))
+def test_csv_numbers_read_back_unchanged(values):
+    record = Curve()
+    for step, value in enumerate(values):
+        record.append(**row(step=step, axial_strain=value, boundary_work=-value))
+    rows = list(csv.DictReader(record.csv().splitlines()))
+    assert list(rows[0]) == list(COLUMNS)
+    assert [float(line["axial_strain"]) for line in rows] == values
+    assert [int(line["step"]) for line in rows] == list(range(len(values)))
+
+
+def test_files_of_a_result(tmp_path):
+    result = result_of(triangular_record(), step_time=float("nan"), grains=np.int64(4))
+    result.cracks = [Crack(7, 0.1 / 3, 0.01, 0.02, 1, 3, 0), Crack(9, 0.2, -0.01, 0.0, 2, 0, 2)]
+    result.measure()
+    result.write(tmp_path / "new" / "folder")
+    folder = tmp_path / "new" / "folder"
+    assert sorted(os.listdir(folder)) == ["cracks.csv", "curve.csv", "result.json"]
+    found = json.loads((folder / "result.json").read_text())
+    assert list(found) == KEYS
+    assert found["step_time"] is None
+    assert found["youngs_modulus"] == result.youngs_modulus
+    cracks = list(csv.DictReader((folder / "cracks.csv").read_text().splitlines()))
+    assert list(cracks[0]) == ["step", "strain", "x", "y", "mode", "contact", "point"]
+    assert [line["mode"] for line in cracks] == ["tensile", "shear"]
+    assert float(cracks[0]["strain"]) == 0.1 / 3
+
+
+def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
+    steps = np.array([[30, -1, 10], [-1, -1, 20]])
+    modes = np.array([[1, 0, 2], [0, 0, 1]])
+    places = np.arange(12.0).reshape(2, 3, 2)
+    record = Curve()
+    for step in (0, 100):
+        record.append(**row(step=step, axial_strain=step / 1000))
+    snapshot = {"crack_step": steps, "crack_mode": modes, "crack_position": places}
+    cracks = cracks_from_snapshot(snapshot, record)
+    assert [(c.step, c.contact, c.point, c.mode) for c in cracks] == [
+        (10, 0, 2, 2), (20, 1, 2, 1), (30, 0, 0, 1)
+    ]
+    assert [c.strain for c in cracks] == pytest.approx([0.01, 0.02, 0.03])
+    assert (cracks[0].x, cracks[0].y) == (4.0, 5.0)
+    assert len(cracks_csv(cracks).splitlines()) == 4
+
+
+def test_a_file_is_whole_or_keeps_its_old_content(tmp_path):
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+    with pytest.raises(KeyboardInterrupt):
+        with whole_file(path) as temporary:
+            temporary.write_text("half of the n")
+            raise KeyboardInterrupt
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["a.txt"]
+    with whole_file(path) as temporary:
+        assert temporary.suffix == ".txt"
+        temporary.write_text("new")
+    assert path.read_text() == "new"
+
+
+@pytest.mark.parametrize("name", ["file", "file/below", "/proc/flexpm"])
+def test_a_folder_that_cannot_be_written_to_is_refused_in_one_line(tmp_path, name):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="must be a folder that can be written to") as caught:
+        output_folder(tmp_path / name)
+    assert "\n" not in str(caught.value)
