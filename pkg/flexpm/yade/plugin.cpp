@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The Python module _flexpm: registers the plugin's classes with YADE and the kernel's functions with Python.
+#include <flexpm/yade/abi.hpp>
+#include <flexpm/yade/yade_lite.hpp>
+
+namespace py = boost::python;
+
+namespace {
+
+/// Register the classes that YADE does not know yet, and no others.
+///
+/// YADE's own loader registers everything in ClassFactory::pluginClasses again, which warns for each class of
+/// YADE; so the list is reduced to ours for the call and restored after it. A second call finds nothing new.
+py::list registerClasses()
+{
+	auto&      names   = yade::ClassFactory::instance().pluginClasses;
+	const auto all     = names;
+	py::object wrapper = py::import("yade.wrapper");
+	names.remove_if([&](const std::string& name) { return PyObject_HasAttrString(wrapper.ptr(), name.c_str()) != 0; });
+	names.sort();
+	names.unique();
+	static std::vector<std::string> registered;
+	registered.insert(registered.end(), names.begin(), names.end());
+	yade::Omega::instance().loadPlugins({});
+	names = all;
+	py::list ours;
+	for (const auto& name : registered)
+		ours.append(name);
+	return ours;
+}
+
+/// Let a renderer that exists already draw classes registered after it was made.
+void refreshRenderer(py::object renderer)
+{
+	yade::OpenGLRenderer& known = py::extract<yade::OpenGLRenderer&>(renderer);
+	known.init();
+}
+
+py::dict buildInfo()
+{
+	py::dict info;
+	info["version"]      = FLEXPM_VERSION;
+	info["yade_headers"] = FLEXPM_YADE_HEADERS;
+	info["yade_library"] = FLEXPM_YADE_LIBRARY;
+	info["compiler"]     = "g++ " __VERSION__;
+	info["glibc"]        = std::to_string(__GLIBC__) + "." + std::to_string(__GLIBC_MINOR__);
+	info["boost"]        = BOOST_LIB_VERSION;
+	return info;
+}
+
+} // namespace
+
+BOOST_PYTHON_MODULE(_flexpm)
+{
+	py::scope().attr("build_info") = buildInfo();
+	py::def("refresh_renderer", refreshRenderer, py::arg("renderer"), "Make an existing renderer know the plugin's shapes.");
+	flexpm_abi::registerBindings();
+	// called by the package once the layout check has passed, not at load
+	py::def("register_classes", registerClasses, "Register the plugin's classes with YADE, once; returns their names.");
+}

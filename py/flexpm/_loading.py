@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Loads YADE and the plugin's classes into this process, silently, after checking that their layouts agree."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import importlib
+import io
+import sys
+import sysconfig
+from pathlib import Path
+from types import ModuleType
+
+_PRECISION = "yade-double"
+_REMEDY = "rebuild flexpm against the installed YADE (scripts/setup)"
+
+_classes: list[str] | None = None
+
+
+def load() -> list[str]:
+    """Load the plugin into YADE; a second call does nothing.
+
+    Returns:
+        Names of the plugin's classes, which are then attributes of ``yade`` and ``yade.wrapper``.
+
+    Raises:
+        ImportError: if YADE is missing, of another precision, or laid out differently.
+    """
+    global _classes
+    if _classes is None:
+        yade = import_yade()
+        require_double(yade.config.libDir)
+        module = _import_module()
+        require_same_layout(module.abi_report())
+        _classes = _register(yade, module)
+    return list(_classes)
+
+
+def import_yade() -> ModuleType:
+    """Import YADE as a Python module, without its greeting.
+
+    Returns:
+        The package ``yade``.
+
+    Raises:
+        ImportError: if it is not installed.
+    """
+    if "yade" in sys.modules:
+        return sys.modules["yade"]
+    folder = str(yade_folder() / "py")
+    if folder not in sys.path:
+        sys.path.append(folder)
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            yade = importlib.import_module("yade")
+    except ImportError as error:
+        raise ImportError(
+            f"flexpm: YADE cannot be imported from {folder} ({error}); install the package yade"
+        ) from error
+    # The program yade removes its temporary folder itself; plain Python needs this.
+    atexit.register(yade.boot.finalize)
+    return yade
+
+
+def yade_folder() -> Path:
+    """Return the library folder of the double-precision YADE of this architecture."""
+    return Path("/usr/lib") / (sysconfig.get_config_var("MULTIARCH") or "") / _PRECISION
+
+
+def require_double(library_folder: str) -> None:
+    """Check that YADE computes in double precision: the other builds lay out their classes differently.
+
+    Args:
+        library_folder: ``yade.config.libDir`` of the running YADE.
+
+    Raises:
+        ImportError: if it is another build.
+    """
+    if not library_folder.endswith(_PRECISION):
+        raise ImportError(
+            f"flexpm: YADE library folder = {library_folder}, must end in {_PRECISION}; "
+            "start the double-precision program (yade)"
+        )
+
+
+def require_same_layout(report: list[tuple[str, str, bool, str]]) -> None:
+    """Check that each class of YADE is laid out as in the headers of the build.
+
+    Args:
+        report: Rows (class, check, ok, detail) of ``_flexpm.abi_report()``.
+
+    Raises:
+        ImportError: naming the first class that differs.
+    """
+    for name, check, ok, detail in report:
+        if not ok:
+            raise ImportError(f"flexpm: YADE class {name}: {check} differs: {detail}; {_REMEDY}")
+
+
+def _import_module() -> ModuleType:
+    try:
+        return importlib.import_module("flexpm._flexpm")
+    except ImportError as error:
+        if isinstance(error, ModuleNotFoundError):
+            raise ImportError("flexpm: _flexpm is not built; run scripts/setup") from error
+        raise ImportError(f"flexpm: _flexpm does not fit YADE ({error}); {_REMEDY}") from error
+
+
+def _register(yade: ModuleType, module: ModuleType) -> list[str]:
+    names = list(module.register_classes())
+    for name in names:
+        setattr(yade, name, getattr(yade.wrapper, name))
+    yade.__all__ += [name for name in names if name not in yade.__all__]
+    if names and "yade.qt" in sys.modules:
+        # The 3D window exists before scripts run; it must learn about shapes that came later.
+        module.refresh_renderer(sys.modules["yade.qt"].Renderer())
+    return names
