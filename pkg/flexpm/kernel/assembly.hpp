@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The packed state of a bonded assembly of deformable grains: everything that moves.
+///
+/// Grains of one mesh connectivity form a group and are stepped `lanes` at a time, one in each lane.
+/// Node arrays are laid out [block][node of the grain][x, y][lane]; a node is named by the offset of
+/// its x value, its y value lies `lanes` further. Contacts are laid out [block][row][lane] in the
+/// order of their grain pair. Lanes that no grain or contact fills repeat a real one, without
+/// stiffness or area. SI units, tension positive.
+#pragma once
+
+#include <flexpm/kernel/bilinear_law.hpp>
+#include <flexpm/kernel/triangle.hpp>
+#include <flexpm/kernel/types.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace flexpm {
+
+/// Connectivity shared by the grains of one group. Nodes: outer vertices first, then the centre.
+struct MeshGroup {
+    int vertices = 0;            ///< outer vertices; node number `vertices` is the centre
+    int nodes = 0;               ///< all nodes of a grain
+    std::vector<int> triangles;  ///< three node numbers each, counter-clockwise
+};
+
+/// How a point of contact cracked.
+enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2 };
+
+/// Rows of a contact block, in units of `lanes`.
+struct ContactRows {
+    static constexpr int nodes = 6;   ///< a0, a1, b0, b1, centre a, centre b
+    static constexpr int state = 6;   ///< members of PointState, in their order
+    static constexpr int forces = 8;  ///< x, y of the forces on a0, a1, b0, b1
+};
+
+struct Assembly {
+    int grains = 0;
+    int contacts = 0;
+    int edges = 0;           ///< boundary edges
+    int points = 3;          ///< contact points per contact: 1, 2 or 3
+    double thickness = 0.0;  ///< out of plane [m]
+
+    // grains
+    std::vector<MeshGroup> groups;
+    std::vector<int> block_group;      ///< group of each block of grains
+    std::vector<int> block_nodes;      ///< offset of the block in the node arrays
+    std::vector<int> block_triangles;  ///< offset of the block in `shape`
+    std::vector<int> grain_slot;       ///< block * lanes + lane of each grain
+    std::vector<int> slot_grain;       ///< grain of each slot, -1 where padded
+    std::vector<double> radius;        ///< disc radius of each grain [m]
+    std::vector<int> grain_material;   ///< index into `elastic`
+    std::vector<ElasticMaterial> elastic;
+
+    // nodes: [block][node][x, y][lane]
+    Array<double> reference;     ///< position when bonded [m]
+    Array<double> displacement;  ///< from `reference` [m]
+    Array<double> velocity;      ///< half a step after `displacement` [m/s]
+    Array<double> force;         ///< contacts, elements, pressure; without damping [N]
+    Array<std::uint8_t> held;    ///< 1: the velocity is prescribed, not integrated
+    Array<double> inverse_mass;  ///< [block][node][lane], of the scaled or real mass [1/kg]
+
+    // triangles: [block][triangle][g1x, g1y, g2x, g2y, volume][lane]
+    Array<double> shape;
+    Array<double> stiffness;  ///< [block][normal, cross, shear][lane] [Pa]
+
+    // contacts: [block][row][lane]
+    std::vector<LawParameters> laws;
+    std::vector<int> contact_grains;      ///< two per contact, the smaller first
+    std::vector<int> contact_law;         ///< index into `laws`
+    Array<int> contact_nodes;             ///< node offsets, ContactRows::nodes
+    Array<double> weight;                 ///< [point][side]: share of the edge's second node [-]
+    Array<double> area;                   ///< [point] [m^2]
+    Array<double> span;                   ///< [x, y] from centre a to centre b when bonded [m]
+    Array<double> normal;                 ///< [x, y] of the current unit normal, from a to b
+    Array<double> point_state;            ///< [point][ContactRows::state]
+    Array<int> crack_step;                ///< [point]: step of the crack, -1 while intact
+    Array<std::uint8_t> crack_mode;       ///< [point]: CrackMode
+    Array<double> crack_position;         ///< [point][x, y] where it cracked [m]
+    Array<double> contact_force;          ///< ContactRows::forces [N]
+
+    // boundary edges: [block][row][lane]
+    std::vector<int> edge_grain;
+    std::vector<int> edge_side;           ///< side of the outline
+    std::vector<double> edge_pressure;    ///< follows the deforming edge, compressive positive [Pa]
+    Array<int> edge_nodes;                ///< [n0, n1] node offsets, counter-clockwise in the grain
+    Array<double> edge_force;             ///< ContactRows::forces; the last four rows stay zero [N]
+
+    // which forces act on a grain, per block: force offset, local offset of first and second node
+    std::vector<int> gather_first;
+    std::vector<int> gather;
+
+    // sums that only grow; energies in J. Per block of grains unless said.
+    Array<double> damping_work;       ///< [block][done, second half of the last step]
+    Array<double> driven_work;        ///< the same for nodes with prescribed velocity
+    double pressure_work = 0.0;
+    double initial_energy = 0.0;      ///< kinetic and elastic energy when the books were opened
+    std::int64_t step = 0;            ///< steps done
+
+    // results of the last measured step, per block
+    Array<double> kinetic;            ///< 1/2 m v(n-1/2) v(n+1/2) [J]
+    Array<double> largest_force;      ///< largest |F| component on a free node [N]
+
+    int blocks() const { return static_cast<int>(block_group.size()); }
+    int contact_blocks() const { return (contacts + lanes - 1) / lanes; }
+    int edge_blocks() const { return (edges + lanes - 1) / lanes; }
+    const MeshGroup& group(int block) const { return groups[block_group[block]]; }
+    int nodes_of(int grain) const { return group(grain_slot[grain] / lanes).nodes; }
+
+    /// Offset of a grain's node in the node arrays (its x value).
+    int node(int grain, int number) const
+    {
+        const int slot = grain_slot[grain];
+        return block_nodes[slot / lanes] + 2 * lanes * number + slot % lanes;
+    }
+    int centre(int grain) const { return node(grain, group(grain_slot[grain] / lanes).vertices); }
+
+    Point position(int node) const
+    {
+        return { reference[node] + displacement[node],
+            reference[node + lanes] + displacement[node + lanes] };
+    }
+};
+
+/// Index into the arrays with one value per node, from a node's offset.
+inline int scalar_index(int node) { return (node + node % lanes) / 2; }
+
+/// Index of a value of a contact (or boundary edge) in an array with `rows` rows per block.
+inline int row_index(int contact, int row, int rows)
+{
+    return (contact / lanes * rows + row) * lanes + contact % lanes;
+}
+
+/// Calls visit(name, member) for all that must be saved to continue a run to the same bits.
+template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, Visitor&& visit);
+
+}  // namespace flexpm
+
+#include <flexpm/kernel/assembly_state.hpp>

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Building the packed arrays.
+#include <flexpm/kernel/assembly_build.hpp>
+
+#include <flexpm/kernel/checks.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace flexpm {
+
+namespace {
+
+/// The mesh of a grain and which of its nodes each vertex of the tessellation is.
+struct MeshedGrain {
+    GrainMesh mesh;
+    std::vector<int> vertices;  ///< tessellation vertex of node 0, 1, ...
+};
+
+MeshedGrain mesh_cell(const Tessellation& t, const std::vector<Disc>& discs, int cell, MeshKind kind)
+{
+    const int first = t.cell_offsets[cell], count = t.vertices_of(cell);
+    std::vector<Point> polygon;
+    for (int i = 0; i < count; ++i) polygon.push_back(t.vertices[t.cell_vertices[first + i]]);
+    MeshedGrain grain { make_grain_mesh(polygon, discs[t.disc_of_cell[cell]].centre, kind), {} };
+    for (int i = 0; i < count; ++i) {
+        grain.vertices.push_back(t.cell_vertices[first + (grain.mesh.first_vertex + i) % count]);
+    }
+    return grain;
+}
+
+/// Grains of equal connectivity, block by block.
+void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
+{
+    std::map<std::pair<int, std::vector<int>>, std::vector<int>> members;
+    for (int g = 0; g < a.grains; ++g) {
+        std::vector<int> triangles;
+        for (const auto& t : grains[g].mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+        members[{ static_cast<int>(grains[g].vertices.size()), triangles }].push_back(g);
+    }
+    int nodes = 0, triangles = 0;
+    a.grain_slot.assign(a.grains, -1);
+    for (const auto& [key, ids] : members) {
+        const MeshGroup group { key.first,
+            static_cast<int>(grains[ids.front()].mesh.nodes.size()), key.second };
+        for (std::size_t i = 0; i < ids.size(); i += lanes) {
+            for (int l = 0; l < lanes; ++l) {
+                const bool real = i + l < ids.size();
+                a.slot_grain.push_back(real ? ids[i + l] : -1);
+                if (real) a.grain_slot[ids[i + l]] = a.blocks() * lanes + l;
+            }
+            a.block_group.push_back(static_cast<int>(a.groups.size()));
+            a.block_nodes.push_back(nodes);
+            a.block_triangles.push_back(triangles);
+            nodes += 2 * lanes * group.nodes;
+            triangles += 5 * lanes * static_cast<int>(group.triangles.size() / 3);
+        }
+        a.groups.push_back(group);
+    }
+    for (auto* array : { &a.reference, &a.displacement, &a.velocity, &a.force }) array->assign(nodes, 0.0);
+    a.held.assign(nodes, 0);
+    a.inverse_mass.assign(nodes / 2, 0.0);
+    a.shape.assign(triangles, 0.0);
+    a.stiffness.assign(3 * lanes * a.blocks(), 0.0);
+    a.damping_work.assign(2 * a.blocks(), 0.0);
+    a.driven_work.assign(2 * a.blocks(), 0.0);
+    a.kinetic.assign(a.blocks(), 0.0);
+    a.largest_force.assign(a.blocks(), 0.0);
+}
+
+/// One slot: a grain, or in a padded lane a held copy of the block's first grain without stiffness.
+void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
+{
+    const bool real = a.slot_grain[slot] >= 0;
+    const int block = slot / lanes, lane = slot % lanes;
+    const int g = real ? a.slot_grain[slot] : a.slot_grain[block * lanes];
+    const GrainMesh& mesh = grains[g].mesh;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+        const int node = a.block_nodes[block] + 2 * lanes * static_cast<int>(n) + lane;
+        a.reference[node] = mesh.nodes[n].x;
+        a.reference[node + lanes] = mesh.nodes[n].y;
+        a.held[node] = a.held[node + lanes] = !real;
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& t = mesh.triangles[i];
+        const TriangleShape s = triangle_shape(
+            mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], a.thickness);
+        double* row = &a.shape[a.block_triangles[block] + 5 * lanes * i + lane];
+        row[0] = s.g1x;
+        row[lanes] = s.g1y;
+        row[2 * lanes] = s.g2x;
+        row[3 * lanes] = s.g2y;
+        row[4 * lanes] = real ? s.volume : 0.0;
+    }
+    const PlaneStiffness c = plane_stiffness(a.elastic[a.grain_material[g]]);
+    double* row = &a.stiffness[3 * lanes * block + lane];
+    row[0] = c.normal;
+    row[lanes] = c.cross;
+    row[2 * lanes] = c.shear;
+}
+
+/// Place and share of area of each point along an edge: Lobatto, paper Sec. 2.5.
+struct EdgePoints {
+    std::array<double, 3> weight;
+    std::array<double, 3> share;
+};
+
+EdgePoints edge_points(int points)
+{
+    if (points == 1) return { { 0.5 }, { 1.0 } };
+    if (points == 2) return { { 0.0, 1.0 }, { 0.5, 0.5 } };
+    return { { 0.0, 0.5, 1.0 }, { 1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0 } };
+}
+
+/// Weight of the edge's end for the point where Eq. 7 with d_v = 0 puts it: between the two discs,
+/// in the middle of their overlap. It may lie beyond the edge: weights then extrapolate.
+double centre_line_weight(Point p0, Point p1, const Disc& a, const Disc& b)
+{
+    const double dx = b.centre.x - a.centre.x, dy = b.centre.y - a.centre.y;
+    const double d = std::hypot(dx, dy);
+    const double reach = a.radius - 0.5 * (a.radius + b.radius - d);
+    const double x = a.centre.x + reach * dx / d, y = a.centre.y + reach * dy / d;
+    const double ex = p1.x - p0.x, ey = p1.y - p0.y;
+    return ((x - p0.x) * ex + (y - p0.y) * ey) / (ex * ex + ey * ey);
+}
+
+int node_of_vertex(const Assembly& a, const std::vector<MeshedGrain>& grains, int grain, int vertex)
+{
+    const auto& v = grains[grain].vertices;
+    return a.node(grain, static_cast<int>(std::find(v.begin(), v.end(), vertex) - v.begin()));
+}
+
+/// Rows of contact `c` from shared edge `e` (padded contacts repeat the last edge, without area).
+void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<MeshedGrain>& grains,
+    const EdgePoints& points)
+{
+    const bool real = c < a.contacts;
+    const int nodes[] = { node_of_vertex(a, grains, e.cell_a, e.vertex_0),
+        node_of_vertex(a, grains, e.cell_a, e.vertex_1),
+        node_of_vertex(a, grains, e.cell_b, e.vertex_0),
+        node_of_vertex(a, grains, e.cell_b, e.vertex_1), a.centre(e.cell_a), a.centre(e.cell_b) };
+    for (int i = 0; i < ContactRows::nodes; ++i) {
+        a.contact_nodes[row_index(c, i, ContactRows::nodes)] = nodes[i];
+    }
+    const Point p0 = a.position(nodes[0]), p1 = a.position(nodes[1]);
+    const double area = std::hypot(p1.x - p0.x, p1.y - p0.y) * a.thickness;
+    for (int p = 0; p < a.points; ++p) {
+        a.area[row_index(c, p, a.points)] = real ? points.share[p] * area : 0.0;
+        for (int side = 0; side < 2; ++side) {
+            a.weight[row_index(c, 2 * p + side, 2 * a.points)] = points.weight[p];
+        }
+    }
+    const Point ca = a.position(nodes[4]), cb = a.position(nodes[5]);
+    const double dx = cb.x - ca.x, dy = cb.y - ca.y, d = std::hypot(dx, dy);
+    a.span[row_index(c, 0, 2)] = dx;
+    a.span[row_index(c, 1, 2)] = dy;
+    a.normal[row_index(c, 0, 2)] = dx / d;
+    a.normal[row_index(c, 1, 2)] = dy / d;
+}
+
+void size_contacts(Assembly& a)
+{
+    const int padded = a.contact_blocks() * lanes;
+    a.contact_nodes.assign(padded * ContactRows::nodes, 0);
+    a.weight.assign(padded * 2 * a.points, 0.0);
+    a.area.assign(padded * a.points, 0.0);
+    a.span.assign(padded * 2, 0.0);
+    a.normal.assign(padded * 2, 0.0);
+    a.point_state.assign(padded * a.points * ContactRows::state, 0.0);
+    a.crack_step.assign(padded * a.points, -1);
+    a.crack_mode.assign(padded * a.points, intact);
+    a.crack_position.assign(padded * a.points * 2, 0.0);
+    a.contact_force.assign(padded * ContactRows::forces, 0.0);
+}
+
+void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
+    const std::vector<MeshedGrain>& grains, const AssemblyOptions& options)
+{
+    a.contacts = static_cast<int>(t.shared_edges.size());
+    size_contacts(a);
+    EdgePoints points = edge_points(a.points);
+    const int materials = static_cast<int>(options.elastic.size());
+    for (int c = 0; c < a.contact_blocks() * lanes; ++c) {
+        const SharedEdge& e = t.shared_edges[std::min(c, a.contacts - 1)];
+        if (options.on_centre_line) {
+            points.weight[0] = centre_line_weight(t.vertices[e.vertex_0], t.vertices[e.vertex_1],
+                discs[t.disc_of_cell[e.cell_a]], discs[t.disc_of_cell[e.cell_b]]);
+        }
+        fill_contact(a, c, e, grains, points);
+        if (c >= a.contacts) continue;
+        a.contact_grains.insert(a.contact_grains.end(), { e.cell_a, e.cell_b });
+        a.contact_law.push_back(
+            a.grain_material[e.cell_a] * materials + a.grain_material[e.cell_b]);
+    }
+}
+
+void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedGrain>& grains)
+{
+    a.edges = static_cast<int>(t.boundary_edges.size());
+    a.edge_nodes.assign(a.edge_blocks() * lanes * 2, 0);
+    a.edge_force.assign(a.edge_blocks() * lanes * ContactRows::forces, 0.0);
+    a.edge_pressure.assign(a.edges, 0.0);
+    for (int i = 0; i < a.edges; ++i) {
+        const BoundaryEdge& e = t.boundary_edges[i];
+        a.edge_grain.push_back(e.cell);
+        a.edge_side.push_back(e.side);
+        a.edge_nodes[row_index(i, 0, 2)] = node_of_vertex(a, grains, e.cell, e.vertex_0);
+        a.edge_nodes[row_index(i, 1, 2)] = node_of_vertex(a, grains, e.cell, e.vertex_1);
+    }
+}
+
+/// Per block of grains, in the order of contacts and then of edges: which forces act on which nodes.
+void list_forces(Assembly& a)
+{
+    std::vector<std::vector<int>> lists(a.blocks());
+    const auto add = [&](int grain, int force, int n0, int n1) {
+        const int block = a.grain_slot[grain] / lanes;
+        lists[block].insert(lists[block].end(),
+            { force, n0 - a.block_nodes[block], n1 - a.block_nodes[block] });
+    };
+    for (int c = 0; c < a.contacts; ++c) {
+        for (int side = 0; side < 2; ++side) {
+            add(a.contact_grains[2 * c + side], row_index(c, 4 * side, ContactRows::forces),
+                a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)],
+                a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)]);
+        }
+    }
+    for (int e = 0; e < a.edges; ++e) {
+        add(a.edge_grain[e], ~row_index(e, 0, ContactRows::forces),
+            a.edge_nodes[row_index(e, 0, 2)], a.edge_nodes[row_index(e, 1, 2)]);
+    }
+    a.gather_first.assign(1, 0);
+    a.gather.clear();
+    for (const auto& list : lists) {
+        a.gather.insert(a.gather.end(), list.begin(), list.end());
+        a.gather_first.push_back(static_cast<int>(a.gather.size()));
+    }
+}
+
+void check(const Tessellation& t, const AssemblyOptions& o)
+{
+    check_positive("thickness", o.thickness, "m");
+    if (o.points < 1 || o.points > 3) refuse("contact points", o.points, "", "must be 1, 2 or 3");
+    if (o.on_centre_line && o.points != 1) {
+        refuse("contact points", o.points, "", "must be 1 when the point lies on the centre line");
+    }
+    const std::size_t materials = o.elastic.size();
+    if (materials == 0) refuse("materials", 0, "", "give at least one");
+    if (o.laws.size() != materials * materials) {
+        refuse("contact laws", static_cast<double>(o.laws.size()), "",
+            "must be one for each ordered pair of materials");
+    }
+    if (!o.grain_material.empty() && static_cast<int>(o.grain_material.size()) != t.cells()) {
+        refuse("grain materials", static_cast<double>(o.grain_material.size()), "",
+            "must be one for each grain");
+    }
+    for (int m : o.grain_material) {
+        if (m < 0 || m >= static_cast<int>(materials)) {
+            refuse("grain material", m, "", "must be the index of a material");
+        }
+    }
+}
+
+}  // namespace
+
+Assembly
+make_assembly(const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options)
+{
+    check(t, options);
+    Assembly a;
+    a.grains = t.cells();
+    a.points = options.points;
+    a.thickness = options.thickness;
+    a.elastic = options.elastic;
+    a.grain_material = options.grain_material;
+    a.grain_material.resize(a.grains, 0);
+    for (const auto& law : options.laws) a.laws.push_back(make_law(law));
+    std::vector<MeshedGrain> grains;
+    for (int c = 0; c < a.grains; ++c) {
+        grains.push_back(mesh_cell(t, discs, c, options.mesh));
+        a.radius.push_back(discs[t.disc_of_cell[c]].radius);
+    }
+    lay_out_grains(a, grains);
+    for (int slot = 0; slot < a.blocks() * lanes; ++slot) fill_slot(a, slot, grains);
+    bond(a, t, discs, grains, options);
+    lay_out_edges(a, t, grains);
+    list_forces(a);
+    return a;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  From a tessellation to the packed, bonded, unloaded assembly, paper Sec. 2.3 and 3.1.
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+#include <flexpm/kernel/grain_mesh.hpp>
+#include <flexpm/kernel/tessellation.hpp>
+
+namespace flexpm {
+
+struct AssemblyOptions {
+    double thickness = 0.0;  ///< [m]
+    MeshKind mesh = MeshKind::refined;
+    int points = 3;              ///< contact points: 3 or 2 (Lobatto), 1 (middle of the edge)
+    bool on_centre_line = false; ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
+    std::vector<ElasticMaterial> elastic;
+    std::vector<int> grain_material;     ///< per cell, into `elastic`; empty: all 0
+    std::vector<ContactMaterial> laws;   ///< per pair of materials: laws[i * elastic.size() + j]
+};
+
+/// @throws std::invalid_argument  if an option is out of range
+Assembly
+make_assembly(const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options);
+
+}  // namespace flexpm

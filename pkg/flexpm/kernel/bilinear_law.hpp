@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Bilinear softening of one local contact point, paper Sec. 2.5-2.6, Eqs. 22-27 and Fig. 3.
+/// Opening and tension are positive, slip is counted along the contact's tangent. SI units.
+/// Deviation D1: Eqs. 26-27 print D; D = 1 means cracked, so strengths are multiplied by (1 - D).
+/// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
+/// Deviation D3: unloading in tension goes along the secant.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+/// What a user states of a contact between two grains.
+struct ContactMaterial {
+    double normal_stiffness = 0.0;         ///< K_n    [Pa/m], > 0
+    double shear_ratio = 0.0;              ///< eta    [-],    > 0, shear stiffness / normal stiffness
+    double tensile_strength = 0.0;         ///< sigma_nt [Pa], > 0
+    double cohesion = 0.0;                 ///< tau    [Pa],   > 0
+    double friction = 0.0;                 ///< mu_c   [-],    >= 0
+    double tensile_fracture_energy = 0.0;  ///< G_fn   [N/m],  >= sigma_nt^2 / (2 K_n)
+    double shear_fracture_energy = 0.0;    ///< G_fs   [N/m],  >= tau^2 / (2 eta K_n)
+};
+
+/// The same, in the form that the law needs at every step.
+struct LawParameters {
+    double normal_stiffness = 0.0;  ///< K_n [Pa/m]
+    double shear_stiffness = 0.0;   ///< eta K_n [Pa/m]
+    double tensile_strength = 0.0;  ///< [Pa]
+    double cohesion = 0.0;          ///< [Pa]
+    double friction = 0.0;          ///< [-]
+    double elastic_opening = 0.0;   ///< u_e = sigma_nt / K_n [m]
+    double critical_opening = 0.0;  ///< u_c = 2 G_fn / sigma_nt [m]
+    double critical_slip = 0.0;     ///< s_c = 2 G_fs / tau [m]
+    double opening_rate = 0.0;      ///< 1 / (u_c - u_e) [1/m]; `brittle_rate` in the brittle limit
+    double slip_rate = 0.0;         ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_rate` in the limit
+};
+
+/// Stands for an infinite rate: any excess over the strength uses up all damage at once, and an
+/// excess of exactly zero still gives zero.
+constexpr double brittle_rate = 1e200;
+
+/// @throws std::invalid_argument  if a value is not finite or out of range, or if a fracture energy
+///         is below the elastic energy at the strength by more than 1e-12 of it
+LawParameters make_law(const ContactMaterial& material);
+
+/// State of a point; what it needs to continue. All zero = bonded and unloaded.
+struct PointState {
+    double opening = 0.0;          ///< u [m], relative to the bonded state; compression < 0
+    double max_opening = 0.0;      ///< largest opening so far [m], >= 0
+    double shear_traction = 0.0;   ///< along the tangent [Pa]
+    double shear_damage = 0.0;     ///< D_s [-]: plastic slip / s_c, at most 1
+    double damage_energy = 0.0;    ///< dissipated by damage [J/m^2]
+    double friction_energy = 0.0;  ///< dissipated by friction [J/m^2]
+};
+
+namespace law {
+
+/// D_n [-] of a point whose largest opening is `max_opening`.
+inline double normal_damage(const LawParameters& p, double max_opening)
+{
+    return std::min(std::max((max_opening - p.elastic_opening) * p.opening_rate, 0.0), 1.0);
+}
+
+/// D = min(D_n + D_s, 1) [-]; 1 = cracked.
+inline double damage(const LawParameters& p, double max_opening, double shear_damage)
+{
+    return std::min(normal_damage(p, max_opening) + shear_damage, 1.0);
+}
+
+/// Slope of the secant to the largest opening [Pa/m].
+inline double secant(const LawParameters& p, double max_opening, double damage)
+{
+    // below u_e the elastic slope governs an undamaged point; the guard keeps 0 / 0 away
+    const double reach = std::max(max_opening, 1e-9 * p.elastic_opening);
+    return std::min(p.normal_stiffness, (1.0 - damage) * p.tensile_strength / reach);
+}
+
+/// Normal traction [Pa], tension positive.
+inline double
+normal_traction(const LawParameters& p, double opening, double max_opening, double damage)
+{
+    return opening * (opening > 0.0 ? secant(p, max_opening, damage) : p.normal_stiffness);
+}
+
+/// Energy [J/m^2] dissipated by opening monotonically to `max_opening` at constant shear damage:
+/// the area under the envelope less what the secant still stores.
+inline double
+opening_dissipation(const LawParameters& p, double max_opening, double shear_damage)
+{
+    const double strength = (1.0 - shear_damage) * p.tensile_strength;
+    const double first = strength / p.normal_stiffness;  // the envelope turns flat here
+    const double last = p.elastic_opening
+        + (1.0 - shear_damage) * (p.critical_opening - p.elastic_opening);
+    const double flat = std::min(std::max(max_opening, first), p.elastic_opening);
+    const double soft = std::min(std::max(max_opening, p.elastic_opening), last);
+    const double sigma = (1.0 - damage(p, max_opening, shear_damage)) * p.tensile_strength;
+    const double on_plateau = 0.5 * strength * (flat - first);
+    const double on_slope
+        = 0.5 * strength * p.elastic_opening + 0.5 * (strength + sigma) * (soft - p.elastic_opening)
+        - 0.5 * sigma * soft;
+    return on_plateau + (max_opening > p.elastic_opening ? on_slope : 0.0);
+}
+
+/// Energy stored by a point [J/m^2].
+inline double elastic_energy(const LawParameters& p, const PointState& s)
+{
+    const double d = damage(p, s.max_opening, s.shear_damage);
+    return 0.5 * s.opening * normal_traction(p, s.opening, s.max_opening, d)
+        + 0.5 * s.shear_traction * s.shear_traction / p.shear_stiffness;
+}
+
+}  // namespace law
+
+/// Normal and shear traction of a point [Pa] and its damage before and after the step.
+struct Traction {
+    double normal;
+    double shear;
+    double damage_before;
+    double damage;
+};
+
+/// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and
+/// changes nothing, if it would not.
+__attribute__((always_inline)) inline bool
+advance_elastic(const LawParameters& p, double opening_step, double slip_step, const PointState& s,
+    PointState& next, Traction& traction)
+{
+    const double d = law::damage(p, s.max_opening, s.shear_damage);
+    const double opening = s.opening + opening_step;
+    const double reach = std::max(s.max_opening, opening);
+    const double slope = law::secant(p, s.max_opening, d);
+    const double normal = opening * (opening > 0.0 ? slope : p.normal_stiffness);
+    const double shear = s.shear_traction + p.shear_stiffness * slip_step;
+    const double limit = std::max((1.0 - d) * p.cohesion - p.friction * normal, 0.0);
+    const bool same_secant = law::secant(p, reach, d) == slope;
+    const bool no_opening_damage = (reach - s.max_opening) * law::normal_damage(p, reach) == 0.0;
+    next = s;
+    next.opening = opening;
+    next.max_opening = reach;
+    next.shear_traction = shear;
+    traction = { normal, shear, d, d };
+    return same_secant & no_opening_damage & (std::fabs(shear) <= limit);
+}
+
+/// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
+/// return with its damage in closed form, and the normal traction once more with the new damage.
+/// Free of branches, so that eight points advance at once.
+__attribute__((always_inline)) inline Traction
+advance_point(const LawParameters& p, double opening_step, double slip_step, PointState& s)
+{
+    const double before = law::damage(p, s.max_opening, s.shear_damage);
+    const double opening = s.opening + opening_step;
+    const double reach = std::max(s.max_opening, opening);
+    const double normal_part = law::normal_damage(p, reach);
+    const double opened = std::min(normal_part + s.shear_damage, 1.0);
+    const double first_normal = law::normal_traction(p, opening, reach, opened);
+
+    const double trial = s.shear_traction + p.shear_stiffness * slip_step;
+    const double size = std::fabs(trial);
+    const double limit = (1.0 - opened) * p.cohesion - p.friction * first_normal;
+    const double excess = std::max(size - std::max(limit, 0.0), 0.0);
+    const double slip_left = (1.0 - opened) * p.critical_slip;
+    const double softening = p.cohesion / p.critical_slip;
+    const double damaging = std::min(excess * p.slip_rate, slip_left);
+    const double new_limit = std::max(limit - softening * damaging, 0.0);
+    const double shear_size = excess > 0.0 ? std::min(size, new_limit) : size;
+    const double slip = (size - shear_size) / p.shear_stiffness;
+    const double shear_damage = excess > 0.0
+        ? (slip >= slip_left ? 1.0 : s.shear_damage + slip / p.critical_slip)
+        : s.shear_damage;
+    const double after = std::min(normal_part + shear_damage, 1.0);
+    const double normal = law::normal_traction(p, opening, reach, after);
+
+    // normal: growth of the largest opening at the old shear damage, then the loss of secant slope
+    const double opening_loss = law::opening_dissipation(p, reach, s.shear_damage)
+        - law::opening_dissipation(p, s.max_opening, s.shear_damage);
+    const double secant_loss = 0.5 * opening * (first_normal - normal);
+    // shear: elastic energy given up at constant total slip; what friction does not take is damage
+    const double shear_loss = 0.5 * (size + shear_size) * slip;
+    const double resisted = std::max(-p.friction * first_normal, 0.0) * slip;
+    const double friction_loss = before >= 1.0 ? shear_loss : resisted;
+
+    s.opening = opening;
+    s.max_opening = reach;
+    s.shear_traction = std::copysign(shear_size, trial);
+    s.shear_damage = shear_damage;
+    s.damage_energy += opening_loss + secant_loss + (shear_loss - friction_loss);
+    s.friction_energy += friction_loss;
+    return { normal, s.shear_traction, before, after };
+}
+
+}  // namespace flexpm

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Sides of a specimen.
+#include <flexpm/kernel/boundary.hpp>
+
+#include <flexpm/kernel/checks.hpp>
+#include <flexpm/kernel/grain_access.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+double edge_length(const Assembly& a, int edge)
+{
+    const auto n = edge_nodes(a, edge);
+    return std::hypot(a.reference[n[1]] - a.reference[n[0]],
+        a.reference[n[1] + lanes] - a.reference[n[0] + lanes]);
+}
+
+}  // namespace
+
+std::vector<int> side_nodes(const Assembly& a, int side)
+{
+    std::vector<int> nodes;
+    for (int e = 0; e < a.edges; ++e) {
+        if (a.edge_side[e] != side) continue;
+        for (int n : edge_nodes(a, e)) nodes.push_back(n);
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
+
+void drive(Assembly& a, const std::vector<int>& nodes, int component, double velocity)
+{
+    check_finite("prescribed velocity", velocity, "m/s");
+    for (int n : nodes) {
+        a.held[n + component * lanes] = 1;
+        a.velocity[n + component * lanes] = velocity;
+    }
+}
+
+void release(Assembly& a, const std::vector<int>& nodes, int component)
+{
+    for (int n : nodes) a.held[n + component * lanes] = 0;
+}
+
+double reaction(const Assembly& a, const std::vector<int>& nodes, int component)
+{
+    double sum = 0.0;
+    for (int n : nodes) sum -= a.force[n + component * lanes];
+    return sum;
+}
+
+double side_displacement(const Assembly& a, int side, int component)
+{
+    double moment = 0.0, length = 0.0;
+    for (int e = 0; e < a.edges; ++e) {
+        if (a.edge_side[e] != side) continue;
+        const auto n = edge_nodes(a, e);
+        const double l = edge_length(a, e), *u = a.displacement.data() + component * lanes;
+        moment += 0.5 * l * (u[n[0]] + u[n[1]]);
+        length += l;
+    }
+    return moment / length;
+}
+
+double side_length(const Assembly& a, int side)
+{
+    double length = 0.0;
+    for (int e = 0; e < a.edges; ++e) {
+        if (a.edge_side[e] == side) length += edge_length(a, e);
+    }
+    return length;
+}
+
+void set_pressure(Assembly& a, int side, double pressure)
+{
+    check_not_negative("pressure", pressure, "Pa");
+    for (int e = 0; e < a.edges; ++e) {
+        if (a.edge_side[e] == side) a.edge_pressure[e] = pressure;
+    }
+}
+
+}  // namespace flexpm

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Contacts, `lanes` at a time.
+#include <flexpm/kernel/contact_block.hpp>
+
+#include <flexpm/kernel/simd.hpp>
+
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int law_rows = sizeof(LawParameters) / sizeof(double);
+constexpr int most_points = 3;
+
+/// The rows of one block of contacts.
+struct Rows {
+    const double* displacement;
+    const double* velocity;
+    const int* nodes;
+    const double* weight;
+    const double* area;
+    const double* span;
+    double* normal;
+    double* state;
+    double* force;
+    const double* law;  ///< [law_rows][lanes]
+};
+
+/// What a block works out for its points on the way, [point][lane].
+struct Motion {
+    alignas(64) double opening[most_points * lanes];
+    alignas(64) double slip[most_points * lanes];
+};
+
+__attribute__((always_inline)) inline LawParameters law_of(const double* rows, int lane)
+{
+    const double* r = rows + lane;
+    return { r[0 * lanes], r[1 * lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes],
+        r[6 * lanes], r[7 * lanes], r[8 * lanes], r[9 * lanes] };
+}
+
+__attribute__((always_inline)) inline PointState load_state(const double* rows, int lane)
+{
+    const double* r = rows + lane;
+    return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes] };
+}
+
+__attribute__((always_inline)) inline void
+store_state(const PointState& s, double* rows, int lane)
+{
+    double* r = rows + lane;
+    r[0] = s.opening;
+    r[lanes] = s.max_opening;
+    r[2 * lanes] = s.shear_traction;
+    r[3 * lanes] = s.shear_damage;
+    r[4 * lanes] = s.damage_energy;
+    r[5 * lanes] = s.friction_energy;
+}
+
+/// Unit normals at the end of the step, and the points' increments along the mean of the old and
+/// the new normal: with it the work of a turning contact is what its energy says to third order.
+template <int Points>
+__attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
+{
+    const double* u = b.displacement;
+    const double* v = b.velocity;
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        const int a0 = b.nodes[l], a1 = b.nodes[lanes + l];
+        const int b0 = b.nodes[2 * lanes + l], b1 = b.nodes[3 * lanes + l];
+        const int ca = b.nodes[4 * lanes + l], cb = b.nodes[5 * lanes + l];
+        const double dx
+            = b.span[l] + ((u[cb] + dt * v[cb]) - (u[ca] + dt * v[ca]));
+        const double dy = b.span[lanes + l]
+            + ((u[cb + lanes] + dt * v[cb + lanes]) - (u[ca + lanes] + dt * v[ca + lanes]));
+        const double distance = std::sqrt(dx * dx + dy * dy);
+        const double nx = dx / distance, ny = dy / distance;
+        const double mx = 0.5 * (b.normal[l] + nx), my = 0.5 * (b.normal[lanes + l] + ny);
+        b.normal[l] = nx;
+        b.normal[lanes + l] = ny;
+        const double a0x = v[a0], a0y = v[a0 + lanes], a1x = v[a1], a1y = v[a1 + lanes];
+        const double b0x = v[b0], b0y = v[b0 + lanes], b1x = v[b1], b1y = v[b1 + lanes];
+        for (int p = 0; p < Points; ++p) {
+            const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
+            const double rx = (b0x + wb * (b1x - b0x)) - (a0x + wa * (a1x - a0x));
+            const double ry = (b0y + wb * (b1y - b0y)) - (a0y + wa * (a1y - a0y));
+            motion.opening[p * lanes + l] = dt * (rx * mx + ry * my);
+            motion.slip[p * lanes + l] = dt * (ry * mx - rx * my);
+        }
+    }
+}
+
+/// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19.
+template <int Points>
+__attribute__((always_inline)) inline void
+spread_forces(const Rows& b, const double* normal, const double* shear)
+{
+    for (int l = 0; l < lanes; ++l) {
+        const double nx = b.normal[l], ny = b.normal[lanes + l];
+        double sum_x = 0.0, sum_y = 0.0, a1x = 0.0, a1y = 0.0, b1x = 0.0, b1y = 0.0;
+        for (int p = 0; p < Points; ++p) {
+            const double area = b.area[p * lanes + l];
+            const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
+            const double fx = fn * nx - fs * ny, fy = fn * ny + fs * nx;
+            const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
+            sum_x += fx;
+            sum_y += fy;
+            a1x += wa * fx;
+            a1y += wa * fy;
+            b1x += wb * fx;
+            b1y += wb * fy;
+        }
+        double* f = b.force + l;
+        f[0 * lanes] = sum_x - a1x;
+        f[1 * lanes] = sum_y - a1y;
+        f[2 * lanes] = a1x;
+        f[3 * lanes] = a1y;
+        f[4 * lanes] = b1x - sum_x;
+        f[5 * lanes] = b1y - sum_y;
+        f[6 * lanes] = -b1x;
+        f[7 * lanes] = -b1y;
+    }
+}
+
+/// Returns the lanes, summed over points, that cracked in this step.
+template <int Points>
+__attribute__((always_inline)) inline int
+update_lanes(const Rows& b, double dt, std::uint8_t* cracked)
+{
+    Motion motion;
+    move_points<Points>(b, dt, motion);
+
+    alignas(64) double normal[Points * lanes], shear[Points * lanes];
+    alignas(64) double next[Points * 3 * lanes];
+    alignas(64) double leaves[lanes] = {};  // > 0 where a point leaves its elastic branch
+    for (int p = 0; p < Points; ++p) {
+        const double* state = b.state + p * ContactRows::state * lanes;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            PointState s;
+            Traction t;
+            const bool elastic = advance_elastic(law_of(b.law, l), motion.opening[p * lanes + l],
+                motion.slip[p * lanes + l], load_state(state, l), s, t);
+            next[(3 * p + 0) * lanes + l] = s.opening;
+            next[(3 * p + 1) * lanes + l] = s.max_opening;
+            next[(3 * p + 2) * lanes + l] = s.shear_traction;
+            normal[p * lanes + l] = t.normal;
+            shear[p * lanes + l] = t.shear;
+            leaves[l] += elastic ? 0.0 : 1.0;
+        }
+    }
+    double any = 0.0;
+    for (int l = 0; l < lanes; ++l) any += leaves[l];
+
+    int cracks = 0;
+    for (int p = 0; p < Points; ++p) {
+        double* state = b.state + p * ContactRows::state * lanes;
+        if (any == 0.0) {
+            for (int l = 0; l < 3 * lanes; ++l) state[l] = next[3 * p * lanes + l];
+            continue;
+        }
+        alignas(64) double fresh[lanes];
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            PointState s = load_state(state, l);
+            const Traction t = advance_point(law_of(b.law, l), motion.opening[p * lanes + l],
+                motion.slip[p * lanes + l], s);
+            store_state(s, state, l);
+            normal[p * lanes + l] = t.normal;
+            shear[p * lanes + l] = t.shear;
+            fresh[l] = (t.damage_before < 1.0) & (t.damage >= 1.0) ? 1.0 : 0.0;
+        }
+        for (int l = 0; l < lanes; ++l) {
+            cracked[p * lanes + l] = fresh[l] > 0.0;
+            cracks += fresh[l] > 0.0;
+        }
+    }
+    spread_forces<Points>(b, normal, shear);
+    return cracks;
+}
+
+FLEXPM_MULTIVERSION int update_1(const Rows& b, double dt, std::uint8_t* cracked)
+{
+    return update_lanes<1>(b, dt, cracked);
+}
+FLEXPM_MULTIVERSION int update_2(const Rows& b, double dt, std::uint8_t* cracked)
+{
+    return update_lanes<2>(b, dt, cracked);
+}
+FLEXPM_MULTIVERSION int update_3(const Rows& b, double dt, std::uint8_t* cracked)
+{
+    return update_lanes<3>(b, dt, cracked);
+}
+
+/// Parameters of the block's contacts, one law or several, as rows.
+void fill_law(const Assembly& a, int block, double* rows)
+{
+    for (int l = 0; l < lanes; ++l) {
+        const int contact = std::min(block * lanes + l, a.contacts - 1);
+        const double* law = &a.laws[a.contact_law[contact]].normal_stiffness;
+        for (int r = 0; r < law_rows; ++r) rows[r * lanes + l] = law[r];
+    }
+}
+
+/// Where a point is now: the middle of its places on the two edges.
+Point point_position(const Assembly& a, int contact, int point, double dt)
+{
+    Point sum;
+    for (int side = 0; side < 2; ++side) {
+        const int n0 = a.contact_nodes[row_index(contact, 2 * side, ContactRows::nodes)];
+        const int n1 = a.contact_nodes[row_index(contact, 2 * side + 1, ContactRows::nodes)];
+        const double w = a.weight[row_index(contact, 2 * point + side, 2 * a.points)];
+        const Point p0 = a.position(n0), p1 = a.position(n1);
+        sum.x += 0.5 * ((1.0 - w) * (p0.x + dt * a.velocity[n0]) + w * (p1.x + dt * a.velocity[n1]));
+        sum.y += 0.5 * ((1.0 - w) * (p0.y + dt * a.velocity[n0 + lanes])
+                     + w * (p1.y + dt * a.velocity[n1 + lanes]));
+    }
+    return sum;
+}
+
+void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracked)
+{
+    for (int p = 0; p < a.points; ++p) {
+        for (int l = 0; l < lanes; ++l) {
+            const int contact = block * lanes + l;
+            if (!cracked[p * lanes + l] || contact >= a.contacts) continue;
+            const int index = row_index(contact, p, a.points);
+            const double opening = a.point_state[row_index(contact, p * ContactRows::state,
+                a.points * ContactRows::state)];
+            const Point place = point_position(a, contact, p, dt);
+            a.crack_step[index] = static_cast<int>(a.step + 1);
+            a.crack_mode[index] = opening > 0.0 ? tensile_crack : shear_crack;
+            a.crack_position[row_index(contact, 2 * p, 2 * a.points)] = place.x;
+            a.crack_position[row_index(contact, 2 * p + 1, 2 * a.points)] = place.y;
+        }
+    }
+}
+
+}  // namespace
+
+void update_contact_block(Assembly& a, int block, double dt)
+{
+    alignas(64) double law[law_rows * lanes];
+    fill_law(a, block, law);
+    const int first = block * lanes;
+    const Rows rows = { a.displacement.data(), a.velocity.data(),
+        a.contact_nodes.data() + first * ContactRows::nodes,
+        a.weight.data() + first * 2 * a.points, a.area.data() + first * a.points,
+        a.span.data() + first * 2, a.normal.data() + first * 2,
+        a.point_state.data() + first * a.points * ContactRows::state,
+        a.contact_force.data() + first * ContactRows::forces, law };
+    std::uint8_t cracked[most_points * lanes];
+    const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
+        : a.points == 2              ? update_2(rows, dt, cracked)
+                                     : update_1(rows, dt, cracked);
+    if (cracks > 0) record_cracks(a, block, dt, cracked);
+}
+
+double update_edge_block(Assembly& a, int block, double dt)
+{
+    double work = 0.0;
+    for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges); ++e) {
+        const int n0 = a.edge_nodes[row_index(e, 0, 2)], n1 = a.edge_nodes[row_index(e, 1, 2)];
+        const Point p0 = a.position(n0), p1 = a.position(n1);
+        const double* v = a.velocity.data();
+        const double ex = (p1.x - p0.x) + dt * (v[n1] - v[n0]);
+        const double ey = (p1.y - p0.y) + dt * (v[n1 + lanes] - v[n0 + lanes]);
+        // the outward normal of a counter-clockwise edge is (ey, -ex) / length
+        const double half = 0.5 * a.edge_pressure[e] * a.thickness;
+        const double fx = -half * ey, fy = half * ex;
+        double* f = a.edge_force.data() + row_index(e, 0, ContactRows::forces);
+        work += 0.5 * dt
+            * ((f[0] + fx) * (v[n0] + v[n1]) + (f[lanes] + fy) * (v[n0 + lanes] + v[n1 + lanes]));
+        f[0] = f[2 * lanes] = fx;
+        f[lanes] = f[3 * lanes] = fy;
+    }
+    return work;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Bound of the nodal stiffness, scaled masses and stable time step, paper Sec. 2.4.
+/// Deviation D4: Eq. 20 (m = K_t / 4) is unstable with the damping of Eq. 2, which lowers the limit
+/// to omega dt < 2 / sqrt(1 + alpha); masses carry the factor s (1 + alpha).
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+
+namespace flexpm {
+
+/// Margin s: at 1, nodes that no contact touches sit on the limit and grow.
+constexpr double mass_margin = 1.1;
+
+/// Upper bound K_t of the stiffness at each node [N/m], [block][node][lane]: contacts by Eq. 21 with
+/// their full stiffness, so that breaking never lowers it, and elements by the row sums of the norms
+/// of the 2x2 blocks of the grain's stiffness.
+Array<double> stiffness_bound(const Assembly& a);
+
+/// Masses for the time step `dt`: m = s (1 + alpha) K_t dt^2 / 4.
+/// @throws std::invalid_argument  if not 0 <= damping < 1 or dt <= 0
+void scale_masses(Assembly& a, double damping, double dt = 1.0);
+
+/// Real masses: a third of each triangle's to its nodes. Returns the stable time step [s].
+double set_real_masses(Assembly& a, double damping);
+
+}  // namespace flexpm

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Sums over an assembly.
+#include <flexpm/kernel/measures.hpp>
+
+#include <flexpm/kernel/grain_access.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace flexpm {
+
+namespace {
+
+double grain_energy(const Assembly& a, int grain)
+{
+    double total = 0.0;
+    const PlaneStiffness c = stiffness_of(a, grain);
+    for (int t = 0; t < triangles_of(a, grain); ++t) {
+        const auto n = triangle_nodes(a, grain, t);
+        total += triangle_energy(shape_of(a, grain, t), c, displacement_of(a, a.node(grain, n[0])),
+            displacement_of(a, a.node(grain, n[1])), displacement_of(a, a.node(grain, n[2])));
+    }
+    return total;
+}
+
+double kinetic_of_velocities(const Assembly& a)
+{
+    double total = 0.0;
+    for (int g = 0; g < a.grains; ++g) {
+        for (int n = 0; n < a.nodes_of(g); ++n) {
+            const int node = a.node(g, n);
+            const double inverse_mass = a.inverse_mass[scalar_index(node)];
+            if (inverse_mass == 0.0) continue;
+            for (int i : { node, node + lanes }) {
+                if (!a.held[i]) total += 0.5 * a.velocity[i] * a.velocity[i] / inverse_mass;
+            }
+        }
+    }
+    return total;
+}
+
+double first_of_pairs(const Array<double>& values)
+{
+    double total = 0.0;
+    for (std::size_t i = 0; i < values.size(); i += 2) total += values[i];
+    return total;
+}
+
+}  // namespace
+
+Energies energies(const Assembly& a)
+{
+    Energies e;
+    for (double k : a.kinetic) e.kinetic += k;
+    for (int g = 0; g < a.grains; ++g) e.elastic += grain_energy(a, g);
+    for (int c = 0; c < a.contacts; ++c) {
+        const LawParameters& law = a.laws[a.contact_law[c]];
+        for (int p = 0; p < a.points; ++p) {
+            const PointState s = point_state(a, c, p);
+            const double area = a.area[row_index(c, p, a.points)];
+            e.elastic += area * law::elastic_energy(law, s);
+            e.damage += area * s.damage_energy;
+            e.friction += area * s.friction_energy;
+        }
+    }
+    e.damping = first_of_pairs(a.damping_work);
+    e.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
+    e.initial = a.initial_energy;
+    return e;
+}
+
+void open_books(Assembly& a)
+{
+    for (int c = 0; c < a.contacts; ++c) {
+        for (int p = 0; p < a.points; ++p) {
+            for (int row : { 4, 5 }) {
+                a.point_state[row_index(c, p * ContactRows::state + row,
+                    a.points * ContactRows::state)] = 0.0;
+            }
+        }
+    }
+    // the halves of the last step's works that fall into the next step stay
+    for (auto* work : { &a.damping_work, &a.driven_work }) {
+        for (std::size_t i = 0; i < work->size(); i += 2) (*work)[i] = 0.0;
+    }
+    a.pressure_work = 0.0;
+    if (a.step == 0) a.kinetic[0] = kinetic_of_velocities(a);
+    const Energies now = energies(a);
+    a.initial_energy = now.kinetic + now.elastic;
+}
+
+double unbalanced_ratio(const Assembly& a)
+{
+    const auto largest = std::max_element(a.largest_force.begin(), a.largest_force.end());
+    double sum = 0.0;
+    for (int c = 0; c < a.contacts; ++c) {
+        const double* f = &a.contact_force[row_index(c, 0, ContactRows::forces)];
+        sum += std::hypot(f[0] + f[2 * lanes], f[lanes] + f[3 * lanes]);
+    }
+    return sum > 0.0 ? *largest * a.contacts / sum : 0.0;
+}
+
+CrackCount count_cracks(const Assembly& a)
+{
+    CrackCount count;
+    for (std::uint8_t mode : a.crack_mode) {
+        count.tensile += mode == tensile_crack;
+        count.shear += mode == shear_crack;
+    }
+    return count;
+}
+
+std::string find_bad_number(const Assembly& a)
+{
+    for (int g = 0; g < a.grains; ++g) {
+        for (int n = 0; n < a.nodes_of(g); ++n) {
+            for (int c = 0; c < 2; ++c) {
+                const int i = a.node(g, n) + c * lanes;
+                const bool force = std::isfinite(a.force[i]);
+                if (force && std::isfinite(a.velocity[i])) continue;
+                std::ostringstream text;
+                text << (force ? "velocity" : "force") << " of node " << n << " of grain " << g
+                     << " is not a finite number at step " << a.step
+                     << "; lower the loading rate or check the material";
+                return text.str();
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace flexpm

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Grains, `lanes` at a time, and the step as a whole.
+#include <flexpm/kernel/stepping.hpp>
+
+#include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/simd.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+/// The rows of one block of grains.
+struct Rows {
+    int nodes;
+    int triangles;
+    const int* connectivity;
+    const double* shape;
+    const double* stiffness;
+    double* displacement;
+    double* velocity;
+    double* force;
+    const std::uint8_t* held;
+    const double* inverse_mass;
+};
+
+/// Move the nodes, then add the forces of the elements to `force`.
+FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
+{
+    double* u = b.displacement;
+    double* f = b.force;
+    for (int i = 0; i < 2 * lanes * b.nodes; ++i) u[i] += dt * b.velocity[i];
+    for (int t = 0; t < b.triangles; ++t) {
+        const int n0 = 2 * lanes * b.connectivity[3 * t];
+        const int n1 = 2 * lanes * b.connectivity[3 * t + 1];
+        const int n2 = 2 * lanes * b.connectivity[3 * t + 2];
+        const double* s = b.shape + 5 * lanes * t;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            const TriangleShape shape
+                = { s[l], s[lanes + l], s[2 * lanes + l], s[3 * lanes + l], s[4 * lanes + l] };
+            const PlaneStiffness c
+                = { b.stiffness[l], b.stiffness[lanes + l], b.stiffness[2 * lanes + l] };
+            const TriangleForces e
+                = triangle_forces(shape, c, { u[n0 + l], u[n0 + lanes + l] },
+                    { u[n1 + l], u[n1 + lanes + l] }, { u[n2 + l], u[n2 + lanes + l] });
+            f[n0 + l] -= e.f1x + e.f2x;
+            f[n0 + lanes + l] -= e.f1y + e.f2y;
+            f[n1 + l] += e.f1x;
+            f[n1 + lanes + l] += e.f1y;
+            f[n2 + l] += e.f2x;
+            f[n2 + lanes + l] += e.f2y;
+        }
+    }
+}
+
+/// Sums over the nodes of a block, [lane].
+struct Sums {
+    alignas(64) double damped[lanes] = {}, damped_next[lanes] = {};
+    alignas(64) double driven[lanes] = {}, driven_next[lanes] = {};
+    alignas(64) double kinetic[lanes] = {}, largest[lanes] = {};
+};
+
+/// Local damping, new velocities, and the work of damping and of held nodes: a force F at step n
+/// works over half of the step before and half of the step after, F dt (v(n-1/2) + v(n+1/2)) / 2.
+template <bool Measure>
+__attribute__((always_inline)) inline void
+integrate_lanes(const Rows& b, double dt, double damping, Sums& sums)
+{
+    for (int n = 0; n < b.nodes; ++n) {
+        for (int c = 0; c < 2; ++c) {
+            const double* f = b.force + (2 * n + c) * lanes;
+            double* v = b.velocity + (2 * n + c) * lanes;
+            const std::uint8_t* held = b.held + (2 * n + c) * lanes;
+            const double* inverse_mass = b.inverse_mass + n * lanes;
+#pragma GCC ivdep
+            for (int l = 0; l < lanes; ++l) {
+                const double force = f[l], old = v[l];
+                const double free = held[l] ? 0.0 : 1.0;
+                const double against = old > 0.0 ? -1.0 : (old < 0.0 ? 1.0 : 0.0);
+                const double damp = free * against * damping * std::fabs(force);
+                const double next = old + dt * (free * force + damp) * inverse_mass[l];
+                const double reaction = (free - 1.0) * force;
+                v[l] = next;
+                sums.damped[l] -= 0.5 * dt * damp * old;
+                sums.damped_next[l] -= 0.5 * dt * damp * next;
+                sums.driven[l] += 0.5 * dt * reaction * old;
+                sums.driven_next[l] += 0.5 * dt * reaction * next;
+                if (Measure) {
+                    const double mass = inverse_mass[l] > 0.0 ? free / inverse_mass[l] : 0.0;
+                    sums.kinetic[l] += 0.5 * mass * old * next;
+                    sums.largest[l] = std::max(sums.largest[l], free * std::fabs(force));
+                }
+            }
+        }
+    }
+}
+
+FLEXPM_MULTIVERSION void integrate(const Rows& b, double dt, double damping, Sums& sums)
+{
+    integrate_lanes<false>(b, dt, damping, sums);
+}
+FLEXPM_MULTIVERSION void integrate_measured(const Rows& b, double dt, double damping, Sums& sums)
+{
+    integrate_lanes<true>(b, dt, damping, sums);
+}
+
+/// Forces of contacts and boundary pressure, in the fixed order of the gather list. The force array
+/// of the block is cleared first.
+void gather_forces(const Assembly& a, int block, double* force)
+{
+    std::fill(force, force + 2 * lanes * a.group(block).nodes, 0.0);
+    const double* contact = a.contact_force.data();
+    const double* edge = a.edge_force.data();
+    const int* entry = a.gather.data() + a.gather_first[block];
+    const int* end = a.gather.data() + a.gather_first[block + 1];
+    for (; entry != end; entry += 3) {
+        // entries below zero name a boundary edge
+        const double* f = entry[0] >= 0 ? contact + entry[0] : edge + ~entry[0];
+        force[entry[1]] += f[0];
+        force[entry[1] + lanes] += f[lanes];
+        force[entry[2]] += f[2 * lanes];
+        force[entry[2] + lanes] += f[3 * lanes];
+    }
+}
+
+double sum(const double* values)
+{
+    double total = 0.0;
+    for (int l = 0; l < lanes; ++l) total += values[l];
+    return total;
+}
+
+void update_grain_block(Assembly& a, int block, const StepOptions& options)
+{
+    const int first = a.block_nodes[block];
+    const MeshGroup& group = a.group(block);
+    const Rows rows = { group.nodes, static_cast<int>(group.triangles.size()) / 3,
+        group.triangles.data(), a.shape.data() + a.block_triangles[block],
+        a.stiffness.data() + 3 * lanes * block, a.displacement.data() + first,
+        a.velocity.data() + first, a.force.data() + first, a.held.data() + first,
+        a.inverse_mass.data() + first / 2 };
+    gather_forces(a, block, rows.force);
+    move_and_deform(rows, options.dt);
+    Sums sums;
+    (options.measure ? integrate_measured : integrate)(rows, options.dt, options.damping, sums);
+
+    double* damped = a.damping_work.data() + 2 * block;
+    double* driven = a.driven_work.data() + 2 * block;
+    damped[0] += damped[1] + sum(sums.damped);
+    damped[1] = sum(sums.damped_next);
+    driven[0] += driven[1] + sum(sums.driven);
+    driven[1] = sum(sums.driven_next);
+    if (options.measure) {
+        a.kinetic[block] = sum(sums.kinetic);
+        a.largest_force[block] = *std::max_element(sums.largest, sums.largest + lanes);
+    }
+}
+
+}  // namespace
+
+void step(Assembly& a, const StepOptions& options)
+{
+    const int contact_blocks = a.contact_blocks(), blocks = a.blocks();
+#pragma omp parallel num_threads(options.threads) if (options.threads > 1)
+    {
+#pragma omp for schedule(static)
+        for (int b = 0; b < contact_blocks; ++b) update_contact_block(a, b, options.dt);
+#pragma omp single
+        for (int b = 0; b < a.edge_blocks(); ++b) {
+            a.pressure_work += update_edge_block(a, b, options.dt);
+        }
+#pragma omp for schedule(static)
+        for (int b = 0; b < blocks; ++b) update_grain_block(a, b, options);
+    }
+    ++a.step;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One step of the assembly: central differences with local damping, paper Eqs. 1-19.
+///
+/// A step moves the nodes by their velocities, updates contacts, boundary pressure and elements at
+/// the new positions, and then integrates the velocities: positions and forces belong to step n,
+/// velocities to n + 1/2. Velocities set between two steps (held nodes) therefore act at once.
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+
+namespace flexpm {
+
+struct StepOptions {
+    double dt = 1.0;        ///< time step [s]; 1 with scaled masses
+    double damping = 0.7;   ///< alpha of Eq. 2 [-], 0 <= alpha < 1
+    int threads = 1;        ///< results do not depend on it
+    bool measure = false;   ///< also sum kinetic energy and largest unbalanced force
+};
+
+void step(Assembly& a, const StepOptions& options);
+
+}  // namespace flexpm
