@@ -111,6 +111,19 @@ bool contains(const Outline& outline, Point p)
     return true;
 }
 
+double distance_inside(const Outline& outline, Point p)
+{
+    if (outline.is_circle())
+        return outline.radius - std::hypot(p.x - outline.centre.x, p.y - outline.centre.y);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int side = 0; side < outline.sides(); ++side) {
+        const Point c = outline.corners[side];
+        const Point e = outline.corners[(side + 1) % outline.sides()] - c;
+        smallest = std::min(smallest, cross(e, p - c) / std::hypot(e.x, e.y));
+    }
+    return smallest;
+}
+
 BoundingCircle bounding_circle(const Outline& outline)
 {
     if (outline.is_circle()) return { outline.centre, outline.radius };

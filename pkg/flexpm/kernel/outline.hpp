@@ -44,6 +44,9 @@ struct BoundingCircle {
 /// True for points inside or on the outline.
 bool contains(const Outline& outline, Point p);
 
+/// Distance from the outline, positive inside [m]; the nearest side's line for points outside.
+double distance_inside(const Outline& outline, Point p);
+
 /// A circle that holds the outline.
 BoundingCircle bounding_circle(const Outline& outline);
 

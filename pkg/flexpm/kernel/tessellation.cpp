@@ -80,14 +80,6 @@ Tessellation number_cells(const PowerDiagram& diagram, const std::vector<bool>& 
     return t;
 }
 
-std::vector<Point> polygon_of(const Tessellation& t, int cell)
-{
-    std::vector<Point> polygon;
-    for (int k = t.cell_offsets[cell]; k < t.cell_offsets[cell + 1]; ++k)
-        polygon.push_back(t.vertices[t.cell_vertices[k]]);
-    return polygon;
-}
-
 }  // namespace
 
 Tessellation tessellate(const std::vector<Disc>& discs, const Outline& outline,
@@ -118,11 +110,22 @@ Tessellation tessellate(const std::vector<Disc>& discs, const Outline& outline,
     return t;
 }
 
-double cell_area(const Tessellation& t, int cell) { return polygon_shape(polygon_of(t, cell)).area; }
+std::vector<Point> cell_polygon(const Tessellation& t, int cell)
+{
+    std::vector<Point> polygon;
+    for (int k = t.cell_offsets[cell]; k < t.cell_offsets[cell + 1]; ++k)
+        polygon.push_back(t.vertices[t.cell_vertices[k]]);
+    return polygon;
+}
+
+double cell_area(const Tessellation& t, int cell)
+{
+    return polygon_shape(cell_polygon(t, cell)).area;
+}
 
 Point cell_centroid(const Tessellation& t, int cell)
 {
-    return polygon_shape(polygon_of(t, cell)).centroid;
+    return polygon_shape(cell_polygon(t, cell)).centroid;
 }
 
 }  // namespace flexpm

@@ -56,6 +56,9 @@ struct TessellationOptions {
 Tessellation tessellate(const std::vector<Disc>& discs, const Outline& outline,
                         const TessellationOptions& options);
 
+/// Corners of a cell, counter-clockwise.
+std::vector<Point> cell_polygon(const Tessellation& tessellation, int cell);
+
 /// Area of a cell [m^2].
 double cell_area(const Tessellation& tessellation, int cell);
 
