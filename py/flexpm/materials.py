@@ -200,8 +200,9 @@ def preset_names() -> list[str]:
     return sorted(path.stem for path in _PRESETS.glob("*.toml"))
 
 
-def load(material: str | Path | Mapping[str, Any] | Material | None = None,
-         model: str = "flexible") -> Material:
+def load(
+    material: str | Path | Mapping[str, Any] | Material | None = None, model: str = "flexible"
+) -> Material:
     """Return a material from a preset's name, a TOML file, a dictionary or a Material.
 
     Args:
@@ -231,7 +232,7 @@ def load(material: str | Path | Mapping[str, Any] | Material | None = None,
 
 def _load_file(path: Path) -> Material:
     try:
-        with open(path, "rb") as file:
+        with path.open("rb") as file:
             data = tomllib.load(file)
     except OSError as error:
         raise InputError(

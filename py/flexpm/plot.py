@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -114,6 +115,12 @@ def crack_picture(path: Path | str, snapshot: Mapping[str, np.ndarray], caption:
         _draw_scale_bar(axes)
         axes.set_title(caption, fontsize=9.5, loc="left")
         _save(figure, path)
+
+
+def cell_polygons(tessellation: Any) -> list[np.ndarray]:
+    """Corners (V, 2) [m] of each cell of a tessellation."""
+    corners = tessellation.vertices[tessellation.cell_vertices]
+    return np.split(corners, tessellation.cell_offsets[1:-1])
 
 
 def grain_corners(triangles: np.ndarray) -> list[np.ndarray]:

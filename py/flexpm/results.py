@@ -139,9 +139,7 @@ def cracks_csv(cracks: Sequence[Crack]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def cracks_from_snapshot(
-    snapshot: Mapping[str, np.ndarray], curve: Curve
-) -> list[Crack]:
+def cracks_from_snapshot(snapshot: Mapping[str, np.ndarray], curve: Curve) -> list[Crack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
     steps = np.asarray(snapshot["crack_step"])
     contacts, points = np.nonzero(steps >= 0)

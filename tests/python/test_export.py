@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The .vtu file, read back by VTK's own reader, holds the values of the snapshot."""
 
-import os
 import time
 
 import numpy as np
 import pytest
-from flexpm.export import CONTACT, GRAIN, principal_stresses, write_vtu
 from hypothesis import given
 from hypothesis import strategies as st
 from sample_snapshot import GRADIENT, STRESS, wall
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_TRIANGLE
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+from flexpm.export import CONTACT, GRAIN, principal_stresses, write_vtu
 
 
 def read(path):
@@ -36,7 +36,7 @@ def written(tmp_path_factory):
     snapshot = wall()
     path = tmp_path_factory.mktemp("vtu") / "final.vtu"
     write_vtu(path, snapshot)
-    assert os.listdir(path.parent) == ["final.vtu"]
+    assert [file.name for file in path.parent.iterdir()] == ["final.vtu"]
     return snapshot, *read(path)
 
 

@@ -2,14 +2,16 @@
 """Materials: values of the paper's tables, brittle energies in closed form, and refused input."""
 
 import math
+import re
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from flexpm import materials
 from flexpm.errors import InputError
 from flexpm.material_keys import UNITS
 from flexpm.materials import Material
-from hypothesis import given
-from hypothesis import strategies as st
 
 NUMBERS = [key for key, unit in UNITS.items() if unit is not None]
 
@@ -70,9 +72,7 @@ def test_set_brittle_replaces_the_energies_of_the_material():
     law = materials.load("augig-table7").with_set(["softening=brittle"]).law("flexible")
     assert law["tensile_fracture_energy"] == pytest.approx(8.5e6**2 / (2 * 18e13))
     with pytest.raises(InputError, match="brittle softening fixes it"):
-        materials.load("augig-table7").with_set(
-            ["softening=brittle", "tensile_fracture_energy=5"]
-        )
+        materials.load("augig-table7").with_set(["softening=brittle", "tensile_fracture_energy=5"])
 
 
 def test_energy_at_the_elastic_energy_is_allowed_and_below_it_is_not():
@@ -80,7 +80,7 @@ def test_energy_at_the_elastic_energy_is_allowed_and_below_it_is_not():
     smallest = 8.5e6**2 / (2 * 18e13)
     allowed = material.with_set([f"tensile_fracture_energy={smallest * (1 - 1e-13)!r}"])
     assert allowed.law("flexible")["tensile_fracture_energy"] == smallest * (1 - 1e-13)
-    with pytest.raises(InputError, match="smallest allowed value is 0.200694") as caught:
+    with pytest.raises(InputError, match=r"smallest allowed value is 0\.200694") as caught:
         material.with_set([f"tensile_fracture_energy={smallest * (1 - 1e-11)!r}"])
     stated = float(str(caught.value).split(" is ")[-1].split()[0])
     assert stated == pytest.approx(smallest, rel=1e-15)
@@ -113,7 +113,7 @@ def test_stated_smallest_energy_is_accepted(strength, cohesion, stiffness, ratio
 @pytest.mark.parametrize("key", NUMBERS)
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, -1.0])
 def test_numbers_out_of_range_are_refused_with_key_and_value_in_one_line(key, value):
-    with pytest.raises(InputError, match=rf"{key} = {value}") as caught:
+    with pytest.raises(InputError, match=re.escape(f"{key} = {value}")) as caught:
         materials.load("augig-table7").with_set([f"{key}={value}"])
     assert "\n" not in str(caught.value)
 
@@ -127,7 +127,7 @@ def test_zero_is_refused_except_for_friction(key):
 
 @pytest.mark.parametrize("value", ["0.5", "0.7"])
 def test_poisson_must_stay_below_one_half(value):
-    with pytest.raises(InputError, match="between 0 and 0.5"):
+    with pytest.raises(InputError, match=r"between 0 and 0\.5"):
         materials.load("augig-table7").with_set([f"poisson={value}"])
 
 

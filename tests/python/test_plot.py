@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: the geometry they draw in closed form, and what can be seen in them."""
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
-from flexpm import plot
-from flexpm.curve import COLUMNS, Curve
-from flexpm.results import SHEAR, TENSILE, Result
 from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
+
+from flexpm import plot
+from flexpm.curve import COLUMNS, Curve
+from flexpm.results import SHEAR, TENSILE, Result
 
 
 def pixels_like(path, colour):
@@ -107,5 +110,12 @@ def test_pictures_need_neither_a_display_nor_pyplot():
         "assert 'matplotlib.pyplot' not in sys.modules; "
         "print('matplotlib' in sys.modules)"
     )
-    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    package = str(Path(plot.__file__).parent.parent)
+    found = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": package},
+    )
     assert found.stdout.strip() == "True"

@@ -3,24 +3,43 @@
 
 import csv
 import json
-import os
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from flexpm import curve as measures
 from flexpm.curve import COLUMNS, Curve
 from flexpm.errors import InputError
 from flexpm.files import output_folder, whole_file
 from flexpm.results import Crack, Result, cracks_csv, cracks_from_snapshot
-from hypothesis import given
-from hypothesis import strategies as st
 
 YOUNG, POISSON, PEAK, SOFTENING = 24.3e9, 0.23, 120e6, -80e9
-KEYS = (
-    "flexpm yade test model material seed grains contacts nodes triangles youngs_modulus "
-    "poissons_ratio peak_stress peak_strain confinement steps step_time tensile_cracks "
-    "shear_cracks unbalanced_ratio energy_error status"
-).split()
+KEYS = [
+    "flexpm",
+    "yade",
+    "test",
+    "model",
+    "material",
+    "seed",
+    "grains",
+    "contacts",
+    "nodes",
+    "triangles",
+    "youngs_modulus",
+    "poissons_ratio",
+    "peak_stress",
+    "peak_strain",
+    "confinement",
+    "steps",
+    "step_time",
+    "tensile_cracks",
+    "shear_cracks",
+    "unbalanced_ratio",
+    "energy_error",
+    "status",
+]
 
 
 def row(**values):
@@ -184,7 +203,11 @@ def test_files_of_a_result(tmp_path):
     result.measure()
     result.write(tmp_path / "new" / "folder")
     folder = tmp_path / "new" / "folder"
-    assert sorted(os.listdir(folder)) == ["cracks.csv", "curve.csv", "result.json"]
+    assert sorted(file.name for file in folder.iterdir()) == [
+        "cracks.csv",
+        "curve.csv",
+        "result.json",
+    ]
     found = json.loads((folder / "result.json").read_text())
     assert list(found) == KEYS
     assert found["step_time"] is None
@@ -205,7 +228,9 @@ def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
     snapshot = {"crack_step": steps, "crack_mode": modes, "crack_position": places}
     cracks = cracks_from_snapshot(snapshot, record)
     assert [(c.step, c.contact, c.point, c.mode) for c in cracks] == [
-        (10, 0, 2, 2), (20, 1, 2, 1), (30, 0, 0, 1)
+        (10, 0, 2, 2),
+        (20, 1, 2, 1),
+        (30, 0, 0, 1),
     ]
     assert [c.strain for c in cracks] == pytest.approx([0.01, 0.02, 0.03])
     assert (cracks[0].x, cracks[0].y) == (4.0, 5.0)
@@ -215,12 +240,16 @@ def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
 def test_a_file_is_whole_or_keeps_its_old_content(tmp_path):
     path = tmp_path / "a.txt"
     path.write_text("old")
-    with pytest.raises(KeyboardInterrupt):
+
+    def interrupted():
         with whole_file(path) as temporary:
             temporary.write_text("half of the n")
             raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
     assert path.read_text() == "old"
-    assert os.listdir(tmp_path) == ["a.txt"]
+    assert list(tmp_path.iterdir()) == [path]
     with whole_file(path) as temporary:
         assert temporary.suffix == ".txt"
         temporary.write_text("new")

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command `flexpm`, also as `python3 -m flexpm`."""
+
+import sys
+
+from .cli import main
+
+sys.exit(main())

@@ -1,0 +1,309 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command `flexpm`: run, elastic, specimen, bench, doctor. SI units; one line for each error.
+
+Exit codes: 0 done, 1 the installation is not usable, 2 wrong input, 3 a simulation failed,
+130 interrupted, 143 terminated.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from . import __version__, cli_options, console, materials
+from .cli_options import Count, Quantity
+from .errors import InputError, SimulationError
+from .files import output_folder, write_text
+from .material_keys import check_name, nearest
+
+if TYPE_CHECKING:
+    from .specimen import Specimen
+
+#: Names of the contract; those that a version does not have yet are refused as such.
+TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+
+
+class Commands(click.Group):
+    """Group whose unknown commands name the nearest known one."""
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        """Find the command, or say which one was probably meant."""
+        if args and self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
+            known = self.list_commands(ctx)
+            raise InputError(
+                f"command = {args[0]!r}, unknown{nearest(args[0], known)}; "
+                f"known are {', '.join(known)}"
+            )
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, message="flexpm %(version)s")
+def command() -> None:
+    """Flexible particle model of rock for YADE (Azevedo, Farinha and Oliveira 2022).
+
+    All quantities are in SI units.
+    """
+
+
+@command.command()
+@click.argument("test", metavar="TEST")
+@cli_options.model_options
+@cli_options.rectangle_options
+@cli_options.packing_options
+@click.option(
+    "--confinement",
+    type=Quantity("Pa", at_least=0.0),
+    default=0.0,
+    metavar="PA",
+    show_default=True,
+    help="Lateral pressure [Pa].",
+)
+@click.option(
+    "--rate",
+    type=Quantity("", above=0.0),
+    default=1.0,
+    metavar="F",
+    show_default=True,
+    help="Factor on the loading rate [-].",
+)
+@click.option(
+    "--max-strain",
+    type=Quantity("", above=0.0),
+    metavar="E",
+    help="Axial strain at which the test ends [-].",
+)
+@click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses.")
+@click.option(
+    "--gravity",
+    type=Quantity("m/s2", at_least=0.0),
+    default=0.0,
+    metavar="G",
+    show_default=True,
+    help="Gravity, downwards [m/s2].",
+)
+@click.option(
+    "--threads",
+    type=Count(1),
+    default=1,
+    metavar="N",
+    show_default=True,
+    help="Threads of the simulation.",
+)
+@cli_options.out_option
+@cli_options.quiet_option
+def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
+    """Run a laboratory test and write its files.
+
+    TEST is uniaxial: compression along the height of a rectangular specimen.
+    """
+    check_name("test", test, TESTS)
+    model = options["model"]
+    chosen = _material(options)
+    folder = output_folder(out)
+    flexpm = _library()
+    _require("test", test, flexpm.protocols.TESTS)
+    _require("model", model, flexpm.models.MODELS)
+    settings = ("confinement", "rate", "max_strain", "dynamic", "gravity", "threads")
+    with console.Progress(quiet) as progress:
+        specimen = _rectangle(options, progress)
+        result = flexpm.run(
+            test,
+            specimen,
+            material=chosen,
+            model=model,
+            points=int(options["points"]),
+            mesh=options["mesh"],
+            out=folder,
+            progress=progress,
+            **{name: options[name] for name in settings},
+        )
+    click.echo(console.result_table(result))
+    click.echo(f"  files                   {folder}/")
+    if result.failed:
+        raise SimulationError(
+            f"status = {result.status} after {result.steps} steps, no strength was found; "
+            f"what was reached is in {folder}"
+        )
+
+
+@command.command(short_help="Elastic constants by one direct solve.")
+@cli_options.model_options
+@cli_options.rectangle_options
+@cli_options.packing_options
+@cli_options.quiet_option
+def elastic(**options: Any) -> None:
+    """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
+    model = options["model"]
+    chosen = _material(options)
+    flexpm = _library()
+    _require("model", model, flexpm.models.MODELS)
+    with console.Progress(options["quiet"]) as progress:
+        specimen = _rectangle(options, progress)
+        progress.close()
+        found = flexpm.elastic(
+            specimen, chosen, model=model, points=int(options["points"]), mesh=options["mesh"]
+        )
+    click.echo(f"{model} model, {chosen.name}, seed {options['seed']}")
+    click.echo(console.elastic_table(found))
+
+
+@command.group(cls=Commands, short_help="Make a specimen, without a test.")
+def specimen() -> None:
+    """Make a specimen without testing it: its picture and its statistics."""
+
+
+@specimen.command()
+@cli_options.rectangle_options
+@cli_options.packing_options
+@cli_options.out_option
+@cli_options.quiet_option
+def rectangle(out: Path, quiet: bool, **options: Any) -> None:
+    """A rectangular specimen, as in compression tests."""
+    folder = output_folder(out)
+    with console.Progress(quiet) as progress:
+        made = _rectangle(options, progress)
+    _describe(made, folder)
+
+
+@specimen.command()
+@cli_options.disc_options
+@cli_options.packing_options
+@cli_options.out_option
+@cli_options.quiet_option
+def disc(out: Path, quiet: bool, **options: Any) -> None:
+    """A disc, as in Brazilian tests."""
+    folder = output_folder(out)
+    _load_yade()
+    specimens = importlib.import_module("flexpm.specimen")
+    with console.Progress(quiet) as progress:
+        made = specimens.Specimen.disc(
+            diameter=options["diameter"], progress=progress, **_packing(options)
+        )
+    _describe(made, folder)
+
+
+@command.command(short_help="Time a step of the model and of JCFpm.")
+@click.option(
+    "--steps",
+    type=Count(1),
+    default=2000,
+    metavar="N",
+    show_default=True,
+    help="Steps to time for each model.",
+)
+@cli_options.quiet_option
+def bench(steps: int, quiet: bool) -> None:
+    """Time a step of the flexible model and of YADE's JCFpm on the same specimen."""
+    _library()
+    timing = importlib.import_module("flexpm.bench")
+    with console.Progress(quiet) as progress:
+        rows = timing.run(steps=steps, progress=progress)
+    click.echo(console.table(rows))
+
+
+@command.command()
+@click.pass_context
+def doctor(ctx: click.Context) -> None:
+    """Check the installation: YADE, class layouts, libraries."""
+    checks = importlib.import_module("flexpm.doctor").checks()
+    sound = True
+    for name, ok, text in checks:
+        click.echo(f"{'ok  ' if ok else 'FAIL'}  {name}: {text}")
+        sound = sound and ok
+    ctx.exit(0 if sound else 1)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with `arguments` (the process's own if None) and return its exit code."""
+    console.catch_signals()
+    try:
+        with command.make_context(
+            "flexpm", list(sys.argv[1:] if arguments is None else arguments)
+        ) as context:
+            command.invoke(context)
+        return 0
+    except click.exceptions.Exit as request:
+        return request.exit_code
+    except click.NoSuchOption as error:
+        name = error.option_name
+        hint = nearest(name, error.possibilities or [])
+        return _failed(f"option = {name!r}, unknown{hint}; see --help", 2)
+    except click.ClickException as error:
+        return _failed(error.format_message(), 2)
+    except InputError as error:
+        return _failed(error, 2)
+    except SimulationError as error:
+        return _failed(error, 3)
+    except (ImportError, OSError) as error:
+        return _failed(error, 1)
+    except (click.Abort, KeyboardInterrupt):
+        return _failed("interrupted; files that were written are whole", 130)
+    except console.Terminated:
+        return _failed("terminated; files that were written are whole", 143)
+
+
+def _failed(text: object, code: int) -> int:
+    console.error_line(str(text).removeprefix("flexpm: "))
+    return code
+
+
+def _load_yade() -> None:
+    importlib.import_module("flexpm._loading").load()
+    console.catch_signals()
+
+
+def _library() -> ModuleType:
+    """The package with YADE and all modules loaded."""
+    _load_yade()
+    for name in ("models", "protocols"):
+        importlib.import_module(f"flexpm.{name}")
+    return importlib.import_module("flexpm")
+
+
+def _require(what: str, name: str, available: Any) -> None:
+    if name not in available:
+        raise InputError(
+            f"{what} = {name!r}, is not available in flexpm {__version__}; "
+            f"available are {', '.join(available)}"
+        )
+
+
+def _material(options: dict[str, Any]) -> materials.Material:
+    """The material with its changes, checked for the model."""
+    model = options["model"]
+    chosen = materials.load(options["material"], model).with_set(options["assignments"], model)
+    chosen.law(model)
+    return chosen
+
+
+def _packing(options: dict[str, Any]) -> dict[str, Any]:
+    return {name: options[name] for name in ("thickness", "diameters", "porosity", "seed")}
+
+
+def _rectangle(options: dict[str, Any], progress: console.Progress) -> Specimen:
+    width, height = options["width"], options["height"]
+    _load_yade()
+    specimens = importlib.import_module("flexpm.specimen")
+    return specimens.Specimen.rectangle(
+        width=width, height=height, progress=progress, **_packing(options)
+    )
+
+
+def _describe(made: Specimen, folder: Path) -> None:
+    """Print the statistics of a specimen and write them with its picture."""
+    plot = importlib.import_module("flexpm.plot")
+    found = made.statistics()
+    write_text(folder / "specimen.json", json.dumps(found, indent=2) + "\n")
+    caption = f"{found['grains']} grains, {found['contacts']} contacts"
+    picture = folder / "specimen.png"
+    plot.specimen_picture(picture, plot.cell_polygons(made.tessellation), caption=caption)
+    click.echo(console.statistics_table(found))
+    click.echo(f"  files  {picture}, {folder / 'specimen.json'}")

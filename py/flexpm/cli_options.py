@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options of the command: quantities in SI units, checked before anything heavy is loaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .errors import InputError
+from .material_keys import check_name
+from .materials import ELASTIC_SET
+
+
+class Quantity(click.ParamType):
+    """A finite number with a unit and a range."""
+
+    name = "number"
+
+    def __init__(
+        self,
+        unit: str = "",
+        above: float | None = None,
+        at_least: float | None = None,
+        below: float | None = None,
+    ) -> None:
+        self.unit, self.above, self.at_least, self.below = unit, above, at_least, below
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Return the number, or raise InputError naming option, value and rule."""
+        label = f"{label_of(param)} = {value} {self.unit}".rstrip()
+        try:
+            number = float(value)
+        except ValueError:
+            raise InputError(f"{label}, must be a number") from None
+        if not math.isfinite(number):
+            raise InputError(f"{label}, must be finite")
+        if self.above is not None and not number > self.above:
+            raise InputError(f"{label}, must be > {self.above:g}")
+        if self.at_least is not None and not number >= self.at_least:
+            raise InputError(f"{label}, must be >= {self.at_least:g}")
+        if self.below is not None and not number < self.below:
+            raise InputError(f"{label}, must be < {self.below:g}")
+        return number
+
+
+class Range(click.ParamType):
+    """Two lengths DMIN,DMAX with 0 < DMIN <= DMAX."""
+
+    name = "range"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Return both lengths, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = str(value).split(",")
+        if len(parts) != 2:
+            raise InputError(f"{label_of(param)} = {value} m, must read DMIN,DMAX")
+        length = Quantity("m", above=0.0)
+        low, high = (length.convert(part.strip(), param, ctx) for part in parts)
+        if low > high:
+            raise InputError(f"{label_of(param)} = {value} m, DMIN must not exceed DMAX")
+        return low, high
+
+
+class Count(click.ParamType):
+    """A whole number of at least `at_least`."""
+
+    name = "integer"
+
+    def __init__(self, at_least: int) -> None:
+        self.at_least = at_least
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number, or raise InputError."""
+        try:
+            number = int(str(value))
+        except ValueError:
+            raise InputError(f"{label_of(param)} = {value}, must be a whole number") from None
+        if number < self.at_least:
+            raise InputError(f"{label_of(param)} = {value}, must be >= {self.at_least}")
+        return number
+
+
+class Name(click.ParamType):
+    """One of a few names; a typo names the nearest."""
+
+    name = "name"
+
+    def __init__(self, *known: str) -> None:
+        self.known = known
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name, or raise InputError with the nearest known one."""
+        check_name(label_of(param), value, self.known)
+        return value
+
+
+def label_of(param: click.Parameter | None) -> str:
+    """Name of a parameter as the user knows it."""
+    if param is None:
+        return "value"
+    return (
+        param.human_readable_name.lower()
+        if param.param_type_name == "argument"
+        else (param.opts[0].lstrip("-"))
+    )
+
+
+def combined(*options: Callable) -> Callable:
+    """One decorator that adds several options, listed in the order given."""
+
+    def decorate(function: Callable) -> Callable:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def _length(name: str, default: float, help_text: str) -> Callable:
+    return click.option(
+        name,
+        type=Quantity("m", above=0.0),
+        default=default,
+        metavar="M",
+        show_default=True,
+        help=f"{help_text} [m].",
+    )
+
+
+rectangle_options = combined(
+    _length("--width", 0.08, "Width"),
+    _length("--height", 0.16, "Height"),
+)
+packing_options = combined(
+    _length("--thickness", 0.08, "Thickness out of plane"),
+    click.option(
+        "--diameters",
+        type=Range(),
+        default=(2e-3, 4e-3),
+        metavar="DMIN,DMAX",
+        help="Smallest and largest diameter of the grains [m].  [default: 0.002,0.004]",
+    ),
+    click.option(
+        "--porosity",
+        type=Quantity("", at_least=0.0, below=1.0),
+        default=0.10,
+        metavar="N",
+        show_default=True,
+        help="Sets the number of grains [-].",
+    ),
+    click.option(
+        "--seed",
+        type=Count(0),
+        default=1,
+        metavar="N",
+        show_default=True,
+        help="Seed of the packing.",
+    ),
+)
+disc_options = _length("--diameter", 0.08, "Diameter of the disc")
+model_options = combined(
+    click.option(
+        "--model",
+        type=Name(*ELASTIC_SET),
+        default="flexible",
+        metavar="NAME",
+        show_default=True,
+        help="Model of the grains.",
+    ),
+    click.option(
+        "--material",
+        metavar="NAME|FILE",
+        help="Preset or TOML file; augig-table7 for the flexible model if not given.",
+    ),
+    click.option(
+        "--set",
+        "assignments",
+        multiple=True,
+        metavar="KEY=VALUE",
+        help="Change a value of the material; may be repeated.",
+    ),
+    click.option(
+        "--points",
+        type=Name("1", "2", "3"),
+        default="3",
+        metavar="1|2|3",
+        show_default=True,
+        help="Points in each contact.",
+    ),
+    click.option(
+        "--mesh",
+        type=Name("fan", "refined"),
+        default="refined",
+        metavar="fan|refined",
+        show_default=True,
+        help="Triangles in each grain.",
+    ),
+)
+out_option = click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    default=Path("flexpm-out"),
+    metavar="DIR",
+    show_default=True,
+    help="Folder for the files.",
+)
+quiet_option = click.option("--quiet", is_flag=True, help="Show no progress bar.")

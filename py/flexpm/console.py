@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the command shows: progress, tables in the units of the laboratory, one-line errors."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterable
+from types import FrameType, TracebackType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .results import Result
+
+
+class Terminated(BaseException):
+    """The process was asked to end (SIGTERM)."""
+
+
+def catch_signals() -> None:
+    """Let Ctrl-C and SIGTERM raise KeyboardInterrupt and Terminated in the main thread.
+
+    To be called again once YADE is loaded, which installs handlers of its own.
+    """
+
+    def terminate(number: int, frame: FrameType | None) -> None:
+        raise Terminated
+
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGTERM, terminate)
+
+
+def error_line(text: str) -> None:
+    """Write `text` as one line to stderr."""
+    print("flexpm:", " ".join(str(text).split()), file=sys.stderr)
+
+
+class Progress:
+    """Progress bar on stderr with rate and remaining time; silent unless stderr is a terminal."""
+
+    _FORMAT = (
+        "{desc} {percentage:3.0f} % |{bar}| {n:.0f}/{total:.0f} [{rate_fmt}, {remaining} left]"
+    )
+
+    def __init__(self, quiet: bool = False) -> None:
+        self._bar: Any = None
+        self._shown = sys.stderr.isatty() and not quiet
+
+    def __call__(self, done: float, expected: float, text: str = "") -> None:
+        """Show that `done` of about `expected` steps are done; `text` says of what."""
+        if not self._shown:
+            return
+        if self._bar is None or self._bar.desc != text:
+            self._restart(text)
+        self._bar.total = max(done, expected)
+        self._bar.update(done - self._bar.n)
+
+    def _restart(self, text: str) -> None:
+        from tqdm import tqdm
+
+        self.close()
+        self._bar = tqdm(
+            desc=text, total=1, unit=" steps", leave=False, bar_format=self._FORMAT, mininterval=0.2
+        )
+        self._bar.desc = text  # tqdm appends a colon
+
+    def close(self) -> None:
+        """Remove the bar from the terminal."""
+        if self._bar is not None:
+            self._bar.close()
+            self._bar = None
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def table(rows: Iterable[tuple[str, str]], title: str = "") -> str:
+    """Two columns of text: names and values."""
+    rows = list(rows)
+    width = max((len(name) for name, _ in rows), default=0)
+    lines = [f"  {name:<{width}}  {value}" for name, value in rows]
+    return "\n".join([title, *lines] if title else lines)
+
+
+def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> str:
+    """`value` times `factor` with its unit, or a dash for a missing value."""
+    if value is None:
+        return "-"
+    return f"{factor * value:#.{digits}g}".rstrip(".") + (f" {unit}" if unit else "")
+
+
+def result_table(result: Result) -> str:
+    """Short table of the outcome of a test."""
+    counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
+    rows = [
+        ("grains, contacts", f"{result.grains}, {result.contacts}"),
+        ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
+        ("Poisson's ratio", scaled(result.poissons_ratio, 1.0, "", 3)),
+        ("peak stress", scaled(result.peak_stress, 1e-6, "MPa")),
+        ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
+        ("cracked points", counts),
+        ("unbalanced-force ratio", scaled(result.unbalanced_ratio, 1.0, "", 2)),
+        ("energy error", scaled(result.energy_error, 100.0, "%", 2)),
+        ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
+        ("status", result.status),
+    ]
+    if result.confinement:
+        rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
+    name = result.material.get("name", "")
+    return table(rows, f"{result.test}, {result.model} model, {name}, seed {result.seed}")
+
+
+def statistics_table(found: dict[str, Any]) -> str:
+    """Table of what can be counted and measured in a specimen, SI units and degrees."""
+    rows = []
+    for name, value in found.items():
+        if isinstance(value, dict):
+            rows += [(f"{name} {key}", f"{number:.4g}") for key, number in value.items()]
+        else:
+            rows.append((name, str(value) if isinstance(value, int) else f"{value:.6g}"))
+    return table((name.replace("_", " "), value) for name, value in rows)
+
+
+def elastic_table(found: dict[str, float]) -> str:
+    """Table of the elastic constants found by a direct solve."""
+    rows = [
+        ("Young's modulus", scaled(found["youngs_modulus"], 1e-9, "GPa", 5)),
+        ("Poisson's ratio", scaled(found["poissons_ratio"], 1.0, "", 4)),
+    ]
+    return table(rows)
