@@ -64,16 +64,15 @@ namespace {
 		Omega::instance().getScene()->energy->add(value, name, index);
 	}
 
-	bool insertInteraction(int id1, int id2)
-	{
-		return Omega::instance().getScene()->interactions->insert(boost::make_shared<Interaction>(id1, id2));
-	}
+	bool insertInteraction(int id1, int id2) { return Omega::instance().getScene()->interactions->insert(boost::make_shared<Interaction>(id1, id2)); }
 
 } // namespace
 
 void registerBindings()
 {
-	py::def("abi_report", report, py::arg("fault") = std::string(),
+	py::def("abi_report",
+	        report,
+	        py::arg("fault") = std::string(),
 	        "Compare YADE's classes with the headers of the build: list of (class, check, ok, detail). "
 	        "`fault` falsifies one expectation ('size:State', 'vtable:State', 'attribute:State.vel'), to test the check.");
 	py::def("abi_scene", sceneAsSeen, "The current scene as the plugin's code sees it.");

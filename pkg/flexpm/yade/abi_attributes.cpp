@@ -27,15 +27,15 @@ namespace {
 	};
 
 // A value different from the default of the attribute must be given, or a wrong offset may go unnoticed.
-#define FLEXPM_SAME(Class, name, ...)                                                                                          \
-	checker.check<Class>(#Class, #name, py::object(decltype(Class::name)(__VA_ARGS__)), [](const Class& object) {          \
-		return object.name == decltype(Class::name)(__VA_ARGS__);                                                      \
+#define FLEXPM_SAME(Class, name, ...)                                                                                                                          \
+	checker.check<Class>(#Class, #name, py::object(decltype(Class::name)(__VA_ARGS__)), [](const Class& object) {                                          \
+		return object.name == decltype(Class::name)(__VA_ARGS__);                                                                                      \
 	})
 // An attribute that holds an object: both sides must see the same one.
-#define FLEXPM_SHARED(Class, name, Held)                                                                                       \
-	{                                                                                                                      \
-		const auto held = boost::dynamic_pointer_cast<Held>(ClassFactory::instance().createShared(#Held));             \
-		checker.check<Class>(#Class, #name, py::object(held), [&](const Class& object) { return object.name == held; }); \
+#define FLEXPM_SHARED(Class, name, Held)                                                                                                                       \
+	{                                                                                                                                                      \
+		const auto held = boost::dynamic_pointer_cast<Held>(ClassFactory::instance().createShared(#Held));                                             \
+		checker.check<Class>(#Class, #name, py::object(held), [&](const Class& object) { return object.name == held; });                               \
 	}
 
 	const Vector3r probe(0.5, -1.25, 2.75);
@@ -43,9 +43,8 @@ namespace {
 	void checkBody(Checker& checker)
 	{
 		const Quaternionr turned(0.5, 0.5, -0.5, 0.5);
-		checker.check<State>("State", "se3", py::make_tuple(probe, turned), [&](const State& s) {
-			return s.pos == probe && s.ori.coeffs() == turned.coeffs();
-		});
+		checker.check<State>(
+		        "State", "se3", py::make_tuple(probe, turned), [&](const State& s) { return s.pos == probe && s.ori.coeffs() == turned.coeffs(); });
 		FLEXPM_SAME(State, vel, probe);
 		FLEXPM_SAME(State, mass, 3.5);
 		FLEXPM_SAME(State, angVel, probe);

@@ -102,8 +102,8 @@ Findings checkTables(const std::string& fault)
 {
 	Findings found;
 	forEachCreated([&](const char* name, auto tag) {
-		using Class               = typename decltype(tag)::type;
-		const std::type_info& ours = fault == name ? probeType<Serializable>() : probeType<Class>();
+		using Class                  = typename decltype(tag)::type;
+		const std::type_info& ours   = fault == name ? probeType<Serializable>() : probeType<Class>();
 		const VirtualTable    theirs = yadeTable(typeid(Class));
 		const std::string     wrong  = difference(theirs, pluginTable(ours));
 		found.push_back({ name, "vtable", wrong.empty(), wrong.empty() ? std::to_string(theirs.slots) + " slots" : wrong });

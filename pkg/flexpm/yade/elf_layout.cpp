@@ -47,8 +47,7 @@ namespace {
 	bool isOwnOfEachClass(const std::string& symbol)
 	{
 		if (startsWith(symbol, "_ZTI")) return true;
-		return symbol.find("D0Ev") != std::string::npos || symbol.find("D1Ev") != std::string::npos
-		        || symbol.find("D2Ev") != std::string::npos;
+		return symbol.find("D0Ev") != std::string::npos || symbol.find("D1Ev") != std::string::npos || symbol.find("D2Ev") != std::string::npos;
 	}
 
 } // namespace
@@ -58,19 +57,19 @@ SizeWindow anySize() { return { sizeof(void*), 1U << 16 }; }
 SizeWindow blockWindow(void* block)
 {
 	const std::size_t usable = malloc_usable_size(block);
-	return { usable > 15 ? usable - 15 : 1, usable }; // glibc rounds up to 16 k + 8
+	return { usable > 31 ? usable - 31 : 1, usable }; // glibc rounds up to 16 k + 8 and may add a rest of 16
 }
 
 std::size_t factorySize(const std::string& name, SizeWindow window)
 {
 #if defined(__x86_64__)
 	const std::string function = "Create" + name;
-	void* code = dlsym(RTLD_DEFAULT, ("_ZN4yade" + std::to_string(function.size()) + function + "Ev").c_str());
+	void*             code     = dlsym(RTLD_DEFAULT, ("_ZN4yade" + std::to_string(function.size()) + function + "Ev").c_str());
 	if (!code) return 0;
 	const auto*       byte   = static_cast<const unsigned char*>(code);
 	const std::size_t length = symbolSize(code);
 	for (std::size_t i = 0; i + 5 <= length; ++i) {
-		if (byte[i] == 0xe8) return 0;  // first call reached: it is operator new, and no size was seen before it
+		if (byte[i] == 0xe8) return 0; // first call reached: it is operator new, and no size was seen before it
 		if (byte[i] != 0xbf) continue; // mov $imm32, %edi: first argument of the call
 		std::uint32_t size;
 		std::memcpy(&size, byte + i + 1, sizeof size);
@@ -91,11 +90,15 @@ std::string difference(VirtualTable yade, VirtualTable plugin)
 {
 	if (yade.slots == 0) return "no virtual table in YADE's libraries";
 	if (plugin.slots == 0) return "no virtual table in the plugin";
-	if (yade.slots != plugin.slots) { return std::to_string(yade.slots) + " slots in YADE, " + std::to_string(plugin.slots) + " in its headers"; }
+	if (yade.slots != plugin.slots) {
+		return std::to_string(yade.slots) + " slots in YADE, " + std::to_string(plugin.slots) + " in its headers";
+	}
 	for (int i = 0; i < yade.slots; ++i) {
 		if (yade.begin[i] == plugin.begin[i]) continue;
 		const std::string ours = symbolName(plugin.begin[i]), theirs = symbolName(yade.begin[i]);
-		if (!isOwnOfEachClass(ours) || !isOwnOfEachClass(theirs)) { return "slot " + std::to_string(i) + " is " + theirs + " in YADE, " + ours + " in its headers"; }
+		if (!isOwnOfEachClass(ours) || !isOwnOfEachClass(theirs)) {
+			return "slot " + std::to_string(i) + " is " + theirs + " in YADE, " + ours + " in its headers";
+		}
 	}
 	return "";
 }
