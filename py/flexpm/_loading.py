@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 _PRECISION = "yade-double"
-_REMEDY = "rebuild flexpm against the installed YADE (scripts/setup)"
+REMEDY = "rebuild flexpm against the installed YADE (scripts/setup)"
 
 _classes: list[str] | None = None
 
@@ -31,7 +31,7 @@ def load() -> list[str]:
     if _classes is None:
         yade = import_yade()
         require_double(yade.config.libDir)
-        module = _import_module()
+        module = import_plugin()
         require_same_layout(module.abi_report())
         _classes = _register(yade, module)
     return list(_classes)
@@ -95,16 +95,24 @@ def require_same_layout(report: list[tuple[str, str, bool, str]]) -> None:
     """
     for name, check, ok, detail in report:
         if not ok:
-            raise ImportError(f"flexpm: YADE class {name}: {check} differs: {detail}; {_REMEDY}")
+            raise ImportError(f"flexpm: YADE class {name}: {check} differs: {detail}; {REMEDY}")
 
 
-def _import_module() -> ModuleType:
+def import_plugin() -> ModuleType:
+    """Import the compiled module; YADE must be imported before.
+
+    Returns:
+        The module ``flexpm._flexpm``, its classes not yet registered.
+
+    Raises:
+        ImportError: if it is not built or does not fit YADE's libraries.
+    """
     try:
         return importlib.import_module("flexpm._flexpm")
     except ImportError as error:
         if isinstance(error, ModuleNotFoundError):
             raise ImportError("flexpm: _flexpm is not built; run scripts/setup") from error
-        raise ImportError(f"flexpm: _flexpm does not fit YADE ({error}); {_REMEDY}") from error
+        raise ImportError(f"flexpm: _flexpm does not fit YADE ({error}); {REMEDY}") from error
 
 
 def _register(yade: ModuleType, module: ModuleType) -> list[str]:

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Common to all Python tests: one thread for reproducible times, and a clean scene for each test."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+# must be set before YADE is loaded; scripts/test sets it too
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(autouse=True)
+def _clean_scene() -> Iterator[None]:
+    yield
+    if "yade" in sys.modules:
+        sys.modules["yade"].wrapper.Omega().reset()
+
+
+@pytest.fixture(scope="session")
+def package_parent() -> Path:
+    """Folder that holds the package under test, for the PYTHONPATH of child processes."""
+    import flexpm
+
+    return Path(flexpm.__file__).parent.parent
