@@ -163,22 +163,24 @@ def specimen() -> None:
 @specimen.command()
 @cli_options.rectangle_options
 @cli_options.packing_options
+@cli_options.drawn_mesh_option
 @cli_options.out_option
 @cli_options.quiet_option
-def rectangle(out: Path, quiet: bool, **options: Any) -> None:
+def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = output_folder(out)
     with console.Progress(quiet) as progress:
         made = _rectangle(options, progress)
-    _describe(made, folder)
+    _describe(made, folder, mesh)
 
 
 @specimen.command()
 @cli_options.disc_options
 @cli_options.packing_options
+@cli_options.drawn_mesh_option
 @cli_options.out_option
 @cli_options.quiet_option
-def disc(out: Path, quiet: bool, **options: Any) -> None:
+def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = output_folder(out)
     _load_yade()
@@ -187,7 +189,7 @@ def disc(out: Path, quiet: bool, **options: Any) -> None:
         made = specimens.Specimen.disc(
             diameter=options["diameter"], progress=progress, **_packing(options)
         )
-    _describe(made, folder)
+    _describe(made, folder, mesh)
 
 
 @command.command(short_help="Time a step of the model and of JCFpm.")
@@ -297,13 +299,14 @@ def _rectangle(options: dict[str, Any], progress: console.Progress) -> Specimen:
     )
 
 
-def _describe(made: Specimen, folder: Path) -> None:
+def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     """Print the statistics of a specimen and write them with its picture."""
     plot = importlib.import_module("flexpm.plot")
     found = made.statistics()
     write_text(folder / "specimen.json", json.dumps(found, indent=2) + "\n")
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
-    plot.specimen_picture(picture, plot.cell_polygons(made.tessellation), caption=caption)
+    triangles = plot.mesh_triangles(made.meshes(mesh)) if mesh else None
+    plot.specimen_picture(picture, plot.cell_polygons(made.tessellation), triangles, caption)
     click.echo(console.statistics_table(found))
     click.echo(f"  files  {picture}, {folder / 'specimen.json'}")

@@ -205,6 +205,12 @@ model_options = combined(
         help="Triangles in each grain.",
     ),
 )
+drawn_mesh_option = click.option(
+    "--mesh",
+    type=Name("fan", "refined"),
+    metavar="fan|refined",
+    help="Draw this mesh in the grains.",
+)
 out_option = click.option(
     "--out",
     type=click.Path(path_type=Path),

@@ -123,6 +123,12 @@ def cell_polygons(tessellation: Any) -> list[np.ndarray]:
     return np.split(corners, tessellation.cell_offsets[1:-1])
 
 
+def mesh_triangles(meshes: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (N, 2) [m] and triangles (M, 3) of all grains from the meshes of each."""
+    offsets = np.repeat(meshes.node_offsets[:-1], np.diff(meshes.triangle_offsets))
+    return np.asarray(meshes.nodes), np.asarray(meshes.triangles) + offsets[:, None]
+
+
 def grain_corners(triangles: np.ndarray) -> list[np.ndarray]:
     """Outer nodes of each grain in order, from its counter-clockwise triangles.
 
