@@ -166,8 +166,10 @@ advance_point(const LawParameters& p, double opening_step, double slip_step, Poi
     const double new_limit = std::max(limit - softening * damaging, 0.0);
     const double shear_size = excess > 0.0 ? std::min(size, new_limit) : size;
     const double slip = (size - shear_size) / p.shear_stiffness;
+    // both tests: round-off in `slip`, and brittle shear under tension, which slips less than slip_left
+    const bool used_up = (damaging >= slip_left) | (slip >= slip_left);
     const double shear_damage = excess > 0.0
-        ? (slip >= slip_left ? 1.0 : s.shear_damage + slip / p.critical_slip)
+        ? (used_up ? 1.0 : s.shear_damage + slip / p.critical_slip)
         : s.shear_damage;
     const double after = std::min(normal_part + shear_damage, 1.0);
     const double normal = law::normal_traction(p, opening, reach, after);
