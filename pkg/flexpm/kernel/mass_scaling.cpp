@@ -48,13 +48,18 @@ void add_contact(const Assembly& a, int contact, Array<double>& bound)
 {
     const LawParameters& law = a.laws[a.contact_law[contact]];
     for (int p = 0; p < a.points; ++p) {
-        const double k = 2.0 * (law.normal_stiffness + law.shear_stiffness)
+        // sizes of the weights: 2 in all, more where a point beyond its edge extrapolates
+        double sizes = 0.0;
+        for (int side = 0; side < 2; ++side) {
+            const double w = a.weight[row_index(contact, 2 * p + side, 2 * a.points)];
+            sizes += std::fabs(1.0 - w) + std::fabs(w);
+        }
+        const double k = sizes * (law.normal_stiffness + law.shear_stiffness)
             * a.area[row_index(contact, p, a.points)];
         for (int side = 0; side < 2; ++side) {
             const double w = a.weight[row_index(contact, 2 * p + side, 2 * a.points)];
             const int n0 = a.contact_nodes[row_index(contact, 2 * side, ContactRows::nodes)];
             const int n1 = a.contact_nodes[row_index(contact, 2 * side + 1, ContactRows::nodes)];
-            // extrapolated weights may be negative: their size counts
             bound[scalar_index(n0)] += k * std::fabs(1.0 - w);
             bound[scalar_index(n1)] += k * std::fabs(w);
         }
