@@ -51,16 +51,21 @@ class Progress:
         if not self._shown:
             return
         if self._bar is None or self._bar.desc != text:
-            self._restart(text)
+            self._restart(text, expected)
         self._bar.total = max(done, expected)
         self._bar.update(done - self._bar.n)
 
-    def _restart(self, text: str) -> None:
+    def _restart(self, text: str, expected: float) -> None:
         from tqdm import tqdm
 
         self.close()
         self._bar = tqdm(
-            desc=text, total=1, unit=" steps", leave=False, bar_format=self._FORMAT, mininterval=0.2
+            desc=text,
+            total=max(expected, 1),
+            unit=" steps",
+            leave=False,
+            bar_format=self._FORMAT,
+            mininterval=0.2,
         )
         self._bar.desc = text  # tqdm appends a colon
 
