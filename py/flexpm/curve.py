@@ -2,8 +2,8 @@
 """Record of a test step by step, and the measures taken from it, paper Sec. 4. SI units.
 
 Axial stress and strain count positive in the sense of the loading: compression in compression
-tests, tension in tension tests. The lateral strain has the sign of the axial one, so a specimen
-that bulges under compression has a negative lateral strain.
+tests, tension in tension tests. The lateral strain is positive as Poisson's effect: widening in
+compression tests, narrowing in tension tests.
 """
 
 from __future__ import annotations
@@ -127,10 +127,9 @@ def youngs_modulus(curve: Curve) -> float | None:
 
 
 def poissons_ratio(curve: Curve) -> float | None:
-    """Minus the slope of lateral over axial strain in the elastic window [-]."""
+    """Slope of lateral over axial strain in the elastic window [-], by least squares."""
     rows = elastic_rows(curve)
-    slope = _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
-    return None if slope is None else -slope
+    return _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
 
 
 def softening_slope(curve: Curve) -> float | None:

@@ -59,7 +59,7 @@ def triangular_record(confinement=0.0, last_stress=0.4 * PEAK):
             **row(
                 step=10 * step,
                 axial_strain=strain,
-                lateral_strain=-POISSON * strain,
+                lateral_strain=POISSON * strain,
                 axial_stress=stress + confinement,
                 confinement=confinement,
                 unbalanced_ratio=0.5 if past or strain < 1e-6 else 1e-3,
