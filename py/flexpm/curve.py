@@ -8,6 +8,8 @@ compression tests, narrowing in tension tests.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 #: Columns of the record: the columns of curve.csv.
@@ -80,6 +82,12 @@ class Curve:
         curve._data = np.concatenate([array, np.empty((256, len(COLUMNS)))])
         return curve
 
+    @classmethod
+    def from_columns(cls, names: Sequence[str], rows: np.ndarray) -> Curve:
+        """Take the record's columns from `rows` (rows, columns) whose columns have `names`."""
+        rows = np.asarray(rows, dtype=float).reshape(-1, len(names))
+        return cls.from_array(rows[:, [list(names).index(column) for column in COLUMNS]])
+
     def csv(self) -> str:
         """The record as CSV text; numbers are written so that they read back unchanged."""
         lines = [",".join(COLUMNS)]
@@ -143,8 +151,13 @@ def softening_slope(curve: Curve) -> float | None:
     return _slope(curve["axial_strain"][rows], stress[rows], fewest=2)
 
 
-def energy_error(curve: Curve) -> float | None:
-    """Largest |work + initial energy - sum of the energies| over the largest |work| [-]."""
+def energy_error(curve: Curve, initial: float | None = None) -> float | None:
+    """Largest |work + initial energy - sum of the energies| over the largest |work| [-].
+
+    Args:
+        curve: The record.
+        initial: Energy when the work began to count [J]; if None, as the first row has it.
+    """
     work = curve["boundary_work"]
     total = sum(curve[name] for name in ENERGIES)
     if len(work) == 0 or not np.all(np.isfinite(total + work)):
@@ -152,7 +165,8 @@ def energy_error(curve: Curve) -> float | None:
     largest = np.max(np.abs(work))
     if not largest > 0.0:
         return None
-    initial = total[0] - work[0]
+    if initial is None:
+        initial = total[0] - work[0]
     return float(np.max(np.abs(work + initial - total)) / largest)
 
 

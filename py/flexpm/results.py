@@ -79,10 +79,17 @@ class Result:
         """Slope of stress over strain after the peak [Pa], negative."""
         return measures.softening_slope(self.curve)
 
-    def measure(self, *, diverged: bool = False, max_unbalanced: float = QUASISTATIC_RATIO) -> None:
+    def measure(
+        self,
+        *,
+        initial_energy: float | None = None,
+        diverged: bool = False,
+        max_unbalanced: float = QUASISTATIC_RATIO,
+    ) -> None:
         """Fill the measured quantities and the status from `curve`.
 
         Args:
+            initial_energy: Energy when the work began to count [J]; if None, from the first row.
             diverged: The simulation met a number that is not finite.
             max_unbalanced: Largest unbalanced-force ratio taken as quasi-static [-].
         """
@@ -90,7 +97,7 @@ class Result:
         self.youngs_modulus = measures.youngs_modulus(record)
         self.poissons_ratio = measures.poissons_ratio(record)
         self.unbalanced_ratio = measures.unbalanced_ratio(record)
-        self.energy_error = measures.energy_error(record)
+        self.energy_error = measures.energy_error(record, initial_energy)
         if len(record):
             self.steps = int(record["step"][-1])
             self.confinement = float(record["confinement"][-1])

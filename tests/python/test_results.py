@@ -161,6 +161,21 @@ def test_energy_error_is_the_share_of_the_work_that_is_missing():
     assert measures.energy_error(Curve.from_array(record.array[:1])) is None
 
 
+def test_energy_that_was_lost_before_the_first_row_counts_if_the_start_is_known():
+    record = triangular_record()
+    assert measures.energy_error(record, initial=7.0) == pytest.approx(0.0, abs=1e-12)
+    largest = record["boundary_work"].max()
+    found = measures.energy_error(record, initial=7.0 + 0.02 * largest)
+    assert found == pytest.approx(0.02, rel=1e-9)
+
+
+def test_columns_are_taken_by_name():
+    record = triangular_record()
+    names = ["end_mismatch", *reversed(COLUMNS)]
+    rows = np.column_stack([np.ones(len(record)), record.array[:, ::-1]])
+    assert np.array_equal(Curve.from_columns(names, rows).array, record.array)
+
+
 @pytest.mark.parametrize("rows", [0, 1, 2])
 def test_short_records_give_none_and_not_zero(rows):
     result = result_of(Curve.from_array(triangular_record().array[:rows]))
