@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Common to all Python tests: one thread for reproducible times, and a clean scene for each test."""
+"""Common to all Python tests: one thread, and a clean scene for each test."""
 
 from __future__ import annotations
 

@@ -23,8 +23,10 @@ def _load_classes() -> None:
 
 def _is_command() -> bool:
     # `python -m flexpm`: help and wrong input are answered without waiting for YADE
-    options = sys.orig_argv[1:]
-    return sys.argv[:1] == ["-m"] and "-m" in options and "flexpm" in options[options.index("-m") :][1:2]
+    if sys.argv[:1] != ["-m"]:
+        return False
+    options = sys.orig_argv
+    return "-m" in options and options[options.index("-m") + 1] == "flexpm"
 
 
 if not _is_command():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loads YADE and the plugin's classes into this process, silently, after checking that their layouts agree."""
+"""Loads YADE and the plugin's classes, silently, after checking that their layouts agree."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def yade_folder() -> Path:
 
 
 def require_double(library_folder: str) -> None:
-    """Check that YADE computes in double precision: the other builds lay out their classes differently.
+    """Check that YADE computes in double precision: other builds have other class layouts.
 
     Args:
         library_folder: ``yade.config.libDir`` of the running YADE.

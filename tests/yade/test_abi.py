@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from flexpm import _flexpm, _loading
 
 SIZES = {name: detail for name, check, _, detail in _flexpm.abi_report() if check == "size"}
@@ -46,7 +47,9 @@ def test_wrong_size_is_caught(name: str) -> None:
     assert f"{size} bytes in YADE, {size + 8} in its headers" == failed[0][3]
 
 
-@pytest.mark.parametrize("name", ["State", "Body", "Shape", "GlobalEngine", "BoundFunctor", "ScGeom"])
+@pytest.mark.parametrize(
+    "name", ["State", "Body", "Shape", "GlobalEngine", "BoundFunctor", "ScGeom"]
+)
 def test_wrong_virtual_table_is_caught(name: str) -> None:
     failed = [row for row in rows(f"vtable:{name}") if not row[2]]
     assert [row[:2] for row in failed] == [(name, "vtable")]
@@ -80,8 +83,15 @@ def test_size_read_from_code_equals_disassembly(name: str) -> None:
     import yade
 
     library = Path(yade.config.libDir) / "libyade.so"
-    command = ["objdump", "-d", "--no-show-raw-insn", f"--disassemble=_ZN4yade{6 + len(name)}Create{name}Ev"]
-    text = subprocess.run([*command, str(library)], capture_output=True, text=True, check=True).stdout
+    command = [
+        "objdump",
+        "-d",
+        "--no-show-raw-insn",
+        f"--disassemble=_ZN4yade{6 + len(name)}Create{name}Ev",
+    ]
+    text = subprocess.run(
+        [*command, str(library)], capture_output=True, text=True, check=True
+    ).stdout
     size = int(re.search(r"mov\s+\$0x([0-9a-f]+),%edi", text).group(1), 16)
     assert SIZES[name] == f"{size} bytes"
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import importlib.util
 
 import pytest
+
 from flexpm import _flexpm, _loading, doctor
 
 
