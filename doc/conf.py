@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sphinx settings. The documentation builds without the plugin, without YADE and without network."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+
+PACKAGE = Path(__file__).resolve().parent.parent / "py"
+
+project = "flexpm"
+author = "The flexpm developers"
+copyright = author  # noqa: A001 - the name that Sphinx asks for
+release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "__init__.py").read_text())[1]
+exclude_patterns = ["_build"]
+html_theme = "alabaster"
+html_theme_options = {"page_width": "62em", "body_max_width": "48em", "fixed_sidebar": True}
+html_show_sourcelink = False
+nitpicky = True
+
+
+class CommandHelp(Directive):
+    """The help text of a command, as the command itself prints it."""
+
+    required_arguments = 0
+    optional_arguments = 1
+    final_argument_whitespace = True
+
+    def run(self) -> list[nodes.Node]:
+        """Run the command and quote its output."""
+        command = " ".join(self.arguments).split()
+        text = subprocess.run(
+            [sys.executable, "-P", "-m", "flexpm", *command, "--help"],
+            env={**os.environ, "PYTHONPATH": str(PACKAGE), "COLUMNS": "80"},
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+        return [nodes.literal_block(text, text, language="none")]
+
+
+class PresetTable(Directive):
+    """The presets as their files stand, one after the other."""
+
+    def run(self) -> list[nodes.Node]:
+        """Quote the presets without their licence lines."""
+        found = []
+        for path in sorted((PACKAGE / "flexpm" / "presets").glob("*.toml")):
+            text = "\n".join(path.read_text().splitlines()[1:])
+            found.append(nodes.literal_block(text, text, language="toml"))
+        return found
+
+
+def setup(app: object) -> None:
+    """Register the directives of this documentation."""
+    app.add_directive("command-help", CommandHelp)
+    app.add_directive("presets", PresetTable)
