@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sphinx settings. The documentation builds without the plugin, without YADE and without network."""
+"""Sphinx settings. The pages build without the plugin, without YADE and without network."""
 
 import os
 import re
@@ -14,7 +14,7 @@ PACKAGE = Path(__file__).resolve().parent.parent / "py"
 
 project = "flexpm"
 author = "The flexpm developers"
-copyright = author  # noqa: A001 - the name that Sphinx asks for
+copyright = author
 release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "__init__.py").read_text())[1]
 exclude_patterns = ["_build"]
 html_theme = "alabaster"

@@ -2,6 +2,8 @@
 """A wall of rectangular grains under a known affine displacement, as the solver would report it."""
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 WIDTH, HEIGHT = 2e-3, 3e-3
 GRADIENT = np.array([[-2e-4, 3e-4], [1e-4, -1e-3]])  #: displacement gradient [-]
@@ -57,3 +59,20 @@ def wall(columns=3, rows=4, points=3):
 def moved(places):
     """Deformed positions of `places`."""
     return places + places @ GRADIENT.T
+
+
+def read_vtu(path):
+    """Grid, arrays over points and arrays over cells of a file, by VTK's own reader."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    arrays = []
+    for data in (grid.GetPointData(), grid.GetCellData()):
+        arrays.append(
+            {
+                data.GetArrayName(number): vtk_to_numpy(data.GetArray(number))
+                for number in range(data.GetNumberOfArrays())
+            }
+        )
+    return grid, *arrays

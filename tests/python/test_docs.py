@@ -6,10 +6,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from sample_snapshot import wall
+
 from flexpm.curve import COLUMNS
 from flexpm.export import cell_arrays, point_arrays
 from flexpm.results import Crack, Result
-from sample_snapshot import wall
 
 ROOT = Path(__file__).resolve().parents[2]
 DOC = ROOT / "doc"

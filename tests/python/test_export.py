@@ -7,28 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sample_snapshot import GRADIENT, STRESS, wall
+from sample_snapshot import GRADIENT, STRESS, read_vtu, wall
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_TRIANGLE
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from flexpm.export import CONTACT, GRAIN, principal_stresses, write_vtu
-
-
-def read(path):
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    arrays = []
-    for data in (grid.GetPointData(), grid.GetCellData()):
-        arrays.append(
-            {
-                data.GetArrayName(number): vtk_to_numpy(data.GetArray(number))
-                for number in range(data.GetNumberOfArrays())
-            }
-        )
-    return grid, *arrays
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +20,7 @@ def written(tmp_path_factory):
     path = tmp_path_factory.mktemp("vtu") / "final.vtu"
     write_vtu(path, snapshot)
     assert [file.name for file in path.parent.iterdir()] == ["final.vtu"]
-    return snapshot, *read(path)
+    return snapshot, *read_vtu(path)
 
 
 def test_geometry_is_the_deformed_specimen(written):
@@ -106,13 +89,13 @@ def test_contacts(written):
 def test_any_number_of_points(tmp_path, points):
     snapshot = wall(points=points)
     write_vtu(tmp_path / "a.vtu", snapshot)
-    _, _, cells = read(tmp_path / "a.vtu")
+    _, _, cells = read_vtu(tmp_path / "a.vtu")
     assert cells["point_opening"].reshape(len(cells["kind"]), -1).shape[1] == points
 
 
 def test_a_specimen_without_contacts(tmp_path):
     write_vtu(tmp_path / "a.vtu", wall(columns=1, rows=1))
-    grid, _, cells = read(tmp_path / "a.vtu")
+    grid, _, cells = read_vtu(tmp_path / "a.vtu")
     assert grid.GetNumberOfCells() == 4
     assert np.all(cells["kind"] == GRAIN)
 
@@ -121,7 +104,7 @@ def test_plane_strain_carries_its_out_of_plane_stress(tmp_path):
     snapshot = wall()
     snapshot["triangle_stress_zz"] = 0.23 * snapshot["triangle_stress"][:, :2].sum(axis=1)
     write_vtu(tmp_path / "a.vtu", snapshot)
-    _, _, cells = read(tmp_path / "a.vtu")
+    _, _, cells = read_vtu(tmp_path / "a.vtu")
     triangles = len(snapshot["triangles"])
     assert np.array_equal(cells["stress"][:triangles, 2], snapshot["triangle_stress_zz"])
 
