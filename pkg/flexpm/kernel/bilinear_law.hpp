@@ -178,13 +178,12 @@ advance_point(const LawParameters& p, double opening_step, double slip_step, Poi
     const double opening_loss = law::opening_dissipation(p, reach, s.shear_damage)
         - law::opening_dissipation(p, s.max_opening, s.shear_damage);
     const double secant_loss = 0.5 * opening * (first_normal - normal);
-    // shear: plastic slip starts at the limit, or at the traction before if the limit fell below it;
-    // the mean with its end is the path's own work. What friction does not take is damage.
+    // shear: the trapezoidal work of the step less what it stores, never below zero (a reversal in
+    // one step); what friction does not take is damage
     const double along = std::copysign(1.0, trial) * s.shear_traction;
-    const double start = std::max(std::max(limit, 0.0), along);
-    const double shear_loss = 0.5 * (start + shear_size) * slip;
+    const double shear_loss = 0.5 * std::max(along + shear_size, 0.0) * slip;
     const double resisted = std::max(-p.friction * first_normal, 0.0) * slip;
-    const double friction_loss = before >= 1.0 ? shear_loss : resisted;
+    const double friction_loss = before >= 1.0 ? shear_loss : std::min(resisted, shear_loss);
 
     s.opening = opening;
     s.max_opening = reach;
