@@ -84,13 +84,13 @@ TEST_CASE("Slip under pressure dissipates G_fs in damage and mu sigma_n times th
         path.slip_to(end, 2000);
         const double rubbed = end - m.friction * pressure / shear_stiffness(m);
         CHECK(path.cracked());
-        // but for the one step in which the point cracks, the books are exact: second order
-        CHECK(path.state.damage_energy == Approx(m.shear_fracture_energy).epsilon(1e-6));
+        // second order: the step that crosses the peak, and the one in which the point cracks
+        CHECK(path.state.damage_energy == Approx(m.shear_fracture_energy).epsilon(1e-5));
         CHECK(path.state.friction_energy
             == Approx(m.friction * pressure * rubbed).epsilon(1e-10).margin(1e-9));
         CHECK(path.traction.shear == Approx(m.friction * pressure).epsilon(1e-12).margin(1e-6));
         const double stored = 0.5 * path.traction.shear * path.traction.shear / shear_stiffness(m);
-        CHECK(path.work - before == Approx(path.dissipated() + stored).epsilon(1e-6));
+        CHECK(path.work - before == Approx(path.dissipated() + stored).epsilon(1e-5));
     }
 }
 
