@@ -90,6 +90,9 @@ struct Assembly {
     std::vector<int> gather_first;
     std::vector<int> gather;
 
+    /// Current positions [m]; empty until a script asks for them, then kept up to date by each step.
+    Array<double> shown_position;
+
     // sums that only grow; energies in J. Per block of grains unless said.
     Array<double> damping_work;       ///< [block][done, second half of the last step]
     Array<double> driven_work;        ///< the same for nodes with prescribed velocity

@@ -133,6 +133,13 @@ double sum(const double* values)
     return total;
 }
 
+void show_positions(Assembly& a, int first, int count)
+{
+    for (int i = first; i < first + count; ++i) {
+        a.shown_position[i] = a.reference[i] + a.displacement[i];
+    }
+}
+
 void update_grain_block(Assembly& a, int block, const StepOptions& options)
 {
     const int first = a.block_nodes[block];
@@ -147,6 +154,8 @@ void update_grain_block(Assembly& a, int block, const StepOptions& options)
     Sums sums;
     (options.measure ? integrate_measured : integrate)(rows, options.dt, options.damping, sums);
 
+    if (!a.shown_position.empty()) show_positions(a, first, 2 * lanes * group.nodes);
+
     double* damped = a.damping_work.data() + 2 * block;
     double* driven = a.driven_work.data() + 2 * block;
     damped[0] += damped[1] + sum(sums.damped);
@@ -160,6 +169,12 @@ void update_grain_block(Assembly& a, int block, const StepOptions& options)
 }
 
 }  // namespace
+
+void show_positions(Assembly& a)
+{
+    a.shown_position.resize(a.reference.size());
+    show_positions(a, 0, static_cast<int>(a.reference.size()));
+}
 
 void step(Assembly& a, const StepOptions& options)
 {

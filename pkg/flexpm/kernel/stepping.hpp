@@ -19,4 +19,7 @@ struct StepOptions {
 
 void step(Assembly& a, const StepOptions& options);
 
+/// Fill `shown_position` and keep it up to date from now on.
+void show_positions(Assembly& a);
+
 }  // namespace flexpm

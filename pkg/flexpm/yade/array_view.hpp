@@ -54,6 +54,13 @@ template <class T> boost::python::object dense_view(const T* data, std::size_t r
 	return array_view(data, { n, columns }, { columns * size, size }, owner, access);
 }
 
+/// numpy array with its own copy of the values; one axis if columns is 0.
+template <class T> boost::python::object copied(const std::vector<T>& values, int columns)
+{
+	const std::size_t rows = columns == 0 ? values.size() : values.size() / columns;
+	return dense_view(values.data(), rows, columns, boost::python::object(), Access::readOnly).attr("copy")();
+}
+
 /// Read access to a C-contiguous buffer of doubles or 32-bit integers (a numpy array) for the time of a call.
 template <class T> class InputArray {
 public:

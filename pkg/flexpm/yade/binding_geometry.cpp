@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Python access to the geometry of a specimen: radii, insertion, tessellation, grain meshes (paper Sec. 3.1).
 #include <flexpm/yade/array_view.hpp>
+#include <flexpm/yade/binding_discs.hpp>
 #include <flexpm/yade/bindings.hpp>
 
 #include <flexpm/kernel/grain_mesh.hpp>
@@ -66,6 +67,8 @@ std::vector<double> numbers(const py::object& array, const char* name)
 	return { input.data(), input.data() + input.size(0) };
 }
 
+} // namespace
+
 std::vector<flexpm::Disc> discs(const py::object& centres, const py::object& radii)
 {
 	const auto c = points(centres, "centres");
@@ -78,10 +81,7 @@ std::vector<flexpm::Disc> discs(const py::object& centres, const py::object& rad
 	return result;
 }
 
-py::object ownedCopy(const double* data, std::size_t count, int columns)
-{
-	return dense_view(data, count, columns, py::object(), Access::readOnly).attr("copy")();
-}
+namespace {
 
 flexpm::Outline polygon(py::object corners) { return flexpm::Outline::polygon(points(corners, "corners")); }
 
@@ -92,13 +92,13 @@ bool containsPoint(const flexpm::Outline& outline, double x, double y) { return 
 py::object discRadii(int count, double dMin, double dMax, std::uint64_t seed)
 {
 	const auto radii = flexpm::disc_radii(count, dMin, dMax, seed);
-	return ownedCopy(radii.data(), radii.size(), 0);
+	return copied(radii, 0);
 }
 
 py::object insertDiscs(py::object radii, const flexpm::Outline& outline, double shrink, std::uint64_t seed)
 {
 	const auto centres = flexpm::insert_discs(numbers(radii, "radii"), outline, shrink, seed);
-	return ownedCopy(reinterpret_cast<const double*>(centres.data()), centres.size(), 2);
+	return dense_view(reinterpret_cast<const double*>(centres.data()), centres.size(), 2, py::object(), Access::readOnly).attr("copy")();
 }
 
 std::shared_ptr<Tessellation> tessellate(py::object centres, py::object radii, const flexpm::Outline& outline, double shortEdge, bool allowHidden)
@@ -111,7 +111,7 @@ py::object cellAreas(const Tessellation& tessellation)
 	std::vector<double> areas;
 	for (int cell = 0; cell < tessellation.cells(); ++cell)
 		areas.push_back(flexpm::cell_area(tessellation, cell));
-	return ownedCopy(areas.data(), areas.size(), 0);
+	return copied(areas, 0);
 }
 
 std::shared_ptr<GrainMeshes> grainMeshes(const Tessellation& tessellation, py::object centres, py::object radii, const std::string& kind)

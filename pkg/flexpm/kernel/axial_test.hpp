@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Axial loading of a rectangle between its bottom and top: what a test measures, when it ends,
+/// and how fast it may be driven, paper Sec. 4.1. Stress and strain are magnitudes: positive in
+/// compression, or in tension in a tension test.
+/// Deviation D5: the printed velocity of 6.25e-7 m/s is not metres per unit step; the rate follows
+/// from the slowest wave through the scaled masses.
+#pragma once
+
+#include <flexpm/kernel/measures.hpp>
+
+#include <cstdint>
+
+namespace flexpm {
+
+/// Sides of a rectangle, in the order of its outline.
+enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 3 };
+
+enum class Sense { compression, tension };
+
+/// Reference size of the specimen [m].
+struct AxialGeometry {
+    double width = 0.0;
+    double height = 0.0;
+    Sense sense = Sense::compression;
+};
+
+/// One row of the test's record.
+struct AxialObservation {
+    std::int64_t step = 0;
+    double axial_strain = 0.0;    ///< from the mean displacements of top and bottom [-]
+    double lateral_strain = 0.0;  ///< from those of left and right; positive as Poisson's effect [-]
+    double axial_stress = 0.0;    ///< reaction of the top / initial area [Pa]
+    double confinement = 0.0;     ///< pressure on the right side [Pa]
+    double end_mismatch = 0.0;    ///< |sum of both ends' reactions| / the larger [-]
+    double unbalanced_ratio = 0.0;
+    CrackCount cracks;
+    Energies energies;
+};
+
+/// When a test has shown what it is made for.
+struct AxialEnd {
+    double stop_ratio = 0.5;   ///< ends once the stress has fallen below this part of the peak [-]
+    double least_peak = 0.0;   ///< no fall counts before the stress has reached this [Pa]
+    double largest_strain = 0.0;  ///< ends here in any case [-]
+};
+enum class TestState { running, past_peak, largest_strain_reached };
+
+/// @param peak  largest stress so far [Pa]
+TestState judge(const AxialObservation& now, double peak, const AxialEnd& end);
+
+AxialGeometry rectangle_of(const Assembly& a, Sense sense);
+
+/// Of the last step, which must have been measured.
+AxialObservation observe(const Assembly& a, const AxialGeometry& geometry);
+
+/// Hold the bottom axially and one of its nodes laterally, the top axially; nothing moves yet.
+void grip_ends(Assembly& a);
+
+/// Move the top at `velocity` [m/s], positive away from the bottom.
+void move_top(Assembly& a, double velocity);
+
+/// Series modulus of grains and contacts: 1/E = 1/E_grain + 1/(K_n d), d the mean disc diameter [Pa].
+double series_modulus(const Assembly& a);
+
+/// Steps (of `dt`) in which a wave of the scaled masses crosses the height: sqrt(M H / (E A)) / dt.
+double crossing_steps(const Assembly& a, double dt);
+
+/// Strength that the contacts alone would give the specimen [Pa]: 2 c cos(phi) / (1 - sin(phi)) with
+/// c and tan(phi) of the first law in compression, its tensile strength in tension. A scale for the
+/// loading rate and for the default end of a test, no prediction.
+double reference_strength(const Assembly& a, Sense sense);
+
+}  // namespace flexpm

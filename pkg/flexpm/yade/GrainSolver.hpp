@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
+#pragma once
+
+#include <flexpm/yade/assembly_archive.hpp>
+#include <flexpm/yade/yade_lite.hpp>
+#include <flexpm/yade/array_view.hpp>
+
+namespace yade {
+
+namespace py = boost::python;
+
+class GrainSolver : public GlobalEngine {
+public:
+	~GrainSolver() override;
+	void action() override;
+
+	/// The solver of the current scene whose assembly has this grain or contact.
+	/// @throws std::runtime_error  if O.engines holds none
+	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
+	static shared_ptr<GrainSolver> ofGrain(int grain);
+	static shared_ptr<GrainSolver> ofContact(int contact);
+
+	void assemble(
+	        py::object tessellation,
+	        py::object centres,
+	        py::object radii,
+	        Real                  thickness,
+	        py::list   materials,
+	        py::dict   options);
+	void                  addToScene(py::list materials);
+	void                  scaleMasses();
+	Real                  useRealMasses();
+	void                  openBooks();
+	py::tuple  elasticConstants() const;
+	py::dict   energies() const;
+	py::dict   snapshot() const;
+	py::tuple  cracks() const;
+	py::dict   counts() const;
+	py::object sideNodes(int side) const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GrainSolver, GlobalEngine,
+		"Advances all deformable grains by one step: contact points, triangles, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
+		"gathered per grain in a fixed order, so results do not depend on the number of threads. It mirrors the centres to "
+		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed.",
+		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
+		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
+		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force, and between two checks for numbers that are not finite [-]."))
+		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
+		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
+		, /* ctor */
+		, .def("assemble", &GrainSolver::assemble, (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("thickness"), py::arg("materials"), py::arg("options")),
+			"Build the bonded, unloaded grains; flexpm.build calls it.")
+		.def("addToScene", &GrainSolver::addToScene, (py::arg("materials")), "Make a body of each grain and an interaction of each bond.")
+		.def("scaleMasses", &GrainSolver::scaleMasses, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
+		.def("useRealMasses", &GrainSolver::useRealMasses, "Use the real masses; returns the stable time step [s].")
+		.def("openBooks", &GrainSolver::openBooks, "Count works and dissipation from now; the present energy becomes the initial one.")
+		.def("elasticConstants", &GrainSolver::elasticConstants, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
+		.def("energies", &GrainSolver::energies, "Energies of the last step [J], by name.")
+		.def("snapshot", &GrainSolver::snapshot, "The state as plain arrays, by name (see the documentation's list of arrays).")
+		.def("cracks", &GrainSolver::cracks, "Numbers of cracked points: (tensile, shear).")
+		.def("counts", &GrainSolver::counts, "Numbers of grains, contacts, nodes, triangles, mesh groups and boundary edges.")
+		.def("sideNodes", &GrainSolver::sideNodes, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
+	);
+	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	void insertBodies(const vector<shared_ptr<Material>>& materials);
+	void insertContacts();
+	void publishBodies();
+	void retireErased();
+	void check();
+};
+REGISTER_SERIALIZABLE(GrainSolver);
+
+} // namespace yade

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  From Python's specimen and materials to the solver's arrays, bodies and interactions.
+#include <flexpm/yade/GrainSolver.hpp>
+
+#include <flexpm/kernel/assembly_build.hpp>
+#include <flexpm/kernel/mass_scaling.hpp>
+#include <flexpm/yade/GrainMat.hpp>
+#include <flexpm/yade/LaguerreCell.hpp>
+#include <flexpm/yade/LobattoContact.hpp>
+#include <flexpm/yade/binding_discs.hpp>
+
+namespace yade {
+
+namespace {
+
+	flexpm::ElasticMaterial elasticOf(const GrainMat& m)
+	{
+		return { m.young, m.poisson, m.density, m.planeStrain ? flexpm::Plane::strain : flexpm::Plane::stress };
+	}
+
+	flexpm::ContactMaterial contactOf(const GrainMat& m)
+	{
+		return { m.normalStiffness, m.shearRatio, m.tensileStrength, m.cohesion, m.friction, m.tensileFractureEnergy, m.shearFractureEnergy };
+	}
+
+	vector<shared_ptr<Material>> materialsOf(const py::list& list)
+	{
+		vector<shared_ptr<Material>> all;
+		for (py::ssize_t i = 0; i < py::len(list); ++i)
+			all.push_back(py::extract<shared_ptr<GrainMat>>(list[i])());
+		return all;
+	}
+
+} // namespace
+
+void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options)
+{
+	flexpm::AssemblyOptions o;
+	o.thickness           = thickness;
+	o.mesh                = py::extract<std::string>(options["mesh"])() == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
+	o.points              = py::extract<int>(options["points"]);
+	o.on_centre_line      = py::extract<bool>(options["centre_line"]);
+	const auto ofGrains   = materialsOf(materials);
+	for (const auto& m : ofGrains) {
+		o.elastic.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
+		o.laws.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	}
+	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
+	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
+}
+
+void GrainSolver::addToScene(py::list materials)
+{
+	insertBodies(materialsOf(materials));
+	insertContacts();
+}
+
+void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
+{
+	bodyIds.clear();
+	const auto& world = Omega::instance().getScene();
+	for (int grain = 0; grain < assembly.grains; ++grain) {
+		auto body  = boost::make_shared<Body>();
+		auto cell  = boost::make_shared<LaguerreCell>();
+		cell->grain = grain;
+		body->shape    = cell;
+		body->material = materials[assembly.grain_material[grain]];
+		const auto p   = assembly.position(assembly.centre(grain));
+		body->state->pos = body->state->refPos = Vector3r(p.x, p.y, 0);
+		body->state->blockedDOFs               = State::DOF_ALL;
+		body->setBounded(true);
+		bodyIds.push_back(world->bodies->insert(body));
+	}
+}
+
+void GrainSolver::insertContacts()
+{
+	const auto& world = Omega::instance().getScene();
+	for (int c = 0; c < assembly.contacts; ++c) {
+		auto bond     = boost::make_shared<Interaction>(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+		auto geom     = boost::make_shared<LobattoGeom>();
+		auto phys     = boost::make_shared<LobattoPhys>();
+		geom->contact = phys->contact = c;
+		bond->geom                    = geom;
+		bond->phys                    = phys;
+		bond->iterMadeReal            = world->iter;
+		world->interactions->insert(bond);
+	}
+	seenDestroyed = destroyedContacts();
+}
+
+void GrainSolver::scaleMasses() { flexpm::scale_masses(assembly, damping, Omega::instance().getScene()->dt); }
+
+Real GrainSolver::useRealMasses() { return flexpm::set_real_masses(assembly, damping); }
+
+} // namespace yade

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Platens, confinement and record.
+#include <flexpm/yade/PlatenEngine.hpp>
+
+#include <flexpm/kernel/axial_test.hpp>
+#include <flexpm/kernel/boundary.hpp>
+#include <flexpm/yade/GrainSolver.hpp>
+
+#include <array>
+
+namespace yade {
+
+YADE_PLUGIN((PlatenEngine)(ConfinementEngine)(AxialRecorder));
+
+namespace {
+
+	/// Part of the full value in the coming step of a ramp.
+	Real rampFactor(std::int64_t step, int rampSteps) { return step + 1 < rampSteps ? Real(step + 1) / rampSteps : 1.; }
+
+	flexpm::Sense senseOf(bool tension) { return tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
+
+	struct Column {
+		const char* name;
+		Real (*value)(const flexpm::AxialObservation&);
+	};
+
+	constexpr std::array<Column, 16> recorded { {
+	        { "step", [](const auto& o) { return Real(o.step); } },
+	        { "axial_strain", [](const auto& o) { return o.axial_strain; } },
+	        { "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
+	        { "axial_stress", [](const auto& o) { return o.axial_stress; } },
+	        { "confinement", [](const auto& o) { return o.confinement; } },
+	        { "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
+	        { "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
+	        { "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
+	        { "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
+	        { "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
+	        { "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
+	        { "damage_energy", [](const auto& o) { return o.energies.damage; } },
+	        { "friction_energy", [](const auto& o) { return o.energies.friction; } },
+	        { "damping_energy", [](const auto& o) { return o.energies.damping; } },
+	        { "boundary_work", [](const auto& o) { return o.energies.boundary_work; } },
+	        { "initial_energy", [](const auto& o) { return o.energies.initial; } },
+	} };
+
+} // namespace
+
+PlatenEngine::~PlatenEngine() = default;
+
+void PlatenEngine::action()
+{
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	if (!gripped) flexpm::grip_ends(assembly);
+	gripped = true;
+	flexpm::move_top(assembly, velocity * rampFactor(assembly.step, rampSteps));
+}
+
+ConfinementEngine::~ConfinementEngine() = default;
+
+void ConfinementEngine::action()
+{
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	for (int side : sides)
+		flexpm::set_pressure(assembly, side, pressure * rampFactor(assembly.step, rampSteps));
+}
+
+AxialRecorder::~AxialRecorder() = default;
+
+void AxialRecorder::action()
+{
+	const auto solver = GrainSolver::ofScene(*scene);
+	if (solver->assembly.step % solver->measurePeriod != 0) return;
+	const auto now = flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
+	for (const Column& column : recorded)
+		values.push_back(column.value(now));
+	peak  = std::max(peak, now.axial_stress);
+	state = static_cast<int>(flexpm::judge(now, peak, { stopRatio, leastPeak, maxStrain }));
+	if (state != 0) scene->stopAtIter = scene->iter + 1;
+}
+
+py::list AxialRecorder::names() const
+{
+	py::list all;
+	for (const Column& column : recorded)
+		all.append(column.name);
+	return all;
+}
+
+py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, recorded.size()); }
+
+py::dict AxialRecorder::scales() const
+{
+	const auto world    = Omega::instance().getScene();
+	const auto solver   = GrainSolver::ofScene(*world);
+	const auto geometry = flexpm::rectangle_of(solver->assembly, senseOf(tension));
+	py::dict   d;
+	d["crossing_steps"] = flexpm::crossing_steps(solver->assembly, world->dt);
+	d["modulus"]        = flexpm::series_modulus(solver->assembly);
+	d["strength"]       = flexpm::reference_strength(solver->assembly, senseOf(tension));
+	d["height"]         = geometry.height;
+	d["width"]          = geometry.width;
+	return d;
+}
+
+} // namespace yade

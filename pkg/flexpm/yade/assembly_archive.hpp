@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  How Boost saves the kernel's assembly: all members that flexpm::visit_state names.
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/vector.hpp>
+
+namespace boost {
+namespace serialization {
+
+	template <class Archive> auto archiver(Archive& archive)
+	{
+		return [&archive](const char* name, auto& value) { archive& make_nvp(name, value); };
+	}
+
+	template <class Archive> void serialize(Archive& archive, flexpm::MeshGroup& group, unsigned) { flexpm::visit_group(group, archiver(archive)); }
+
+	template <class Archive> void serialize(Archive& archive, flexpm::ElasticMaterial& material, unsigned)
+	{
+		flexpm::visit_elastic(material, archiver(archive));
+	}
+
+	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& law, unsigned) { flexpm::visit_law(law, archiver(archive)); }
+
+	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned) { flexpm::visit_state(assembly, archiver(archive)); }
+
+} // namespace serialization
+} // namespace boost

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models of a specimen: bodies and engines in YADE's scene, paper Sec. 2. SI units.
+
+With scaled masses (the default) time is counted in steps: the time step is 1, velocities are metres
+per step, and only slow loading means anything.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from . import materials
+from .errors import InputError
+from .materials import Material
+from .specimen import Specimen
+
+#: Models that this version has.
+MODELS = ("flexible",)
+MESHES = ("refined", "fan")
+POINTS = (1, 2, 3)
+
+#: Local damping of all tests [-], paper Sec. 4.1.
+DAMPING = 0.7
+
+#: Bodies may move this share of the mean diameter before the collider looks again [-].
+_SWEEP = 0.05
+
+
+@dataclass
+class Model:
+    """A specimen in YADE's scene.
+
+    Attributes:
+        specimen: The grains.
+        material: Their material.
+        name: Name of the model.
+        solver: The engine that holds and steps the grains.
+        engines: All engines of the model; ``solver`` is one of them.
+    """
+
+    specimen: Specimen
+    material: Material
+    name: str
+    solver: Any
+    engines: list[Any]
+
+    def run(self, steps: int) -> None:
+        """Advance by `steps` and wait for the end.
+
+        Raises:
+            RuntimeError: if a number is not finite any more.
+        """
+        yade.O.run(steps, True)
+
+    def add_engines(self, *, before: tuple[Any, ...] = (), after: tuple[Any, ...] = ()) -> None:
+        """Put engines of a protocol just before and after the solver's step."""
+        place = self.engines.index(self.solver)
+        self.engines[place : place + 1] = [*before, self.solver, *after]
+        yade.O.engines = self.engines
+
+    def snapshot(self) -> dict[str, np.ndarray]:
+        """The present state as plain arrays; their list is in the documentation."""
+        return self.solver.snapshot()
+
+
+def build(
+    specimen: Specimen,
+    material: Material | str = "augig-table7",
+    model: str = "flexible",
+    *,
+    points: int = 3,
+    mesh: str = "refined",
+    damping: float = DAMPING,
+    dynamic: bool = False,
+    threads: int = 1,
+) -> Model:
+    """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
+
+    Bodies that the scene has already are kept, its engines are replaced.
+
+    Args:
+        specimen: The grains.
+        material: Preset, file, or material.
+        model: ``flexible``.
+        points: Contact points per contact, 1, 2 or 3 (Lobatto).
+        mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
+        damping: Local damping alpha [-], 0 <= alpha < 1.
+        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        threads: Threads of a step; results do not depend on it.
+
+    Returns:
+        The model; ``yade.O`` holds its bodies and engines.
+
+    Raises:
+        InputError: for an argument or a material property out of range.
+    """
+    _require_one_of("model", model, MODELS)
+    _require_damping(damping)
+    if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
+        raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
+    chosen = materials.load(material, model)
+    solver = _assembled(specimen, chosen, model, points, mesh)
+    solver.damping = damping
+    solver.ompThreads = threads
+    solver.addToScene(_grain_materials(chosen, model))
+    yade.O.dt = solver.useRealMasses() if dynamic else 1.0
+    if not dynamic:
+        solver.scaleMasses()
+    engines = [_collider(specimen), solver, _idle_newton()]
+    yade.O.engines = engines
+    return Model(specimen, chosen, model, solver, engines)
+
+
+def elastic(
+    specimen: Specimen,
+    material: Material | str = "augig-table7",
+    model: str = "flexible",
+    *,
+    points: int = 3,
+    mesh: str = "refined",
+) -> dict[str, float]:
+    """Elastic constants of a rectangular specimen by one sparse solve, without a simulation.
+
+    Args:
+        specimen: A rectangle.
+        material: Preset, file, or material.
+        model: ``flexible``.
+        points: Contact points per contact.
+        mesh: ``refined`` or ``fan``.
+
+    Returns:
+        ``youngs_modulus`` [Pa], ``poissons_ratio`` [-] and the counts of the model.
+
+    Raises:
+        InputError: for an argument out of range or a specimen that is no rectangle.
+    """
+    _require_one_of("model", model, MODELS)
+    solver = _assembled(specimen, materials.load(material, model), model, points, mesh)
+    try:
+        modulus, ratio = solver.elasticConstants()
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"elastic: {error}") from error
+    return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
+
+
+def _assembled(specimen: Specimen, chosen: Material, model: str, points: int, mesh: str) -> Any:
+    """Make the solver with the packed arrays of the bonded, unloaded grains."""
+    _require_one_of("points", points, POINTS)
+    _require_one_of("mesh", mesh, MESHES)
+    solver = wrapper.GrainSolver()
+    discs = np.ascontiguousarray(specimen.discs, dtype=float)
+    try:
+        solver.assemble(
+            tessellation=specimen.tessellation,
+            centres=np.ascontiguousarray(discs[:, :2]),
+            radii=np.ascontiguousarray(discs[:, 2]),
+            thickness=float(specimen.thickness),
+            materials=_grain_materials(chosen, model),
+            options={"mesh": mesh, "points": points, "centre_line": False},
+        )
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"build: {error}") from error
+    return solver
+
+
+def _grain_materials(chosen: Material, model: str) -> list[Any]:
+    law = chosen.law(model)
+    return [
+        wrapper.GrainMat(
+            label=chosen.name,
+            young=law["young"],
+            poisson=law["poisson"],
+            density=law["density"],
+            normalStiffness=law["normal_stiffness"],
+            shearRatio=law["shear_ratio"],
+            tensileStrength=law["tensile_strength"],
+            cohesion=law["cohesion"],
+            friction=law["friction"],
+            tensileFractureEnergy=law["tensile_fracture_energy"],
+            shearFractureEnergy=law["shear_fracture_energy"],
+            planeStrain=law["plane"] == "strain",
+        )
+    ]
+
+
+def _collider(specimen: Specimen) -> Any:
+    return wrapper.InsertionSortCollider(
+        [wrapper.Bo1_LaguerreCell_Aabb()], verletDist=_SWEEP * specimen.mean_diameter
+    )
+
+
+def _idle_newton() -> Any:
+    # The collider asks a NewtonIntegrator for the fastest motion. Grains are moved by the solver,
+    # which calls the collider itself; a value between 0 and 1 keeps the collider idle until then.
+    return wrapper.NewtonIntegrator(dead=True, maxVelocitySq=0.5, label="")
+
+
+def _require_one_of(name: str, value: Any, known: tuple[Any, ...]) -> None:
+    if value not in known:
+        choices = ", ".join(str(choice) for choice in known)
+        raise InputError(f"build: {name} = {value!r}, must be one of {choices}")
+
+
+def _require_damping(damping: float) -> None:
+    if not 0.0 <= damping < 1.0:
+        raise InputError(f"build: damping = {damping}, must be at least 0 and below 1")
