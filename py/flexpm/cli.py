@@ -82,14 +82,6 @@ def command() -> None:
 )
 @click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses.")
 @click.option(
-    "--gravity",
-    type=Quantity("m/s2", at_least=0.0),
-    default=0.0,
-    metavar="G",
-    show_default=True,
-    help="Gravity, downwards [m/s2].",
-)
-@click.option(
     "--threads",
     type=Count(1),
     default=1,
@@ -111,10 +103,10 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     flexpm = _library()
     _require("test", test, flexpm.protocols.TESTS)
     _require("model", model, flexpm.models.MODELS)
-    settings = ("confinement", "rate", "max_strain", "dynamic", "gravity", "threads")
+    settings = ("confinement", "rate", "max_strain", "dynamic", "threads")
     with console.Progress(quiet) as progress:
         specimen = _rectangle(options, progress)
-        result = flexpm.run(
+        result = flexpm.protocols.run(
             test,
             specimen,
             material=chosen,
@@ -148,7 +140,7 @@ def elastic(**options: Any) -> None:
     with console.Progress(options["quiet"]) as progress:
         specimen = _rectangle(options, progress)
         progress.close()
-        found = flexpm.elastic(
+        found = flexpm.models.elastic(
             specimen, chosen, model=model, points=int(options["points"]), mesh=options["mesh"]
         )
     click.echo(f"{model} model, {chosen.name}, seed {options['seed']}")

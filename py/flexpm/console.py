@@ -47,27 +47,29 @@ class Progress:
         self._shown = sys.stderr.isatty() and not quiet
 
     def __call__(self, done: float, expected: float, text: str = "") -> None:
-        """Show that `done` of about `expected` steps are done; `text` says of what."""
+        """Show that `done` of about `expected` steps are done; `text` says what is going on.
+
+        Fewer steps done than before mean that something new has begun.
+        """
         if not self._shown:
             return
-        if self._bar is None or self._bar.desc != text:
-            self._restart(text, expected)
+        if self._bar is None or done < self._bar.n:
+            self._restart(expected)
+        self._bar.desc = text
         self._bar.total = max(done, expected)
         self._bar.update(done - self._bar.n)
 
-    def _restart(self, text: str, expected: float) -> None:
+    def _restart(self, expected: float) -> None:
         from tqdm import tqdm
 
         self.close()
         self._bar = tqdm(
-            desc=text,
             total=max(expected, 1),
             unit=" steps",
             leave=False,
             bar_format=self._FORMAT,
             mininterval=0.2,
         )
-        self._bar.desc = text  # tqdm appends a colon
 
     def close(self) -> None:
         """Remove the bar from the terminal."""

@@ -78,7 +78,6 @@ def finished(*arguments, **options):
         ("run uniaxial --confinement -1", "confinement = -1 Pa, must be >= 0"),
         ("run uniaxial --rate 0", "rate = 0, must be > 0"),
         ("run uniaxial --max-strain inf", "max-strain = inf, must be finite"),
-        ("run uniaxial --gravity -9.81", "gravity = -9.81 m/s2, must be >= 0"),
         ("run uniaxial --threads 0", "threads = 0, must be >= 1"),
         ("run uniaxial --points 4", "points = '4'"),
         ("run uniaxial --mesh fann", "did you mean fan"),

@@ -36,6 +36,7 @@ def test_a_run_writes_all_its_files(finished):
         "specimen.vtu",
         "final.vtu",
         "cracks.csv",
+        "cracks.png",
     }
     assert not [name for name in names if name.startswith(".")]
     assert imread(folder / "curve.png").shape[0] > 300
