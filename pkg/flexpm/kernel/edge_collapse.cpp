@@ -14,13 +14,13 @@ using Cell = std::vector<CellEdge>;
 
 class Collapser {
 public:
-    Collapser(PowerDiagram& d, const Outline& o, double threshold_, double smallest_)
-        : diagram(d)
-        , outline(o)
-        , threshold(threshold_)
-        , smallest(smallest_)
-        , cells_at(d.vertices.size())
-        , merged(d.vertices.size(), false)
+    Collapser(PowerDiagram& d, const Outline& o, double threshold_, double smallest_) :
+        diagram(d),
+        outline(o),
+        threshold(threshold_),
+        smallest(smallest_),
+        cells_at(d.vertices.size()),
+        merged(d.vertices.size(), false)
     {
         for (std::size_t i = 0; i < d.cells.size(); ++i)
             for (const CellEdge& e : d.cells[i])
@@ -46,9 +46,9 @@ private:
     const Outline& outline;
     double threshold;
     double smallest;
-    std::vector<std::set<int>> cells_at;              ///< cells that meet in a vertex
+    std::vector<std::set<int>> cells_at;  ///< cells that meet in a vertex
     std::vector<bool> merged;
-    std::set<std::tuple<double, int, int>> queue;     ///< (length, smaller vertex, larger vertex)
+    std::set<std::tuple<double, int, int>> queue;  ///< (length, smaller vertex, larger vertex)
 
     double length(int u, int v) const
     {
@@ -179,8 +179,8 @@ bool is_star_shaped(const std::vector<Point>& polygon, Point from, double smalle
     return std::abs(turn - 6.283185307179586) < 1e-6;
 }
 
-std::vector<bool> collapse_edges(PowerDiagram& diagram, const Outline& outline, double threshold,
-                                 double smallest)
+std::vector<bool> collapse_edges(
+    PowerDiagram& diagram, const Outline& outline, double threshold, double smallest)
 {
     return Collapser(diagram, outline, threshold, smallest).run();
 }

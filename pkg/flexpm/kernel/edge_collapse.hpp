@@ -21,14 +21,14 @@ PolygonShape polygon_shape(const std::vector<Point>& polygon);
 /// (point, edge) has an area above `smallest`.
 bool is_star_shaped(const std::vector<Point>& polygon, Point from, double smallest);
 
-/// Collapses edges shorter than `threshold`, shortest first, ties by vertex index. Two inner vertices
-/// meet in the middle; outline corners stay, outline vertices stay on the outline. Cells without
-/// edges (hidden discs) are ignored. A collapse that would spoil a cell is not made.
+/// Collapses edges shorter than `threshold`, shortest first, ties by vertex index. Two inner
+/// vertices meet in the middle; outline corners stay, outline vertices stay on the outline. Cells
+/// without edges (hidden discs) are ignored. A collapse that would spoil a cell is not made.
 ///
-/// @param smallest  smallest area of a triangle (centroid, edge) of a changed cell; a small negative
-///                  value lets edges of zero length go one by one
+/// @param smallest  smallest area of a triangle (centroid, edge) of a changed cell; a small
+///                  negative value lets edges of zero length go one by one
 /// @return          per vertex: does an edge end here that was collapsed into it
-std::vector<bool> collapse_edges(PowerDiagram& diagram, const Outline& outline, double threshold,
-                                 double smallest);
+std::vector<bool> collapse_edges(
+    PowerDiagram& diagram, const Outline& outline, double threshold, double smallest);
 
 }  // namespace flexpm

@@ -44,7 +44,8 @@ std::vector<int> edges_by_length(const std::vector<Point>& polygon)
     }
     std::vector<int> order(v);
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return length[i] < length[j]; });
+    std::stable_sort(
+        order.begin(), order.end(), [&](int i, int j) { return length[i] < length[j]; });
     return order;
 }
 
@@ -139,7 +140,7 @@ double smallest_angle(const std::vector<Point>& nodes, const std::vector<Triangl
 
 void flip_edges(const std::vector<Point>& nodes, std::vector<Triangle>& triangles)
 {
-    // Each flip raises one of finitely many angles, so this ends; the bound guards against round-off.
+    // Each flip raises one of finitely many angles, so this ends; the bound is for round-off.
     const std::size_t most = triangles.size() * triangles.size();
     for (std::size_t k = 0; k < most && flip_one(nodes, triangles); ++k) { }
 }
@@ -149,8 +150,8 @@ GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshK
     const PolygonShape shape = polygon_shape(polygon);
     if (!(shape.area > 0.0) || !is_star_shaped(polygon, shape.centroid, 0.0))
         throw std::invalid_argument("make_grain_mesh: polygon area = " + number(shape.area)
-                                    + " m^2, must be positive and star-shaped about its centroid;"
-                                      " correct the cell");
+            + " m^2, must be positive and star-shaped about its centroid;"
+              " correct the cell");
     // A centre closer to an edge's line than round-off would give a triangle without area.
     const bool seen = is_star_shaped(polygon, centre, 1e-9 * shape.area);
     const Point inner = seen ? centre : shape.centroid;
@@ -160,8 +161,8 @@ GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshK
     return mesh;
 }
 
-std::vector<GrainMesh> make_grain_meshes(const Tessellation& t, const std::vector<Disc>& discs,
-                                         MeshKind kind)
+std::vector<GrainMesh> make_grain_meshes(
+    const Tessellation& t, const std::vector<Disc>& discs, MeshKind kind)
 {
     std::vector<GrainMesh> meshes;
     for (int cell = 0; cell < t.cells(); ++cell)

@@ -25,16 +25,17 @@ struct GrainMesh {
 };
 
 /// Mesh of a polygon, corners counter-clockwise. The refined template merges its inner nodes at the
-/// shortest edge; if a triangle is then inverted or below `smallest_template_angle`, at the edge that
-/// gives the best angle; if that does not do, edges are flipped; if one stays inverted, a fan is used.
+/// shortest edge; if a triangle is then inverted or below `smallest_template_angle`, at the edge
+/// that gives the best angle; if that does not do, edges are flipped; if one stays inverted, a fan
+/// is used.
 ///
 /// @param centre  of the disc; the centroid of the polygon must see all its edges
 /// @throws std::invalid_argument  if the polygon is not star-shaped about its centroid
 GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshKind kind);
 
 /// Meshes of all cells.
-std::vector<GrainMesh> make_grain_meshes(const Tessellation& tessellation,
-                                         const std::vector<Disc>& discs, MeshKind kind);
+std::vector<GrainMesh> make_grain_meshes(
+    const Tessellation& tessellation, const std::vector<Disc>& discs, MeshKind kind);
 
 /// Smallest angle of a triangulation [rad]; negative if a triangle is not counter-clockwise.
 double smallest_angle(const std::vector<Point>& nodes, const std::vector<Triangle>& triangles);

@@ -25,7 +25,7 @@ Box box_of(const Outline& outline)
     const BoundingCircle all = bounding_circle(outline);
     if (outline.is_circle())
         return { { all.centre.x - all.radius, all.centre.y - all.radius },
-                 { all.centre.x + all.radius, all.centre.y + all.radius } };
+            { all.centre.x + all.radius, all.centre.y + all.radius } };
     Box box { outline.corners[0], outline.corners[0] };
     for (Point c : outline.corners) {
         box.low = { std::min(box.low.x, c.x), std::min(box.low.y, c.y) };
@@ -37,12 +37,12 @@ Box box_of(const Outline& outline)
 /// Square bins of one largest diameter: a disc can only touch discs of the nine bins around it.
 class Bins {
 public:
-    Bins(const Box& box, double largest_radius)
-        : low(box.low)
-        , size(2.0 * largest_radius)
-        , columns(static_cast<int>((box.high.x - box.low.x) / size) + 1)
-        , rows(static_cast<int>((box.high.y - box.low.y) / size) + 1)
-        , discs(static_cast<std::size_t>(columns) * rows)
+    Bins(const Box& box, double largest_radius) :
+        low(box.low),
+        size(2.0 * largest_radius),
+        columns(static_cast<int>((box.high.x - box.low.x) / size) + 1),
+        rows(static_cast<int>((box.high.y - box.low.y) / size) + 1),
+        discs(static_cast<std::size_t>(columns) * rows)
     {
     }
 
@@ -78,8 +78,8 @@ private:
 
 }  // namespace
 
-std::vector<Point> insert_discs(const std::vector<double>& radii, const Outline& outline,
-                                double shrink, std::uint64_t seed)
+std::vector<Point> insert_discs(
+    const std::vector<double>& radii, const Outline& outline, double shrink, std::uint64_t seed)
 {
     if (radii.empty()) return {};
     std::vector<int> order(radii.size());
@@ -95,8 +95,7 @@ std::vector<Point> insert_discs(const std::vector<double>& radii, const Outline&
         int tries = 0;
         do {
             if (++tries > most_tries)
-                throw std::invalid_argument(
-                    "insert_discs: radius = " + number(radii[i])
+                throw std::invalid_argument("insert_discs: radius = " + number(radii[i])
                     + " m, must find a free place in the outline; choose smaller or fewer discs");
             d.centre.x = box.low.x + (box.high.x - box.low.x) * random.next();
             d.centre.y = box.low.y + (box.high.y - box.low.y) * random.next();

@@ -13,7 +13,7 @@ namespace flexpm {
 /// outline. The largest disc is placed first; the result is in the order of `radii`.
 ///
 /// @throws std::invalid_argument  if a disc finds no place in 10000 tries
-std::vector<Point> insert_discs(const std::vector<double>& radii, const Outline& outline,
-                                double shrink, std::uint64_t seed);
+std::vector<Point> insert_discs(
+    const std::vector<double>& radii, const Outline& outline, double shrink, std::uint64_t seed);
 
 }  // namespace flexpm

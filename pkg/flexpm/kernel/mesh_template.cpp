@@ -25,8 +25,8 @@ MeshTemplate refined_triangle()
 {
     constexpr int c = 3, p0 = 4, p1 = 5;
     return { 3, 6,
-             { { 0, 1, p0 }, { 1, p1, p0 }, { 1, 2, p1 }, { 2, c, p1 }, { 2, 0, c }, { 0, p0, c },
-               { c, p0, p1 } } };
+        { { 0, 1, p0 }, { 1, p1, p0 }, { 1, 2, p1 }, { 2, c, p1 }, { 2, 0, c }, { 0, p0, c },
+            { c, p0, p1 } } };
 }
 
 MeshTemplate refined(int v)
@@ -59,7 +59,7 @@ const MeshTemplate& mesh_template(int vertices, MeshKind kind)
 {
     if (vertices < 3)
         throw std::invalid_argument("mesh_template: vertices = " + std::to_string(vertices)
-                                    + ", must be >= 3; give a polygon");
+            + ", must be >= 3; give a polygon");
     static std::mutex guard;
     static std::map<std::pair<int, MeshKind>, MeshTemplate> templates;
     const std::lock_guard<std::mutex> lock(guard);

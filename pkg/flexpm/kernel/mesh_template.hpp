@@ -24,9 +24,9 @@ struct MeshTemplate {
 
 /// fan: V + 1 nodes, V triangles. refined: 2 V nodes, 3 V - 2 triangles.
 ///
-/// In the refined mesh the V - 1 inner nodes are the polygon at half size, the images of the edge from
-/// corner V - 1 to corner 0 merged into one node: one triangle stands on that edge, two on each other
-/// edge, V - 1 meet in the centre. A triangle (V = 3) has its own pattern.
+/// In the refined mesh the V - 1 inner nodes are the polygon at half size, the images of the edge
+/// from corner V - 1 to corner 0 merged into one node: one triangle stands on that edge, two on
+/// each other edge, V - 1 meet in the centre. A triangle (V = 3) has its own pattern.
 ///
 /// @param vertices  V >= 3
 const MeshTemplate& mesh_template(int vertices, MeshKind kind);

@@ -58,7 +58,7 @@ Chord clip_by_polygon(const Outline& outline, Point on_axis, Point direction)
         if (slope < 0.0 && t < t1) t1 = t, side1 = side;
     }
     return { exists && t0 < t1, on_side(outline, side0, on_axis, direction),
-             on_side(outline, side1, on_axis, direction) };
+        on_side(outline, side1, on_axis, direction) };
 }
 
 }  // namespace
@@ -67,16 +67,16 @@ Outline Outline::polygon(std::vector<Point> corners)
 {
     const std::size_t n = corners.size();
     if (n < 3)
-        throw std::invalid_argument("outline: corners = " + std::to_string(n)
-                                    + ", must be >= 3; give a polygon");
+        throw std::invalid_argument(
+            "outline: corners = " + std::to_string(n) + ", must be >= 3; give a polygon");
     double turn = 0.0;
     for (std::size_t k = 0; k < n; ++k) {
         const Point a = corners[k], b = corners[(k + 1) % n], c = corners[(k + 2) % n];
         const Point u = b - a, v = c - b;
         if (!finite(a) || !(cross(u, v) > 1e-12 * std::hypot(u.x, u.y) * std::hypot(v.x, v.y)))
             throw std::invalid_argument("outline: corner " + std::to_string((k + 1) % n)
-                                        + ", must be finite, counter-clockwise and strictly convex;"
-                                          " reverse or correct the polygon");
+                + ", must be finite, counter-clockwise and strictly convex;"
+                  " reverse or correct the polygon");
         turn += std::atan2(cross(u, v), u.x * v.x + u.y * v.y);
     }
     if (turn > 7.0)
@@ -90,8 +90,8 @@ Outline Outline::polygon(std::vector<Point> corners)
 Outline Outline::circle(Point centre, double radius)
 {
     if (!finite(centre) || !std::isfinite(radius) || !(radius > 0.0))
-        throw std::invalid_argument("outline: radius = " + number(radius)
-                                    + " m, must be finite and > 0; correct it");
+        throw std::invalid_argument(
+            "outline: radius = " + number(radius) + " m, must be finite and > 0; correct it");
     Outline outline;
     outline.centre = centre;
     outline.radius = radius;
@@ -124,6 +124,24 @@ double distance_inside(const Outline& outline, Point p)
     return smallest;
 }
 
+void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
+{
+    if (discs.empty())
+        throw std::invalid_argument("tessellate: discs = 0, must be >= 1; give at least one disc");
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const Disc& d = discs[i];
+        const std::string name = "tessellate: disc " + std::to_string(i);
+        if (!std::isfinite(d.centre.x) || !std::isfinite(d.centre.y))
+            throw std::invalid_argument(name + ": centre is not finite; give finite coordinates");
+        if (!(std::isfinite(d.radius) && d.radius > 0.0))
+            throw std::invalid_argument(name + ": radius = " + number(d.radius)
+                + " m, must be finite and > 0; remove or correct the disc");
+        if (!contains(outline, d.centre))
+            throw std::invalid_argument(name + ": centre = (" + number(d.centre.x) + ", "
+                + number(d.centre.y) + ") m, must lie inside the outline; move or remove it");
+    }
+}
+
 BoundingCircle bounding_circle(const Outline& outline)
 {
     if (outline.is_circle()) return { outline.centre, outline.radius };
@@ -141,8 +159,8 @@ Chord clip_radical_axis(const Outline& outline, const Disc& a, const Disc& b)
 {
     const Point d = b.centre - a.centre;
     const double length_squared = d.x * d.x + d.y * d.y, length = std::sqrt(length_squared);
-    const double from_a
-        = 0.5 * (1.0 + (a.radius * a.radius - b.radius * b.radius) / length_squared);
+    const double from_a =
+        0.5 * (1.0 + (a.radius * a.radius - b.radius * b.radius) / length_squared);
     const Point on_axis { a.centre.x + from_a * d.x, a.centre.y + from_a * d.y };
     const Point direction { -d.y / length, d.x / length };
     return outline.is_circle() ? clip_by_circle(outline, on_axis, direction)

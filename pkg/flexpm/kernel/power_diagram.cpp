@@ -2,7 +2,7 @@
 /// @file  Laguerre cells as the dual of CGAL's regular triangulation, paper Sec. 3.1.
 #include <flexpm/kernel/power_diagram.hpp>
 
-#include <flexpm/kernel/format.hpp>
+#include <flexpm/kernel/power.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Regular_triangulation_2.h>
@@ -13,68 +13,27 @@
 
 #include <cmath>
 #include <map>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace flexpm {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<
-    int, Kernel, CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<
-    int, Kernel, CGAL::Regular_triangulation_face_base_2<Kernel>>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel,
+    CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel,
+    CGAL::Regular_triangulation_face_base_2<Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Triangulation = CGAL::Regular_triangulation_2<Kernel, Structure>;
 using Face = Triangulation::Face_handle;
 
 constexpr int ghost = -1;
 
-/// Power of a point with respect to a disc.
-double power(Point p, const Disc& d)
-{
-    const double dx = p.x - d.centre.x, dy = p.y - d.centre.y;
-    return dx * dx + dy * dy - d.radius * d.radius;
-}
-
-/// Point of equal power of three discs; relative to the first, so that large offsets cost nothing.
-Point radical_centre(const Disc& a, const Disc& b, const Disc& c)
-{
-    const double bx = b.centre.x - a.centre.x, by = b.centre.y - a.centre.y;
-    const double cx = c.centre.x - a.centre.x, cy = c.centre.y - a.centre.y;
-    const double pb = 0.5 * (bx * bx + by * by + a.radius * a.radius - b.radius * b.radius);
-    const double pc = 0.5 * (cx * cx + cy * cy + a.radius * a.radius - c.radius * c.radius);
-    const double det = bx * cy - by * cx;
-    return { a.centre.x + (pb * cy - pc * by) / det, a.centre.y + (bx * pc - cx * pb) / det };
-}
-
-void check_discs(const std::vector<Disc>& discs, const Outline& outline)
-{
-    if (discs.empty())
-        throw std::invalid_argument("power_diagram: discs = 0, must be >= 1; give at least one disc");
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-        const Disc& d = discs[i];
-        const std::string name = "power_diagram: disc " + std::to_string(i);
-        if (!std::isfinite(d.centre.x) || !std::isfinite(d.centre.y))
-            throw std::invalid_argument(name + ": centre is not finite; give finite coordinates");
-        if (!(std::isfinite(d.radius) && d.radius > 0.0))
-            throw std::invalid_argument(name + ": radius = " + number(d.radius)
-                                        + " m, must be finite and > 0; remove or correct the disc");
-        if (!contains(outline, d.centre))
-            throw std::invalid_argument(name + ": centre = (" + number(d.centre.x) + ", "
-                                        + number(d.centre.y)
-                                        + ") m, must lie inside the outline; move or remove it");
-    }
-}
-
 /// Builds the clipped cells. Every decision (is a vertex inside, where does an edge cross the
 /// outline) is made once per dual vertex or edge, so that neighbours cannot disagree.
 class Clipper {
 public:
-    Clipper(const std::vector<Disc>& d, const Outline& o)
-        : discs(d)
-        , outline(o)
+    Clipper(const std::vector<Disc>& d, const Outline& o) : discs(d), outline(o)
     {
         triangulate();
         for (Face f : triangulation.finite_face_handles())
@@ -85,8 +44,7 @@ public:
     {
         diagram.cells.resize(discs.size());
         for (auto v : triangulation.finite_vertex_handles())
-            if (v->info() != ghost)
-                diagram.cells[v->info()] = clip_cell(v);
+            if (v->info() != ghost) diagram.cells[v->info()] = clip_cell(v);
         return std::move(diagram);
     }
 
@@ -107,8 +65,8 @@ private:
     const Outline& outline;
     Triangulation triangulation;
     PowerDiagram diagram;
-    std::map<int, double> position;         ///< of outline vertices, along the outline
-    std::map<int, int> corner_vertex;       ///< vertex of an outline corner
+    std::map<int, double> position;    ///< of outline vertices, along the outline
+    std::map<int, int> corner_vertex;  ///< vertex of an outline corner
     std::map<std::pair<int, int>, Crossings> crossings;
     std::vector<Disc> ghosts;
 
@@ -160,8 +118,8 @@ private:
         f->info() = -1;
         for (int k = 0; k < 3; ++k)
             if (f->vertex(k)->info() == ghost) return;
-        const Point p = radical_centre(
-            disc_of(f->vertex(0)), disc_of(f->vertex(1)), disc_of(f->vertex(2)));
+        const Point p =
+            radical_centre(disc_of(f->vertex(0)), disc_of(f->vertex(1)), disc_of(f->vertex(2)));
         if (contains(outline, p)) f->info() = add_vertex(p, VertexKind::inner);
     }
 
@@ -183,7 +141,7 @@ private:
         } else if (to_inside) {
             at->second.enter = add_crossing(chord.enter);
         } else if (chord.exists && along(chord.leave.point, from, a, b) > 0.0
-                   && along(to, chord.enter.point, a, b) > 0.0) {
+            && along(to, chord.enter.point, a, b) > 0.0) {
             at->second = { add_crossing(chord.enter), add_crossing(chord.leave) };
         }
         return at->second;
@@ -279,7 +237,7 @@ private:
 
 PowerDiagram power_diagram(const std::vector<Disc>& discs, const Outline& outline)
 {
-    check_discs(discs, outline);
+    require_discs_inside(discs, outline);
     return Clipper(discs, outline).run();
 }
 

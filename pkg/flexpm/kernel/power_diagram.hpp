@@ -26,10 +26,11 @@ struct PowerDiagram {
     std::vector<std::vector<CellEdge>> cells;  ///< per disc; empty for a hidden disc
 };
 
-/// Laguerre cells of the discs inside the outline. Where four or more cells meet in one point, edges
-/// of zero length (to round-off) remain; tessellate() removes them.
+/// Laguerre cells of the discs inside the outline. Where four or more cells meet in one point,
+/// edges of zero length (to round-off) remain; tessellate() removes them.
 ///
-/// @throws std::invalid_argument  for no disc, a non-finite number, a radius <= 0, or a centre outside
+/// @throws std::invalid_argument  for no disc, a non-finite number, a radius <= 0, or a centre
+///                                outside
 PowerDiagram power_diagram(const std::vector<Disc>& discs, const Outline& outline);
 
 }  // namespace flexpm

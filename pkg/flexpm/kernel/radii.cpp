@@ -16,11 +16,11 @@ void check_diameters(double d_min, double d_max)
 {
     if (!(std::isfinite(d_min) && d_min > 0.0))
         throw std::invalid_argument("disc radii: smallest diameter = " + number(d_min)
-                                    + " m, must be finite and > 0; correct it");
+            + " m, must be finite and > 0; correct it");
     if (!(std::isfinite(d_max) && d_max >= d_min))
         throw std::invalid_argument("disc radii: largest diameter = " + number(d_max)
-                                    + " m, must be finite and >= the smallest, " + number(d_min)
-                                    + " m; swap or correct them");
+            + " m, must be finite and >= the smallest, " + number(d_min)
+            + " m; swap or correct them");
 }
 
 }  // namespace
@@ -30,15 +30,15 @@ int disc_count(double area, double d_min, double d_max, double porosity)
     check_diameters(d_min, d_max);
     if (!(std::isfinite(area) && area > 0.0))
         throw std::invalid_argument("disc_count: area = " + number(area)
-                                    + " m^2, must be finite and > 0; correct the dimensions");
+            + " m^2, must be finite and > 0; correct the dimensions");
     if (!(porosity >= 0.0 && porosity < 1.0))
         throw std::invalid_argument("disc_count: porosity = " + number(porosity)
-                                    + ", must be >= 0 and < 1; the usual value is 0.1");
+            + ", must be >= 0 and < 1; the usual value is 0.1");
     const double mean_radius = 0.25 * (d_min + d_max);
     const double count = std::round(area * (1.0 - porosity) / (pi * mean_radius * mean_radius));
     if (!(count >= 1.0 && count < 1e8))
         throw std::invalid_argument("disc_count: discs = " + number(count)
-                                    + ", must be >= 1 and < 1e8; change diameters or dimensions");
+            + ", must be >= 1 and < 1e8; change diameters or dimensions");
     return static_cast<int>(count);
 }
 
@@ -47,7 +47,7 @@ std::vector<double> disc_radii(int count, double d_min, double d_max, std::uint6
     check_diameters(d_min, d_max);
     if (count < 1)
         throw std::invalid_argument("disc_radii: count = " + std::to_string(count)
-                                    + ", must be >= 1; ask for at least one disc");
+            + ", must be >= 1; ask for at least one disc");
     Random random(seed);
     std::vector<double> radii(count);
     for (double& r : radii)

@@ -11,10 +11,7 @@ namespace flexpm {
 /// Seeded random numbers that are the same on every platform (std distributions are not).
 class Random {
 public:
-    explicit Random(std::uint64_t seed)
-        : engine(seed)
-    {
-    }
+    explicit Random(std::uint64_t seed) : engine(seed) { }
     /// Uniform in [0, 1), 53 random bits.
     double next() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
 

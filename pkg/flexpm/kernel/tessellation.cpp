@@ -27,14 +27,13 @@ int count_shared_edges(const PowerDiagram& diagram)
 
 void refuse_hidden(const Disc& d, int i)
 {
-    throw std::invalid_argument(
-        "tessellate: disc " + std::to_string(i) + ": radius = " + number(d.radius) + " m at ("
-        + number(d.centre.x) + ", " + number(d.centre.y)
+    throw std::invalid_argument("tessellate: disc " + std::to_string(i) + ": radius = "
+        + number(d.radius) + " m at (" + number(d.centre.x) + ", " + number(d.centre.y)
         + ") m is hidden by its neighbours, must have a cell; remove or move it");
 }
 
 void add_edges(Tessellation& t, const std::vector<CellEdge>& cell, int index,
-               const std::vector<int>& cell_of_disc)
+    const std::vector<int>& cell_of_disc)
 {
     const int* v = t.cell_vertices.data() + t.cell_offsets[index];
     for (std::size_t k = 0; k < cell.size(); ++k) {
@@ -73,22 +72,22 @@ Tessellation number_cells(const PowerDiagram& diagram, const std::vector<bool>& 
     }
     for (int c = 0; c < t.cells(); ++c)
         add_edges(t, diagram.cells[t.disc_of_cell[c]], c, cell_of_disc);
-    std::sort(t.shared_edges.begin(), t.shared_edges.end(),
-              [](const SharedEdge& e, const SharedEdge& f) {
-                  return e.cell_a != f.cell_a ? e.cell_a < f.cell_a : e.cell_b < f.cell_b;
-              });
+    std::sort(
+        t.shared_edges.begin(), t.shared_edges.end(), [](const SharedEdge& e, const SharedEdge& f) {
+            return e.cell_a != f.cell_a ? e.cell_a < f.cell_a : e.cell_b < f.cell_b;
+        });
     return t;
 }
 
 }  // namespace
 
-Tessellation tessellate(const std::vector<Disc>& discs, const Outline& outline,
-                        const TessellationOptions& options)
+Tessellation tessellate(
+    const std::vector<Disc>& discs, const Outline& outline, const TessellationOptions& options)
 {
+    PowerDiagram diagram = power_diagram(discs, outline);
     if (!(std::isfinite(options.short_edge) && options.short_edge >= 0.0))
         throw std::invalid_argument("tessellate: short_edge = " + number(options.short_edge)
-                                    + " m, must be finite and >= 0; use 0 to keep every edge");
-    PowerDiagram diagram = power_diagram(discs, outline);
+            + " m, must be finite and >= 0; use 0 to keep every edge");
     double mean_diameter = 0.0;
     for (const Disc& d : discs)
         mean_diameter += 2.0 * d.radius / static_cast<double>(discs.size());
@@ -97,11 +96,10 @@ Tessellation tessellate(const std::vector<Disc>& discs, const Outline& outline,
 
     for (std::size_t i = 0; i < discs.size(); ++i) {
         auto& cell = diagram.cells[i];
-        if (cell.empty() && !options.allow_hidden) refuse_hidden(discs[i], static_cast<int>(i));
         if ((cell.size() > 0 && cell.size() < 3) || (cell.empty() && discs.size() == 1))
-            throw std::invalid_argument(
-                "tessellate: discs = " + std::to_string(discs.size())
+            throw std::invalid_argument("tessellate: discs = " + std::to_string(discs.size())
                 + ", must be enough to span an area in a circle; add discs or use a polygon");
+        if (cell.empty() && !options.allow_hidden) refuse_hidden(discs[i], static_cast<int>(i));
     }
     const int uncollapsed = count_shared_edges(diagram);
     const auto merged = collapse_edges(diagram, outline, options.short_edge, 0.0);

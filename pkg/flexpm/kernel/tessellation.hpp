@@ -24,18 +24,19 @@ struct BoundaryEdge {
     int side;      ///< of the outline (rectangle: 0 bottom, 1 right, 2 top, 3 left; circle: 0)
 };
 
-/// Cells as polygons over common vertices. Cell i belongs to disc `disc_of_cell[i]`; hidden discs have no cell.
+/// Cells as polygons over common vertices. Cell i belongs to disc `disc_of_cell[i]`; hidden discs
+/// have no cell.
 struct Tessellation {
-    std::vector<Point> vertices;             ///< [m]
+    std::vector<Point> vertices;  ///< [m]
     /// Size cells + 1: cell i owns cell_vertices[cell_offsets[i] .. cell_offsets[i + 1]).
     std::vector<int> cell_offsets;
-    std::vector<int> cell_vertices;          ///< vertex indices, counter-clockwise, cell after cell
-    std::vector<int> disc_of_cell;           ///< index of the generating disc
-    std::vector<SharedEdge> shared_edges;    ///< sorted by (cell_a, cell_b)
-    std::vector<BoundaryEdge> boundary_edges; ///< sorted by cell
-    std::vector<int> merged_vertices;        ///< ascending; ends of collapsed edges
-    std::vector<int> hidden_discs;           ///< discs whose cell is empty
-    int uncollapsed_shared_edges = 0;        ///< shared edges before short edges were collapsed
+    std::vector<int> cell_vertices;        ///< vertex indices, counter-clockwise, cell after cell
+    std::vector<int> disc_of_cell;         ///< index of the generating disc
+    std::vector<SharedEdge> shared_edges;  ///< sorted by (cell_a, cell_b)
+    std::vector<BoundaryEdge> boundary_edges;  ///< sorted by cell
+    std::vector<int> merged_vertices;          ///< ascending; ends of collapsed edges
+    std::vector<int> hidden_discs;             ///< discs whose cell is empty
+    int uncollapsed_shared_edges = 0;          ///< shared edges before short edges were collapsed
 
     int cells() const { return static_cast<int>(disc_of_cell.size()); }
     int vertices_of(int cell) const { return cell_offsets[cell + 1] - cell_offsets[cell]; }
@@ -53,8 +54,8 @@ struct TessellationOptions {
 ///
 /// @throws std::invalid_argument  as power_diagram(); for short_edge < 0; for a hidden disc unless
 ///                                allowed; for a circle with too few discs to span an area
-Tessellation tessellate(const std::vector<Disc>& discs, const Outline& outline,
-                        const TessellationOptions& options);
+Tessellation tessellate(
+    const std::vector<Disc>& discs, const Outline& outline, const TessellationOptions& options);
 
 /// Corners of a cell, counter-clockwise.
 std::vector<Point> cell_polygon(const Tessellation& tessellation, int cell);
