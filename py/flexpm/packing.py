@@ -11,6 +11,7 @@ the next packing; bodies, engines, time and materials of the caller's ``O`` are 
 
 from __future__ import annotations
 
+import ctypes
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -133,7 +134,7 @@ def _relax(
     from yade import wrapper
 
     scene = wrapper.Omega()
-    with _private_scene(scene):
+    with _one_thread(), _private_scene(scene):
         law = _fill_scene(scene, wrapper, frame, centres, radii)
         _calm_start(scene, len(radii))
         while True:
@@ -153,6 +154,21 @@ def _relax(
 
 
 @contextmanager
+def _one_thread() -> Iterator[None]:
+    """Run YADE on one thread: with more, its contacts come in another order, and sums with them.
+
+    Engines have a number of threads each, but containers and the collider do not obey it.
+    """
+    openmp = ctypes.CDLL("libgomp.so.1")
+    threads = openmp.omp_get_max_threads()
+    openmp.omp_set_num_threads(1)
+    try:
+        yield
+    finally:
+        openmp.omp_set_num_threads(threads)
+
+
+@contextmanager
 def _private_scene(scene: Any) -> Iterator[None]:
     """Switch to the scene for packings, and back at the end, whatever happens."""
     if scene.running:
@@ -166,23 +182,34 @@ def _private_scene(scene: Any) -> Iterator[None]:
         yield
     finally:
         scene.resetThisScene()
-        scene.tags["description"] = _SCENE_TAG
+        scene.tags[_SCENE_TAG] = "1"
         scene.switchToScene(caller)
 
 
 def _enter_scene(scene: Any, caller: int) -> None:
     global _scene
     if _scene is not None and _scene != caller:
-        try:
-            scene.switchToScene(_scene)
-        except (RuntimeError, ValueError):
-            _scene = None  # gone: the caller has reset all scenes
-        else:
-            if scene.tags["description"] == _SCENE_TAG:
-                return
-            scene.switchToScene(caller)
+        _switch_quietly(scene, _scene)
+        if scene.thisScene == _scene and scene.tags.has_key(_SCENE_TAG):
+            return
+        scene.switchToScene(caller)
     _scene = scene.addScene()
     scene.switchToScene(_scene)
+
+
+def _switch_quietly(scene: Any, number: int) -> None:
+    """Switch to a scene; if it is gone (the caller has reset all) YADE logs an error and stays."""
+    from yade import log
+
+    before = log.getUsedLevels().get("Omega")
+    log.setLevel("Omega", log.FATAL)
+    try:
+        scene.switchToScene(number)
+    finally:
+        if before is None:
+            log.unsetLevel("Omega")
+        else:
+            log.setLevel("Omega", before)
 
 
 def _fill_scene(
@@ -195,7 +222,7 @@ def _fill_scene(
         wrapper.FrictMat(young=1.0, poisson=0.3, frictionAngle=0.0, density=1.0) for _ in range(2)
     )
     grain_id, wall_id = scene.materials.append(grain), scene.materials.append(wall)
-    for (x, y), radius in zip(centres, radii):
+    for (x, y), radius in zip(centres, radii, strict=True):
         body = utils.sphere((x, y, 0.0), radius, material=grain)
         body.state.blockedDOFs = "zXYZ"
         body.state.mass = 1.0
@@ -212,12 +239,11 @@ def _fill_scene(
     normal = wrapper.MatchMaker(matches=stiff_walls, algo="val", val=_STIFFNESS)
     shear = wrapper.MatchMaker(algo="val", val=0.0)
     physics = wrapper.Ip2_FrictMat_FrictMat_FrictPhys(kn=normal, ks=shear)
-    # one thread each: the order of sums decides the last bits
     scene.engines = [
-        wrapper.ForceResetter(ompThreads=1),
-        wrapper.InsertionSortCollider(bounds, verletDist=0.1, ompThreads=1),
-        wrapper.InteractionLoop(geometries, [physics], [law], ompThreads=1),
-        wrapper.NewtonIntegrator(damping=_DAMPING, ompThreads=1),
+        wrapper.ForceResetter(),
+        wrapper.InsertionSortCollider(bounds, verletDist=0.1),
+        wrapper.InteractionLoop(geometries, [physics], [law]),
+        wrapper.NewtonIntegrator(damping=_DAMPING),
     ]
     return law
 
@@ -238,10 +264,8 @@ def _ring(radius: float, material: Any) -> list[Any]:
     from yade import utils
 
     count = max(24, math.ceil(2.0 * math.pi * radius / 0.5))
-    corners = [
-        radius * np.array([math.cos(2.0 * math.pi * k / count), math.sin(2.0 * math.pi * k / count)])
-        for k in range(count)
-    ]
+    angles = 2.0 * math.pi * np.arange(count) / count
+    corners = radius * np.column_stack((np.cos(angles), np.sin(angles)))
     facets = []
     for k in range(count):
         a, b = corners[k], corners[(k + 1) % count]
@@ -257,7 +281,7 @@ def _advance(scene: Any, steps: int) -> None:
 
 
 def _calm_start(scene: Any, discs: int) -> None:
-    """Stop the discs every other step at first, lest the large overlaps fling them through walls."""
+    """Stop the discs every other step at first: large overlaps would fling them through walls."""
     scene.dt = _START_TIME_STEP
     for _ in range(30):
         _advance(scene, 2)

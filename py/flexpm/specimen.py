@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Specimens of bonded grains: discs, their Laguerre cells, and what can be said of them, paper Sec. 3.1."""
+"""Specimens of bonded grains: discs, their Laguerre cells, and figures of them, paper Sec. 3.1."""
 
 from __future__ import annotations
 
@@ -224,9 +224,7 @@ class Specimen:
             "moved_centres": int(refined.moved_centre.sum()),
             "cell_area": math.fsum(cells.cell_areas),
             "smallest_cell_area": float(cells.cell_areas.min()),
-            "edge_length": dict(
-                zip((f"{share:.2f}" for share in shares), np.quantile(lengths, shares).tolist())
-            ),
+            "edge_length": {f"{p:.2f}": float(np.quantile(lengths, p)) for p in shares},
             "coordination": 2.0 * contacts / cells.cells,
             "mean_diameter": self.mean_diameter,
         }
@@ -234,8 +232,8 @@ class Specimen:
     def _edge_lengths(self) -> np.ndarray:
         """Lengths of contacts, or of the rim if there is one grain only [m]."""
         cells = self.tessellation
-        edges = cells.shared_edges[:, 2:4] if len(cells.shared_edges) else cells.boundary_edges[:, 1:3]
-        ends = cells.vertices[edges]
+        edges = cells.shared_edges[:, 2:4]
+        ends = cells.vertices[edges if len(edges) else cells.boundary_edges[:, 1:3]]
         return np.hypot(*(ends[:, 1] - ends[:, 0]).T)
 
 
@@ -337,7 +335,7 @@ def _disc_rows(centres: Any, radii: Any) -> np.ndarray:
     try:
         sizes = np.array(radii, dtype=float)
     except (TypeError, ValueError):
-        raise InputError("Specimen.from_discs: radii are not numbers; give one per centre") from None
+        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
     if sizes.shape != (len(points),):
         raise InputError(
             f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
@@ -388,7 +386,9 @@ def _require_diameters(
 
 def _require_seed(where: str, seed: int) -> None:
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed < 2**64:
-        raise InputError(f"{where}: seed = {seed}, must be an integer from 0 to 2**64 - 1; change it")
+        raise InputError(
+            f"{where}: seed = {seed}, must be a whole number >= 0 and < 2**64; change it"
+        )
 
 
 def _require_short_edge(share: float) -> None:

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Packings: at rest, inside the outline, repeatable to the bit, no trace in the caller's scene."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from flexpm import packing
+from flexpm.errors import InputError, SimulationError
+
+UNIT = 3e-3
+
+
+def radii_of(count, seed=1):
+    return packing.load_kernel().disc_radii(count, 2e-3, 4e-3, seed)
+
+
+def overlaps(centres, radii):
+    """Overlap of each pair, positive where discs overlap."""
+    apart = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
+    depth = radii[:, None] + radii[None] - apart
+    return depth[np.triu_indices(len(radii), 1)]
+
+
+@pytest.mark.parametrize(
+    "frame", [packing.Frame(width=0.024, height=0.03), packing.Frame(radius=0.015)]
+)
+def test_relaxation_spreads_the_overlap_and_keeps_discs_inside(frame):
+    area = np.pi * frame.radius**2 if frame.radius else frame.width * frame.height
+    count = packing.load_kernel().disc_count(area, 2e-3, 4e-3, 0.10)
+    centres, radii = packing.pack(frame, radii_of(count), UNIT, seed=5)
+    outline = frame.kernel_outline()
+    assert all(outline.contains(x, y) for x, y in centres)
+    assert sorted(radii) == sorted(radii_of(count))
+    depth = overlaps(centres, radii)
+    # 90 % of the area in discs: denser than random close packing (84 %), so all share some overlap
+    assert 0.0 < depth.max() < 0.25 * UNIT
+    assert np.mean(depth > 0.0) * len(depth) > 1.5 * count
+
+
+def test_forces_balance_at_rest():
+    frame = packing.Frame(width=0.03, height=0.03)
+    centres, radii = packing.pack(frame, radii_of(110), UNIT, seed=2)
+    apart = centres[:, None] - centres[None]
+    distance = np.hypot(apart[..., 0], apart[..., 1])
+    np.fill_diagonal(distance, 1.0)
+    depth = np.clip(radii[:, None] + radii[None] - distance, 0.0, None)
+    np.fill_diagonal(depth, 0.0)
+    forces = (0.5 * depth / distance)[..., None] * apart
+    total = forces.sum(axis=1)
+    total[:, 0] += np.clip(radii - centres[:, 0], 0, None)
+    total[:, 0] -= np.clip(radii + centres[:, 0] - 0.03, 0, None)
+    total[:, 1] += np.clip(radii - centres[:, 1], 0, None)
+    total[:, 1] -= np.clip(radii + centres[:, 1] - 0.03, 0, None)
+    mean_contact = 0.5 * depth[depth > 0.0].mean()
+    assert np.hypot(*total.T).mean() < 0.03 * mean_contact
+
+
+def test_a_seed_gives_the_same_bits_and_another_seed_does_not():
+    frame = packing.Frame(width=0.02, height=0.02)
+    first = packing.pack(frame, radii_of(50), UNIT, seed=7)
+    again = packing.pack(frame, radii_of(50), UNIT, seed=7)
+    other = packing.pack(frame, radii_of(50), UNIT, seed=8)
+    assert np.array_equal(first[0], again[0])
+    assert np.array_equal(first[1], again[1])
+    assert not np.array_equal(first[0], other[0])
+
+
+def test_the_unit_of_length_does_not_matter():
+    small = packing.Frame(width=0.25, height=0.5)
+    radii = packing.load_kernel().disc_radii(60, 1 / 32, 1 / 16, 3)
+    centres, _ = packing.pack(small, radii, 3 / 64, seed=1)
+    large, _ = packing.pack(small.scaled(1024.0), radii * 1024.0, 48.0, seed=1)
+    assert np.array_equal(large, centres * 1024.0)
+
+
+@pytest.mark.long
+def test_threads_do_not_matter(package_parent):
+    code = (
+        "import hashlib; from flexpm import packing as p;"
+        "r = p.load_kernel().disc_radii(60, 2e-3, 4e-3, 1);"
+        "c, _ = p.pack(p.Frame(width=0.02, height=0.025), r, 3e-3, 4);"
+        "print(hashlib.sha256(c.tobytes()).hexdigest())"
+    )
+    prints = set()
+    for threads in ("1", "2"):
+        environment = dict(os.environ, OMP_NUM_THREADS=threads, PYTHONPATH=str(package_parent))
+        run = subprocess.run(
+            [sys.executable, "-c", code],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        prints.add(run.stdout.strip())
+    assert len(prints) == 1
+
+
+def test_the_callers_scene_is_not_touched():
+    from yade import utils, wrapper
+
+    scene = wrapper.Omega()
+    scene.bodies.append(utils.sphere((1, 2, 3), 0.5))
+    scene.engines = [wrapper.ForceResetter()]
+    scene.dt = 0.125
+    scene.step()
+    number, tag = scene.thisScene, scene.tags["id"]
+    packing.pack(packing.Frame(width=0.02, height=0.02), radii_of(40), UNIT, seed=1)
+    assert (scene.thisScene, scene.tags["id"]) == (number, tag)
+    assert (len(scene.bodies), len(scene.engines), scene.dt, scene.iter) == (1, 1, 0.125, 1)
+    assert scene.bodies[0].shape.radius == 0.5
+
+
+def test_scenes_do_not_pile_up_and_a_reset_does_no_harm(capfd):
+    from yade import wrapper
+
+    scene = wrapper.Omega()
+    frame = packing.Frame(width=0.02, height=0.02)
+    packing.pack(frame, radii_of(40), UNIT, seed=1)
+    before = scene.addScene()
+    packing.pack(frame, radii_of(40), UNIT, seed=1)
+    assert scene.addScene() == before + 1
+    scene.reset()
+    packing.pack(frame, radii_of(40), UNIT, seed=1)
+    assert scene.thisScene == 0
+    text = capfd.readouterr()
+    assert "ERROR" not in text.out + text.err
+
+
+def test_a_scene_of_the_caller_in_the_old_place_is_not_used():
+    from yade import utils, wrapper
+
+    scene = wrapper.Omega()
+    frame = packing.Frame(width=0.02, height=0.02)
+    packing.pack(frame, radii_of(40), UNIT, seed=1)
+    scene.reset()
+    own = scene.addScene()
+    scene.switchToScene(own)
+    scene.bodies.append(utils.sphere((0, 0, 0), 1))
+    scene.switchToScene(0)
+    packing.pack(frame, radii_of(40), UNIT, seed=1)
+    scene.switchToScene(own)
+    assert len(scene.bodies) == 1
+
+
+def test_an_error_returns_to_the_callers_scene():
+    from yade import wrapper
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        packing.pack(packing.Frame(width=0.02, height=0.02), radii_of(40), UNIT, 1, stop)
+    assert wrapper.Omega().thisScene == 0
+
+
+def test_progress_is_reported():
+    seen = []
+    frame = packing.Frame(width=0.02, height=0.02)
+    packing.pack(frame, radii_of(40), UNIT, 1, lambda *call: seen.append(call))
+    done = [call[0] for call in seen]
+    assert done == sorted(done)
+    assert all(0 < steps <= expected and text == "packing" for steps, expected, text in seen)
+
+
+def test_a_packing_in_a_running_simulation_is_refused():
+    from yade import wrapper
+
+    scene = wrapper.Omega()
+    scene.engines = [wrapper.ForceResetter()]
+    scene.run()
+    try:
+        with pytest.raises(SimulationError, match=r"O\.pause"):
+            packing.pack(packing.Frame(width=0.02, height=0.02), radii_of(40), UNIT, 1)
+    finally:
+        scene.pause()
+
+
+def test_discs_that_cannot_be_inserted_are_refused():
+    with pytest.raises((InputError, ValueError), match="free place"):
+        packing.pack(packing.Frame(width=0.004, height=0.004), radii_of(40), UNIT, 1)
+
+
+def test_spatial_order_keeps_neighbours_close():
+    points = np.random.RandomState(0).rand(400, 2) * 20.0
+    order = packing.spatial_order(points, 2.5)
+    assert sorted(order) == list(range(400))
+    steps = np.hypot(*np.diff(points[order], axis=0).T)
+    assert steps.mean() < 2.5
