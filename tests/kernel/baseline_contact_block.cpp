@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  contact_block.cpp without its variants for wider instruction sets.
+#include "baseline_step.hpp"
+
+#include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/simd.hpp>
+
+#undef FLEXPM_MULTIVERSION
+#define FLEXPM_MULTIVERSION
+#define update_contact_block baseline_update_contact_block
+#define update_edge_block baseline_update_edge_block
+#include "../../pkg/flexpm/kernel/contact_block.cpp"

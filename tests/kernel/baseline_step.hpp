@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The kernel's step compiled a second time, for the plainest instruction set alone.
+#pragma once
+
+#include <flexpm/kernel/stepping.hpp>
+
+namespace flexpm {
+
+void baseline_step(Assembly& a, const StepOptions& options);
+
+void baseline_update_contact_block(Assembly& a, int block, double dt);
+double baseline_update_edge_block(Assembly& a, int block, double dt);
+
+}  // namespace flexpm

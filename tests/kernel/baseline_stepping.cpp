@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  stepping.cpp without its variants for wider instruction sets, on one thread.
+#include "baseline_step.hpp"
+
+#include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/simd.hpp>
+
+#undef FLEXPM_MULTIVERSION
+#define FLEXPM_MULTIVERSION
+#define update_contact_block baseline_update_contact_block
+#define update_edge_block baseline_update_edge_block
+#define show_positions baseline_show_positions
+#define step(assembly, options) baseline_step(assembly, options)
+#include "../../pkg/flexpm/kernel/stepping.cpp"

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The same bits on any number of threads, from any saved state, on any instruction set.
+#include <catch2/catch.hpp>
+
+#include <flexpm/kernel/measures.hpp>
+
+#include "baseline_step.hpp"
+#include "same_bits.hpp"
+
+using namespace driven;
+
+namespace {
+
+constexpr int steps = 500;
+
+Assembly stepped(int threads)
+{
+    Assembly a = same_bits::breaking();
+    flexpm::StepOptions o;
+    o.threads = threads;
+    for (int i = 0; i < steps; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::step(a, o);
+    }
+    return a;
+}
+
+}  // namespace
+
+TEST_CASE("One thread and two give the same bits while contacts break")
+{
+    const Assembly one = stepped(1);
+    const auto cracks = flexpm::count_cracks(one);
+    CHECK(cracks.tensile + cracks.shear > 10);
+    CHECK(cracks.tensile + cracks.shear < 3 * one.contacts);
+    CHECK(same_bits::difference(one, stepped(2)).empty());
+}
+
+TEST_CASE("A run continued from the listed state gives the same bits")
+{
+    const Assembly whole = stepped(1);
+    Assembly first = same_bits::breaking();
+    flexpm::StepOptions o;
+    for (int i = 0; i < 300; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::step(first, o);
+    }
+    // only what visit_state() lists goes over
+    std::map<std::string, const void*> from;
+    flexpm::visit_state(first, [&](const char* name, const auto& value) { from[name] = &value; });
+    Assembly second;
+    flexpm::visit_state(second, [&](const char* name, auto& value) {
+        value = *static_cast<const std::decay_t<decltype(value)>*>(from.at(name));
+    });
+    for (int i = 300; i < steps; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::step(second, o);
+    }
+    CHECK(same_bits::difference(whole, second).empty());
+}
+
+TEST_CASE("The instruction set of this machine gives the bits of the plainest one")
+{
+    Assembly baseline = same_bits::breaking();
+    flexpm::StepOptions o;
+    for (int i = 0; i < steps; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::baseline_step(baseline, o);
+    }
+    CHECK(baseline.step == steps);
+    CHECK(same_bits::difference(stepped(1), baseline).empty());
+}
+
+TEST_CASE("A difference of one bit is seen")
+{
+    Assembly a = stepped(1), b = a;
+    CHECK(same_bits::difference(a, b).empty());
+    b.velocity[0] = std::nextafter(b.velocity[0], 1.0);
+    CHECK(same_bits::difference(a, b) == "velocity ");
+}
