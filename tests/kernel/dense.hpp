@@ -28,10 +28,12 @@ inline Eigen::MatrixXd stiffness(const flexpm::Assembly& a)
 {
     const std::vector<int> index = components(a);
     std::vector<int> number(a.displacement.size(), -1);
-    for (std::size_t i = 0; i < index.size(); ++i) number[index[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < index.size(); ++i)
+        number[index[i]] = static_cast<int>(i);
     const Eigen::Index n = static_cast<Eigen::Index>(index.size());
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
-    for (const auto& e : flexpm::stiffness_entries(a)) k(number[e.row], number[e.column]) += e.value;
+    for (const auto& e : flexpm::stiffness_entries(a))
+        k(number[e.row], number[e.column]) += e.value;
     return k;
 }
 
@@ -41,8 +43,8 @@ inline Eigen::VectorXd masses(const flexpm::Assembly& a)
     const std::vector<int> index = components(a);
     Eigen::VectorXd m(static_cast<Eigen::Index>(index.size()));
     for (std::size_t i = 0; i < index.size(); i += 2) {
-        m[static_cast<Eigen::Index>(i)] = m[static_cast<Eigen::Index>(i) + 1]
-            = 1.0 / a.inverse_mass[flexpm::scalar_index(index[i])];
+        m[static_cast<Eigen::Index>(i)] = m[static_cast<Eigen::Index>(i) + 1] =
+            1.0 / a.inverse_mass[flexpm::scalar_index(index[i])];
     }
     return m;
 }

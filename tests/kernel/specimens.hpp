@@ -52,7 +52,8 @@ inline flexpm::ContactMaterial granite_contact()
 }
 
 /// Contact that no load of a test breaks.
-inline flexpm::ContactMaterial strong_contact(double normal_stiffness = 1.80e14, double ratio = 0.28)
+inline flexpm::ContactMaterial strong_contact(
+    double normal_stiffness = 1.80e14, double ratio = 0.28)
 {
     flexpm::ContactMaterial m = granite_contact();
     m.normal_stiffness = normal_stiffness;
@@ -84,7 +85,8 @@ inline Specimen grid(int nx, int ny, double size)
     flexpm::Tessellation& t = s.cells;
     const auto vertex = [nx](int i, int j) { return i + (nx + 1) * j; };
     for (int j = 0; j <= ny; ++j) {
-        for (int i = 0; i <= nx; ++i) t.vertices.push_back({ i * size, j * size });
+        for (int i = 0; i <= nx; ++i)
+            t.vertices.push_back({ i * size, j * size });
     }
     t.cell_offsets.push_back(0);
     for (int j = 0; j < ny; ++j) {
@@ -92,7 +94,8 @@ inline Specimen grid(int nx, int ny, double size)
             const int c = i + nx * j;
             s.discs.push_back({ { (i + 0.5) * size, (j + 0.5) * size }, 0.5 * size });
             t.disc_of_cell.push_back(c);
-            const int v[] = { vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1) };
+            const int v[] = { vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1),
+                vertex(i, j + 1) };
             t.cell_vertices.insert(t.cell_vertices.end(), v, v + 4);
             t.cell_offsets.push_back(static_cast<int>(t.cell_vertices.size()));
             if (i + 1 < nx) t.shared_edges.push_back({ c, c + 1, v[1], v[2] });
@@ -158,7 +161,8 @@ inline Specimen random_grains(double width, double height, double spacing, std::
     o.short_edge = 0.35 / 3.0 * mean;
     o.allow_hidden = true;
     s.cells = flexpm::tessellate(s.discs,
-        flexpm::Outline::polygon({ { 0.0, 0.0 }, { width, 0.0 }, { width, height }, { 0.0, height } }),
+        flexpm::Outline::polygon(
+            { { 0.0, 0.0 }, { width, 0.0 }, { width, height }, { 0.0, height } }),
         o);
     return s;
 }

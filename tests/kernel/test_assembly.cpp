@@ -29,7 +29,8 @@ Assembly random_assembly(MeshKind mesh = MeshKind::refined, int points = 3)
 void for_each_node(const Assembly& a, const std::function<void(int grain, int node)>& visit)
 {
     for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n) visit(g, a.node(g, n));
+        for (int n = 0; n < a.nodes_of(g); ++n)
+            visit(g, a.node(g, n));
     }
 }
 
@@ -78,7 +79,8 @@ void spin(Assembly& a, double from, double to)
 double largest_force(const Assembly& a)
 {
     double largest = 0.0;
-    for (double f : a.force) largest = std::max(largest, std::fabs(f));
+    for (double f : a.force)
+        largest = std::max(largest, std::fabs(f));
     return largest;
 }
 
@@ -100,7 +102,8 @@ TEST_CASE("every node has its own place in the packed arrays", "[assembly]")
     CHECK(static_cast<int>(scalars.size()) == nodes);
     CHECK(*scalars.begin() >= 0);
     CHECK(*scalars.rbegin() < static_cast<int>(a.inverse_mass.size()));
-    for (int g = 0; g < a.grains; ++g) CHECK(a.slot_grain[a.grain_slot[g]] == g);
+    for (int g = 0; g < a.grains; ++g)
+        CHECK(a.slot_grain[a.grain_slot[g]] == g);
 }
 
 TEST_CASE("grains fill the rectangle and keep their corners", "[assembly]")
@@ -111,9 +114,11 @@ TEST_CASE("grains fill the rectangle and keep their corners", "[assembly]")
         REQUIRE(a.grains == s.cells.cells());
         double volume = 0.0;
         for (int g = 0; g < a.grains; ++g) {
-            for (int t = 0; t < triangles_of(a, g); ++t) volume += shape_of(a, g, t).volume;
+            for (int t = 0; t < triangles_of(a, g); ++t)
+                volume += shape_of(a, g, t).volume;
             std::set<std::pair<double, double>> cell, grain;
-            for (const Point& p : cell_polygon(s.cells, g)) cell.insert({ p.x, p.y });
+            for (const Point& p : cell_polygon(s.cells, g))
+                cell.insert({ p.x, p.y });
             for (int n = 0; n < s.cells.vertices_of(g); ++n) {
                 const Point p = a.position(a.node(g, n));
                 grain.insert({ p.x, p.y });
@@ -132,7 +137,8 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
         std::set<int> owned[2];
         for (int side = 0; side < 2; ++side) {
             const int g = a.contact_grains[2 * c + side];
-            for (int n = 0; n < a.nodes_of(g); ++n) owned[side].insert(a.node(g, n));
+            for (int n = 0; n < a.nodes_of(g); ++n)
+                owned[side].insert(a.node(g, n));
             CHECK(a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] == a.centre(g));
         }
         for (int end = 0; end < 2; ++end) {
@@ -145,9 +151,20 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
         const Point p0 = a.position(contact_node(a, c, 0, 0));
         const Point p1 = a.position(contact_node(a, c, 0, 1));
         const double length = std::hypot(p1.x - p0.x, p1.y - p0.y);
-        double area = 0.0;
-        for (int p = 0; p < points; ++p) area += a.area[row_index(c, p, points)];
+        double area = 0.0, first = 0.0, second = 0.0;
+        for (int p = 0; p < points; ++p) {
+            const double w = a.weight[row_index(c, 2 * p, 2 * points)];
+            CHECK(a.weight[row_index(c, 2 * p + 1, 2 * points)] == w);
+            const double share = a.area[row_index(c, p, points)];
+            area += share;
+            first += share * (w - 0.5) * length;
+            second += share * (w - 0.5) * (w - 0.5) * length * length;
+        }
         CHECK(area == Approx(length * specimens::thickness).epsilon(1e-14));
+        CHECK(std::fabs(first) < 1e-14 * area * length);
+        // Lobatto's three points have the bending stiffness of the whole edge, the ends three times
+        const double expected[] = { 0.0, 1.0 / 4.0, 1.0 / 12.0 };
+        CHECK(second / (area * length * length) == Approx(expected[points - 1]).margin(1e-14));
         // the normal points out of the first grain, whose edge runs counter-clockwise
         const Point n = normal_of(a, c);
         CHECK(std::hypot(n.x, n.y) == Approx(1.0).epsilon(1e-14));
@@ -161,7 +178,8 @@ TEST_CASE("padded lanes stay at rest and exert nothing", "[assembly]")
     REQUIRE(a.blocks() * lanes > a.grains);
     scale_masses(a, 0.7);
     distort(a, 1e-7);
-    for (int n = 0; n < 50; ++n) step(a, StepOptions());
+    for (int n = 0; n < 50; ++n)
+        step(a, StepOptions());
     int padded = 0;
     for (int slot = 0; slot < a.blocks() * lanes; ++slot) {
         if (a.slot_grain[slot] >= 0) continue;
@@ -237,7 +255,8 @@ TEST_CASE("a spun specimen carries no force, at any angle", "[assembly]")
             CHECK(largest_force(one) < 1e-14 * scale);
             Assembly many = random_assembly(mesh);
             const int steps = 20;
-            for (int n = 0; n < steps; ++n) spin(many, angle * n / steps, angle * (n + 1) / steps);
+            for (int n = 0; n < steps; ++n)
+                spin(many, angle * n / steps, angle * (n + 1) / steps);
             CHECK(largest_force(many) < 1e-12 * scale);
         }
     }
@@ -251,7 +270,8 @@ TEST_CASE("materials belong to grains and pairs of grains", "[assembly]")
     stiff.young *= 2.0;
     o.elastic.push_back(stiff);
     o.laws.clear();
-    for (const double k : { 1e14, 2e14, 3e14, 4e14 }) o.laws.push_back(specimens::strong_contact(k));
+    for (const double k : { 1e14, 2e14, 3e14, 4e14 })
+        o.laws.push_back(specimens::strong_contact(k));
     o.grain_material = { 0, 1, 1, 0 };
     const Assembly a = specimens::assemble(s, o);
     for (int g = 0; g < 4; ++g) {

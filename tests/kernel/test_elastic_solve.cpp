@@ -36,8 +36,10 @@ Assembly two_loose_grains()
 std::vector<Prescribed> hold_sides(const Assembly& a, double top_displacement)
 {
     std::vector<Prescribed> p { { side_nodes(a, 0).front(), 0.0 } };
-    for (int n : side_nodes(a, 0)) p.push_back({ n + lanes, 0.0 });
-    for (int n : side_nodes(a, 2)) p.push_back({ n + lanes, top_displacement });
+    for (int n : side_nodes(a, 0))
+        p.push_back({ n + lanes, 0.0 });
+    for (int n : side_nodes(a, 2))
+        p.push_back({ n + lanes, top_displacement });
     return p;
 }
 
@@ -56,8 +58,8 @@ double difference(const Array<double>& a, const Array<double>& b)
 
 TEST_CASE("the stiffness is symmetric and does not resist rigid motions", "[elastic]")
 {
-    const Assembly a = specimens::assemble(
-        specimens::random_grains(0.012, 0.012, 3e-3, 3), specimens::options());
+    const Assembly a =
+        specimens::assemble(specimens::random_grains(0.012, 0.012, 3e-3, 3), specimens::options());
     const Eigen::MatrixXd k = dense::stiffness(a);
     const double size = k.cwiseAbs().maxCoeff();
     CHECK((k - k.transpose()).cwiseAbs().maxCoeff() < 1e-14 * size);
@@ -71,8 +73,8 @@ TEST_CASE("the stiffness is symmetric and does not resist rigid motions", "[elas
         rigid(r + 1, 2) = p.x;
     }
     CHECK((k * rigid).cwiseAbs().maxCoeff() < 1e-14 * size * 0.012);
-    const Eigen::VectorXd values
-        = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
     CHECK(values[2] < 1e-13 * size);
     CHECK(values[3] > 1e-6 * size);
 }
@@ -86,7 +88,8 @@ TEST_CASE("forces balance: loads, reactions, nothing elsewhere", "[elastic]")
     loads[loaded] = 250.0;
     const StaticSolution s = solve_static(a, prescribed, &loads);
     std::vector<char> held(a.displacement.size(), 0);
-    for (const Prescribed& p : prescribed) held[p.index] = 1;
+    for (const Prescribed& p : prescribed)
+        held[p.index] = 1;
     double reaction_y = 0.0, sum_y = 0.0, rest = 0.0;
     for (std::size_t i = 0; i < s.force.size(); ++i) {
         const bool along_y = i % (2 * lanes) >= lanes;
@@ -98,7 +101,8 @@ TEST_CASE("forces balance: loads, reactions, nothing elsewhere", "[elastic]")
     CHECK(std::fabs(sum_y) < 1e-9 * reaction_y);
     CHECK(rest < 1e-9 * reaction_y);
     CHECK(s.force[prescribed[0].index] == Approx(250.0).epsilon(1e-7));
-    for (const Prescribed& p : prescribed) CHECK(s.displacement[p.index] == p.value);
+    for (const Prescribed& p : prescribed)
+        CHECK(s.displacement[p.index] == p.value);
 }
 
 TEST_CASE("a column of square grains has the modulus of grains and contacts in series", "[elastic]")
@@ -160,9 +164,11 @@ TEST_CASE("stepping settles where the linear solve says", "[elastic]")
     drive(a, bottom, 1, 0.0);
     drive(a, { bottom.front() }, 0, 0.0);
     drive(a, top, 1, moved / 500.0);
-    for (int n = 0; n < 500; ++n) step(a, StepOptions());
+    for (int n = 0; n < 500; ++n)
+        step(a, StepOptions());
     drive(a, top, 1, 0.0);
-    for (int n = 0; n < 6000; ++n) step(a, StepOptions());
+    for (int n = 0; n < 6000; ++n)
+        step(a, StepOptions());
     CHECK(difference(a.displacement, s.displacement) < 1e-7);
     CHECK(difference(a.force, s.force) < 1e-7);
 }
@@ -192,6 +198,20 @@ TEST_CASE("a part that moves freely is named", "[elastic]")
     left.push_back({ corner, 0.0 });
     left.push_back({ corner + lanes, 0.0 });
     CHECK_THROWS_AS(solve_static(a, left), std::runtime_error);
+}
+
+TEST_CASE("a free specimen is told from a stiff one", "[elastic]")
+{
+    for (const std::uint64_t seed : { 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u }) {
+        const auto s = specimens::random_grains(0.02, 0.02, 3e-3, seed);
+        // contacts ten thousand times as stiff as the granite's still solve
+        const Assembly a =
+            specimens::assemble(s, specimens::options(specimens::strong_contact(1.80e18)));
+        CHECK(elastic_constants(a).youngs_modulus == Approx(25.8e9).epsilon(1e-4));
+        CHECK_THROWS_AS(solve_static(a, {}), std::runtime_error);
+        CHECK_THROWS_AS(solve_static(a, { { a.node(0, 0), 0.0 }, { a.node(0, 0) + lanes, 0.0 } }),
+            std::runtime_error);
+    }
 }
 
 TEST_CASE("wrong loads and supports are refused in one line", "[elastic]")

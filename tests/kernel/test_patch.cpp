@@ -35,8 +35,8 @@ void for_each_triangle(const Assembly& a, const Array<double>& u, Visit visit)
         for (int t = 0; t < triangles_of(a, g); ++t) {
             const auto n = triangle_nodes(a, g, t);
             const TriangleShape s = shape_of(a, g, t);
-            visit(displacement_gradient(s, at(a.node(g, n[0])), at(a.node(g, n[1])),
-                      at(a.node(g, n[2]))),
+            visit(displacement_gradient(
+                      s, at(a.node(g, n[0])), at(a.node(g, n[1])), at(a.node(g, n[2]))),
                 s, stiffness_of(a, g));
         }
     }
@@ -96,8 +96,8 @@ double cauchy_error(const Assembly& a, const Tensor& expected)
             const Tensor s = cauchy_stress(shape_of(a, g, t), stiffness_of(a, g),
                 displacement_of(a, a.node(g, n[0])), displacement_of(a, a.node(g, n[1])),
                 displacement_of(a, a.node(g, n[2])));
-            error = std::max({ error, std::fabs(s.xx - expected.xx),
-                std::fabs(s.yy - expected.yy), std::fabs(s.xy - expected.xy) });
+            error = std::max({ error, std::fabs(s.xx - expected.xx), std::fabs(s.yy - expected.yy),
+                std::fabs(s.xy - expected.xy) });
         }
     }
     return error;
@@ -107,7 +107,8 @@ double cauchy_error(const Assembly& a, const Tensor& expected)
 void settle(Assembly& a, int steps)
 {
     scale_masses(a, 0.7);
-    for (int n = 0; n < steps; ++n) step(a, StepOptions());
+    for (int n = 0; n < steps; ++n)
+        step(a, StepOptions());
 }
 
 const Tensor stresses[] = { { 1e6, 0, 0 }, { 0, -2e6, 0 }, { 0, 0, 1e6 }, { 1e6, -3e6, 0.7e6 } };
@@ -129,11 +130,11 @@ TEST_CASE("patch: one grain whose boundary follows a linear field", "[patch]")
     }
     // Hooke's law written out anew
     const double young = 25.8e9, nu = 0.23, g = 0.5 * young / (1.0 + nu);
-    const double lambda
-        = plane == Plane::strain ? 2.0 * g * nu / (1.0 - 2.0 * nu) : 2.0 * g * nu / (1.0 - nu);
+    const double lambda =
+        plane == Plane::strain ? 2.0 * g * nu / (1.0 - 2.0 * nu) : 2.0 * g * nu / (1.0 - nu);
     const double trace = h.xx + h.yy;
-    const Tensor expected
-        = { lambda * trace + 2.0 * g * h.xx, lambda * trace + 2.0 * g * h.yy, g * (h.xy + h.yx) };
+    const Tensor expected = { lambda * trace + 2.0 * g * h.xx, lambda * trace + 2.0 * g * h.yy,
+        g * (h.xy + h.yx) };
     const StaticSolution s = solve_static(a, boundary);
     CHECK(stress_error(a, s.displacement, expected) < 1e-10 * largest(expected));
 }
@@ -157,8 +158,8 @@ TEST_CASE("patch: a grid of bonded grains under uniform traction", "[patch]")
     const auto mesh = GENERATE(MeshKind::fan, MeshKind::refined);
     const int points = GENERATE(2, 3);
     const double size = 2e-3;
-    const Assembly a
-        = specimens::assemble(specimens::grid(4, 3, size), with(mesh, Plane::stress, points));
+    const Assembly a =
+        specimens::assemble(specimens::grid(4, 3, size), with(mesh, Plane::stress, points));
     for (const Tensor& expected : stresses) {
         const Array<double> loads = edge_loads(a, expected);
         const StaticSolution s = solve_static(a, no_rigid_motion(a), &loads);
@@ -181,7 +182,8 @@ TEST_CASE("patch: stepping reaches the uniform stress of one grain at large stra
     const auto plane = GENERATE(Plane::stress, Plane::strain);
     Assembly a = specimens::assemble(specimens::hexagon(), with(mesh, plane));
     const double pressure = 2e9;  // strains of several percent
-    for (int side = 0; side < 6; ++side) set_pressure(a, side, pressure);
+    for (int side = 0; side < 6; ++side)
+        set_pressure(a, side, pressure);
     settle(a, 4000);
     // the pressure acts on the deformed edges: this is the exact Cauchy stress
     CHECK(cauchy_error(a, { -pressure, -pressure, 0.0 }) < 1e-10 * pressure);
@@ -192,8 +194,10 @@ TEST_CASE("patch: stepping reaches the uniform stress of bonded grains", "[patch
     const auto mesh = GENERATE(MeshKind::fan, MeshKind::refined);
     const double axial = 100.0, lateral = GENERATE(0.0, 40.0);
     Assembly a = specimens::assemble(specimens::grid(2, 2, 2e-3), with(mesh));
-    for (int side : { 0, 2 }) set_pressure(a, side, axial);
-    for (int side : { 1, 3 }) set_pressure(a, side, lateral);
+    for (int side : { 0, 2 })
+        set_pressure(a, side, axial);
+    for (int side : { 1, 3 })
+        set_pressure(a, side, lateral);
     settle(a, 4000);
     // bonds that turn while they open, on the way to rest, keep an error of second order in the
     // load: hence the small pressure
@@ -205,8 +209,8 @@ TEST_CASE("the stress scatter of a Voronoi assembly falls as 1 / K_n", "[patch]"
     const auto specimen = specimens::random_grains(0.02, 0.04, 3e-3, 7);
     std::vector<double> scatter;
     for (const double stiffness : { 1.80e15, 1.80e16, 1.80e17 }) {
-        const Assembly a = specimens::assemble(
-            specimen, specimens::options(specimens::strong_contact(stiffness)));
+        const Assembly a =
+            specimens::assemble(specimen, specimens::options(specimens::strong_contact(stiffness)));
         const Tensor applied { 0.0, -1e6, 0.0 };
         const Array<double> loads = edge_loads(a, applied);
         const StaticSolution s = solve_static(a, no_rigid_motion(a), &loads);

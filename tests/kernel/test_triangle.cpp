@@ -22,9 +22,10 @@ Corners random_corners(Random& random)
 {
     for (;;) {
         Corners p;
-        for (Point& q : p) q = { 2.0 * size * random.next(), 2.0 * size * random.next() };
-        const double twice_area = (p[1].x - p[0].x) * (p[2].y - p[0].y)
-            - (p[1].y - p[0].y) * (p[2].x - p[0].x);
+        for (Point& q : p)
+            q = { 2.0 * size * random.next(), 2.0 * size * random.next() };
+        const double twice_area =
+            (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
         if (twice_area > 0.5 * size * size) return p;
     }
 }
@@ -32,7 +33,8 @@ Corners random_corners(Random& random)
 Corners random_displacements(Random& random, double amplitude)
 {
     Corners u;
-    for (Point& v : u) v = { amplitude * (random.next() - 0.5), amplitude * (random.next() - 0.5) };
+    for (Point& v : u)
+        v = { amplitude * (random.next() - 0.5), amplitude * (random.next() - 0.5) };
     return u;
 }
 
@@ -134,10 +136,12 @@ TEST_CASE("forces and stress of a strained triangle turn with it", "[triangle]")
         const Tensor a = cauchy_stress(s, c, u[0], u[1], u[2]);
         const Tensor b = cauchy_stress(s, c, v[0], v[1], v[2]);
         const double cs = std::cos(angle), sn = std::sin(angle);
-        CHECK(b.xx == Approx(a.xx * cs * cs - 2.0 * a.xy * cs * sn + a.yy * sn * sn)
-                          .margin(1e-13 * c.normal));
-        CHECK(b.xy == Approx((a.xx - a.yy) * cs * sn + a.xy * (cs * cs - sn * sn))
-                          .margin(1e-13 * c.normal));
+        CHECK(b.xx
+            == Approx(a.xx * cs * cs - 2.0 * a.xy * cs * sn + a.yy * sn * sn)
+                   .margin(1e-13 * c.normal));
+        CHECK(b.xy
+            == Approx((a.xx - a.yy) * cs * sn + a.xy * (cs * cs - sn * sn))
+                   .margin(1e-13 * c.normal));
     }
 }
 

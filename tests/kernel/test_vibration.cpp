@@ -94,8 +94,8 @@ TEST_CASE("two bonded grains vibrate at the frequencies of their matrices", "[vi
 TEST_CASE("real masses add up to the specimen's", "[vibration]")
 {
     const double width = 0.02, height = 0.04;
-    Assembly a = specimens::assemble(
-        specimens::random_grains(width, height, 3e-3, 4), specimens::options());
+    Assembly a =
+        specimens::assemble(specimens::random_grains(width, height, 3e-3, 4), specimens::options());
     set_real_masses(a, 0.7);
     CHECK(0.5 * dense::masses(a).sum()
         == Approx(2650.0 * width * height * specimens::thickness).epsilon(1e-12));
@@ -109,7 +109,8 @@ TEST_CASE("masses keep every mode below the limit of damped central differences"
     for (const std::uint64_t seed : { 1u, 2u, 3u }) {
         Assembly a = specimens::assemble(specimens::random_grains(0.015, 0.012, 3e-3, seed),
             with(mesh, set_up.first, set_up.second));
-        INFO("points " << set_up.first << ", on centre line " << set_up.second << ", seed " << seed);
+        INFO(
+            "points " << set_up.first << ", on centre line " << set_up.second << ", seed " << seed);
         const double damping = 0.7, limit = 4.0 / (1.0 + damping) / mass_margin;
         scale_masses(a, damping);
         CHECK(dense::largest_eigenvalue(a) <= limit * (1.0 + 1e-12));
@@ -131,8 +132,8 @@ TEST_CASE("scaled masses go with the time step squared and with 1 + damping", "[
 
 TEST_CASE("the bound is not wasteful: within a factor of three of the limit", "[vibration]")
 {
-    Assembly a = specimens::assemble(
-        specimens::random_grains(0.015, 0.012, 3e-3, 5), specimens::options());
+    Assembly a =
+        specimens::assemble(specimens::random_grains(0.015, 0.012, 3e-3, 5), specimens::options());
     scale_masses(a, 0.7);
     CHECK(dense::largest_eigenvalue(a) > 4.0 / 1.7 / 3.0);
 }

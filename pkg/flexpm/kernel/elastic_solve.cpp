@@ -21,7 +21,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
 
 /// A pivot below this share of its diagonal term is round-off: the part it belongs to moves freely.
-constexpr double smallest_pivot = 1e-12;
+constexpr double smallest_pivot = 1e-10;
 
 void add_block(std::vector<StiffnessEntry>& entries, int row, int column, const StiffnessBlock& k)
 {
@@ -59,7 +59,8 @@ void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& en
         const double wb = a.weight[row_index(contact, 2 * p + 1, 2 * a.points)];
         const std::array<double, 4> part = { wa - 1.0, -wa, 1.0 - wb, wb };
         for (int i = 0; i < 4; ++i) {
-            for (int j = 0; j < 4; ++j) share[i][j] += area * part[i] * part[j];
+            for (int j = 0; j < 4; ++j)
+                share[i][j] += area * part[i] * part[j];
         }
     }
     const LawParameters& law = a.laws[a.contact_law[contact]];
@@ -90,14 +91,15 @@ struct Unknowns {
 }
 
 /// Marks what is prescribed and numbers the rest, node by node; fills `u` with the given values.
-Unknowns
-number_unknowns(const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
+Unknowns number_unknowns(
+    const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
 {
     Unknowns n;
     n.number.assign(a.displacement.size(), padding);
     for (int g = 0; g < a.grains; ++g) {
         for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int c = 0; c < 2; ++c) n.number[a.node(g, k) + c * lanes] = 0;
+            for (int c = 0; c < 2; ++c)
+                n.number[a.node(g, k) + c * lanes] = 0;
         }
     }
     for (const Prescribed& p : prescribed) {
@@ -155,8 +157,7 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
     throw std::runtime_error(text.str());
 }
 
-void check_pivots(
-    const Assembly& a, const Unknowns& n, const SparseMatrix& k, const Solver& solver)
+void check_pivots(const Assembly& a, const Unknowns& n, const SparseMatrix& k, const Solver& solver)
 {
     // a pivot of exactly zero ends the factorisation: it is the first that fails here
     const Eigen::VectorXd diagonal = k.diagonal(), pivots = solver.vectorD();
@@ -173,8 +174,10 @@ void check_pivots(
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a)
 {
     std::vector<StiffnessEntry> entries;
-    for (int g = 0; g < a.grains; ++g) add_grain(a, g, entries);
-    for (int c = 0; c < a.contacts; ++c) add_contact(a, c, entries);
+    for (int g = 0; g < a.grains; ++g)
+        add_grain(a, g, entries);
+    for (int c = 0; c < a.contacts; ++c)
+        add_contact(a, c, entries);
     return entries;
 }
 
@@ -202,7 +205,8 @@ StaticSolution solve_static(
         const Solver solver(k);
         check_pivots(a, n, k, solver);
         const Eigen::VectorXd x = solver.solve(rhs);
-        for (std::size_t i = 0; i < n.index.size(); ++i) s.displacement[n.index[i]] = x[i];
+        for (std::size_t i = 0; i < n.index.size(); ++i)
+            s.displacement[n.index[i]] = x[i];
     }
     for (const StiffnessEntry& e : entries) {
         s.force[e.row] -= e.value * s.displacement[e.column];
@@ -213,15 +217,17 @@ StaticSolution solve_static(
 ElasticConstants elastic_constants(const Assembly& a)
 {
     for (int side = 0; side < 4; ++side) {
-        check_positive("elastic_constants: length of side " + std::to_string(side),
-            side_length(a, side), "m");
+        check_positive(
+            "elastic_constants: length of side " + std::to_string(side), side_length(a, side), "m");
     }
     constexpr double strain = 1e-3;  // any value: the solve is linear
     const double width = side_length(a, 0), height = side_length(a, 1);
     const std::vector<int> bottom = side_nodes(a, 0), top = side_nodes(a, 2);
     std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
-    for (int n : bottom) prescribed.push_back({ n + lanes, 0.0 });
-    for (int n : top) prescribed.push_back({ n + lanes, strain * height });
+    for (int n : bottom)
+        prescribed.push_back({ n + lanes, 0.0 });
+    for (int n : top)
+        prescribed.push_back({ n + lanes, strain * height });
     StaticSolution s = solve_static(a, prescribed);
 
     Assembly solved = a;
