@@ -12,9 +12,15 @@ import numpy as np
 
 from . import packing
 from .errors import InputError
-
-#: Edges of cells below this share of the mean diameter are collapsed: 0.35 mm for discs of 2-4 mm.
-SHORT_EDGE = 0.35 / 3.0
+from .specimen_input import (
+    SHORT_EDGE,
+    disc_rows,
+    require_diameters,
+    require_positive,
+    require_seed,
+    require_short_edge,
+    rows,
+)
 
 _FEWEST_DISCS = 8
 
@@ -91,7 +97,7 @@ class Specimen:
         Raises:
             InputError: for a value out of range, or discs that do not fit.
         """
-        _require_positive("Specimen.rectangle", width=width, height=height)
+        require_positive("Specimen.rectangle", width=width, height=height)
         frame = packing.Frame(width=width, height=height)
         corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
         return _generate(
@@ -127,7 +133,7 @@ class Specimen:
         Raises:
             InputError: for a value out of range, or discs that do not fit.
         """
-        _require_positive("Specimen.disc", diameter=diameter)
+        require_positive("Specimen.disc", diameter=diameter)
         frame = packing.Frame(radius=0.5 * diameter)
         outline = Circle(0.0, 0.0, 0.5 * diameter)
         return _generate(
@@ -159,10 +165,10 @@ class Specimen:
         Raises:
             InputError: for a value out of range, a disc outside the outline or hidden by others.
         """
-        _require_positive("Specimen.from_discs", thickness=thickness)
-        discs = _disc_rows(centres, radii)
+        require_positive("Specimen.from_discs", thickness=thickness)
+        discs = disc_rows(centres, radii)
         if not isinstance(outline, Circle):
-            outline = _rows("Specimen.from_discs: outline", outline)
+            outline = rows("Specimen.from_discs: outline", outline)
         return _tessellated(cls, discs, outline, thickness, seed=None, short_edge=short_edge)
 
     @property
@@ -249,10 +255,10 @@ def _generate(
     progress: packing.Progress | None,
 ) -> Specimen:
     where = "Specimen.disc" if isinstance(outline, Circle) else "Specimen.rectangle"
-    _require_positive(where, thickness=thickness)
-    smallest, largest = _require_diameters(where, diameters, frame)
-    _require_seed(where, seed)
-    _require_short_edge(short_edge)
+    require_positive(where, thickness=thickness)
+    smallest, largest = require_diameters(where, diameters, frame)
+    require_seed(where, seed)
+    require_short_edge(short_edge)
     area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
     kernel = packing.load_kernel()
     count = _call(kernel.disc_count, area, smallest, largest, float(porosity))
@@ -278,7 +284,7 @@ def _tessellated(
     short_edge: float,
 ) -> Specimen:
     """Tessellate; drop hidden discs of a generated packing (those with a seed)."""
-    _require_short_edge(short_edge)
+    require_short_edge(short_edge)
     kernel = packing.load_kernel()
     if isinstance(outline, Circle):
         shape = _call(kernel.Outline.circle, outline.x, outline.y, outline.radius)
@@ -328,76 +334,3 @@ def _call(function: Any, *arguments: Any) -> Any:
 
 def _columns(discs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.ascontiguousarray(discs[:, :2]), np.ascontiguousarray(discs[:, 2])
-
-
-def _disc_rows(centres: Any, radii: Any) -> np.ndarray:
-    points = _rows("Specimen.from_discs: centres", centres)
-    try:
-        sizes = np.array(radii, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
-    if sizes.shape != (len(points),):
-        raise InputError(
-            f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
-            f"{len(points)}; complete them"
-        )
-    return np.column_stack((points, sizes))
-
-
-def _rows(name: str, values: Any) -> np.ndarray:
-    try:
-        rows = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: not numbers, must be rows x, y; correct them") from None
-    if rows.ndim != 2 or rows.shape[1] != 2:
-        raise InputError(f"{name} = array of shape {rows.shape}, must be rows x, y; correct it")
-    return rows
-
-
-def _require_positive(where: str, **values: float) -> None:
-    for name, value in values.items():
-        if not _is_number(value) or not value > 0.0:
-            raise InputError(f"{where}: {name} = {value} m, must be finite and > 0; correct it")
-
-
-def _require_diameters(
-    where: str, diameters: tuple[float, float], frame: packing.Frame
-) -> tuple[float, float]:
-    try:
-        smallest, largest = diameters
-    except (TypeError, ValueError):
-        raise InputError(
-            f"{where}: diameters = {diameters} m, must be two numbers; give smallest and largest"
-        ) from None
-    _require_positive(where, **{"smallest diameter": smallest, "largest diameter": largest})
-    if smallest > largest:
-        raise InputError(
-            f"{where}: diameters = {smallest}, {largest} m, smallest must not exceed largest; "
-            "swap them"
-        )
-    room = 2.0 * frame.radius if frame.radius else min(frame.width, frame.height)
-    if largest > 0.5 * room:
-        raise InputError(
-            f"{where}: largest diameter = {largest} m, must be <= half the specimen's smallest "
-            f"dimension, {0.5 * room:.6g} m; choose smaller discs"
-        )
-    return float(smallest), float(largest)
-
-
-def _require_seed(where: str, seed: int) -> None:
-    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed < 2**64:
-        raise InputError(
-            f"{where}: seed = {seed}, must be a whole number >= 0 and < 2**64; change it"
-        )
-
-
-def _require_short_edge(share: float) -> None:
-    if not _is_number(share) or not 0.0 <= share < 0.5:
-        raise InputError(
-            f"Specimen: short_edge = {share} mean diameters, must be >= 0 and < 0.5; "
-            f"the default is {SHORT_EDGE:.4g}"
-        )
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float, np.number)) and math.isfinite(value)
