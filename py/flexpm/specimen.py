@@ -16,6 +16,7 @@ from .specimen_input import (
     SHORT_EDGE,
     disc_rows,
     require_diameters,
+    require_number,
     require_positive,
     require_seed,
     require_short_edge,
@@ -258,6 +259,8 @@ def _generate(
     require_positive(where, thickness=thickness)
     smallest, largest = require_diameters(where, diameters, frame)
     require_seed(where, seed)
+    seed = int(seed)  # numpy's integers do not convert
+    require_number(where, porosity=porosity)
     require_short_edge(short_edge)
     area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
     kernel = packing.load_kernel()

@@ -48,6 +48,13 @@ def require_positive(where: str, **values: float) -> None:
             raise InputError(f"{where}: {name} = {value} m, must be finite and > 0; correct it")
 
 
+def require_number(where: str, **values: float) -> None:
+    """Refuse what is not a finite number [-]."""
+    for name, value in values.items():
+        if not _is_number(value):
+            raise InputError(f"{where}: {name} = {value}, must be a finite number; correct it")
+
+
 def require_diameters(
     where: str, diameters: tuple[float, float], frame: Frame
 ) -> tuple[float, float]:
