@@ -173,3 +173,13 @@ TEST_CASE("wrong discs and outlines are refused", "[power_diagram]")
     REQUIRE_THROWS_AS(tessellate({ { { 0.0, 0.0 }, 0.1 } }, Outline::circle({ 0, 0 }, 1.0), {}),
         std::invalid_argument);
 }
+
+TEST_CASE("discs in one place to round-off count as one", "[power_diagram]")
+{
+    const double apart = GENERATE(0.0, 1e-18, 1e-12, 1e-8);
+    const std::vector<Disc> discs { { { 0.5, 0.5 }, 0.05 }, { { 0.5, 0.75 }, 0.05 },
+        { { 0.75, 0.02390625 + apart }, 0.05 }, { { 0.75, 0.02390625 }, 0.05000000000000001 } };
+    const auto t = tessellate(discs, rectangle(1.0, 1.0), { 0.0, true });
+    REQUIRE(t.hidden_discs == std::vector<int> { 2 });
+    require_tiling(t, 1.0);
+}

@@ -124,24 +124,6 @@ double distance_inside(const Outline& outline, Point p)
     return smallest;
 }
 
-void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
-{
-    if (discs.empty())
-        throw std::invalid_argument("tessellate: discs = 0, must be >= 1; give at least one disc");
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-        const Disc& d = discs[i];
-        const std::string name = "tessellate: disc " + std::to_string(i);
-        if (!std::isfinite(d.centre.x) || !std::isfinite(d.centre.y))
-            throw std::invalid_argument(name + ": centre is not finite; give finite coordinates");
-        if (!(std::isfinite(d.radius) && d.radius > 0.0))
-            throw std::invalid_argument(name + ": radius = " + number(d.radius)
-                + " m, must be finite and > 0; remove or correct the disc");
-        if (!contains(outline, d.centre))
-            throw std::invalid_argument(name + ": centre = (" + number(d.centre.x) + ", "
-                + number(d.centre.y) + ") m, must lie inside the outline; move or remove it");
-    }
-}
-
 BoundingCircle bounding_circle(const Outline& outline)
 {
     if (outline.is_circle()) return { outline.centre, outline.radius };

@@ -44,10 +44,6 @@ struct BoundingCircle {
 /// True for points inside or on the outline.
 bool contains(const Outline& outline, Point p);
 
-/// @throws std::invalid_argument  for no disc, a non-finite number, a radius <= 0, or a centre
-///                                outside
-void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline);
-
 /// Distance from the outline, positive inside [m]; the nearest side's line for points outside.
 double distance_inside(const Outline& outline, Point p);
 

@@ -2,6 +2,7 @@
 /// @file  Laguerre cells as the dual of CGAL's regular triangulation, paper Sec. 3.1.
 #include <flexpm/kernel/power_diagram.hpp>
 
+#include <flexpm/kernel/disc_checks.hpp>
 #include <flexpm/kernel/power.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -79,12 +80,10 @@ private:
             ghosts.push_back({ { box.centre.x + s.x, box.centre.y + s.y }, 0.0 });
         // CGAL may swap handles when a disc hides another, so indices are found again by value.
         std::map<std::pair<double, double>, int> index;
-        for (std::size_t i = 0; i < discs.size(); ++i) {
-            const auto key = std::make_pair(discs[i].centre.x, discs[i].centre.y);
-            const auto [at, added] = index.emplace(key, static_cast<int>(i));
-            if (!added && discs[i].radius > discs[at->second].radius)
-                at->second = static_cast<int>(i);
-        }
+        const std::vector<bool> coincident = find_coincident(discs);
+        for (std::size_t i = 0; i < discs.size(); ++i)
+            if (!coincident[i])
+                index[{ discs[i].centre.x, discs[i].centre.y }] = static_cast<int>(i);
         for (const Disc& d : ghosts)
             insert(d);
         for (const auto& entry : index)
