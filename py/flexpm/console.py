@@ -54,16 +54,17 @@ class Progress:
         if not self._shown:
             return
         if self._bar is None or done < self._bar.n:
-            self._restart(expected)
+            self._restart(text, expected)
         self._bar.desc = text
         self._bar.total = max(done, expected)
         self._bar.update(done - self._bar.n)
 
-    def _restart(self, expected: float) -> None:
+    def _restart(self, text: str, expected: float) -> None:
         from tqdm import tqdm
 
         self.close()
         self._bar = tqdm(
+            desc=text,
             total=max(expected, 1),
             unit=" steps",
             leave=False,
