@@ -81,14 +81,7 @@ def command() -> None:
     help="Axial strain at which the test ends [-].",
 )
 @click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses.")
-@click.option(
-    "--threads",
-    type=Count(1),
-    default=1,
-    metavar="N",
-    show_default=True,
-    help="Threads of the simulation.",
-)
+@cli_options.threads_option
 @cli_options.out_option
 @cli_options.quiet_option
 def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
@@ -184,7 +177,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     _describe(made, folder, mesh)
 
 
-@command.command(short_help="Time a step of the model and of JCFpm.")
+@command.command(short_help="Time a step of each model.")
 @click.option(
     "--steps",
     type=Count(1),
@@ -193,13 +186,26 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     show_default=True,
     help="Steps to time for each model.",
 )
+@cli_options.rectangle_options
+@cli_options.seed_option
+@cli_options.threads_option
+@click.option("--scaling", is_flag=True, help="Time also 10 and 40 times as many grains.")
+@click.option(
+    "--json",
+    "json_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write the times to this file, too.",
+)
 @cli_options.quiet_option
-def bench(steps: int, quiet: bool) -> None:
-    """Time a step of the flexible model and of YADE's JCFpm on the same specimen."""
+def bench(quiet: bool, **options: Any) -> None:
+    """Time a step of flexpm's models and of YADE's JCFpm and CohFrict on the same specimen."""
+    if options["json_file"] is not None:
+        output_folder(options["json_file"].parent)
     _library()
     timing = importlib.import_module("flexpm.bench")
     with console.Progress(quiet) as progress:
-        rows = timing.run(steps=steps, progress=progress)
+        rows = timing.run(progress=progress, **options)
     click.echo(console.table(rows))
 
 

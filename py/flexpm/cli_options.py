@@ -140,6 +140,22 @@ rectangle_options = combined(
     _length("--width", 0.08, "Width"),
     _length("--height", 0.16, "Height"),
 )
+seed_option = click.option(
+    "--seed",
+    type=Count(0),
+    default=1,
+    metavar="N",
+    show_default=True,
+    help="Seed of the packing.",
+)
+threads_option = click.option(
+    "--threads",
+    type=Count(1),
+    default=1,
+    metavar="N",
+    show_default=True,
+    help="Threads of the simulation.",
+)
 packing_options = combined(
     _length("--thickness", 0.08, "Thickness out of plane"),
     click.option(
@@ -157,14 +173,7 @@ packing_options = combined(
         show_default=True,
         help="Sets the number of grains [-].",
     ),
-    click.option(
-        "--seed",
-        type=Count(0),
-        default=1,
-        metavar="N",
-        show_default=True,
-        help="Seed of the packing.",
-    ),
+    seed_option,
 )
 disc_options = _length("--diameter", 0.08, "Diameter of the disc")
 model_options = combined(

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Times of steps as a table and as plain data. Times in seconds.
+
+A ratio of two models is the median over the turns of the ratios within one turn.
+"""
+
+from __future__ import annotations
+
+import platform
+from dataclasses import dataclass, field
+from pathlib import Path
+from statistics import median, quantiles
+from typing import Any
+
+import yade
+
+from . import __version__
+from .console import scaled
+
+#: Model to which the others are compared.
+REFERENCE = "jcfpm"
+#: Ratios of the paper, Sec. 4: (model, to model, uniaxial).
+PAPER_RATIOS = (("refined", "rigid", 8.15), ("inner", "refined", 3.03))
+
+
+@dataclass
+class Case:
+    """One model in a scene of its own."""
+
+    name: str
+    label: str
+    scene: int
+    counts: dict[str, int | None]
+    times: list[float] = field(default_factory=list)  #: wall time of a step, turn by turn [s]
+    cpu_times: list[float] = field(default_factory=list)  #: of the calling thread alone [s]
+
+    @property
+    def step_time(self) -> float:
+        """Median wall time of a step [s]."""
+        return median(self.times)
+
+
+@dataclass
+class Timing:
+    """Outcome of one comparison."""
+
+    machine: dict[str, str | int]
+    specimen: dict[str, float | int | None]
+    threads: int
+    steps: int  #: of each model
+    cases: list[Case]
+
+    def ratio(self, name: str, reference: str = REFERENCE) -> float:
+        """Median over the turns of a model's time over that of `reference` [-]."""
+        times = {case.name: case.times for case in self.cases}
+        return median(a / b for a, b in zip(times[name], times[reference], strict=True))
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as plain data, ratios and spreads included."""
+        cases = {}
+        for case in self.cases:
+            low, _, high = quantiles(case.times, n=4) if len(case.times) > 1 else case.times * 3
+            cases[case.name] = {
+                "label": case.label,
+                "step_time": case.step_time,
+                "quartiles": [low, high],
+                "cpu_time": median(case.cpu_times) if self.threads == 1 else None,
+                f"ratio_to_{REFERENCE}": self.ratio(case.name),
+                **case.counts,
+            }
+        return {
+            "machine": self.machine,
+            "specimen": self.specimen,
+            "threads": self.threads,
+            "steps": self.steps,
+            "turns": len(self.cases[0].times),
+            "models": cases,
+        }
+
+
+def machine() -> dict[str, str | int]:
+    """The machine and the versions that a time belongs to."""
+    names = [
+        line.partition(":")[2].strip()
+        for line in Path("/proc/cpuinfo").read_text().splitlines()
+        if line.startswith("model name")
+    ]
+    return {
+        "processor": names[0] if names else platform.machine(),
+        "cores": max(len(names), 1),
+        "system": platform.platform(),
+        "flexpm": __version__,
+        "yade": yade.config.version,
+        "python": platform.python_version(),
+    }
+
+
+def table_rows(timing: Timing) -> list[tuple[str, str]]:
+    """Describe a comparison as rows (name, value)."""
+    host, counts = timing.machine, timing.cases[0].counts
+    rows = [
+        ("processor", f"{host['processor']}, {host['cores']} cores, {timing.threads} used"),
+        ("versions", f"flexpm {host['flexpm']}, YADE {host['yade']}, Python {host['python']}"),
+        ("grains, contacts", f"{counts['grains']}, {counts['contacts']}"),
+        ("nodes, triangles", f"{counts['nodes']}, {counts['triangles']}"),
+        ("steps of each model", f"{timing.steps} in {len(timing.cases[0].times)} turns"),
+    ]
+    if timing.threads == 1:
+        share = median(
+            own / wall
+            for case in timing.cases
+            for own, wall in zip(case.cpu_times, case.times, strict=True)
+        )
+        rows.append(("share of a core", f"{100.0 * share:.0f} %"))
+    for case in timing.cases:
+        ratio = f"{timing.ratio(case.name):.3f} of JCFpm's" if case.name != REFERENCE else "1"
+        rows.append((case.label, f"{scaled(case.step_time, 1e6, 'us')}, {ratio}"))
+    known = {case.name for case in timing.cases}
+    rows += [
+        (f"{name} / {other}", f"{timing.ratio(name, other):.2f}, paper {paper}")
+        for name, other, paper in PAPER_RATIOS
+        if {name, other} <= known
+    ]
+    return rows
+
+
+def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
+    """Describe growth as rows (name, value)."""
+    base = found[0]["time_per_grain"]
+    return [
+        (
+            f"{row['grains']} grains",
+            f"{scaled(row['step_time'], 1e6, 'us')}, {scaled(row['time_per_grain'], 1e9, 'ns', 3)} "
+            f"a grain ({row['time_per_grain'] / base:.2f} of the first), "
+            f"specimen in {row['specimen_time']:.1f} s",
+        )
+        for row in found
+    ]

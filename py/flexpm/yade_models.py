@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE's own bonded models, JCFpm and CohFrict, on the discs and bonds of a specimen. SI units.
+
+Spheres at the disc centres move in the plane and turn about z; each edge that two cells share is a
+bond whose stiffness and strength follow the rule of ``yade_bonds``. Spheres that meet later touch
+with friction only. As in the other models masses are scaled for a time step of 1 unless the model
+is dynamic.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+import yade
+from yade import utils, wrapper
+
+from . import materials, yade_bonds
+from .errors import InputError
+from .materials import Material
+from .specimen import Specimen
+from .yade_bonds import MASS_MARGIN, Bonds
+
+#: Models of this module.
+NAMES = ("jcfpm", "cohfrict")
+
+#: Bodies may move this share of the mean diameter before the collider looks again [-].
+_SWEEP = 0.05
+#: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
+_PLATE_STIFFNESS = 1e3
+
+
+@dataclass
+class SphereModel:
+    """A specimen of YADE's bonded spheres in YADE's scene.
+
+    Attributes:
+        specimen: The grains.
+        material: Their material.
+        name: ``jcfpm`` or ``cohfrict``.
+        bonds: Properties of the bonds.
+        contacts: ``Interaction.phys`` of each bond; it outlives the bond.
+        law: The contact law's functor.
+        engines: All engines of the model.
+        material_ids: Ids of the materials of spheres and of plates.
+        ids: Body of each grain.
+    """
+
+    specimen: Specimen
+    material: Material
+    name: str
+    bonds: Bonds
+    law: Any
+    engines: list[Any]
+    material_ids: tuple[int, int]
+    ids: list[int]
+    contacts: list[Any] = field(default_factory=list)
+
+    def run(self, steps: int) -> None:
+        """Advance by `steps` and wait for the end."""
+        yade.O.run(steps, True)
+
+    def counts(self) -> dict[str, int | None]:
+        """Numbers of grains and contacts; there are no nodes and triangles."""
+        return {
+            "grains": len(self.ids),
+            "contacts": len(self.bonds),
+            "nodes": None,
+            "triangles": None,
+        }
+
+    def add_plate(self, face: float, sense: int) -> int:
+        """Put a fixed, frictionless, horizontal plate beside the specimen.
+
+        Args:
+            face: Height of the face that touches the specimen [m].
+            sense: 1 for a plate above the specimen, -1 for one below.
+
+        Returns:
+            Its body; give it a velocity to move it.
+        """
+        middle = self.specimen.centres[:, 0].mean()
+        half_width = np.ptp(self.specimen.centres[:, 0])  # twice the specimen's, for its bulging
+        half_height = self.specimen.mean_diameter
+        plate = utils.box(
+            (middle, face + sense * half_height, 0.0),
+            (half_width, half_height, half_height),
+            material=yade.O.materials[self.material_ids[1]],
+            fixed=True,
+        )
+        return yade.O.bodies.append(plate)
+
+    def touch(self, plate: int, tributary: Mapping[int, float]) -> None:
+        """Let grains touch a plate without force from the start, whatever their distance is.
+
+        Args:
+            plate: Body of the plate.
+            tributary: Length [m] of the specimen's side that each grain carries.
+        """
+        stiffness = self.material.law(self.name)["normal_stiffness"] * self.specimen.thickness
+        for grain, length in tributary.items():
+            contact = utils.createInteraction(plate, self.ids[grain])
+            contact.phys.kn, contact.phys.ks = stiffness * length, 0.0
+            offset = "initD" if self.name == "jcfpm" else "unp"
+            setattr(contact.phys, offset, contact.geom.penetrationDepth)
+
+
+def build(
+    specimen: Specimen,
+    material: Material | str | None,
+    model: str,
+    *,
+    damping: float,
+    dynamic: bool = False,
+    threads: int = 1,
+) -> SphereModel:
+    """Put a specimen into YADE's scene as bonded spheres.
+
+    Args:
+        specimen: The grains.
+        material: Preset, file, or material; its rigid elastic set and its strengths are used.
+        model: ``jcfpm`` or ``cohfrict``.
+        damping: Local damping alpha [-].
+        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        threads: Threads of YADE's engines.
+
+    Returns:
+        The model; ``yade.O`` holds its bodies and engines.
+
+    Raises:
+        InputError: for an unknown model or a material without what it needs.
+    """
+    if model not in NAMES:
+        raise InputError(f"build: model = {model!r}, must be one of {', '.join(NAMES)}")
+    chosen = materials.load(material, model)
+    law = chosen.law(model)
+    bonds = yade_bonds.bonds_of(specimen, law)
+    radii = specimen.radii if model == "jcfpm" else yade_bonds.separate_radii(specimen)
+    sphere, plate = _materials(model, law, bonds, radii)
+    material_ids = (yade.O.materials.append(sphere), yade.O.materials.append(plate))
+    ids = [
+        yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=sphere))
+        for (x, y), radius in zip(specimen.centres.tolist(), radii.tolist(), strict=True)
+    ]
+    yade.O.dt = _set_masses(specimen, radii, bonds, ids, law, (model, damping, dynamic))
+    functor, engines = _engines(specimen, model, damping, threads)
+    yade.O.engines = engines
+    built = SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
+    _make_bonds(built)
+    return built
+
+
+def _materials(model: str, law: dict[str, Any], bonds: Bonds, radii: np.ndarray) -> tuple[Any, Any]:
+    """Materials of spheres and plates; new contacts are as stiff as the mean bond."""
+    young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
+    common = {"young": young, "poisson": law["shear_ratio"], "density": law["density"]}
+    rigid = common | {"young": _PLATE_STIFFNESS * young, "frictionAngle": 0.0}
+    common["frictionAngle"] = math.atan(law["friction"])
+    if model == "jcfpm":
+        strengths = {"tensileStrength": law["tensile_strength"], "cohesion": law["cohesion"]}
+        return (
+            wrapper.JCFpmMat(type=0, label="flexpm-jcfpm", **common, **strengths),
+            wrapper.JCFpmMat(type=1, label="flexpm-jcfpm-plate", **rigid),
+        )
+    strengths = {"normalCohesion": law["tensile_strength"], "shearCohesion": law["cohesion"]}
+    moments = {"momentRotationLaw": True, "etaRoll": -1.0, "etaTwist": -1.0}
+    return (
+        wrapper.CohFrictMat(label="flexpm-cohfrict", **common, **strengths, **moments),
+        wrapper.CohFrictMat(label="flexpm-cohfrict-plate", isCohesive=False, **rigid),
+    )
+
+
+def _set_masses(
+    specimen: Specimen,
+    radii: np.ndarray,
+    bonds: Bonds,
+    ids: list[int],
+    law: dict[str, Any],
+    how: tuple[str, float, bool],
+) -> float:
+    """Give the spheres scaled or real masses; return the stable time step (1 if scaled)."""
+    model, damping, dynamic = how
+    bending = model == "cohfrict"
+    move, turn = yade_bonds.stiffness_bounds(specimen.centres, radii, bonds, bending)
+    rim = np.unique(np.array(specimen.tessellation.boundary_edges, dtype=int)[:, 0])
+    # a plate touches a sphere of the rim with about the stiffness of its diameter
+    move[rim] += 2.0 * law["normal_stiffness"] * 2.0 * radii[rim] * specimen.thickness
+    factor = MASS_MARGIN * (1.0 + damping) / 4.0
+    masses, inertias, dt = factor * move, factor * turn, 1.0
+    if dynamic:
+        areas = np.array(specimen.tessellation.cell_areas)
+        real = law["density"] * areas * specimen.thickness
+        turning = 0.5 * real * areas / math.pi  # of a disc of the cell's area
+        dt = math.sqrt(float(min(np.min(real / masses), np.min(turning / inertias))))
+        masses, inertias = real, turning
+    for body, mass, inertia in zip(ids, masses.tolist(), inertias.tolist(), strict=True):
+        state = yade.O.bodies[body].state
+        state.mass, state.inertia = mass, (inertia, inertia, inertia)
+        state.blockedDOFs = "zXY"
+    return dt
+
+
+def _engines(specimen: Specimen, model: str, damping: float, threads: int) -> tuple[Any, list[Any]]:
+    if model == "jcfpm":
+        law = wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()
+        geometries = [wrapper.Ig2_Sphere_Sphere_ScGeom(), wrapper.Ig2_Box_Sphere_ScGeom()]
+        physics = wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys()
+    else:
+        law = wrapper.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()
+        geometries = [wrapper.Ig2_Sphere_Sphere_ScGeom6D(), wrapper.Ig2_Box_Sphere_ScGeom6D()]
+        physics = wrapper.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()
+    bounds = [wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_Box_Aabb()]
+    loop = wrapper.InteractionLoop(geometries, [physics], [law])
+    newton = wrapper.NewtonIntegrator(damping=damping)
+    reach = _SWEEP * specimen.mean_diameter
+    collider = wrapper.InsertionSortCollider(bounds, verletDist=reach)
+    engines = [wrapper.ForceResetter(), collider, loop, newton]
+    for engine in engines:
+        engine.ompThreads = threads
+    return law, engines
+
+
+def _make_bonds(built: SphereModel) -> None:
+    """Make an interaction of each bond, also where its spheres do not touch."""
+    physics = built.engines[2].physDispatcher.functors[0]
+    _bonding(physics, True)
+    for row, (first, second) in enumerate(built.bonds.grains.tolist()):
+        contact = utils.createInteraction(built.ids[first], built.ids[second])
+        bond = contact.phys
+        bond.kn = float(built.bonds.normal_stiffness[row])
+        bond.ks = float(built.bonds.shear_stiffness[row])
+        strengths = built.bonds.tensile_strength[row], built.bonds.shear_strength[row]
+        if built.name == "jcfpm":
+            bond.initD = contact.geom.penetrationDepth
+            bond.crossSection = float(built.bonds.areas[row])
+            bond.FnMax, bond.FsMax = map(float, strengths)
+        else:
+            bond.unp = contact.geom.penetrationDepth
+            bond.kr, bond.ktw = float(built.bonds.bending_stiffness[row]), 0.0
+            bond.normalAdhesion, bond.shearAdhesion = map(float, strengths)
+        built.contacts.append(bond)
+    _bonding(physics, False)
+
+
+def _bonding(physics: Any, on: bool) -> None:
+    """Whether contacts that appear from now on are bonds."""
+    if isinstance(physics, wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys):
+        physics.cohesiveTresholdIteration = -1 if on else 0
+    else:
+        physics.setCohesionOnNewContacts = on
