@@ -3,12 +3,26 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 
 from ._loading import load
 
 __version__ = "0.1.0"
-__all__: list[str] = []
+
+#: What users call, and the module it is in; imported when first used.
+_PUBLIC = {
+    "InputError": "errors",
+    "Material": "materials",
+    "Model": "models",
+    "Result": "results",
+    "SimulationError": "errors",
+    "Specimen": "specimen",
+    "build": "models",
+    "elastic": "models",
+    "run": "protocols",
+}
+__all__: list[str] = list(_PUBLIC)
 
 
 def _load_classes() -> None:
@@ -34,6 +48,11 @@ if not _is_command():
 
 
 def __getattr__(name: str) -> object:
+    if name in _PUBLIC:
+        _load_classes()
+        value = getattr(importlib.import_module(f".{_PUBLIC[name]}", __name__), name)
+        globals()[name] = value
+        return value
     # As a command, the first use of a class of the plugin loads it; modules are not loaded here.
     if name[:1].isupper():
         _load_classes()

@@ -63,6 +63,11 @@ class Model:
         self.engines[place : place + 1] = [*before, self.solver, *after]
         yade.O.engines = self.engines
 
+    def remove_engines(self, *engines: Any) -> None:
+        """Take engines of a protocol out again."""
+        self.engines = [engine for engine in self.engines if engine not in engines]
+        yade.O.engines = self.engines
+
     def snapshot(self) -> dict[str, np.ndarray]:
         """The present state as plain arrays; their list is in the documentation."""
         return self.solver.snapshot()

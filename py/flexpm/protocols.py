@@ -17,7 +17,7 @@ from yade import wrapper
 
 from . import __version__, curve, export, materials, models, plot
 from .curve import Curve
-from .errors import InputError
+from .errors import InputError, SimulationError
 from .files import output_folder
 from .materials import Material
 from .models import Model
@@ -29,14 +29,43 @@ Progress = Callable[[float, float, str], None]
 
 #: Share of a wave crossing's stretch by which the ends may move in that time: the mean strain grows
 #: by k times the reference strain while a wave crosses the specimen once. Fixed by halving the rate.
-RATE_CONSTANT = {"uniaxial": 0.02}
+RATE_CONSTANT = {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01}
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-].
 DEFAULT_STRAINS = 4.0
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
+#: Wave crossings over which an isotropic pressure rises.
+_RAMP_CROSSINGS = 10
+#: Forces balance once the largest unbalanced one is below this part of the mean contact force [-].
+_AT_REST = 0.01
+#: Most wave crossings to wait for that.
+_LONGEST_REST = 100
 #: Wall time between two looks at a running simulation [s].
 _POLL = 0.1
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What a user may set of a test."""
+
+    confinement: float = 0.0  #: lateral pressure [Pa]
+    rate: float = 1.0  #: factor on the default loading rate [-]
+    max_strain: float | None = None  #: axial strain at which the test ends [-]
+
+    def __post_init__(self) -> None:
+        _require_positive("rate", self.rate)
+        if self.max_strain is not None:
+            _require_positive("max_strain", self.max_strain)
+        if not (math.isfinite(self.confinement) and self.confinement >= 0.0):
+            raise InputError(f"run: confinement = {self.confinement} Pa, must not be below 0")
+
+    def refuse_confinement(self, test: str) -> None:
+        """Raise InputError if there is a lateral pressure, which `test` has no use for."""
+        if self.confinement != 0.0:
+            raise InputError(
+                f"run: confinement = {self.confinement} Pa, must be 0 for {test}; use biaxial"
+            )
 
 
 @dataclass
@@ -44,7 +73,6 @@ class Schedule:
     """How fast and how far a test is driven."""
 
     velocity: float  #: of the moving end, magnitude [m/step, or m/s with real masses]
-    ramp_steps: int  #: over which the velocity rises
     reference_strain: float  #: strain of the reference strength [-]
     max_strain: float  #: at which the test ends [-]
     height: float  #: [m]
@@ -75,12 +103,14 @@ def run(
     """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
 
     Args:
-        test: ``uniaxial``: compression between frictionless platens until the stress has fallen to
-            half its peak or the strain reaches `max_strain`.
+        test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
+            the same ends; ``biaxial``: compression under `confinement`, applied to all sides first.
+            A test is over when the stress above the confinement has fallen to half its peak or the
+            strain reaches `max_strain`.
         specimen: A rectangle; y is the axial direction.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``.
-        confinement: Lateral pressure [Pa]; 0 for ``uniaxial``.
+        confinement: Lateral pressure [Pa], for ``biaxial`` only.
         points: Contact points per contact, 1, 2 or 3.
         mesh: ``refined`` or ``fan``.
         rate: Factor on the default loading rate [-], > 0.
@@ -98,11 +128,7 @@ def run(
     """
     if test not in TESTS:
         raise InputError(f"run: test = {test!r}, must be one of {', '.join(TESTS)}")
-    _require_positive("rate", rate)
-    if max_strain is not None:
-        _require_positive("max_strain", max_strain)
-    if not (math.isfinite(confinement) and confinement >= 0.0):
-        raise InputError(f"run: confinement = {confinement} Pa, must not be below 0")
+    settings = Settings(confinement, rate, max_strain)
     folder = None if out is None else output_folder(out)
     chosen = materials.load(material or materials.default_name(model), model)
     yade.O.reset()
@@ -111,41 +137,78 @@ def run(
     )
     if folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = TESTS[test](built, confinement, rate, max_strain, progress)
+    result = TESTS[test](built, settings, progress)
     if folder is not None:
         write_files(folder, result, built.snapshot())
     return result
 
 
-def run_uniaxial(
-    built: Model,
-    confinement: float,
-    rate: float,
-    max_strain: float | None,
-    progress: Progress | None,
-) -> Result:
+def run_uniaxial(built: Model, settings: Settings, progress: Progress | None) -> Result:
     """Compress a built specimen axially without lateral pressure."""
-    if confinement != 0.0:
-        raise InputError(
-            f"run: confinement = {confinement} Pa, must be 0 for uniaxial; leave it out"
-        )
-    recorder = wrapper.AxialRecorder()
+    settings.refuse_confinement("uniaxial")
+    return _run_axial("uniaxial", built, settings, progress)
+
+
+def run_tension(built: Model, settings: Settings, progress: Progress | None) -> Result:
+    """Pull a built specimen axially."""
+    settings.refuse_confinement("tension")
+    return _run_axial("tension", built, settings, progress)
+
+
+def run_biaxial(built: Model, settings: Settings, progress: Progress | None) -> Result:
+    """Press a built specimen from all sides, then compress it axially under lateral pressure.
+
+    Strains count from the isotropic state.
+    """
+    confinement = wrapper.ConfinementEngine(pressure=settings.confinement, sides=[1, 2, 3])
+    platens = wrapper.PlatenEngine(holdTop=False)
+    built.add_engines(before=(confinement, platens))
+    scales = wrapper.AxialRecorder().scales()
+    confinement.rampSteps = math.ceil(_RAMP_CROSSINGS * scales["crossing_steps"])
+    built.run(confinement.rampSteps)
+    _settle(built, math.ceil(scales["crossing_steps"]))
+    confinement.sides = [1, 3]
+    built.solver.clearPressure(2)  # held from now on; the reaction takes over
+    built.remove_engines(platens)
+    return _run_axial("biaxial", built, settings, progress, fromNow=True)
+
+
+TESTS: dict[str, Callable[..., Result]] = {
+    "uniaxial": run_uniaxial,
+    "tension": run_tension,
+    "biaxial": run_biaxial,
+}
+
+
+def _run_axial(
+    test: str, built: Model, settings: Settings, progress: Progress | None, **options: Any
+) -> Result:
+    """Drive the top of a built specimen until the test is over."""
+    tension = test == "tension"
+    recorder = wrapper.AxialRecorder(tension=tension, **options)
     built.add_engines(after=(recorder,))
-    plan = schedule(recorder.scales(), "uniaxial", rate, max_strain)
+    plan = schedule(recorder.scales(), test, settings)
     recorder.maxStrain = plan.max_strain
-    recorder.leastPeak = _LEAST_PEAK * recorder.scales()["strength"]
-    platens = wrapper.PlatenEngine(velocity=-plan.velocity, rampSteps=plan.ramp_steps)
-    built.add_engines(before=(platens,))
+    recorder.leastPeak = settings.confinement + _LEAST_PEAK * recorder.scales()["strength"]
+    sign = 1.0 if tension else -1.0
+    built.add_engines(before=(wrapper.PlatenEngine(velocity=sign * plan.velocity),))
     diverged, step_time = _drive(plan, recorder, progress)
-    return _result("uniaxial", built, recorder, diverged, step_time)
+    return _result(test, built, recorder, diverged, step_time)
 
 
-TESTS: dict[str, Callable[..., Result]] = {"uniaxial": run_uniaxial}
+def _settle(built: Model, steps: int) -> None:
+    """Run until the forces balance, looking every `steps`."""
+    for _ in range(_LONGEST_REST):
+        built.run(steps)
+        if built.solver.unbalanced() < _AT_REST:
+            return
+    raise SimulationError(
+        f"run: unbalanced-force ratio = {built.solver.unbalanced():.2g} after the isotropic stage, "
+        f"must fall below {_AT_REST}; lower the confinement"
+    )
 
 
-def schedule(
-    scales: dict[str, float], test: str, rate: float, max_strain: float | None
-) -> Schedule:
+def schedule(scales: dict[str, float], test: str, settings: Settings) -> Schedule:
     """Loading rate and end of a test from the scales that the recorder names.
 
     v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
@@ -154,18 +217,20 @@ def schedule(
     Args:
         scales: ``AxialRecorder.scales()``.
         test: Name of the test.
-        rate: Factor on the rate [-].
-        max_strain: Largest axial strain [-], or None for the default.
+        settings: Rate factor, confinement and largest strain.
 
     Returns:
-        Velocity, ramp and end.
+        Velocity and end.
     """
-    reference = scales["strength"] / scales["modulus"]
+    # each pascal of confinement adds at least one to the strength of a frictional contact
+    reference = (scales["strength"] + settings.confinement) / scales["modulus"]
     crossing = scales["crossing_steps"]
     dt = yade.O.dt
-    velocity = rate * RATE_CONSTANT[test] * reference * scales["height"] / (crossing * dt)
-    largest = DEFAULT_STRAINS * reference if max_strain is None else max_strain
-    return Schedule(velocity, math.ceil(crossing), reference, largest, scales["height"], dt)
+    velocity = (
+        settings.rate * RATE_CONSTANT[test] * reference * scales["height"] / (crossing * dt)
+    )
+    largest = settings.max_strain or DEFAULT_STRAINS * reference
+    return Schedule(velocity, reference, largest, scales["height"], dt)
 
 
 def write_files(folder: Path, result: Result, snapshot: dict[str, np.ndarray]) -> None:
@@ -188,7 +253,7 @@ def _drive(
     # most tests end well before the largest strain; the bar grows if one does not
     expected = min(plan.steps, math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps))
     samples: list[tuple[float, int]] = [(time.perf_counter(), omega.iter)]
-    omega.run(plan.steps + plan.ramp_steps)
+    omega.run(plan.steps)
     try:
         while omega.running:
             time.sleep(_POLL)
@@ -241,7 +306,7 @@ def _result(
     columns = [names.index(name) for name in curve.COLUMNS]
     result.curve = Curve.from_array(recorder.rows[:, columns])
     result.cracks = cracks_from_snapshot(built.snapshot(), result.curve)
-    result.measure(diverged=diverged)
+    result.measure(diverged=diverged, initial_energy=built.solver.energies()["initial_energy"])
     return result
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The packed state of a bonded assembly of deformable grains: everything that moves.
+/// @file  The packed state of a bonded assembly of grains, deformable or rigid: everything that moves.
 ///
 /// Grains of one mesh connectivity form a group and are stepped `lanes` at a time, one in each lane.
 /// Node arrays are laid out [block][node of the grain][x, y][lane]; a node is named by the offset of
@@ -9,6 +9,7 @@
 #pragma once
 
 #include <flexpm/kernel/bilinear_law.hpp>
+#include <flexpm/kernel/plate.hpp>
 #include <flexpm/kernel/triangle.hpp>
 #include <flexpm/kernel/types.hpp>
 
@@ -18,10 +19,12 @@
 namespace flexpm {
 
 /// Connectivity shared by the grains of one group. Nodes: outer vertices first, then the centre.
+/// Rigid grains have no triangles: their nodes move as one body about the centre.
 struct MeshGroup {
     int vertices = 0;            ///< outer vertices; node number `vertices` is the centre
     int nodes = 0;               ///< all nodes of a grain
     std::vector<int> triangles;  ///< three node numbers each, counter-clockwise
+    bool rigid = false;
 };
 
 /// How a point of contact cracked.
@@ -30,8 +33,9 @@ enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2 }
 /// Rows of a contact block, in units of `lanes`.
 struct ContactRows {
     static constexpr int nodes = 6;   ///< a0, a1, b0, b1, centre a, centre b
-    static constexpr int state = 6;   ///< members of PointState, in their order
+    static constexpr int state = 7;   ///< members of PointState, in their order
     static constexpr int forces = 8;  ///< x, y of the forces on a0, a1, b0, b1
+    static constexpr int plate = 4;   ///< of a boundary edge: first row of the plates' forces
 };
 
 struct Assembly {
@@ -60,6 +64,13 @@ struct Assembly {
     Array<std::uint8_t> held;    ///< 1: the velocity is prescribed, not integrated
     Array<double> inverse_mass;  ///< [block][node][lane], of the scaled or real mass [1/kg]
 
+    // rigid grains, without meaning for others: [block][lane] unless said. Their mass is that of the
+    // centre node, which alone can be held; velocities of all nodes follow from centre and spin.
+    Array<double> rotation;         ///< [block][cos - 1, sin, angle][lane] from the reference
+    Array<double> spin;             ///< angular velocity, half a step after `rotation` [rad/s]
+    Array<double> inverse_inertia;  ///< of the scaled or real moment of inertia [1/(kg m^2)]
+    Array<std::uint8_t> spin_held;  ///< 1: the spin is prescribed
+
     // triangles: [block][triangle][g1x, g1y, g2x, g2y, volume][lane]
     Array<double> shape;
     Array<double> stiffness;  ///< [block][normal, cross, shear][lane] [Pa]
@@ -72,6 +83,7 @@ struct Assembly {
     Array<double> weight;                 ///< [point][side]: share of the edge's second node [-]
     Array<double> area;                   ///< [point] [m^2]
     Array<double> span;                   ///< [x, y] from centre a to centre b when bonded [m]
+    Array<double> edge_reach;             ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
     Array<double> normal;                 ///< [x, y] of the current unit normal, from a to b
     Array<double> point_state;            ///< [point][ContactRows::state]
     Array<int> crack_step;                ///< [point]: step of the crack, -1 while intact
@@ -84,7 +96,9 @@ struct Assembly {
     std::vector<int> edge_side;           ///< side of the outline
     std::vector<double> edge_pressure;    ///< follows the deforming edge, compressive positive [Pa]
     Array<int> edge_nodes;                ///< [n0, n1] node offsets, counter-clockwise in the grain
-    Array<double> edge_force;             ///< ContactRows::forces; the last four rows stay zero [N]
+    Array<double> edge_force;             ///< x, y on n0, n1: of pressure, then of plates [N]
+
+    std::vector<Plate> plates;
 
     // which forces act on a grain, per block: force offset, local offset of first and second node
     std::vector<int> gather_first;
@@ -108,6 +122,7 @@ struct Assembly {
     int contact_blocks() const { return (contacts + lanes - 1) / lanes; }
     int edge_blocks() const { return (edges + lanes - 1) / lanes; }
     const MeshGroup& group(int block) const { return groups[block_group[block]]; }
+    bool is_rigid(int grain) const { return group(grain_slot[grain] / lanes).rigid; }
     int nodes_of(int grain) const { return group(grain_slot[grain] / lanes).nodes; }
 
     /// Offset of a grain's node in the node arrays (its x value).

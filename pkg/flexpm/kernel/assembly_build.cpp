@@ -19,12 +19,23 @@ struct MeshedGrain {
     std::vector<int> vertices;  ///< tessellation vertex of node 0, 1, ...
 };
 
-MeshedGrain mesh_cell(const Tessellation& t, const std::vector<Disc>& discs, int cell, MeshKind kind)
+/// Corners and centre, no triangles.
+GrainMesh rigid_mesh(std::vector<Point> polygon, Point centre)
+{
+    GrainMesh mesh;
+    mesh.nodes = std::move(polygon);
+    mesh.nodes.push_back(centre);
+    return mesh;
+}
+
+MeshedGrain mesh_cell(const Tessellation& t, const std::vector<Disc>& discs, int cell,
+    const AssemblyOptions& options)
 {
     const int first = t.cell_offsets[cell], count = t.vertices_of(cell);
-    std::vector<Point> polygon;
-    for (int i = 0; i < count; ++i) polygon.push_back(t.vertices[t.cell_vertices[first + i]]);
-    MeshedGrain grain { make_grain_mesh(polygon, discs[t.disc_of_cell[cell]].centre, kind), {} };
+    const std::vector<Point> polygon = cell_polygon(t, cell);
+    const Point centre = discs[t.disc_of_cell[cell]].centre;
+    MeshedGrain grain { options.rigid ? rigid_mesh(polygon, centre)
+                                      : make_grain_mesh(polygon, centre, options.mesh), {} };
     for (int i = 0; i < count; ++i) {
         grain.vertices.push_back(t.cell_vertices[first + (grain.mesh.first_vertex + i) % count]);
     }
@@ -44,7 +55,8 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
     a.grain_slot.assign(a.grains, -1);
     for (const auto& [key, ids] : members) {
         const MeshGroup group { key.first,
-            static_cast<int>(grains[ids.front()].mesh.nodes.size()), key.second };
+            static_cast<int>(grains[ids.front()].mesh.nodes.size()), key.second,
+            key.second.empty() };
         for (std::size_t i = 0; i < ids.size(); i += lanes) {
             for (int l = 0; l < lanes; ++l) {
                 const bool real = i + l < ids.size();
@@ -64,6 +76,10 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
     a.inverse_mass.assign(nodes / 2, 0.0);
     a.shape.assign(triangles, 0.0);
     a.stiffness.assign(3 * lanes * a.blocks(), 0.0);
+    a.rotation.assign(3 * lanes * a.blocks(), 0.0);
+    a.spin.assign(lanes * a.blocks(), 0.0);
+    a.inverse_inertia.assign(lanes * a.blocks(), 0.0);
+    a.spin_held.assign(lanes * a.blocks(), 0);
     a.damping_work.assign(2 * a.blocks(), 0.0);
     a.driven_work.assign(2 * a.blocks(), 0.0);
     a.kinetic.assign(a.blocks(), 0.0);
@@ -83,6 +99,8 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
         a.reference[node + lanes] = mesh.nodes[n].y;
         a.held[node] = a.held[node + lanes] = !real;
     }
+    a.spin_held[slot] = !real;
+    if (mesh.triangles.empty()) return;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto& t = mesh.triangles[i];
         const TriangleShape s = triangle_shape(
@@ -158,6 +176,8 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
     a.span[row_index(c, 1, 2)] = dy;
     a.normal[row_index(c, 0, 2)] = dx / d;
     a.normal[row_index(c, 1, 2)] = dy / d;
+    const double along = ((p1.y - p0.y) * dx - (p1.x - p0.x) * dy) / d;
+    a.edge_reach[row_index(c, 0, 2)] = a.edge_reach[row_index(c, 1, 2)] = 1.0 / along;
 }
 
 void size_contacts(Assembly& a)
@@ -167,6 +187,7 @@ void size_contacts(Assembly& a)
     a.weight.assign(padded * 2 * a.points, 0.0);
     a.area.assign(padded * a.points, 0.0);
     a.span.assign(padded * 2, 0.0);
+    a.edge_reach.assign(padded * 2, 0.0);
     a.normal.assign(padded * 2, 0.0);
     a.point_state.assign(padded * a.points * ContactRows::state, 0.0);
     a.crack_step.assign(padded * a.points, -1);
@@ -228,8 +249,10 @@ void list_forces(Assembly& a)
         }
     }
     for (int e = 0; e < a.edges; ++e) {
-        add(a.edge_grain[e], ~row_index(e, 0, ContactRows::forces),
-            a.edge_nodes[row_index(e, 0, 2)], a.edge_nodes[row_index(e, 1, 2)]);
+        for (int row : { 0, ContactRows::plate }) {
+            add(a.edge_grain[e], ~row_index(e, row, ContactRows::forces),
+                a.edge_nodes[row_index(e, 0, 2)], a.edge_nodes[row_index(e, 1, 2)]);
+        }
     }
     a.gather_first.assign(1, 0);
     a.gather.clear();
@@ -279,7 +302,7 @@ make_assembly(const Tessellation& t, const std::vector<Disc>& discs, const Assem
     for (const auto& law : options.laws) a.laws.push_back(make_law(law));
     std::vector<MeshedGrain> grains;
     for (int c = 0; c < a.grains; ++c) {
-        grains.push_back(mesh_cell(t, discs, c, options.mesh));
+        grains.push_back(mesh_cell(t, discs, c, options));
         a.radius.push_back(discs[t.disc_of_cell[c]].radius);
     }
     lay_out_grains(a, grains);

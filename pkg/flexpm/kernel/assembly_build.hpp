@@ -10,6 +10,7 @@ namespace flexpm {
 
 struct AssemblyOptions {
     double thickness = 0.0;  ///< [m]
+    bool rigid = false;  ///< grains that move as one body; `mesh` and Young's modulus do not matter
     MeshKind mesh = MeshKind::refined;
     int points = 3;              ///< contact points: 3 or 2 (Lobatto), 1 (middle of the edge)
     bool on_centre_line = false; ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)

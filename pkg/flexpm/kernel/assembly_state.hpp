@@ -9,6 +9,7 @@ template <class GroupType, class Visitor> void visit_group(GroupType& g, Visitor
     visit("vertices", g.vertices);
     visit("nodes", g.nodes);
     visit("triangles", g.triangles);
+    visit("rigid", g.rigid);
 }
 
 template <class MaterialType, class Visitor> void visit_elastic(MaterialType& m, Visitor&& visit)
@@ -55,6 +56,10 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("force", a.force);
     visit("held", a.held);
     visit("inverse_mass", a.inverse_mass);
+    visit("rotation", a.rotation);
+    visit("spin", a.spin);
+    visit("inverse_inertia", a.inverse_inertia);
+    visit("spin_held", a.spin_held);
     visit("shape", a.shape);
     visit("stiffness", a.stiffness);
     visit("laws", a.laws);
@@ -64,6 +69,7 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("weight", a.weight);
     visit("area", a.area);
     visit("span", a.span);
+    visit("edge_reach", a.edge_reach);
     visit("normal", a.normal);
     visit("point_state", a.point_state);
     visit("crack_step", a.crack_step);
@@ -75,6 +81,7 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("edge_pressure", a.edge_pressure);
     visit("edge_nodes", a.edge_nodes);
     visit("edge_force", a.edge_force);
+    visit("plates", a.plates);
     visit("gather_first", a.gather_first);
     visit("gather", a.gather);
     visit("damping_work", a.damping_work);

@@ -7,13 +7,13 @@
 #pragma once
 
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/specimen_strain.hpp>
 
 #include <cstdint>
 
 namespace flexpm {
 
-/// Sides of a rectangle, in the order of its outline.
-enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 3 };
+
 
 enum class Sense { compression, tension };
 
@@ -27,9 +27,9 @@ struct AxialGeometry {
 /// One row of the test's record.
 struct AxialObservation {
     std::int64_t step = 0;
-    double axial_strain = 0.0;    ///< from the mean displacements of top and bottom [-]
-    double lateral_strain = 0.0;  ///< from those of left and right; positive as Poisson's effect [-]
-    double axial_stress = 0.0;    ///< reaction of the top / initial area [Pa]
+double axial_strain = 0.0;    ///< specimen_strain() [-]
+double lateral_strain = 0.0;  ///< positive as Poisson's effect [-]
+    double axial_stress = 0.0;    ///< mean reaction of both ends / initial area [Pa]
     double confinement = 0.0;     ///< pressure on the right side [Pa]
     double end_mismatch = 0.0;    ///< |sum of both ends' reactions| / the larger [-]
     double unbalanced_ratio = 0.0;
@@ -53,13 +53,18 @@ AxialGeometry rectangle_of(const Assembly& a, Sense sense);
 /// Of the last step, which must have been measured.
 AxialObservation observe(const Assembly& a, const AxialGeometry& geometry);
 
-/// Hold the bottom axially and one of its nodes laterally, the top axially; nothing moves yet.
-void grip_ends(Assembly& a);
+/// Hold the bottom axially and one of its nodes laterally; nothing moves yet.
+void grip_bottom(Assembly& a);
 
 /// Move the top at `velocity` [m/s], positive away from the bottom.
 void move_top(Assembly& a, double velocity);
 
-/// Series modulus of grains and contacts: 1/E = 1/E_grain + 1/(K_n d), d the mean disc diameter [Pa].
+/// Add to all free nodes the velocities of a uniform uniaxial strain rate that fits the top's
+/// velocity, so that loading starts without a wave.
+void start_evenly(Assembly& a, double velocity);
+
+/// Series modulus of grains and contacts: 1/E = 1/E_grain + 1/(K_n d), d the mean disc diameter; of
+/// rigid grains K_n d [Pa].
 double series_modulus(const Assembly& a);
 
 /// Steps (of `dt`) in which a wave of the scaled masses crosses the height: sqrt(M H / (E A)) / dt.

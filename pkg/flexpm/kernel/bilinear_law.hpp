@@ -49,6 +49,7 @@ struct PointState {
     double opening = 0.0;          ///< u [m], relative to the bonded state; compression < 0
     double max_opening = 0.0;      ///< largest opening so far [m], >= 0
     double shear_traction = 0.0;   ///< along the tangent [Pa]
+    double slip = 0.0;             ///< along the tangent, relative to the bonded state [m]
     double shear_damage = 0.0;     ///< D_s [-]: plastic slip / s_c, at most 1
     double damage_energy = 0.0;    ///< dissipated by damage [J/m^2]
     double friction_energy = 0.0;  ///< dissipated by friction [J/m^2]
@@ -139,6 +140,7 @@ advance_elastic(const LawParameters& p, double opening_step, double slip_step, c
     next.opening = opening;
     next.max_opening = reach;
     next.shear_traction = shear;
+    next.slip = s.slip + slip_step;
     traction = { normal, shear, d, d };
     return same_secant & no_opening_damage & (std::fabs(shear) <= limit);
 }
@@ -188,6 +190,7 @@ advance_point(const LawParameters& p, double opening_step, double slip_step, Poi
     s.opening = opening;
     s.max_opening = reach;
     s.shear_traction = std::copysign(shear_size, trial);
+    s.slip += slip_step;
     s.shear_damage = shear_damage;
     s.damage_energy += opening_loss + secant_loss + (shear_loss - friction_loss);
     s.friction_energy += friction_loss;

@@ -19,6 +19,19 @@ double edge_length(const Assembly& a, int edge)
         a.reference[n[1] + lanes] - a.reference[n[0] + lanes]);
 }
 
+/// Nodes of a rigid grain follow its centre: a hold on one of them would have no effect.
+void need_deformable(const Assembly& a, const std::vector<int>& nodes)
+{
+    for (int block = 0; block < a.blocks(); ++block) {
+        if (!a.group(block).rigid) continue;
+        const int first = a.block_nodes[block], last = first + 2 * lanes * a.group(block).nodes;
+        for (int n : nodes) {
+            if (n < first || n >= last) continue;
+            refuse("prescribed node", n, "", "belongs to a rigid grain; load it by a plate");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<int> side_nodes(const Assembly& a, int side)
@@ -36,6 +49,7 @@ std::vector<int> side_nodes(const Assembly& a, int side)
 void drive(Assembly& a, const std::vector<int>& nodes, int component, double velocity)
 {
     check_finite("prescribed velocity", velocity, "m/s");
+    need_deformable(a, nodes);
     for (int n : nodes) {
         a.held[n + component * lanes] = 1;
         a.velocity[n + component * lanes] = velocity;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int law_rows = sizeof(LawParameters) / sizeof(double);
 constexpr int most_points = 3;
+// members of PointState
+constexpr int opening_row = 0, slip_row = 3 * lanes;
 
 /// The rows of one block of contacts.
 struct Rows {
@@ -21,6 +23,7 @@ struct Rows {
     const double* weight;
     const double* area;
     const double* span;
+    const double* reach;
     double* normal;
     double* state;
     double* force;
@@ -43,7 +46,7 @@ __attribute__((always_inline)) inline LawParameters law_of(const double* rows, i
 __attribute__((always_inline)) inline PointState load_state(const double* rows, int lane)
 {
     const double* r = rows + lane;
-    return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes] };
+    return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes], r[6 * lanes] };
 }
 
 __attribute__((always_inline)) inline void
@@ -53,13 +56,18 @@ store_state(const PointState& s, double* rows, int lane)
     r[0] = s.opening;
     r[lanes] = s.max_opening;
     r[2 * lanes] = s.shear_traction;
-    r[3 * lanes] = s.shear_damage;
-    r[4 * lanes] = s.damage_energy;
-    r[5 * lanes] = s.friction_energy;
+    r[3 * lanes] = s.slip;
+    r[4 * lanes] = s.shear_damage;
+    r[5 * lanes] = s.damage_energy;
+    r[6 * lanes] = s.friction_energy;
 }
 
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
 /// the new normal: with it the work of a turning contact is what its energy says to third order.
+///
+/// Both grains are compared in the middle of the gap between their places of a point (the paper's one
+/// contact location, Eq. 9), to which each edge carries its own rotation: a pair that turns as one
+/// body neither opens nor slips.
 template <int Points>
 __attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
 {
@@ -81,29 +89,39 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
         b.normal[lanes + l] = ny;
         const double a0x = v[a0], a0y = v[a0 + lanes], a1x = v[a1], a1y = v[a1 + lanes];
         const double b0x = v[b0], b0y = v[b0 + lanes], b1x = v[b1], b1y = v[b1 + lanes];
+        const double turn = -0.5 * dt
+            * (b.reach[l] * ((a1x - a0x) * mx + (a1y - a0y) * my)
+                + b.reach[lanes + l] * ((b1x - b0x) * mx + (b1y - b0y) * my));
         for (int p = 0; p < Points; ++p) {
+            const double* state = b.state + p * ContactRows::state * lanes + l;
             const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
             const double rx = (b0x + wb * (b1x - b0x)) - (a0x + wa * (a1x - a0x));
             const double ry = (b0y + wb * (b1y - b0y)) - (a0y + wa * (a1y - a0y));
-            motion.opening[p * lanes + l] = dt * (rx * mx + ry * my);
-            motion.slip[p * lanes + l] = dt * (ry * mx - rx * my);
+            const double apart = dt * (rx * mx + ry * my), along = dt * (ry * mx - rx * my);
+            const double opening = state[opening_row], slip = state[slip_row];
+            motion.opening[p * lanes + l]
+                = apart + turn * (slip + 0.5 * (along - turn * opening));
+            motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
         }
     }
 }
 
-/// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19.
+/// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19. They act in the
+/// middle of the gap: each edge takes half of the gap's moment by a couple on its ends.
 template <int Points>
 __attribute__((always_inline)) inline void
 spread_forces(const Rows& b, const double* normal, const double* shear)
 {
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
-        double sum_x = 0.0, sum_y = 0.0, a1x = 0.0, a1y = 0.0, b1x = 0.0, b1y = 0.0;
+        double moment = 0.0, sum_x = 0.0, sum_y = 0.0, a1x = 0.0, a1y = 0.0, b1x = 0.0, b1y = 0.0;
         for (int p = 0; p < Points; ++p) {
             const double area = b.area[p * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
             const double fx = fn * nx - fs * ny, fy = fn * ny + fs * nx;
             const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
+            const double* state = b.state + p * ContactRows::state * lanes + l;
+            moment += 0.5 * (state[opening_row] * fs - state[slip_row] * fn);
             sum_x += fx;
             sum_y += fy;
             a1x += wa * fx;
@@ -111,6 +129,11 @@ spread_forces(const Rows& b, const double* normal, const double* shear)
             b1x += wb * fx;
             b1y += wb * fy;
         }
+        const double on_a = -moment * b.reach[l], on_b = moment * b.reach[lanes + l];
+        a1x += on_a * nx;
+        a1y += on_a * ny;
+        b1x += on_b * nx;
+        b1y += on_b * ny;
         double* f = b.force + l;
         f[0 * lanes] = sum_x - a1x;
         f[1 * lanes] = sum_y - a1y;
@@ -132,7 +155,7 @@ update_lanes(const Rows& b, double dt, std::uint8_t* cracked)
     move_points<Points>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
-    alignas(64) double next[Points * 3 * lanes];
+    alignas(64) double next[Points * 4 * lanes];
     alignas(64) double leaves[lanes] = {};  // > 0 where a point leaves its elastic branch
     for (int p = 0; p < Points; ++p) {
         const double* state = b.state + p * ContactRows::state * lanes;
@@ -142,9 +165,10 @@ update_lanes(const Rows& b, double dt, std::uint8_t* cracked)
             Traction t;
             const bool elastic = advance_elastic(law_of(b.law, l), motion.opening[p * lanes + l],
                 motion.slip[p * lanes + l], load_state(state, l), s, t);
-            next[(3 * p + 0) * lanes + l] = s.opening;
-            next[(3 * p + 1) * lanes + l] = s.max_opening;
-            next[(3 * p + 2) * lanes + l] = s.shear_traction;
+            next[(4 * p + 0) * lanes + l] = s.opening;
+            next[(4 * p + 1) * lanes + l] = s.max_opening;
+            next[(4 * p + 2) * lanes + l] = s.shear_traction;
+            next[(4 * p + 3) * lanes + l] = s.slip;
             normal[p * lanes + l] = t.normal;
             shear[p * lanes + l] = t.shear;
             leaves[l] += elastic ? 0.0 : 1.0;
@@ -157,7 +181,7 @@ update_lanes(const Rows& b, double dt, std::uint8_t* cracked)
     for (int p = 0; p < Points; ++p) {
         double* state = b.state + p * ContactRows::state * lanes;
         if (any == 0.0) {
-            for (int l = 0; l < 3 * lanes; ++l) state[l] = next[3 * p * lanes + l];
+            for (int l = 0; l < 4 * lanes; ++l) state[l] = next[4 * p * lanes + l];
             continue;
         }
         alignas(64) double fresh[lanes];
@@ -247,7 +271,7 @@ void update_contact_block(Assembly& a, int block, double dt)
     const Rows rows = { a.displacement.data(), a.velocity.data(),
         a.contact_nodes.data() + first * ContactRows::nodes,
         a.weight.data() + first * 2 * a.points, a.area.data() + first * a.points,
-        a.span.data() + first * 2, a.normal.data() + first * 2,
+        a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
         a.contact_force.data() + first * ContactRows::forces, law };
     std::uint8_t cracked[most_points * lanes];

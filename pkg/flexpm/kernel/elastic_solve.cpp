@@ -5,6 +5,8 @@
 #include <flexpm/kernel/boundary.hpp>
 #include <flexpm/kernel/checks.hpp>
 #include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/specimen_strain.hpp>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -46,11 +48,18 @@ void add_grain(const Assembly& a, int grain, std::vector<StiffnessEntry>& entrie
     }
 }
 
+/// Springs along a normal and across it.
+StiffnessBlock spring_block(Point n, double normal, double shear)
+{
+    const double cross = (normal - shear) * n.x * n.y;
+    return { normal * n.x * n.x + shear * n.y * n.y, cross, cross,
+        normal * n.y * n.y + shear * n.x * n.x };
+}
+
 /// Springs k_n along the bonded normal and k_s across it, between the points of the two edges.
 void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& entries)
 {
-    const double dx = a.span[row_index(contact, 0, 2)], dy = a.span[row_index(contact, 1, 2)];
-    const double d = std::hypot(dx, dy), nx = dx / d, ny = dy / d;
+    const Point n = bonded_normal(a, contact);
     // share[i][j]: sum over points of area times the parts of nodes i and j in the relative motion
     std::array<std::array<double, 4>, 4> share = {};
     for (int p = 0; p < a.points; ++p) {
@@ -65,8 +74,7 @@ void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& en
     }
     const LawParameters& law = a.laws[a.contact_law[contact]];
     const double kn = law.normal_stiffness, ks = law.shear_stiffness;
-    const StiffnessBlock k = { kn * nx * nx + ks * ny * ny, (kn - ks) * nx * ny,
-        (kn - ks) * nx * ny, kn * ny * ny + ks * nx * nx };
+    const StiffnessBlock k = spring_block(n, kn, ks);
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
             const double s = share[i][j];
@@ -77,13 +85,87 @@ void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& en
     }
 }
 
-/// What each entry of Assembly::displacement is to the solve: an unknown's number, or one of these.
-enum : int { padding = -1, prescribed_value = -2 };
+/// Springs of a plate's points to where the plate is.
+void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
+{
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const StiffnessBlock k = spring_block(plate.normal, p.stiffness, p.shear_stiffness);
+        const auto n = edge_nodes(a, p.edge);
+        const double part[] = { 1.0 - p.weight, p.weight };
+        for (int r = 0; r < 2; ++r) {
+            for (int c = 0; c < 2; ++c) {
+                const double s = part[r] * part[c];
+                add_block(entries, n[r], n[c], { s * k.xx, s * k.xy, s * k.yx, s * k.yy });
+            }
+        }
+    }
+}
+
+/// Forces on the nodes when the plates are displaced and the grains are not.
+void add_plate_loads(const Assembly& a, Array<double>& loads)
+{
+    for (const Plate& plate : a.plates) {
+        for (int i = 0; i < plate_points(plate); ++i) {
+            const PlatePoint p = plate_point(plate, i);
+            const StiffnessBlock k = spring_block(plate.normal, p.stiffness, p.shear_stiffness);
+            const Point u = plate.displacement;
+            const auto n = edge_nodes(a, p.edge);
+            const double part[] = { 1.0 - p.weight, p.weight };
+            for (int r = 0; r < 2; ++r) {
+                loads[n[r]] += part[r] * (k.xx * u.x + k.xy * u.y);
+                loads[n[r] + lanes] += part[r] * (k.yx * u.x + k.yy * u.y);
+            }
+        }
+    }
+}
+
+/// What each entry of Assembly::displacement, and behind them the rotation of each slot, is to the
+/// solve: an unknown's number, or one of these.
+enum : int { padding = -1, prescribed_value = -2, follower = -3 };
+
+/// A node's displacement in terms of unknowns: itself, or the motion of its rigid grain.
+struct Term {
+    int index;
+    double factor;
+};
 
 struct Unknowns {
-    std::vector<int> number;  ///< per entry of Assembly::displacement
+    std::vector<int> number;  ///< per entry of Assembly::displacement, then per slot
     std::vector<int> index;   ///< per unknown: its entry
+    std::vector<Term> lever;  ///< per entry that follows a rotation: index and arm
+    std::vector<int> leader;  ///< per entry that follows: the same component of the centre
 };
+
+/// Calls visit(index, factor) for what the displacement entry consists of.
+template <class Visit> void for_each_term(const Unknowns& n, int entry, Visit visit)
+{
+    if (n.number[entry] != follower) {
+        visit(entry, 1.0);
+        return;
+    }
+    visit(n.leader[entry], 1.0);
+    visit(n.lever[entry].index, n.lever[entry].factor);
+}
+
+/// The nodes of a rigid grain follow its centre; the rotation becomes an unknown.
+void follow_centre(const Assembly& a, int grain, Unknowns& n)
+{
+    const int centre = a.centre(grain);
+    const int rotation = static_cast<int>(a.displacement.size()) + a.grain_slot[grain];
+    n.number[rotation] = 0;
+    for (int k = 0; k < a.nodes_of(grain); ++k) {
+        const int node = a.node(grain, k);
+        if (node == centre) continue;
+        const double rx = a.reference[node] - a.reference[centre];
+        const double ry = a.reference[node + lanes] - a.reference[centre + lanes];
+        for (int c = 0; c < 2; ++c) {
+            n.number[node + c * lanes] = follower;
+            n.leader[node + c * lanes] = centre + c * lanes;
+            n.lever[node + c * lanes] = { rotation, c == 0 ? -ry : rx };
+        }
+    }
+}
 
 [[noreturn]] void refuse_prescribed(const Prescribed& p, const std::string& rule)
 {
@@ -95,32 +177,39 @@ Unknowns number_unknowns(
     const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
 {
     Unknowns n;
-    n.number.assign(a.displacement.size(), padding);
+    n.number.assign(a.displacement.size() + a.slot_grain.size(), padding);
+    n.leader.assign(a.displacement.size(), 0);
+    n.lever.assign(a.displacement.size(), { 0, 0.0 });
     for (int g = 0; g < a.grains; ++g) {
         for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int c = 0; c < 2; ++c)
-                n.number[a.node(g, k) + c * lanes] = 0;
+            for (int c = 0; c < 2; ++c) n.number[a.node(g, k) + c * lanes] = 0;
         }
+        if (a.is_rigid(g)) follow_centre(a, g, n);
     }
     for (const Prescribed& p : prescribed) {
         if (!std::isfinite(p.value)) refuse_prescribed(p, "must be a finite number");
-        const bool known = p.index >= 0 && p.index < static_cast<int>(n.number.size())
+        const bool known = p.index >= 0 && p.index < static_cast<int>(u.size())
             && n.number[p.index] != padding;
         if (!known) refuse_prescribed(p, "its index must name a component of a grain's node");
+        if (n.number[p.index] == follower) {
+            refuse_prescribed(p, "belongs to a rigid grain; prescribe its centre");
+        }
         if (n.number[p.index] == prescribed_value && u[p.index] != p.value) {
             refuse_prescribed(p, "given before with another value; give it once");
         }
         n.number[p.index] = prescribed_value;
         u[p.index] = p.value;
     }
+    const auto count = [&n](int i) {
+        if (n.number[i] != 0) return;
+        n.number[i] = static_cast<int>(n.index.size());
+        n.index.push_back(i);
+    };
     for (int g = 0; g < a.grains; ++g) {
         for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int i : { a.node(g, k), a.node(g, k) + lanes }) {
-                if (n.number[i] != 0) continue;
-                n.number[i] = static_cast<int>(n.index.size());
-                n.index.push_back(i);
-            }
+            for (int i : { a.node(g, k), a.node(g, k) + lanes }) count(i);
         }
+        count(static_cast<int>(a.displacement.size()) + a.grain_slot[g]);
     }
     return n;
 }
@@ -132,13 +221,18 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(entries.size());
     for (const StiffnessEntry& e : entries) {
-        const int row = n.number[e.row], column = n.number[e.column];
-        if (row < 0) continue;
-        if (column < 0) {
-            rhs[row] -= e.value * u[e.column];
-        } else if (row >= column) {
-            triplets.emplace_back(row, column, e.value);
-        }
+        for_each_term(n, e.row, [&](int i, double row_factor) {
+            for_each_term(n, e.column, [&](int j, double column_factor) {
+                const int row = n.number[i], column = n.number[j];
+                const double value = row_factor * column_factor * e.value;
+                if (row < 0) return;
+                if (column < 0) {
+                    rhs[row] -= value * u[j];
+                } else if (row >= column) {
+                    triplets.emplace_back(row, column, value);
+                }
+            });
+        });
     }
     const Eigen::Index size = static_cast<Eigen::Index>(n.index.size());
     SparseMatrix k(size, size);
@@ -148,11 +242,14 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
 
 [[noreturn]] void report_free_motion(const Assembly& a, int index, double ratio)
 {
-    const bool along_y = index % (2 * lanes) >= lanes;  // rows of x and y alternate
-    const Point p = a.position(along_y ? index - lanes : index);
+    const int size = static_cast<int>(a.displacement.size());
+    const bool turns = index >= size;
+    const bool along_y = !turns && index % (2 * lanes) >= lanes;  // rows of x and y alternate
+    const Point p = a.position(turns ? a.centre(a.slot_grain[index - size])
+                                     : (along_y ? index - lanes : index));
     std::ostringstream text;
     text << "solve_static: pivot / stiffness = " << ratio << " at x, y = " << p.x << ", " << p.y
-         << " m along " << (along_y ? 'y' : 'x') << ", must be above " << smallest_pivot
+         << " m " << (turns ? "about z" : along_y ? "along y" : "along x") << ", must be above " << smallest_pivot
          << "; hold nodes against every rigid motion of this part";
     throw std::runtime_error(text.str());
 }
@@ -169,6 +266,39 @@ void check_pivots(const Assembly& a, const Unknowns& n, const SparseMatrix& k, c
     }
 }
 
+/// Displacements of all nodes from the unknowns.
+void spread(const Unknowns& n, const Eigen::VectorXd& x, Array<double>& displacement)
+{
+    const auto value_of = [&](int index) {
+        return n.number[index] >= 0 ? x[n.number[index]] : displacement[index];
+    };
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+        if (n.number[i] >= 0) displacement[i] = x[n.number[i]];
+    }
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+        if (n.number[i] != follower) continue;
+        displacement[i] = value_of(n.leader[i])
+            + n.lever[i].factor * x[n.number[n.lever[i].index]];
+    }
+}
+
+/// Force on the specimen of a plate at its place, all contacts bonded.
+Point static_force(const Assembly& a, const Plate& plate)
+{
+    Point sum;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const StiffnessBlock k = spring_block(plate.normal, p.stiffness, p.shear_stiffness);
+        const auto n = edge_nodes(a, p.edge);
+        const double *u0 = &a.displacement[n[0]], *u1 = &a.displacement[n[1]], w = p.weight;
+        const double x = plate.displacement.x - ((1.0 - w) * u0[0] + w * u1[0]);
+        const double y = plate.displacement.y - ((1.0 - w) * u0[lanes] + w * u1[lanes]);
+        sum.x += k.xx * x + k.xy * y;
+        sum.y += k.yx * x + k.yy * y;
+    }
+    return sum;
+}
+
 }  // namespace
 
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a)
@@ -176,8 +306,8 @@ std::vector<StiffnessEntry> stiffness_entries(const Assembly& a)
     std::vector<StiffnessEntry> entries;
     for (int g = 0; g < a.grains; ++g)
         add_grain(a, g, entries);
-    for (int c = 0; c < a.contacts; ++c)
-        add_contact(a, c, entries);
+    for (int c = 0; c < a.contacts; ++c) add_contact(a, c, entries);
+    for (const Plate& p : a.plates) add_plate(a, p, entries);
     return entries;
 }
 
@@ -190,23 +320,25 @@ StaticSolution solve_static(
     const Unknowns n = number_unknowns(a, prescribed, s.displacement);
     const std::vector<StiffnessEntry> entries = stiffness_entries(a);
 
-    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
     if (loads && loads->size() != s.displacement.size()) {
         refuse("solve_static: loads", static_cast<double>(loads->size()), "values",
             "must be " + std::to_string(s.displacement.size()) + ", one per displacement");
     }
-    for (std::size_t i = 0; loads && i < n.index.size(); ++i) {
-        check_finite("solve_static: load", (*loads)[n.index[i]], "N");
-        rhs[i] = (*loads)[n.index[i]];
+    add_plate_loads(a, s.force);
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
+    for (std::size_t i = 0; i < s.force.size(); ++i) {
+        const double load = s.force[i] + (loads ? (*loads)[i] : 0.0);
+        check_finite("solve_static: load", load, "N");
+        for_each_term(n, static_cast<int>(i), [&](int j, double factor) {
+            if (n.number[j] >= 0) rhs[n.number[j]] += factor * load;
+        });
     }
     const SparseMatrix k = reduce(entries, n, s.displacement, rhs);
     if (k.rows() > 0) {
         // minimum degree, the default order, fills in least of those that Eigen has
         const Solver solver(k);
         check_pivots(a, n, k, solver);
-        const Eigen::VectorXd x = solver.solve(rhs);
-        for (std::size_t i = 0; i < n.index.size(); ++i)
-            s.displacement[n.index[i]] = x[i];
+        spread(n, solver.solve(rhs), s.displacement);
     }
     for (const StiffnessEntry& e : entries) {
         s.force[e.row] -= e.value * s.displacement[e.column];
@@ -214,28 +346,52 @@ StaticSolution solve_static(
     return s;
 }
 
+namespace {
+
+constexpr double test_strain = 1e-3;  // any value: the solve is linear
+
+/// The ends move axially, one point stays laterally.
+std::vector<Prescribed> hold_ends(Assembly& a, double height)
+{
+    const std::vector<int> bottom = side_nodes(a, bottom_side), top = side_nodes(a, top_side);
+    if (a.is_rigid(0)) {
+        const PlateContact smooth = { 0.0, 0.0, true };
+        add_side_plates(a, bottom_side, 1, smooth);
+        const int upper = add_side_plates(a, top_side, 1, smooth).front();
+        a.plates[upper].displacement = { 0.0, test_strain * height };
+        int held = 0;
+        while (a.edge_side[held] != bottom_side) ++held;
+        return { { a.centre(a.edge_grain[held]), 0.0 } };
+    }
+    std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
+    for (int n : bottom) prescribed.push_back({ n + lanes, 0.0 });
+    for (int n : top) prescribed.push_back({ n + lanes, test_strain * height });
+    return prescribed;
+}
+
+}  // namespace
+
 ElasticConstants elastic_constants(const Assembly& a)
 {
     for (int side = 0; side < 4; ++side) {
-        check_positive(
-            "elastic_constants: length of side " + std::to_string(side), side_length(a, side), "m");
+        check_positive("elastic_constants: length of side " + std::to_string(side),
+            side_length(a, side), "m");
     }
-    constexpr double strain = 1e-3;  // any value: the solve is linear
-    const double width = side_length(a, 0), height = side_length(a, 1);
-    const std::vector<int> bottom = side_nodes(a, 0), top = side_nodes(a, 2);
-    std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
-    for (int n : bottom)
-        prescribed.push_back({ n + lanes, 0.0 });
-    for (int n : top)
-        prescribed.push_back({ n + lanes, strain * height });
-    StaticSolution s = solve_static(a, prescribed);
-
+    const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     Assembly solved = a;
+    solved.plates.clear();
+    const std::vector<Prescribed> prescribed = hold_ends(solved, height);
+    StaticSolution s = solve_static(solved, prescribed);
     solved.displacement = std::move(s.displacement);
     solved.force = std::move(s.force);
-    const double widening = side_displacement(solved, 1, 0) - side_displacement(solved, 3, 0);
-    return { reaction(solved, top, 1) / (width * a.thickness * strain),
-        -widening / (width * strain) };
+
+    double top = 0.0;
+    for (const Plate& p : solved.plates) {
+        if (p.side == top_side) top = static_force(solved, p).y;
+    }
+    if (solved.plates.empty()) top = reaction(solved, side_nodes(a, top_side), 1);
+    const SpecimenStrain strain = specimen_strain(solved);
+    return { top / (width * a.thickness * strain.axial), -strain.lateral / strain.axial };
 }
 
 }  // namespace flexpm

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/assembly.hpp>
 
 #include <array>
+#include <cmath>
 
 namespace flexpm {
 
@@ -49,7 +50,7 @@ inline PointState point_state(const Assembly& a, int contact, int point)
 {
     const double* s = &a.point_state[row_index(
         contact, point * ContactRows::state, a.points * ContactRows::state)];
-    return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes], s[5 * lanes] };
+    return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes], s[5 * lanes], s[6 * lanes] };
 }
 
 inline double damage_of(const Assembly& a, int contact, int point)
@@ -61,6 +62,14 @@ inline double damage_of(const Assembly& a, int contact, int point)
 inline Point normal_of(const Assembly& a, int contact)
 {
     return { a.normal[row_index(contact, 0, 2)], a.normal[row_index(contact, 1, 2)] };
+}
+
+/// Unit normal of a contact when it was bonded, from a to b.
+inline Point bonded_normal(const Assembly& a, int contact)
+{
+    const double x = a.span[row_index(contact, 0, 2)], y = a.span[row_index(contact, 1, 2)];
+    const double length = std::hypot(x, y);
+    return { x / length, y / length };
 }
 
 /// Nodes of a boundary edge: offsets of its start and end.

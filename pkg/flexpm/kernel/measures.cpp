@@ -3,6 +3,8 @@
 #include <flexpm/kernel/measures.hpp>
 
 #include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/rigid_grain.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +30,10 @@ double kinetic_of_velocities(const Assembly& a)
 {
     double total = 0.0;
     for (int g = 0; g < a.grains; ++g) {
+        const int i = rigid_index(a, g);
+        if (a.is_rigid(g) && !a.spin_held[i] && a.inverse_inertia[i] > 0.0) {
+            total += 0.5 * a.spin[i] * a.spin[i] / a.inverse_inertia[i];
+        }
         for (int n = 0; n < a.nodes_of(g); ++n) {
             const int node = a.node(g, n);
             const double inverse_mass = a.inverse_mass[scalar_index(node)];
@@ -66,6 +72,13 @@ Energies energies(const Assembly& a)
     }
     e.damping = first_of_pairs(a.damping_work);
     e.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
+    for (const Plate& p : a.plates) {
+        e.kinetic += p.kinetic;
+        e.elastic += elastic_energy(p);
+        e.friction += p.friction_energy;
+        e.damping += p.damping_work;
+        e.boundary_work += p.boundary_work;
+    }
     e.initial = a.initial_energy;
     return e;
 }
@@ -74,7 +87,7 @@ void open_books(Assembly& a)
 {
     for (int c = 0; c < a.contacts; ++c) {
         for (int p = 0; p < a.points; ++p) {
-            for (int row : { 4, 5 }) {
+            for (int row : { 5, 6 }) {  // the two dissipated energies
                 a.point_state[row_index(c, p * ContactRows::state + row,
                     a.points * ContactRows::state)] = 0.0;
             }
@@ -85,6 +98,7 @@ void open_books(Assembly& a)
         for (std::size_t i = 0; i < work->size(); i += 2) (*work)[i] = 0.0;
     }
     a.pressure_work = 0.0;
+    for (Plate& p : a.plates) p.boundary_work = p.damping_work = p.friction_energy = 0.0;
     if (a.step == 0) a.kinetic[0] = kinetic_of_velocities(a);
     const Energies now = energies(a);
     a.initial_energy = now.kinetic + now.elastic;
@@ -92,13 +106,14 @@ void open_books(Assembly& a)
 
 double unbalanced_ratio(const Assembly& a)
 {
-    const auto largest = std::max_element(a.largest_force.begin(), a.largest_force.end());
+    double largest = *std::max_element(a.largest_force.begin(), a.largest_force.end());
+    for (const Plate& p : a.plates) largest = std::max(largest, p.unbalanced);
     double sum = 0.0;
     for (int c = 0; c < a.contacts; ++c) {
         const double* f = &a.contact_force[row_index(c, 0, ContactRows::forces)];
         sum += std::hypot(f[0] + f[2 * lanes], f[lanes] + f[3 * lanes]);
     }
-    return sum > 0.0 ? *largest * a.contacts / sum : 0.0;
+    return sum > 0.0 ? largest * a.contacts / sum : 0.0;
 }
 
 CrackCount count_cracks(const Assembly& a)

@@ -2,6 +2,8 @@
 /// @file  Taking grains and contacts out of an assembly.
 #include <flexpm/kernel/retire.hpp>
 
+#include <flexpm/kernel/rigid_grain.hpp>
+
 namespace flexpm {
 
 void retire_contact(Assembly& a, int contact)
@@ -24,6 +26,10 @@ void retire_grain(Assembly& a, int grain)
             a.velocity[i] = 0.0;
             a.held[i] = 1;
         }
+    }
+    if (a.is_rigid(grain)) {
+        a.spin[rigid_index(a, grain)] = 0.0;
+        a.spin_held[rigid_index(a, grain)] = 1;
     }
     for (int e = 0; e < a.edges; ++e) {
         if (a.edge_grain[e] == grain) a.edge_pressure[e] = 0.0;

@@ -41,7 +41,7 @@ void add_contact(const Assembly& a, int contact, Snapshot& s)
     for (int p = 0; p < a.points; ++p) {
         const int index = row_index(contact, p, a.points);
         s.point_opening.push_back(point_state(a, contact, p).opening);
-        s.point_slip.push_back(point_slip(a, contact, p));
+        s.point_slip.push_back(point_state(a, contact, p).slip);
         s.point_damage.push_back(damage_of(a, contact, p));
         push(s.point_traction, point_traction(a, contact, p));
         s.crack_step.push_back(a.crack_step[index]);
@@ -60,13 +60,6 @@ Point point_traction(const Assembly& a, int contact, int point)
     const LawParameters& law = a.laws[a.contact_law[contact]];
     return { law::normal_traction(law, s.opening, s.max_opening, damage_of(a, contact, point)),
         s.shear_traction };
-}
-
-double point_slip(const Assembly& a, int contact, int point)
-{
-    const PointState s = point_state(a, contact, point);
-    const LawParameters& law = a.laws[a.contact_law[contact]];
-    return s.shear_traction / law.shear_stiffness + s.shear_damage * law.critical_slip;
 }
 
 Point contact_end(const Assembly& a, int contact, int end)

@@ -23,7 +23,7 @@ struct Snapshot {
     std::vector<std::int32_t> contact_grains;  ///< [contact][2]
     std::vector<double> contact_ends;          ///< [contact][start, end][x, y] [m]
     std::vector<double> point_opening;         ///< [contact][point] [m]
-    std::vector<double> point_slip;            ///< [contact][point] elastic and damaging slip [m]
+    std::vector<double> point_slip;            ///< [contact][point] [m]
     std::vector<double> point_damage;          ///< [contact][point] [-]
     std::vector<double> point_traction;        ///< [contact][point][normal, shear] [Pa]
     std::vector<std::int32_t> crack_step;      ///< [contact][point], -1 while intact
@@ -35,9 +35,6 @@ Snapshot take_snapshot(const Assembly& a);
 
 /// Normal and shear traction of a point [Pa], tension positive.
 Point point_traction(const Assembly& a, int contact, int point);
-
-/// Slip of a point [m]: the elastic part and the part that damage remembers.
-double point_slip(const Assembly& a, int contact, int point);
 
 /// Current end of a contact's edge (0 or 1): the middle between the two grains.
 Point contact_end(const Assembly& a, int contact, int end);

@@ -3,6 +3,9 @@
 #include <flexpm/kernel/stepping.hpp>
 
 #include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/integrate.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/rigid_grain.hpp>
 #include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
@@ -56,18 +59,9 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
     }
 }
 
-/// Sums over the nodes of a block, [lane].
-struct Sums {
-    alignas(64) double damped[lanes] = {}, damped_next[lanes] = {};
-    alignas(64) double driven[lanes] = {}, driven_next[lanes] = {};
-    alignas(64) double kinetic[lanes] = {}, largest[lanes] = {};
-};
-
-/// Local damping, new velocities, and the work of damping and of held nodes: a force F at step n
-/// works over half of the step before and half of the step after, F dt (v(n-1/2) + v(n+1/2)) / 2.
 template <bool Measure>
 __attribute__((always_inline)) inline void
-integrate_lanes(const Rows& b, double dt, double damping, Sums& sums)
+integrate_lanes(const Rows& b, double dt, double damping, StepSums& sums)
 {
     for (int n = 0; n < b.nodes; ++n) {
         for (int c = 0; c < 2; ++c) {
@@ -77,32 +71,18 @@ integrate_lanes(const Rows& b, double dt, double damping, Sums& sums)
             const double* inverse_mass = b.inverse_mass + n * lanes;
 #pragma GCC ivdep
             for (int l = 0; l < lanes; ++l) {
-                const double force = f[l], old = v[l];
-                const double free = held[l] ? 0.0 : 1.0;
-                const double against = old > 0.0 ? -1.0 : (old < 0.0 ? 1.0 : 0.0);
-                const double damp = free * against * damping * std::fabs(force);
-                const double next = old + dt * (free * force + damp) * inverse_mass[l];
-                const double reaction = (free - 1.0) * force;
-                v[l] = next;
-                sums.damped[l] -= 0.5 * dt * damp * old;
-                sums.damped_next[l] -= 0.5 * dt * damp * next;
-                sums.driven[l] += 0.5 * dt * reaction * old;
-                sums.driven_next[l] += 0.5 * dt * reaction * next;
-                if (Measure) {
-                    const double mass = inverse_mass[l] > 0.0 ? free / inverse_mass[l] : 0.0;
-                    sums.kinetic[l] += 0.5 * mass * old * next;
-                    sums.largest[l] = std::max(sums.largest[l], free * std::fabs(force));
-                }
+                integrate_one<Measure>(
+                    f[l], held[l], inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
             }
         }
     }
 }
 
-FLEXPM_MULTIVERSION void integrate(const Rows& b, double dt, double damping, Sums& sums)
+FLEXPM_MULTIVERSION void integrate(const Rows& b, double dt, double damping, StepSums& sums)
 {
     integrate_lanes<false>(b, dt, damping, sums);
 }
-FLEXPM_MULTIVERSION void integrate_measured(const Rows& b, double dt, double damping, Sums& sums)
+FLEXPM_MULTIVERSION void integrate_measured(const Rows& b, double dt, double damping, StepSums& sums)
 {
     integrate_lanes<true>(b, dt, damping, sums);
 }
@@ -140,7 +120,7 @@ void show_positions(Assembly& a, int first, int count)
     }
 }
 
-void update_grain_block(Assembly& a, int block, const StepOptions& options)
+void update_deformable(Assembly& a, int block, const StepOptions& options, StepSums& sums)
 {
     const int first = a.block_nodes[block];
     const MeshGroup& group = a.group(block);
@@ -149,10 +129,25 @@ void update_grain_block(Assembly& a, int block, const StepOptions& options)
         a.stiffness.data() + 3 * lanes * block, a.displacement.data() + first,
         a.velocity.data() + first, a.force.data() + first, a.held.data() + first,
         a.inverse_mass.data() + first / 2 };
-    gather_forces(a, block, rows.force);
     move_and_deform(rows, options.dt);
-    Sums sums;
     (options.measure ? integrate_measured : integrate)(rows, options.dt, options.damping, sums);
+}
+
+void update_rigid(Assembly& a, int block, const StepOptions& options, StepSums& sums)
+{
+    const RigidRows rows = rigid_rows(a, block);
+    move_rigid(rows, options.dt);
+    (options.measure ? integrate_rigid_measured : integrate_rigid)(
+        rows, options.dt, options.damping, sums);
+}
+
+void update_grain_block(Assembly& a, int block, const StepOptions& options)
+{
+    const int first = a.block_nodes[block];
+    const MeshGroup& group = a.group(block);
+    gather_forces(a, block, a.force.data() + first);
+    StepSums sums;
+    (group.rigid ? update_rigid : update_deformable)(a, block, options, sums);
 
     if (!a.shown_position.empty()) show_positions(a, first, 2 * lanes * group.nodes);
 
@@ -187,6 +182,8 @@ void step(Assembly& a, const StepOptions& options)
         for (int b = 0; b < a.edge_blocks(); ++b) {
             a.pressure_work += update_edge_block(a, b, options.dt);
         }
+#pragma omp single
+        update_plates(a, options.dt, options.damping);
 #pragma omp for schedule(static)
         for (int b = 0; b < blocks; ++b) update_grain_block(a, b, options);
     }

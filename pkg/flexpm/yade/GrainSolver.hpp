@@ -38,6 +38,8 @@ public:
 	py::tuple  cracks() const;
 	py::dict   counts() const;
 	py::object sideNodes(int side) const;
+	Real       unbalanced();
+	void       clearPressure(int side);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GrainSolver, GlobalEngine,
@@ -61,6 +63,8 @@ public:
 		.def("snapshot", &GrainSolver::snapshot, "The state as plain arrays, by name (see the documentation's list of arrays).")
 		.def("cracks", &GrainSolver::cracks, "Numbers of cracked points: (tensile, shear).")
 		.def("counts", &GrainSolver::counts, "Numbers of grains, contacts, nodes, triangles, mesh groups and boundary edges.")
+		.def("unbalanced", &GrainSolver::unbalanced, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("clearPressure", &GrainSolver::clearPressure, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", &GrainSolver::sideNodes, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);
 	// clang-format on

@@ -57,6 +57,10 @@ py::dict GrainSolver::counts() const
 	return d;
 }
 
+Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(assembly); }
+
+void GrainSolver::clearPressure(int side) { flexpm::set_pressure(assembly, side, 0.); }
+
 py::object GrainSolver::sideNodes(int side) const
 {
 	std::vector<std::int32_t> rows;

@@ -15,14 +15,20 @@ YADE_PLUGIN((LobattoGeom)(LobattoPhys));
 
 namespace {
 
-	/// (points,) view of one row of each point of a contact; `rows` rows per point.
-	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int rows, Access access)
+	/// (points,) view of row `row` of the `rows` rows of each point of a contact.
+	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int row = 0, int rows = 1)
 	{
 		const auto           solver = GrainSolver::ofContact(contact);
 		const auto&          a      = solver->assembly;
 		const std::ptrdiff_t step   = rows * flexpm::lanes * sizeof(T);
-		const T*             first  = (a.*values).data() + flexpm::row_index(contact, 0, rows * a.points);
-		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(solver), access);
+		const T*             first  = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
+		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(solver), Access::readOnly);
+	}
+
+	/// The same for a member of flexpm::PointState.
+	py::object stateView(int contact, int member)
+	{
+		return pointView(contact, &flexpm::Assembly::point_state, member, flexpm::ContactRows::state);
 	}
 
 	/// (points,) or (points, columns) copy of what `value(point)` appends.
@@ -67,16 +73,13 @@ py::object LobattoGeom::ends() const
 
 LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
 
-py::object LobattoPhys::opening() const { return pointView(contact, &flexpm::Assembly::point_state, flexpm::ContactRows::state, Access::readOnly); }
+py::object LobattoPhys::opening() const { return stateView(contact, 0); }
 
-py::object LobattoPhys::area() const { return pointView(contact, &flexpm::Assembly::area, 1, Access::readOnly); }
+py::object LobattoPhys::slip() const { return stateView(contact, 3); }
 
-py::object LobattoPhys::cracked() const { return pointView(contact, &flexpm::Assembly::crack_mode, 1, Access::readOnly); }
+py::object LobattoPhys::area() const { return pointView(contact, &flexpm::Assembly::area); }
 
-py::object LobattoPhys::slip() const
-{
-	return pointCopy(contact, 0, [this](const auto& a, int p, auto& all) { all.push_back(flexpm::point_slip(a, contact, p)); });
-}
+py::object LobattoPhys::cracked() const { return pointView(contact, &flexpm::Assembly::crack_mode); }
 
 py::object LobattoPhys::damage() const
 {

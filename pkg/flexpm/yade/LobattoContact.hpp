@@ -48,7 +48,7 @@ public:
 		, createIndex();
 		, .add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m]; a view, compression below 0.")
 		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a view.")
-		.add_property("slip", &LobattoPhys::slip, "Elastic and damaging slip of each point, (p,) [m]; a copy.")
+		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m]; a view.")
 		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; a copy.")
 		.add_property("damage", &LobattoPhys::damage, "Damage of each point, (p,) [-]; a copy.")
 		.add_property("cracked", &LobattoPhys::cracked, "0 intact, 1 cracked in tension, 2 in shear, (p,); a view.")

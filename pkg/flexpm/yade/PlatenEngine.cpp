@@ -50,9 +50,12 @@ PlatenEngine::~PlatenEngine() = default;
 void PlatenEngine::action()
 {
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
-	if (!gripped) flexpm::grip_ends(assembly);
-	gripped = true;
-	flexpm::move_top(assembly, velocity * rampFactor(assembly.step, rampSteps));
+	if (!gripped) flexpm::grip_bottom(assembly);
+	if (!holdTop || (gripped && velocity == drivenAt)) return;
+	flexpm::move_top(assembly, velocity);
+	if (!gripped && evenStart) flexpm::start_evenly(assembly, velocity);
+	gripped  = true;
+	drivenAt = velocity;
 }
 
 ConfinementEngine::~ConfinementEngine() = default;
@@ -70,7 +73,10 @@ void AxialRecorder::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (solver->assembly.step % solver->measurePeriod != 0) return;
-	const auto now = flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
+	auto now = flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
+	if (fromNow && values.empty()) zero = Vector2r(now.axial_strain, now.lateral_strain);
+	now.axial_strain -= zero[0];
+	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
 	peak  = std::max(peak, now.axial_stress);

@@ -24,6 +24,8 @@ namespace serialization {
 
 	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& law, unsigned) { flexpm::visit_law(law, archiver(archive)); }
 
+	template <class Archive> void serialize(Archive& archive, flexpm::Plate& plate, unsigned) { flexpm::visit_plate(plate, archiver(archive)); }
+
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned) { flexpm::visit_state(assembly, archiver(archive)); }
 
 } // namespace serialization

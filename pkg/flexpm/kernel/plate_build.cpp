@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Laying plates against a specimen.
+#include <flexpm/kernel/checks.hpp>
+#include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexpm {
+
+namespace {
+
+Point reference_of(const Assembly& a, int node)
+{
+    return { a.reference[node], a.reference[node + lanes] };
+}
+
+/// Start and end of a boundary edge, the grain on its left.
+struct Edge {
+    Point start, end;
+    double length() const { return std::hypot(end.x - start.x, end.y - start.y); }
+    Point inward() const
+    {
+        return { (start.y - end.y) / length(), (end.x - start.x) / length() };
+    }
+};
+
+Edge edge_of(const Assembly& a, int edge)
+{
+    const auto n = edge_nodes(a, edge);
+    return { reference_of(a, n[0]), reference_of(a, n[1]) };
+}
+
+double along(Point direction, Point p) { return direction.x * p.x + direction.y * p.y; }
+
+Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
+{
+    check_not_negative("plate stiffness", contact.stiffness, "Pa/m");
+    check_not_negative("plate friction", contact.friction, "");
+    const LawParameters& law = a.laws.front();
+    Plate p;
+    p.normal = normal;
+    p.stiffness = contact.stiffness > 0.0 ? contact.stiffness : law.normal_stiffness;
+    p.shear_stiffness = p.stiffness * law.shear_stiffness / law.normal_stiffness;
+    p.friction = contact.friction;
+    p.bonded = contact.bonded;
+    return p;
+}
+
+/// Gaps and tributary areas of the plate's points; the state at the reference. Grains of either
+/// kind are touched, all of one kind.
+void lay(const Assembly& a, Plate& p)
+{
+    p.points = a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
+    for (int e : p.edges) {
+        const Edge edge = edge_of(a, e);
+        for (int i = 0; i < p.points; ++i) {
+            const double w = plate_weight(p, i);
+            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
+                (1.0 - w) * edge.start.y + w * edge.end.y };
+            // a bonded point is unloaded where it is; a point of the face itself has no gap
+            const double gap = along(p.normal, x) - along(p.normal, p.position);
+            const bool on_face = p.bonded || std::fabs(gap) < 1e-9 * edge.length();
+            p.gap.push_back(on_face ? 0.0 : gap);
+            p.area.push_back(edge.length() * a.thickness / p.points);
+        }
+    }
+    p.opening = p.gap;
+    p.shear_force.assign(p.gap.size(), 0.0);
+}
+
+void check_index(const Assembly& a, int plate)
+{
+    if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
+        refuse("plate", plate, "", "must be the number of a plate; add one first");
+    }
+}
+
+}  // namespace
+
+std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateContact& contact)
+{
+    if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
+    std::vector<int> edges;
+    for (int e = 0; e < a.edges; ++e) {
+        if (a.edge_side[e] == side) edges.push_back(e);
+    }
+    if (edges.empty()) refuse("side", side, "", "has no boundary edges; name a side of the outline");
+    const Point normal = edge_of(a, edges.front()).inward();
+    const Point direction = { -normal.y, normal.x };
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (int e : edges) {
+        for (Point p : { edge_of(a, e).start, edge_of(a, e).end }) {
+            first = std::min(first, along(direction, p));
+            last = std::max(last, along(direction, p));
+        }
+    }
+    const double width = (last - first) / pieces;
+    std::vector<int> numbers;
+    for (int i = 0; i < pieces; ++i) {
+        Plate p = plate_of(a, normal, contact);
+        p.side = side;
+        p.width = width;
+        p.position = edge_of(a, edges.front()).start;
+        for (int e : edges) {
+            const Edge edge = edge_of(a, e);
+            const double middle
+                = 0.5 * (along(direction, edge.start) + along(direction, edge.end)) - first;
+            if (std::clamp(static_cast<int>(middle / width), 0, pieces - 1) == i) p.edges.push_back(e);
+        }
+        if (p.edges.empty()) {
+            refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
+        }
+        lay(a, p);
+        numbers.push_back(static_cast<int>(a.plates.size()));
+        a.plates.push_back(p);
+    }
+    return numbers;
+}
+
+int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
+{
+    const double size = std::hypot(normal.x, normal.y);
+    check_positive("length of the plate's normal", size, "");
+    Plate p = plate_of(a, { normal.x / size, normal.y / size }, contact);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < a.edges; ++e) {
+        const Edge edge = edge_of(a, e);
+        if (along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
+    }
+    if (p.edges.empty()) refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
+    p.points = a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
+    for (int e : p.edges) {
+        const Edge edge = edge_of(a, e);
+        for (int i = 0; i < p.points; ++i) {
+            const double w = plate_weight(p, i);
+            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
+                (1.0 - w) * edge.start.y + w * edge.end.y };
+            if (along(p.normal, x) < nearest) p.position = x;
+            nearest = std::min(nearest, along(p.normal, x));
+        }
+    }
+    lay(a, p);
+    a.plates.push_back(p);
+    return static_cast<int>(a.plates.size()) - 1;
+}
+
+void set_load(Assembly& a, int plate, double load)
+{
+    check_index(a, plate);
+    check_finite("load of a plate", load, "N");
+    if (a.plates[plate].mass <= 0.0) {
+        refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
+    }
+    a.plates[plate].loaded = true;
+    a.plates[plate].load = load;
+}
+
+void set_velocity(Assembly& a, int plate, Point velocity)
+{
+    check_index(a, plate);
+    check_finite("velocity of a plate", velocity.x, "m/s");
+    check_finite("velocity of a plate", velocity.y, "m/s");
+    Plate& p = a.plates[plate];
+    // the half step that a loaded plate was promised is not taken any more
+    if (p.loaded) p.boundary_work_next = p.damping_work_next = p.kinetic = p.unbalanced = 0.0;
+    p.loaded = false;
+    p.velocity = velocity;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One rigid grain at a time: its motion and its geometry. SI units, rotations counter-clockwise.
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+#include <flexpm/kernel/rigid_block.hpp>
+
+namespace flexpm {
+
+RigidRows rigid_rows(Assembly& a, int block);
+
+/// Index of a grain in the arrays with one value per rigid grain; [block][row] if there are `rows`.
+int rigid_index(const Assembly& a, int grain, int row = 0, int rows = 1);
+
+/// Velocity of the centre [m/s] and spin [rad/s]; the nodes follow. Use this, not the velocities of
+/// nodes, for a rigid grain.
+void set_motion(Assembly& a, int grain, Point velocity, double spin, double dt);
+
+/// Prescribe the spin [rad/s] instead of integrating it.
+void drive_spin(Assembly& a, int grain, double spin, double dt);
+
+/// Angle from the reference [rad].
+double rotation_of(const Assembly& a, int grain);
+
+/// Reference area of the cell [m^2] and its polar second moment about its centroid [m^4].
+struct CellSection {
+    double area;
+    double polar;
+};
+CellSection cell_section(const Assembly& a, int grain);
+
+/// Sum of the nodal forces on a grain [N], and their moment about its centre [N m].
+struct Resultant {
+    Point force;
+    double moment;
+};
+Resultant resultant_on(const Assembly& a, int grain);
+
+}  // namespace flexpm
