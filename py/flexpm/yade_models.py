@@ -24,6 +24,7 @@ from .errors import InputError
 from .materials import Material
 from .specimen import Specimen
 from .yade_bonds import MASS_MARGIN, Bonds
+from .yade_cracks import CrackWatch
 
 #: Models of this module.
 NAMES = ("jcfpm", "cohfrict")
@@ -43,11 +44,13 @@ class SphereModel:
         material: Their material.
         name: ``jcfpm`` or ``cohfrict``.
         bonds: Properties of the bonds.
-        contacts: ``Interaction.phys`` of each bond; it outlives the bond.
         law: The contact law's functor.
         engines: All engines of the model.
         material_ids: Ids of the materials of spheres and of plates.
         ids: Body of each grain.
+        interactions: One for each bond; not real any more once it is lost.
+        cracks: Bonds that have broken.
+        plates: Bodies of the plates.
     """
 
     specimen: Specimen
@@ -58,7 +61,13 @@ class SphereModel:
     engines: list[Any]
     material_ids: tuple[int, int]
     ids: list[int]
-    contacts: list[Any] = field(default_factory=list)
+    interactions: list[Any] = field(init=False)
+    cracks: CrackWatch = field(init=False)
+    plates: list[int] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.interactions = _make_bonds(self)
+        self.cracks = CrackWatch(self.law, self.interactions, self.bonds, self.ids)
 
     def run(self, steps: int) -> None:
         """Advance by `steps` and wait for the end."""
@@ -92,7 +101,9 @@ class SphereModel:
             material=yade.O.materials[self.material_ids[1]],
             fixed=True,
         )
-        return yade.O.bodies.append(plate)
+        plate.state.isDamped = False  # else YADE books a part of its work as damped
+        self.plates.append(yade.O.bodies.append(plate))
+        return self.plates[-1]
 
     def touch(self, plate: int, tributary: Mapping[int, float]) -> None:
         """Let grains touch a plate without force from the start, whatever their distance is.
@@ -104,9 +115,23 @@ class SphereModel:
         stiffness = self.material.law(self.name)["normal_stiffness"] * self.specimen.thickness
         for grain, length in tributary.items():
             contact = utils.createInteraction(plate, self.ids[grain])
-            contact.phys.kn, contact.phys.ks = stiffness * length, 0.0
-            offset = "initD" if self.name == "jcfpm" else "unp"
-            setattr(contact.phys, offset, contact.geom.penetrationDepth)
+            contact.phys.kn = stiffness * length
+            self._set_rest(contact, contact.geom.penetrationDepth)
+
+    def press(self, plate: int, pressure: float) -> None:
+        """Shift the rest of what touches a plate so that it carries a pressure [Pa] at once.
+
+        A step must have been done since :meth:`touch`: in its first step JCFpm finds the rest of a
+        contact itself.
+        """
+        overlap = pressure / self.material.law(self.name)["normal_stiffness"]
+        for contact in yade.O.interactions.withBody(plate):
+            if contact.isReal:
+                self._set_rest(contact, contact.geom.penetrationDepth - overlap)
+
+    def _set_rest(self, contact: Any, overlap: float) -> None:
+        """Set the overlap at which a contact carries no force [m]."""
+        setattr(contact.phys, "initD" if self.name == "jcfpm" else "unp", overlap)
 
 
 def build(
@@ -149,9 +174,7 @@ def build(
     yade.O.dt = _set_masses(specimen, radii, bonds, ids, law, (model, damping, dynamic))
     functor, engines = _engines(specimen, model, damping, threads)
     yade.O.engines = engines
-    built = SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
-    _make_bonds(built)
-    return built
+    return SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
 
 
 def _materials(model: str, law: dict[str, Any], bonds: Bonds, radii: np.ndarray) -> tuple[Any, Any]:
@@ -224,8 +247,9 @@ def _engines(specimen: Specimen, model: str, damping: float, threads: int) -> tu
     return law, engines
 
 
-def _make_bonds(built: SphereModel) -> None:
+def _make_bonds(built: SphereModel) -> list[Any]:
     """Make an interaction of each bond, also where its spheres do not touch."""
+    made = []
     physics = built.engines[2].physDispatcher.functors[0]
     _bonding(physics, True)
     for row, (first, second) in enumerate(built.bonds.grains.tolist()):
@@ -235,15 +259,16 @@ def _make_bonds(built: SphereModel) -> None:
         bond.ks = float(built.bonds.shear_stiffness[row])
         strengths = built.bonds.tensile_strength[row], built.bonds.shear_strength[row]
         if built.name == "jcfpm":
-            bond.initD = contact.geom.penetrationDepth
             bond.crossSection = float(built.bonds.areas[row])
             bond.FnMax, bond.FsMax = map(float, strengths)
         else:
-            bond.unp = contact.geom.penetrationDepth
-            bond.kr, bond.ktw = float(built.bonds.bending_stiffness[row]), 0.0
+            # nothing twists in the plane, but YADE's energy divides by the stiffness
+            bond.kr = bond.ktw = float(built.bonds.bending_stiffness[row])
             bond.normalAdhesion, bond.shearAdhesion = map(float, strengths)
-        built.contacts.append(bond)
+        built._set_rest(contact, contact.geom.penetrationDepth)
+        made.append(contact)
     _bonding(physics, False)
+    return made
 
 
 def _bonding(physics: Any, on: bool) -> None:

@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Laboratory tests on YADE's own bonded models, paper Sec. 4. SI units.
+
+They follow the tests of the other models: plates without friction (grips in tension), the same
+schedule, the same record. YADE's classes do every step; rows of the record are taken in Python
+between steps.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from statistics import median
+
+import numpy as np
+
+import yade
+
+from . import __version__
+from .errors import InputError
+from .protocols import DEFAULT_STRAINS, Progress, Schedule
+from .results import Result
+from .yade_bonds import tributary_lengths
+from .yade_loading import (
+    BOTTOM,
+    LEFT,
+    RIGHT,
+    TOP,
+    Grips,
+    Plates,
+    Pressure,
+    hold_sideways,
+    start_evenly,
+)
+from .yade_models import SphereModel
+from .yade_record import Ending, Gauge, Recorder, Sample
+
+#: Growth of the mean strain over the reference strain while a wave crosses the specimen once [-].
+RATE_CONSTANT = {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02}
+#: A fall of the stress counts once this share of the reference strength has been reached [-].
+_LEAST_PEAK = 0.2
+#: Rows of the record up to the reference strain.
+_ROWS = 200
+#: The isotropic stress is reached in this many crossings of a wave, and then held until at rest.
+_RAMP_CROSSINGS = 20
+_REST = 1e-3  #: at rest: largest resultant over mean contact force [-]
+_MOST_HOLDING = 200  #: crossings
+#: Diametral strain of an elastic disc between narrow plates over 2P / (pi D t E), about.
+_DIAMETRAL = 5.0
+
+
+def run_uniaxial(
+    built: SphereModel,
+    confinement: float,
+    rate: float,
+    max_strain: float | None,
+    progress: Progress | None,
+) -> Result:
+    """Compress a built rectangle axially without lateral pressure."""
+    _require_kind(built, "uniaxial", "rectangle")
+    _require_unconfined("uniaxial", confinement)
+    plan = _schedule(built, "uniaxial", rate, max_strain)
+    plates = _squeeze(built)
+    plates.move(-plan.velocity)
+    start_evenly(built, -plan.velocity, 0.0, plan.height)
+    gauge, area = Gauge(built), _area(built)
+
+    def sample() -> Sample:
+        axial, lateral = gauge.strains()
+        return Sample(-plates.force() / area, -plates.travel(), -axial, lateral)
+
+    return _run("uniaxial", built, plan, area, sample, progress)
+
+
+def run_tension(
+    built: SphereModel,
+    confinement: float,
+    rate: float,
+    max_strain: float | None,
+    progress: Progress | None,
+) -> Result:
+    """Pull the outermost layers of spheres of a built rectangle apart."""
+    _require_kind(built, "tension", "rectangle")
+    _require_unconfined("tension", confinement)
+    plan = _schedule(built, "tension", rate, max_strain)
+    grips = Grips(built)
+    hold_sideways(built)
+    start_evenly(built, plan.velocity, 0.0, plan.height)
+    grips.move(plan.velocity)
+    gauge, area = Gauge(built), _area(built)
+
+    def sample() -> Sample:
+        axial, lateral = gauge.strains()
+        return Sample(grips.force() / area, grips.travel(), axial, -lateral)
+
+    return _run("tension", built, plan, area, sample, progress)
+
+
+def run_biaxial(
+    built: SphereModel,
+    confinement: float,
+    rate: float,
+    max_strain: float | None,
+    progress: Progress | None,
+) -> Result:
+    """Press a built rectangle isotropically, then compress it axially at constant pressure.
+
+    Strains count from the isotropic state.
+    """
+    _require_kind(built, "biaxial", "rectangle")
+    plan = _schedule(built, "biaxial", rate, max_strain)
+    hold_sideways(built)
+    sides = Pressure(built, (LEFT, RIGHT))
+    if confinement > 0.0:
+        _press_evenly(built, confinement, plan, progress)
+    plates = _squeeze(built, confinement)
+    plates.move(-plan.velocity)
+    start_evenly(built, -plan.velocity, 0.0, plan.height)
+    gauge, area = Gauge(built), _area(built)
+
+    def sample() -> Sample:
+        axial, lateral = gauge.strains()
+        height = plan.height + plates.travel()
+        applied = sides.lateral_stress(height)
+        sides.update(confinement)
+        return Sample(-plates.force() / area, -plates.travel(), -axial, lateral, applied, math.nan)
+
+    sides.update(confinement)
+    return _run("biaxial", built, plan, area, sample, progress)
+
+
+def run_brazilian(
+    built: SphereModel,
+    confinement: float,
+    rate: float,
+    max_strain: float | None,
+    progress: Progress | None,
+) -> Result:
+    """Squeeze a built disc between two plates; stress is 2P / (pi D t), strain travel / D."""
+    _require_kind(built, "brazilian", "disc")
+    _require_unconfined("brazilian", confinement)
+    plan = _schedule(built, "brazilian", rate, max_strain)
+    reach = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
+    heights = built.specimen.centres[:, 1]
+    plates = Plates(built, float(np.min(heights - reach)), float(np.max(heights + reach)))
+    plates.move(-plan.velocity)
+    area = 0.5 * math.pi * plan.height * built.specimen.thickness
+
+    def sample() -> Sample:
+        return Sample(-plates.force() / area, -plates.travel(), -plates.travel() / plan.height)
+
+    result = _run("brazilian", built, plan, area, sample, progress)
+    result.youngs_modulus = None  # the slope of the plates' travel is no modulus of the rock
+    return result
+
+
+#: Tests of these models by name.
+TESTS: dict[str, Callable[..., Result]] = {
+    "uniaxial": run_uniaxial,
+    "tension": run_tension,
+    "biaxial": run_biaxial,
+    "brazilian": run_brazilian,
+}
+
+
+def _squeeze(built: SphereModel, pressure: float = 0.0) -> Plates:
+    """Put plates on bottom and top of a rectangle; they carry the pressure from then on."""
+    low, high = built.specimen.outline[:, 1].min(), built.specimen.outline[:, 1].max()
+    moved = [
+        np.mean([yade.O.bodies[built.ids[grain]].state.pos[1] for grain in ends])
+        - np.mean(built.specimen.centres[list(ends), 1])
+        for ends in (tributary_lengths(built.specimen, side) for side in (BOTTOM, TOP))
+    ]
+    plates = Plates(built, float(low + moved[0]), float(high + moved[1]))
+    for plate, side in ((plates.bottom, BOTTOM), (plates.top, TOP)):
+        built.touch(plate, tributary_lengths(built.specimen, side))
+    if pressure > 0.0:
+        yade.O.step()
+        Pressure(built, (BOTTOM, TOP)).remove()
+        for plate in (plates.bottom, plates.top):
+            built.press(plate, pressure)
+    else:
+        hold_sideways(built)
+    return plates
+
+
+def _press_evenly(
+    built: SphereModel, confinement: float, plan: Schedule, progress: Progress | None
+) -> None:
+    """Raise the same pressure on all sides and wait until the specimen is at rest."""
+    sides = Pressure(built, (BOTTOM, RIGHT, TOP, LEFT))
+    crossing = math.ceil(_crossing_steps(built))
+    for turn in range(_MOST_HOLDING):
+        sides.update(confinement * min(1.0, (turn + 1) / _RAMP_CROSSINGS))
+        for _ in range(crossing):
+            yade.O.step()
+        if progress is not None:
+            progress(yade.O.iter, max(plan.steps, yade.O.iter), "isotropic pressure")
+        if turn >= _RAMP_CROSSINGS and yade.utils.unbalancedForce(useMaxForce=True) < _REST:
+            return
+
+
+def _schedule(built: SphereModel, test: str, rate: float, max_strain: float | None) -> Schedule:
+    """Velocity and end as in the other models, from the contacts alone."""
+    height = built.specimen.dimensions.get("height", built.specimen.dimensions.get("diameter"))
+    modulus = _modulus(built)
+    reference = _strength(built, test) / modulus * (_DIAMETRAL if test == "brazilian" else 1.0)
+    crossing = _crossing_steps(built) * yade.O.dt
+    velocity = rate * RATE_CONSTANT[test] * reference * height / crossing
+    largest = DEFAULT_STRAINS * reference if max_strain is None else max_strain
+    return Schedule(velocity, reference, largest, height, yade.O.dt)
+
+
+def _modulus(built: SphereModel) -> float:
+    """Of a row of grains: K_n times the mean diameter [Pa]."""
+    law = built.material.law(built.name)
+    return law["normal_stiffness"] * built.specimen.mean_diameter
+
+
+def _strength(built: SphereModel, test: str) -> float:
+    """Strength that the contacts alone would give the specimen [Pa]."""
+    law = built.material.law(built.name)
+    if test in ("tension", "brazilian"):
+        return law["tensile_strength"]
+    friction = law["friction"]
+    return 2.0 * law["cohesion"] * (math.sqrt(1.0 + friction**2) + friction)
+
+
+def _crossing_steps(built: SphereModel) -> float:
+    """Steps in which a wave crosses the specimen's height."""
+    dimensions = built.specimen.dimensions
+    height = dimensions.get("height", dimensions.get("diameter"))
+    width = dimensions.get("width", height)
+    mass = sum(yade.O.bodies[body].state.mass for body in built.ids)
+    stiffness = _modulus(built) * width * built.specimen.thickness / height
+    return math.sqrt(mass / stiffness) / yade.O.dt
+
+
+def _area(built: SphereModel) -> float:
+    return built.specimen.dimensions["width"] * built.specimen.thickness
+
+
+def _run(
+    test: str,
+    built: SphereModel,
+    plan: Schedule,
+    area: float,
+    sample: Callable[[], Sample],
+    progress: Progress | None,
+) -> Result:
+    ending = Ending(_LEAST_PEAK * _strength(built, test), plan.max_strain)
+    recorder = Recorder(built, area, plan.height, ending, sample)
+    steps_to_reference = plan.reference_strain * plan.height / (plan.velocity * plan.dt)
+    period = max(1, round(steps_to_reference / _ROWS))
+    yade.O.trackEnergy = True
+    spans = []
+    while not recorder.over:
+        start = time.perf_counter()
+        for _ in range(period):
+            yade.O.step()
+        spans.append((time.perf_counter() - start) / period)
+        recorder.record()
+        if progress is not None:
+            done = yade.O.iter
+            expected = max(min(plan.steps, 2.0 * steps_to_reference), 1.05 * done)
+            progress(done, expected, f"peak {recorder.peak * 1e-6:5.1f} MPa")
+    return _result(test, built, recorder, median(spans))
+
+
+def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float) -> Result:
+    result = Result(
+        flexpm=__version__,
+        yade=yade.config.version,
+        test=test,
+        model=built.name,
+        material={"name": built.material.name, **built.material.law(built.name)},
+        seed=built.specimen.seed,
+        **built.counts(),
+        step_time=step_time,
+    )
+    result.curve = recorder.curve
+    result.cracks = built.cracks.cracks(recorder.curve)
+    result.measure(diverged=recorder.diverged)
+    return result
+
+
+def _require_kind(built: SphereModel, test: str, kind: str) -> None:
+    found = built.specimen.kind
+    if found != kind:
+        raise InputError(f"run: specimen = {found}, must be a {kind} for {test}; make another")
+
+
+def _require_unconfined(test: str, confinement: float) -> None:
+    if confinement != 0.0:
+        raise InputError(f"run: confinement = {confinement} Pa, must be 0 for {test}; leave it out")
