@@ -12,6 +12,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
+
 import yade
 from yade import wrapper
 
@@ -226,9 +227,7 @@ def schedule(scales: dict[str, float], test: str, settings: Settings) -> Schedul
     reference = (scales["strength"] + settings.confinement) / scales["modulus"]
     crossing = scales["crossing_steps"]
     dt = yade.O.dt
-    velocity = (
-        settings.rate * RATE_CONSTANT[test] * reference * scales["height"] / (crossing * dt)
-    )
+    velocity = settings.rate * RATE_CONSTANT[test] * reference * scales["height"] / (crossing * dt)
     largest = settings.max_strain or DEFAULT_STRAINS * reference
     return Schedule(velocity, reference, largest, scales["height"], dt)
 
@@ -241,9 +240,7 @@ def write_files(folder: Path, result: Result, snapshot: dict[str, np.ndarray]) -
     plot.crack_picture(folder / "cracks.png", snapshot)
 
 
-def _drive(
-    plan: Schedule, recorder: Any, progress: Progress | None
-) -> tuple[bool, float | None]:
+def _drive(plan: Schedule, recorder: Any, progress: Progress | None) -> tuple[bool, float | None]:
     """Run until the recorder stops the simulation.
 
     Returns:
@@ -251,7 +248,9 @@ def _drive(
     """
     omega = yade.O
     # most tests end well before the largest strain; the bar grows if one does not
-    expected = min(plan.steps, math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps))
+    expected = min(
+        plan.steps, math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
+    )
     samples: list[tuple[float, int]] = [(time.perf_counter(), omega.iter)]
     omega.run(plan.steps)
     try:

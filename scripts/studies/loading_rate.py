@@ -16,7 +16,15 @@ from pathlib import Path
 
 import flexpm
 
-FIELDS = ("seed", "rate", "peak_stress", "peak_strain", "youngs_modulus", "unbalanced_ratio", "steps")
+FIELDS = (
+    "seed",
+    "rate",
+    "peak_stress",
+    "peak_strain",
+    "youngs_modulus",
+    "unbalanced_ratio",
+    "steps",
+)
 
 
 def specimen_for(test: str, scale: float, seed: int) -> flexpm.Specimen:

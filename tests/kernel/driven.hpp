@@ -49,14 +49,15 @@ inline void run(Assembly& a, int steps, double damping = 0.0)
 {
     flexpm::StepOptions options;
     options.damping = damping;
-    for (int i = 0; i < steps; ++i) flexpm::step(a, options);
+    for (int i = 0; i < steps; ++i)
+        flexpm::step(a, options);
 }
 
 /// Force of a contact on the node of its side (0: a, 1: b) and end (0, 1) [N].
 inline Point contact_force(const Assembly& a, int contact, int side, int end)
 {
-    const double* f = &a.contact_force[row_index(
-        contact, 4 * side + 2 * end, flexpm::ContactRows::forces)];
+    const double* f =
+        &a.contact_force[row_index(contact, 4 * side + 2 * end, flexpm::ContactRows::forces)];
     return { f[0], f[lanes] };
 }
 

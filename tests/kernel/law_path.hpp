@@ -25,7 +25,10 @@ inline double critical_opening(const ContactMaterial& m)
 {
     return 2.0 * m.tensile_fracture_energy / m.tensile_strength;
 }
-inline double shear_stiffness(const ContactMaterial& m) { return m.shear_ratio * m.normal_stiffness; }
+inline double shear_stiffness(const ContactMaterial& m)
+{
+    return m.shear_ratio * m.normal_stiffness;
+}
 inline double elastic_slip(const ContactMaterial& m) { return m.cohesion / shear_stiffness(m); }
 inline double critical_slip(const ContactMaterial& m)
 {
@@ -78,7 +81,8 @@ struct Path {
     }
     void advance(double opening_step, double slip_step, int steps)
     {
-        for (int i = 0; i < steps; ++i) advance(opening_step / steps, slip_step / steps);
+        for (int i = 0; i < steps; ++i)
+            advance(opening_step / steps, slip_step / steps);
     }
     void open_to(double opening, int steps = 1) { advance(opening - state.opening, 0.0, steps); }
     void slip_to(double total, int steps = 1) { advance(0.0, total - slip, steps); }

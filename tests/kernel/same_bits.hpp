@@ -14,10 +14,12 @@
 
 namespace same_bits {
 
-template <class T, class = void> struct IsArray : std::false_type { };
+template <class T, class = void> struct IsArray : std::false_type {
+};
 template <class T>
 struct IsArray<T, std::enable_if_t<std::is_arithmetic<typename T::value_type>::value>>
-    : std::true_type { };
+    : std::true_type {
+};
 
 /// The bytes of every number and array of numbers that an assembly must keep.
 inline std::map<std::string, std::string> bytes(const flexpm::Assembly& a)
@@ -49,13 +51,14 @@ inline std::string difference(const flexpm::Assembly& a, const flexpm::Assembly&
 /// A random specimen with pressed sides, sheared and drawn apart so fast that points crack within 500 steps.
 inline flexpm::Assembly breaking()
 {
-    flexpm::Assembly a = specimens::assemble(
-        specimens::random_grains(12e-3, 15e-3, 3e-3, 9), specimens::options());
+    flexpm::Assembly a =
+        specimens::assemble(specimens::random_grains(12e-3, 15e-3, 3e-3, 9), specimens::options());
     flexpm::scale_masses(a, 0.7);
     flexpm::drive(a, flexpm::side_nodes(a, 0), 1, 0.0);
     flexpm::drive(a, flexpm::side_nodes(a, 2), 1, 5e-8);
     flexpm::drive(a, flexpm::side_nodes(a, 2), 0, 1e-7);
-    for (int side : { 1, 3 }) flexpm::set_pressure(a, side, 1e5);
+    for (int side : { 1, 3 })
+        flexpm::set_pressure(a, side, 1e5);
     return a;
 }
 

@@ -59,9 +59,12 @@ TEST_CASE("Tension follows the elastic line, peaks at the strength and softens o
                                      : m.tensile_strength * std::max(uc - u, 0.0) / (uc - ue);
         Path path(m);
         path.open_to(u, 1 + i % 7);
-        CHECK(path.traction.normal == Approx(closed).epsilon(1e-11).margin(1e-12 * m.tensile_strength));
+        CHECK(path.traction.normal
+            == Approx(closed).epsilon(1e-11).margin(1e-12 * m.tensile_strength));
         CHECK(path.traction.damage
-            == Approx(std::min(std::max((u - ue) / (uc - ue), 0.0), 1.0)).epsilon(1e-11).margin(1e-12));
+            == Approx(std::min(std::max((u - ue) / (uc - ue), 0.0), 1.0))
+                   .epsilon(1e-11)
+                   .margin(1e-12));
     }
     const ContactMaterial m = specimens::granite_contact();
     Path path(m);
@@ -111,13 +114,12 @@ TEST_CASE("Shear peaks at c + mu sigma_n and softens on a line to mu sigma_n, ei
         // at constant pressure tau = c (1 - p / sc) + mu sigma_n with the plastic slip p = s - tau / k
         const double residual = m.friction * pressure, last = sc + residual / k;
         const double s = yield + (last - yield) * random.next();
-        const double closed
-            = (m.cohesion * (1.0 - s / sc) + residual) / (1.0 - m.cohesion / (sc * k));
+        const double closed =
+            (m.cohesion * (1.0 - s / sc) + residual) / (1.0 - m.cohesion / (sc * k));
         Path path = pressed(m, pressure);
         path.slip_to(sign * s, 1 + i % 9);
         CHECK(path.traction.shear == Approx(sign * closed).epsilon(1e-9).margin(1e-9 * strength));
-        CHECK(path.traction.damage
-            == Approx((s - closed / k) / sc).epsilon(1e-9).margin(1e-9));
+        CHECK(path.traction.damage == Approx((s - closed / k) / sc).epsilon(1e-9).margin(1e-9));
     }
 }
 
@@ -133,7 +135,8 @@ TEST_CASE("Unloading in tension goes along the secant and back, without loss")
         const double loss = path.state.damage_energy;
         for (double part : { 0.7, 0.2, 0.0, 0.4, 1.0 }) {
             path.open_to(part * reach, 3);
-            CHECK(path.traction.normal == Approx(secant * part * reach).epsilon(1e-12).margin(1e-3));
+            CHECK(
+                path.traction.normal == Approx(secant * part * reach).epsilon(1e-12).margin(1e-3));
             CHECK(path.state.damage_energy == loss);
             CHECK(path.traction.damage == Approx(fraction).epsilon(1e-12));
         }
@@ -200,7 +203,7 @@ TEST_CASE("Damage in shear lowers the tensile strength and the damage of both ad
 
 TEST_CASE("Parameters of the law that make no sense are refused")
 {
-    const auto refused = [](double ContactMaterial::* key, double value) {
+    const auto refused = [](double ContactMaterial::*key, double value) {
         ContactMaterial m = specimens::granite_contact();
         m.*key = value;
         CHECK_THROWS_AS(flexpm::make_law(m), std::invalid_argument);
@@ -209,7 +212,8 @@ TEST_CASE("Parameters of the law that make no sense are refused")
     for (auto key : { &ContactMaterial::normal_stiffness, &ContactMaterial::shear_ratio,
              &ContactMaterial::tensile_strength, &ContactMaterial::cohesion,
              &ContactMaterial::tensile_fracture_energy, &ContactMaterial::shear_fracture_energy }) {
-        for (double value : { 0.0, -1.0, nan, 1.0 / 0.0 }) refused(key, value);
+        for (double value : { 0.0, -1.0, nan, 1.0 / 0.0 })
+            refused(key, value);
     }
     refused(&ContactMaterial::friction, -0.1);
     refused(&ContactMaterial::friction, nan);

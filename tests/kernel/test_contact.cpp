@@ -101,7 +101,8 @@ TEST_CASE("Moment and normal force follow the rotation through cracking, in clos
     const double uc = law_path::critical_opening(m);
     const int steps = 400;
     for (int points : { 1, 2, 3 }) {
-        for (double middle : { 0.0, 0.3, 1.0, -0.5 }) {  // opening of the middle over that of the end
+        for (double middle :
+            { 0.0, 0.3, 1.0, -0.5 }) {  // opening of the middle over that of the end
             CAPTURE(points, middle);
             Assembly a = pair(points);
             const double end = 1.5 * uc / steps;  // opening of the end by the turn alone, per step
@@ -184,8 +185,8 @@ TEST_CASE("Sliding under pressure: peak, sign, shear cracks, then friction alone
         const Point f = resultant(a, 0), n = flexpm::normal_of(a, 0);
         CHECK(n.x == Approx(std::cos(angle)).epsilon(1e-12));
         const double shear = f.y * n.x - f.x * n.y, normal = f.x * n.x + f.y * n.y;
-        const double soft = (m.cohesion * (1.0 - slip / law_path::critical_slip(m))
-                                + m.friction * pressure)
+        const double soft =
+            (m.cohesion * (1.0 - slip / law_path::critical_slip(m)) + m.friction * pressure)
             / (1.0 - law_path::elastic_slip(m) / law_path::critical_slip(m));
         const double closed = std::min(k * slip, std::max(soft, m.friction * pressure));
         REQUIRE(normal == Approx(-pressure * area).epsilon(1e-9));
@@ -194,8 +195,7 @@ TEST_CASE("Sliding under pressure: peak, sign, shear cracks, then friction alone
         peak = std::max(peak, shear);
     }
     CHECK(peak == Approx(strength * area).epsilon(5e-3));
-    const double first_cracked
-        = (law_path::critical_slip(m) + m.friction * pressure / k) / step;
+    const double first_cracked = (law_path::critical_slip(m) + m.friction * pressure / k) / step;
     for (int p = 0; p < 3; ++p) {
         const int index = row_index(0, p, 3);
         CHECK(a.crack_mode[index] == flexpm::shear_crack);

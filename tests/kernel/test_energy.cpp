@@ -69,8 +69,9 @@ struct AxialTest {
     Assembly a;
     std::vector<int> top;
 
-    explicit AxialTest(const flexpm::ContactMaterial& m)
-        : a(specimens::assemble(specimens::random_grains(9e-3, 12e-3, 3e-3, 5), specimens::options(m)))
+    explicit AxialTest(const flexpm::ContactMaterial& m) :
+        a(specimens::assemble(
+            specimens::random_grains(9e-3, 12e-3, 3e-3, 5), specimens::options(m)))
     {
         flexpm::scale_masses(a, 0.7);
         top = flexpm::side_nodes(a, 2);
@@ -146,23 +147,24 @@ double axial_miss(const flexpm::ContactMaterial& m, double velocity, double way,
     test.drive(velocity);
     flexpm::open_books(test.a);
     const int steps = static_cast<int>(way / std::fabs(velocity));
-    const double worst
-        = largest_miss(test.a, 0.7, steps, std::max(steps / 500, 1), [&](int) { each(test.a); });
+    const double worst =
+        largest_miss(test.a, 0.7, steps, std::max(steps / 500, 1), [&](int) { each(test.a); });
     CHECK(flexpm::count_cracks(test.a).tensile > 3);
     return worst;
 }
 
 double* state_row(Assembly& a, int contact, int point, int row)
 {
-    return &a.point_state[row_index(contact, point * flexpm::ContactRows::state + row,
-        a.points * flexpm::ContactRows::state)];
+    return &a.point_state[row_index(
+        contact, point * flexpm::ContactRows::state + row, a.points * flexpm::ContactRows::state)];
 }
 
 /// Calls each(contact, point, state) for all points.
 template <class Each> void for_each_point(Assembly& a, Each each)
 {
     for (int c = 0; c < a.contacts; ++c) {
-        for (int p = 0; p < a.points; ++p) each(c, p, flexpm::point_state(a, c, p));
+        for (int p = 0; p < a.points; ++p)
+            each(c, p, flexpm::point_state(a, c, p));
     }
 }
 

@@ -29,7 +29,8 @@ std::vector<Leg> random_legs(const ContactMaterial& m, flexpm::Random& random, i
         const double target = random.next() < 0.4
             ? -3.0 * ue * random.next()
             : ue * random.next() + (critical_opening(m) - ue) * 0.7 * reach * random.next();
-        const double slip = side * (1.5 * se * random.next() + (critical_slip(m) - se) * 0.5 * reach * random.next());
+        const double slip = side
+            * (1.5 * se * random.next() + (critical_slip(m) - se) * 0.5 * reach * random.next());
         legs.push_back({ target - opening, slip });
         opening = target;
     }
@@ -88,7 +89,8 @@ TEST_CASE("The work of a path is stored or dissipated, to first order in the ste
             const ContactMaterial m = random_material(random);
             const int steps = 400 << refinement;
             Path path(m);
-            for (const Leg& leg : random_legs(m, random, 6)) path.advance(leg.opening, leg.slip, steps);
+            for (const Leg& leg : random_legs(m, random, 6))
+                path.advance(leg.opening, leg.slip, steps);
             const double scale = m.tensile_fracture_energy + m.shear_fracture_energy;
             const double miss = path.work - path.stored() - path.dissipated();
             error[refinement] += std::fabs(miss) / scale;
@@ -181,7 +183,8 @@ TEST_CASE("With the least fracture energies the law is Mohr-Coulomb with a tensi
                 reference.advance(leg.opening / steps, leg.slip / steps);
                 REQUIRE(path.cracked() == reference.broken);
                 REQUIRE(path.traction.damage == (reference.broken ? 1.0 : 0.0));
-                REQUIRE(path.traction.normal == Approx(reference.normal).margin(1e-9 * m.tensile_strength));
+                REQUIRE(path.traction.normal
+                    == Approx(reference.normal).margin(1e-9 * m.tensile_strength));
                 REQUIRE(path.traction.shear == Approx(reference.shear).margin(1e-9 * m.cohesion));
             }
         }

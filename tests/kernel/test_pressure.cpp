@@ -18,7 +18,8 @@ Assembly pressed(const specimens::Specimen& s, int sides)
 {
     Assembly a = specimens::assemble(s, specimens::options(specimens::strong_contact()));
     hold_all(a);
-    for (int side = 0; side < sides; ++side) flexpm::set_pressure(a, side, pressure);
+    for (int side = 0; side < sides; ++side)
+        flexpm::set_pressure(a, side, pressure);
     return a;
 }
 
@@ -76,7 +77,8 @@ void move_to(Assembly& a, double share)
 
 TEST_CASE("Uniform pressure on a closed outline has no resultant, however deformed")
 {
-    for (const auto& s : { specimens::grid(3, 2, 3e-3), specimens::random_grains(9e-3, 6e-3, 3e-3, 4) }) {
+    for (const auto& s :
+        { specimens::grid(3, 2, 3e-3), specimens::random_grains(9e-3, 6e-3, 3e-3, 4) }) {
         Assembly a = pressed(s, 4);
         for (int k = 0; k <= 4; ++k) {
             move_to(a, k / 4.0);
@@ -110,7 +112,8 @@ TEST_CASE("The work of pressure is pressure times the volume given up")
     Assembly a = pressed(specimens::hexagon(), 6);
     run(a, 1);  // the pressure is on before anything moves
     const double before = area(a);
-    for (int k = 1; k <= 20; ++k) move_to(a, k / 20.0);
+    for (int k = 1; k <= 20; ++k)
+        move_to(a, k / 20.0);
     const double given_up = (before - area(a)) * specimens::thickness;
     CHECK(std::fabs(given_up) > 0.1 * before * specimens::thickness);
     CHECK(a.pressure_work == Approx(pressure * given_up).epsilon(1e-10));

@@ -48,7 +48,8 @@ TEST_CASE("An unloaded pair turned by any angle carries no force")
         turn(a, angle, 50);
         CHECK(std::hypot(resultant(a, 0).x, resultant(a, 0).y)
             < 1e-6 * 8.5e6 * size * specimens::thickness);
-        for (int p = 0; p < 3; ++p) CHECK(flexpm::damage_of(a, 0, p) == 0.0);
+        for (int p = 0; p < 3; ++p)
+            CHECK(flexpm::damage_of(a, 0, p) == 0.0);
     }
 }
 
@@ -63,7 +64,8 @@ TEST_CASE("A loaded pair turned by 90 degrees keeps opening and slip, and its fo
             const flexpm::PointState old = flexpm::point_state(a, 0, 1);
             turn(a, 0.5 * M_PI, steps);
             const Point after = resultant(a, 0), expected = turned(before, 0.5 * M_PI);
-            const double angle = 2.0 * std::hypot(gap.x, gap.y) / size;  // the normal is off by half of it
+            const double angle =
+                2.0 * std::hypot(gap.x, gap.y) / size;  // the normal is off by half of it
             const double scale = angle * std::hypot(before.x, before.y);
             CHECK(after.x == Approx(expected.x).margin(scale));
             CHECK(after.y == Approx(expected.y).margin(scale));
@@ -79,7 +81,8 @@ TEST_CASE("A cracked pair that has slid far keeps its pressure when it turns")
 {
     const auto m = specimens::granite_contact();
     Assembly a = loaded({ 0.0, 1e-4 }, m);
-    for (int p = 0; p < 3; ++p) REQUIRE(flexpm::damage_of(a, 0, p) == 1.0);
+    for (int p = 0; p < 3; ++p)
+        REQUIRE(flexpm::damage_of(a, 0, p) == 1.0);
     // pressed by 40 MPa along the present normal
     const Point n = flexpm::normal_of(a, 0);
     const double push = flexpm::point_state(a, 0, 1).opening + 40e6 / m.normal_stiffness;

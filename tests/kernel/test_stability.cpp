@@ -18,7 +18,8 @@ Assembly shaken(const specimens::Specimen& s, double mass_damping, double mass_f
 {
     Assembly a = specimens::assemble(s, specimens::options(specimens::strong_contact()));
     flexpm::scale_masses(a, mass_damping);
-    for (double& m : a.inverse_mass) m /= mass_factor;
+    for (double& m : a.inverse_mass)
+        m /= mass_factor;
     flexpm::Random random(7);
     for (int g = 0; g < a.grains; ++g) {
         set_velocity(a, g, [&](Point) {

@@ -77,26 +77,26 @@ struct Assembly {
 
     // contacts: [block][row][lane]
     std::vector<LawParameters> laws;
-    std::vector<int> contact_grains;      ///< two per contact, the smaller first
-    std::vector<int> contact_law;         ///< index into `laws`
-    Array<int> contact_nodes;             ///< node offsets, ContactRows::nodes
-    Array<double> weight;                 ///< [point][side]: share of the edge's second node [-]
-    Array<double> area;                   ///< [point] [m^2]
-    Array<double> span;                   ///< [x, y] from centre a to centre b when bonded [m]
-    Array<double> edge_reach;             ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
-    Array<double> normal;                 ///< [x, y] of the current unit normal, from a to b
-    Array<double> point_state;            ///< [point][ContactRows::state]
-    Array<int> crack_step;                ///< [point]: step of the crack, -1 while intact
-    Array<std::uint8_t> crack_mode;       ///< [point]: CrackMode
-    Array<double> crack_position;         ///< [point][x, y] where it cracked [m]
-    Array<double> contact_force;          ///< ContactRows::forces [N]
+    std::vector<int> contact_grains;  ///< two per contact, the smaller first
+    std::vector<int> contact_law;     ///< index into `laws`
+    Array<int> contact_nodes;         ///< node offsets, ContactRows::nodes
+    Array<double> weight;             ///< [point][side]: share of the edge's second node [-]
+    Array<double> area;               ///< [point] [m^2]
+    Array<double> span;               ///< [x, y] from centre a to centre b when bonded [m]
+    Array<double> edge_reach;         ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
+    Array<double> normal;             ///< [x, y] of the current unit normal, from a to b
+    Array<double> point_state;        ///< [point][ContactRows::state]
+    Array<int> crack_step;            ///< [point]: step of the crack, -1 while intact
+    Array<std::uint8_t> crack_mode;   ///< [point]: CrackMode
+    Array<double> crack_position;     ///< [point][x, y] where it cracked [m]
+    Array<double> contact_force;      ///< ContactRows::forces [N]
 
     // boundary edges: [block][row][lane]
     std::vector<int> edge_grain;
-    std::vector<int> edge_side;           ///< side of the outline
-    std::vector<double> edge_pressure;    ///< follows the deforming edge, compressive positive [Pa]
-    Array<int> edge_nodes;                ///< [n0, n1] node offsets, counter-clockwise in the grain
-    Array<double> edge_force;             ///< x, y on n0, n1: of pressure, then of plates [N]
+    std::vector<int> edge_side;         ///< side of the outline
+    std::vector<double> edge_pressure;  ///< follows the deforming edge, compressive positive [Pa]
+    Array<int> edge_nodes;              ///< [n0, n1] node offsets, counter-clockwise in the grain
+    Array<double> edge_force;           ///< x, y on n0, n1: of pressure, then of plates [N]
 
     std::vector<Plate> plates;
 
@@ -108,15 +108,15 @@ struct Assembly {
     Array<double> shown_position;
 
     // sums that only grow; energies in J. Per block of grains unless said.
-    Array<double> damping_work;       ///< [block][done, second half of the last step]
-    Array<double> driven_work;        ///< the same for nodes with prescribed velocity
+    Array<double> damping_work;  ///< [block][done, second half of the last step]
+    Array<double> driven_work;   ///< the same for nodes with prescribed velocity
     double pressure_work = 0.0;
-    double initial_energy = 0.0;      ///< kinetic and elastic energy when the books were opened
-    std::int64_t step = 0;            ///< steps done
+    double initial_energy = 0.0;  ///< kinetic and elastic energy when the books were opened
+    std::int64_t step = 0;        ///< steps done
 
     // results of the last measured step, per block
-    Array<double> kinetic;            ///< 1/2 m v(n-1/2) v(n+1/2) [J]
-    Array<double> largest_force;      ///< largest |F| component on a free node [N]
+    Array<double> kinetic;        ///< 1/2 m v(n-1/2) v(n+1/2) [J]
+    Array<double> largest_force;  ///< largest |F| component on a free node [N]
 
     int blocks() const { return static_cast<int>(block_group.size()); }
     int contact_blocks() const { return (contacts + lanes - 1) / lanes; }

@@ -28,14 +28,15 @@ GrainMesh rigid_mesh(std::vector<Point> polygon, Point centre)
     return mesh;
 }
 
-MeshedGrain mesh_cell(const Tessellation& t, const std::vector<Disc>& discs, int cell,
-    const AssemblyOptions& options)
+MeshedGrain mesh_cell(
+    const Tessellation& t, const std::vector<Disc>& discs, int cell, const AssemblyOptions& options)
 {
     const int first = t.cell_offsets[cell], count = t.vertices_of(cell);
     const std::vector<Point> polygon = cell_polygon(t, cell);
     const Point centre = discs[t.disc_of_cell[cell]].centre;
     MeshedGrain grain { options.rigid ? rigid_mesh(polygon, centre)
-                                      : make_grain_mesh(polygon, centre, options.mesh), {} };
+                                      : make_grain_mesh(polygon, centre, options.mesh),
+        {} };
     for (int i = 0; i < count; ++i) {
         grain.vertices.push_back(t.cell_vertices[first + (grain.mesh.first_vertex + i) % count]);
     }
@@ -48,15 +49,15 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
     std::map<std::pair<int, std::vector<int>>, std::vector<int>> members;
     for (int g = 0; g < a.grains; ++g) {
         std::vector<int> triangles;
-        for (const auto& t : grains[g].mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+        for (const auto& t : grains[g].mesh.triangles)
+            triangles.insert(triangles.end(), t.begin(), t.end());
         members[{ static_cast<int>(grains[g].vertices.size()), triangles }].push_back(g);
     }
     int nodes = 0, triangles = 0;
     a.grain_slot.assign(a.grains, -1);
     for (const auto& [key, ids] : members) {
-        const MeshGroup group { key.first,
-            static_cast<int>(grains[ids.front()].mesh.nodes.size()), key.second,
-            key.second.empty() };
+        const MeshGroup group { key.first, static_cast<int>(grains[ids.front()].mesh.nodes.size()),
+            key.second, key.second.empty() };
         for (std::size_t i = 0; i < ids.size(); i += lanes) {
             for (int l = 0; l < lanes; ++l) {
                 const bool real = i + l < ids.size();
@@ -71,7 +72,8 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
         }
         a.groups.push_back(group);
     }
-    for (auto* array : { &a.reference, &a.displacement, &a.velocity, &a.force }) array->assign(nodes, 0.0);
+    for (auto* array : { &a.reference, &a.displacement, &a.velocity, &a.force })
+        array->assign(nodes, 0.0);
     a.held.assign(nodes, 0);
     a.inverse_mass.assign(nodes / 2, 0.0);
     a.shape.assign(triangles, 0.0);
@@ -103,8 +105,8 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
     if (mesh.triangles.empty()) return;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto& t = mesh.triangles[i];
-        const TriangleShape s = triangle_shape(
-            mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], a.thickness);
+        const TriangleShape s =
+            triangle_shape(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], a.thickness);
         double* row = &a.shape[a.block_triangles[block] + 5 * lanes * i + lane];
         row[0] = s.g1x;
         row[lanes] = s.g1y;
@@ -238,8 +240,8 @@ void list_forces(Assembly& a)
     std::vector<std::vector<int>> lists(a.blocks());
     const auto add = [&](int grain, int force, int n0, int n1) {
         const int block = a.grain_slot[grain] / lanes;
-        lists[block].insert(lists[block].end(),
-            { force, n0 - a.block_nodes[block], n1 - a.block_nodes[block] });
+        lists[block].insert(
+            lists[block].end(), { force, n0 - a.block_nodes[block], n1 - a.block_nodes[block] });
     };
     for (int c = 0; c < a.contacts; ++c) {
         for (int side = 0; side < 2; ++side) {
@@ -288,8 +290,8 @@ void check(const Tessellation& t, const AssemblyOptions& o)
 
 }  // namespace
 
-Assembly
-make_assembly(const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options)
+Assembly make_assembly(
+    const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options)
 {
     check(t, options);
     Assembly a;
@@ -299,14 +301,16 @@ make_assembly(const Tessellation& t, const std::vector<Disc>& discs, const Assem
     a.elastic = options.elastic;
     a.grain_material = options.grain_material;
     a.grain_material.resize(a.grains, 0);
-    for (const auto& law : options.laws) a.laws.push_back(make_law(law));
+    for (const auto& law : options.laws)
+        a.laws.push_back(make_law(law));
     std::vector<MeshedGrain> grains;
     for (int c = 0; c < a.grains; ++c) {
         grains.push_back(mesh_cell(t, discs, c, options));
         a.radius.push_back(discs[t.disc_of_cell[c]].radius);
     }
     lay_out_grains(a, grains);
-    for (int slot = 0; slot < a.blocks() * lanes; ++slot) fill_slot(a, slot, grains);
+    for (int slot = 0; slot < a.blocks() * lanes; ++slot)
+        fill_slot(a, slot, grains);
     bond(a, t, discs, grains, options);
     lay_out_edges(a, t, grains);
     list_forces(a);

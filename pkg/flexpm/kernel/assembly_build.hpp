@@ -12,15 +12,15 @@ struct AssemblyOptions {
     double thickness = 0.0;  ///< [m]
     bool rigid = false;  ///< grains that move as one body; `mesh` and Young's modulus do not matter
     MeshKind mesh = MeshKind::refined;
-    int points = 3;              ///< contact points: 3 or 2 (Lobatto), 1 (middle of the edge)
-    bool on_centre_line = false; ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
+    int points = 3;               ///< contact points: 3 or 2 (Lobatto), 1 (middle of the edge)
+    bool on_centre_line = false;  ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
     std::vector<ElasticMaterial> elastic;
-    std::vector<int> grain_material;     ///< per cell, into `elastic`; empty: all 0
-    std::vector<ContactMaterial> laws;   ///< per pair of materials: laws[i * elastic.size() + j]
+    std::vector<int> grain_material;    ///< per cell, into `elastic`; empty: all 0
+    std::vector<ContactMaterial> laws;  ///< per pair of materials: laws[i * elastic.size() + j]
 };
 
 /// @throws std::invalid_argument  if an option is out of range
-Assembly
-make_assembly(const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options);
+Assembly make_assembly(
+    const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options);
 
 }  // namespace flexpm

@@ -89,7 +89,8 @@ void grip_bottom(Assembly& a)
     drive(a, bottom, axial, 0.0);
     // the node nearest to the middle: the specimen then bulges evenly
     double middle = 0.0;
-    for (int n : bottom) middle += a.reference[n] / static_cast<double>(bottom.size());
+    for (int n : bottom)
+        middle += a.reference[n] / static_cast<double>(bottom.size());
     const int nearest = *std::min_element(bottom.begin(), bottom.end(), [&](int m, int n) {
         return std::fabs(a.reference[m] - middle) < std::fabs(a.reference[n] - middle);
     });
@@ -103,7 +104,8 @@ void start_evenly(Assembly& a, double velocity)
     const std::vector<int> bottom = side_nodes(a, bottom_side);
     const double height = side_length(a, left_side);
     double middle = 0.0;
-    for (int n : bottom) middle += a.reference[n] / static_cast<double>(bottom.size());
+    for (int n : bottom)
+        middle += a.reference[n] / static_cast<double>(bottom.size());
     const double base = a.reference[bottom.front() + lanes];
     for (int g = 0; g < a.grains; ++g) {
         const double widening = -a.elastic[a.grain_material[g]].poisson * velocity / height;
@@ -125,7 +127,8 @@ void start_evenly(Assembly& a, double velocity)
 double series_modulus(const Assembly& a)
 {
     double diameter = 0.0;
-    for (double r : a.radius) diameter += 2.0 * r / a.grains;
+    for (double r : a.radius)
+        diameter += 2.0 * r / a.grains;
     const double of_contacts = a.laws[0].normal_stiffness * diameter;
     return a.is_rigid(0) ? of_contacts : 1.0 / (1.0 / a.elastic[0].young + 1.0 / of_contacts);
 }
@@ -134,7 +137,8 @@ double crossing_steps(const Assembly& a, double dt)
 {
     const AxialGeometry g = rectangle_of(a, Sense::compression);
     double mass = 0.0;
-    for (double m : a.inverse_mass) mass += m > 0.0 ? 1.0 / m : 0.0;
+    for (double m : a.inverse_mass)
+        mass += m > 0.0 ? 1.0 / m : 0.0;
     return std::sqrt(mass * g.height / (series_modulus(a) * g.width * a.thickness)) / dt;
 }
 

@@ -13,8 +13,6 @@
 
 namespace flexpm {
 
-
-
 enum class Sense { compression, tension };
 
 /// Reference size of the specimen [m].
@@ -27,8 +25,8 @@ struct AxialGeometry {
 /// One row of the test's record.
 struct AxialObservation {
     std::int64_t step = 0;
-double axial_strain = 0.0;    ///< specimen_strain() [-]
-double lateral_strain = 0.0;  ///< positive as Poisson's effect [-]
+    double axial_strain = 0.0;    ///< specimen_strain() [-]
+    double lateral_strain = 0.0;  ///< positive as Poisson's effect [-]
     double axial_stress = 0.0;    ///< mean reaction of both ends / initial area [Pa]
     double confinement = 0.0;     ///< pressure on the right side [Pa]
     double end_mismatch = 0.0;    ///< |sum of both ends' reactions| / the larger [-]
@@ -39,8 +37,8 @@ double lateral_strain = 0.0;  ///< positive as Poisson's effect [-]
 
 /// When a test has shown what it is made for.
 struct AxialEnd {
-    double stop_ratio = 0.5;   ///< ends once the stress has fallen below this part of the peak [-]
-    double least_peak = 0.0;   ///< no fall counts before the stress has reached this [Pa]
+    double stop_ratio = 0.5;  ///< ends once the stress has fallen below this part of the peak [-]
+    double least_peak = 0.0;  ///< no fall counts before the stress has reached this [Pa]
     double largest_strain = 0.0;  ///< ends here in any case [-]
 };
 enum class TestState { running, past_peak, largest_strain_reached };

@@ -44,15 +44,15 @@ LawParameters make_law(const ContactMaterial& m)
         shear_least * (1.0 - brittle_tolerance), "N/m");
 
     p.elastic_opening = m.tensile_strength / p.normal_stiffness;
-    p.critical_opening
-        = std::max(2.0 * m.tensile_fracture_energy / m.tensile_strength, p.elastic_opening);
+    p.critical_opening =
+        std::max(2.0 * m.tensile_fracture_energy / m.tensile_strength, p.elastic_opening);
     p.opening_rate = rate(p.critical_opening, p.elastic_opening);
     const double elastic_slip = m.cohesion / p.shear_stiffness;
     p.critical_slip = std::max(2.0 * m.shear_fracture_energy / m.cohesion, elastic_slip);
     // eta K_n - tau / s_c = eta K_n (1 - s_e / s_c)
     const double slip_rate = rate(p.critical_slip, elastic_slip);
-    p.slip_rate = slip_rate < brittle_rate ? slip_rate * p.critical_slip / p.shear_stiffness
-                                           : brittle_rate;
+    p.slip_rate =
+        slip_rate < brittle_rate ? slip_rate * p.critical_slip / p.shear_stiffness : brittle_rate;
     return p;
 }
 

@@ -13,11 +13,11 @@ namespace flexpm {
 
 /// What a user states of a contact between two grains.
 struct ContactMaterial {
-    double normal_stiffness = 0.0;         ///< K_n    [Pa/m], > 0
-    double shear_ratio = 0.0;              ///< eta    [-],    > 0, shear stiffness / normal stiffness
-    double tensile_strength = 0.0;         ///< sigma_nt [Pa], > 0
-    double cohesion = 0.0;                 ///< tau    [Pa],   > 0
-    double friction = 0.0;                 ///< mu_c   [-],    >= 0
+    double normal_stiffness = 0.0;  ///< K_n    [Pa/m], > 0
+    double shear_ratio = 0.0;       ///< eta    [-],    > 0, shear stiffness / normal stiffness
+    double tensile_strength = 0.0;  ///< sigma_nt [Pa], > 0
+    double cohesion = 0.0;          ///< tau    [Pa],   > 0
+    double friction = 0.0;          ///< mu_c   [-],    >= 0
     double tensile_fracture_energy = 0.0;  ///< G_fn   [N/m],  >= sigma_nt^2 / (2 K_n)
     double shear_fracture_energy = 0.0;    ///< G_fs   [N/m],  >= tau^2 / (2 eta K_n)
 };
@@ -33,7 +33,7 @@ struct LawParameters {
     double critical_opening = 0.0;  ///< u_c = 2 G_fn / sigma_nt [m]
     double critical_slip = 0.0;     ///< s_c = 2 G_fs / tau [m]
     double opening_rate = 0.0;      ///< 1 / (u_c - u_e) [1/m]; `brittle_rate` in the brittle limit
-    double slip_rate = 0.0;         ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_rate` in the limit
+    double slip_rate = 0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_rate` in the limit
 };
 
 /// Stands for an infinite rate: any excess over the strength uses up all damage at once, and an
@@ -78,28 +78,26 @@ inline double secant(const LawParameters& p, double max_opening, double damage)
 }
 
 /// Normal traction [Pa], tension positive.
-inline double
-normal_traction(const LawParameters& p, double opening, double max_opening, double damage)
+inline double normal_traction(
+    const LawParameters& p, double opening, double max_opening, double damage)
 {
     return opening * (opening > 0.0 ? secant(p, max_opening, damage) : p.normal_stiffness);
 }
 
 /// Energy [J/m^2] dissipated by opening monotonically to `max_opening` at constant shear damage:
 /// the area under the envelope less what the secant still stores.
-inline double
-opening_dissipation(const LawParameters& p, double max_opening, double shear_damage)
+inline double opening_dissipation(const LawParameters& p, double max_opening, double shear_damage)
 {
     const double strength = (1.0 - shear_damage) * p.tensile_strength;
     const double first = strength / p.normal_stiffness;  // the envelope turns flat here
-    const double last = p.elastic_opening
-        + (1.0 - shear_damage) * (p.critical_opening - p.elastic_opening);
+    const double last =
+        p.elastic_opening + (1.0 - shear_damage) * (p.critical_opening - p.elastic_opening);
     const double flat = std::min(std::max(max_opening, first), p.elastic_opening);
     const double soft = std::min(std::max(max_opening, p.elastic_opening), last);
     const double sigma = (1.0 - damage(p, max_opening, shear_damage)) * p.tensile_strength;
     const double on_plateau = 0.5 * strength * (flat - first);
-    const double on_slope
-        = 0.5 * strength * p.elastic_opening + 0.5 * (strength + sigma) * (soft - p.elastic_opening)
-        - 0.5 * sigma * soft;
+    const double on_slope = 0.5 * strength * p.elastic_opening
+        + 0.5 * (strength + sigma) * (soft - p.elastic_opening) - 0.5 * sigma * soft;
     return on_plateau + (max_opening > p.elastic_opening ? on_slope : 0.0);
 }
 
@@ -123,9 +121,9 @@ struct Traction {
 
 /// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and
 /// changes nothing, if it would not.
-__attribute__((always_inline)) inline bool
-advance_elastic(const LawParameters& p, double opening_step, double slip_step, const PointState& s,
-    PointState& next, Traction& traction)
+__attribute__((always_inline)) inline bool advance_elastic(const LawParameters& p,
+    double opening_step, double slip_step, const PointState& s, PointState& next,
+    Traction& traction)
 {
     const double d = law::damage(p, s.max_opening, s.shear_damage);
     const double opening = s.opening + opening_step;
@@ -148,8 +146,8 @@ advance_elastic(const LawParameters& p, double opening_step, double slip_step, c
 /// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
 /// return with its damage in closed form, and the normal traction once more with the new damage.
 /// Free of branches, so that eight points advance at once.
-__attribute__((always_inline)) inline Traction
-advance_point(const LawParameters& p, double opening_step, double slip_step, PointState& s)
+__attribute__((always_inline)) inline Traction advance_point(
+    const LawParameters& p, double opening_step, double slip_step, PointState& s)
 {
     const double before = law::damage(p, s.max_opening, s.shear_damage);
     const double opening = s.opening + opening_step;
@@ -170,9 +168,8 @@ advance_point(const LawParameters& p, double opening_step, double slip_step, Poi
     const double slip = (size - shear_size) / p.shear_stiffness;
     // both tests: round-off in `slip`, and brittle shear under tension, which slips less than slip_left
     const bool used_up = (damaging >= slip_left) | (slip >= slip_left);
-    const double shear_damage = excess > 0.0
-        ? (used_up ? 1.0 : s.shear_damage + slip / p.critical_slip)
-        : s.shear_damage;
+    const double shear_damage =
+        excess > 0.0 ? (used_up ? 1.0 : s.shear_damage + slip / p.critical_slip) : s.shear_damage;
     const double after = std::min(normal_part + shear_damage, 1.0);
     const double normal = law::normal_traction(p, opening, reach, after);
 

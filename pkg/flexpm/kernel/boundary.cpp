@@ -39,7 +39,8 @@ std::vector<int> side_nodes(const Assembly& a, int side)
     std::vector<int> nodes;
     for (int e = 0; e < a.edges; ++e) {
         if (a.edge_side[e] != side) continue;
-        for (int n : edge_nodes(a, e)) nodes.push_back(n);
+        for (int n : edge_nodes(a, e))
+            nodes.push_back(n);
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -58,13 +59,15 @@ void drive(Assembly& a, const std::vector<int>& nodes, int component, double vel
 
 void release(Assembly& a, const std::vector<int>& nodes, int component)
 {
-    for (int n : nodes) a.held[n + component * lanes] = 0;
+    for (int n : nodes)
+        a.held[n + component * lanes] = 0;
 }
 
 double reaction(const Assembly& a, const std::vector<int>& nodes, int component)
 {
     double sum = 0.0;
-    for (int n : nodes) sum -= a.force[n + component * lanes];
+    for (int n : nodes)
+        sum -= a.force[n + component * lanes];
     return sum;
 }
 

@@ -9,8 +9,8 @@
 
 namespace flexpm {
 
-[[noreturn]] inline void
-refuse(const std::string& quantity, double value, const char* unit, const std::string& rule)
+[[noreturn]] inline void refuse(
+    const std::string& quantity, double value, const char* unit, const std::string& rule)
 {
     std::ostringstream text;
     text.precision(12);
@@ -35,8 +35,8 @@ inline void check_not_negative(const std::string& quantity, double value, const 
     }
 }
 
-inline void
-check_at_least(const std::string& quantity, double value, double least, const char* unit)
+inline void check_at_least(
+    const std::string& quantity, double value, double least, const char* unit)
 {
     if (value >= least) return;
     std::ostringstream rule;

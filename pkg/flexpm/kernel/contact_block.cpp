@@ -49,8 +49,7 @@ __attribute__((always_inline)) inline PointState load_state(const double* rows, 
     return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes], r[6 * lanes] };
 }
 
-__attribute__((always_inline)) inline void
-store_state(const PointState& s, double* rows, int lane)
+__attribute__((always_inline)) inline void store_state(const PointState& s, double* rows, int lane)
 {
     double* r = rows + lane;
     r[0] = s.opening;
@@ -78,8 +77,7 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
         const int a0 = b.nodes[l], a1 = b.nodes[lanes + l];
         const int b0 = b.nodes[2 * lanes + l], b1 = b.nodes[3 * lanes + l];
         const int ca = b.nodes[4 * lanes + l], cb = b.nodes[5 * lanes + l];
-        const double dx
-            = b.span[l] + ((u[cb] + dt * v[cb]) - (u[ca] + dt * v[ca]));
+        const double dx = b.span[l] + ((u[cb] + dt * v[cb]) - (u[ca] + dt * v[ca]));
         const double dy = b.span[lanes + l]
             + ((u[cb + lanes] + dt * v[cb + lanes]) - (u[ca + lanes] + dt * v[ca + lanes]));
         const double distance = std::sqrt(dx * dx + dy * dy);
@@ -99,8 +97,7 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
             const double ry = (b0y + wb * (b1y - b0y)) - (a0y + wa * (a1y - a0y));
             const double apart = dt * (rx * mx + ry * my), along = dt * (ry * mx - rx * my);
             const double opening = state[opening_row], slip = state[slip_row];
-            motion.opening[p * lanes + l]
-                = apart + turn * (slip + 0.5 * (along - turn * opening));
+            motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
             motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
         }
     }
@@ -109,8 +106,8 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
 /// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19. They act in the
 /// middle of the gap: each edge takes half of the gap's moment by a couple on its ends.
 template <int Points>
-__attribute__((always_inline)) inline void
-spread_forces(const Rows& b, const double* normal, const double* shear)
+__attribute__((always_inline)) inline void spread_forces(
+    const Rows& b, const double* normal, const double* shear)
 {
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
@@ -148,8 +145,8 @@ spread_forces(const Rows& b, const double* normal, const double* shear)
 
 /// Returns the lanes, summed over points, that cracked in this step.
 template <int Points>
-__attribute__((always_inline)) inline int
-update_lanes(const Rows& b, double dt, std::uint8_t* cracked)
+__attribute__((always_inline)) inline int update_lanes(
+    const Rows& b, double dt, std::uint8_t* cracked)
 {
     Motion motion;
     move_points<Points>(b, dt, motion);
@@ -175,21 +172,23 @@ update_lanes(const Rows& b, double dt, std::uint8_t* cracked)
         }
     }
     double any = 0.0;
-    for (int l = 0; l < lanes; ++l) any += leaves[l];
+    for (int l = 0; l < lanes; ++l)
+        any += leaves[l];
 
     int cracks = 0;
     for (int p = 0; p < Points; ++p) {
         double* state = b.state + p * ContactRows::state * lanes;
         if (any == 0.0) {
-            for (int l = 0; l < 4 * lanes; ++l) state[l] = next[4 * p * lanes + l];
+            for (int l = 0; l < 4 * lanes; ++l)
+                state[l] = next[4 * p * lanes + l];
             continue;
         }
         alignas(64) double fresh[lanes];
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
             PointState s = load_state(state, l);
-            const Traction t = advance_point(law_of(b.law, l), motion.opening[p * lanes + l],
-                motion.slip[p * lanes + l], s);
+            const Traction t = advance_point(
+                law_of(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
             store_state(s, state, l);
             normal[p * lanes + l] = t.normal;
             shear[p * lanes + l] = t.shear;
@@ -223,7 +222,8 @@ void fill_law(const Assembly& a, int block, double* rows)
     for (int l = 0; l < lanes; ++l) {
         const int contact = std::min(block * lanes + l, a.contacts - 1);
         const double* law = &a.laws[a.contact_law[contact]].normal_stiffness;
-        for (int r = 0; r < law_rows; ++r) rows[r * lanes + l] = law[r];
+        for (int r = 0; r < law_rows; ++r)
+            rows[r * lanes + l] = law[r];
     }
 }
 
@@ -236,9 +236,11 @@ Point point_position(const Assembly& a, int contact, int point, double dt)
         const int n1 = a.contact_nodes[row_index(contact, 2 * side + 1, ContactRows::nodes)];
         const double w = a.weight[row_index(contact, 2 * point + side, 2 * a.points)];
         const Point p0 = a.position(n0), p1 = a.position(n1);
-        sum.x += 0.5 * ((1.0 - w) * (p0.x + dt * a.velocity[n0]) + w * (p1.x + dt * a.velocity[n1]));
-        sum.y += 0.5 * ((1.0 - w) * (p0.y + dt * a.velocity[n0 + lanes])
-                     + w * (p1.y + dt * a.velocity[n1 + lanes]));
+        sum.x +=
+            0.5 * ((1.0 - w) * (p0.x + dt * a.velocity[n0]) + w * (p1.x + dt * a.velocity[n1]));
+        sum.y += 0.5
+            * ((1.0 - w) * (p0.y + dt * a.velocity[n0 + lanes])
+                + w * (p1.y + dt * a.velocity[n1 + lanes]));
     }
     return sum;
 }
@@ -250,8 +252,8 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
             const int contact = block * lanes + l;
             if (!cracked[p * lanes + l] || contact >= a.contacts) continue;
             const int index = row_index(contact, p, a.points);
-            const double opening = a.point_state[row_index(contact, p * ContactRows::state,
-                a.points * ContactRows::state)];
+            const double opening = a.point_state[row_index(
+                contact, p * ContactRows::state, a.points * ContactRows::state)];
             const Point place = point_position(a, contact, p, dt);
             a.crack_step[index] = static_cast<int>(a.step + 1);
             a.crack_mode[index] = opening > 0.0 ? tensile_crack : shear_crack;
@@ -269,9 +271,9 @@ void update_contact_block(Assembly& a, int block, double dt)
     fill_law(a, block, law);
     const int first = block * lanes;
     const Rows rows = { a.displacement.data(), a.velocity.data(),
-        a.contact_nodes.data() + first * ContactRows::nodes,
-        a.weight.data() + first * 2 * a.points, a.area.data() + first * a.points,
-        a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
+        a.contact_nodes.data() + first * ContactRows::nodes, a.weight.data() + first * 2 * a.points,
+        a.area.data() + first * a.points, a.span.data() + first * 2,
+        a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
         a.contact_force.data() + first * ContactRows::forces, law };
     std::uint8_t cracked[most_points * lanes];

@@ -182,14 +182,15 @@ Unknowns number_unknowns(
     n.lever.assign(a.displacement.size(), { 0, 0.0 });
     for (int g = 0; g < a.grains; ++g) {
         for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int c = 0; c < 2; ++c) n.number[a.node(g, k) + c * lanes] = 0;
+            for (int c = 0; c < 2; ++c)
+                n.number[a.node(g, k) + c * lanes] = 0;
         }
         if (a.is_rigid(g)) follow_centre(a, g, n);
     }
     for (const Prescribed& p : prescribed) {
         if (!std::isfinite(p.value)) refuse_prescribed(p, "must be a finite number");
-        const bool known = p.index >= 0 && p.index < static_cast<int>(u.size())
-            && n.number[p.index] != padding;
+        const bool known =
+            p.index >= 0 && p.index < static_cast<int>(u.size()) && n.number[p.index] != padding;
         if (!known) refuse_prescribed(p, "its index must name a component of a grain's node");
         if (n.number[p.index] == follower) {
             refuse_prescribed(p, "belongs to a rigid grain; prescribe its centre");
@@ -207,7 +208,8 @@ Unknowns number_unknowns(
     };
     for (int g = 0; g < a.grains; ++g) {
         for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int i : { a.node(g, k), a.node(g, k) + lanes }) count(i);
+            for (int i : { a.node(g, k), a.node(g, k) + lanes })
+                count(i);
         }
         count(static_cast<int>(a.displacement.size()) + a.grain_slot[g]);
     }
@@ -245,11 +247,15 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
     const int size = static_cast<int>(a.displacement.size());
     const bool turns = index >= size;
     const bool along_y = !turns && index % (2 * lanes) >= lanes;  // rows of x and y alternate
-    const Point p = a.position(turns ? a.centre(a.slot_grain[index - size])
-                                     : (along_y ? index - lanes : index));
+    const Point p = a.position(
+        turns ? a.centre(a.slot_grain[index - size]) : (along_y ? index - lanes : index));
     std::ostringstream text;
     text << "solve_static: pivot / stiffness = " << ratio << " at x, y = " << p.x << ", " << p.y
-         << " m " << (turns ? "about z" : along_y ? "along y" : "along x") << ", must be above " << smallest_pivot
+         << " m "
+         << (turns            ? "about z"
+                    : along_y ? "along y"
+                              : "along x")
+         << ", must be above " << smallest_pivot
          << "; hold nodes against every rigid motion of this part";
     throw std::runtime_error(text.str());
 }
@@ -277,8 +283,7 @@ void spread(const Unknowns& n, const Eigen::VectorXd& x, Array<double>& displace
     }
     for (std::size_t i = 0; i < displacement.size(); ++i) {
         if (n.number[i] != follower) continue;
-        displacement[i] = value_of(n.leader[i])
-            + n.lever[i].factor * x[n.number[n.lever[i].index]];
+        displacement[i] = value_of(n.leader[i]) + n.lever[i].factor * x[n.number[n.lever[i].index]];
     }
 }
 
@@ -306,8 +311,10 @@ std::vector<StiffnessEntry> stiffness_entries(const Assembly& a)
     std::vector<StiffnessEntry> entries;
     for (int g = 0; g < a.grains; ++g)
         add_grain(a, g, entries);
-    for (int c = 0; c < a.contacts; ++c) add_contact(a, c, entries);
-    for (const Plate& p : a.plates) add_plate(a, p, entries);
+    for (int c = 0; c < a.contacts; ++c)
+        add_contact(a, c, entries);
+    for (const Plate& p : a.plates)
+        add_plate(a, p, entries);
     return entries;
 }
 
@@ -360,12 +367,15 @@ std::vector<Prescribed> hold_ends(Assembly& a, double height)
         const int upper = add_side_plates(a, top_side, 1, smooth).front();
         a.plates[upper].displacement = { 0.0, test_strain * height };
         int held = 0;
-        while (a.edge_side[held] != bottom_side) ++held;
+        while (a.edge_side[held] != bottom_side)
+            ++held;
         return { { a.centre(a.edge_grain[held]), 0.0 } };
     }
     std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
-    for (int n : bottom) prescribed.push_back({ n + lanes, 0.0 });
-    for (int n : top) prescribed.push_back({ n + lanes, test_strain * height });
+    for (int n : bottom)
+        prescribed.push_back({ n + lanes, 0.0 });
+    for (int n : top)
+        prescribed.push_back({ n + lanes, test_strain * height });
     return prescribed;
 }
 
@@ -374,8 +384,8 @@ std::vector<Prescribed> hold_ends(Assembly& a, double height)
 ElasticConstants elastic_constants(const Assembly& a)
 {
     for (int side = 0; side < 4; ++side) {
-        check_positive("elastic_constants: length of side " + std::to_string(side),
-            side_length(a, side), "m");
+        check_positive(
+            "elastic_constants: length of side " + std::to_string(side), side_length(a, side), "m");
     }
     const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     Assembly solved = a;

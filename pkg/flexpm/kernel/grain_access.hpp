@@ -24,7 +24,8 @@ inline std::array<int, 3> triangle_nodes(const Assembly& a, int grain, int trian
 inline TriangleShape shape_of(const Assembly& a, int grain, int triangle)
 {
     const int slot = a.grain_slot[grain];
-    const double* s = &a.shape[a.block_triangles[slot / lanes] + 5 * lanes * triangle + slot % lanes];
+    const double* s =
+        &a.shape[a.block_triangles[slot / lanes] + 5 * lanes * triangle + slot % lanes];
     return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes] };
 }
 

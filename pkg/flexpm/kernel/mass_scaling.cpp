@@ -53,7 +53,7 @@ void add_elements(const Assembly& a, int grain, Array<double>& bound)
 struct SpringSide {
     bool rigid = false;
     int grain = 0;
-    int node[2] = { 0, 0 };         ///< of a deformable grain
+    int node[2] = { 0, 0 };          ///< of a deformable grain
     double share[2] = { 0.0, 0.0 };  ///< of its nodes; of a rigid grain: translation, rotation
 
     double size() const { return std::fabs(share[0]) + std::fabs(share[1]); }
@@ -65,8 +65,8 @@ SpringSide spring_side(const Assembly& a, int grain, int n0, int n1, double w, P
     if (!a.is_rigid(grain)) return { false, grain, { n0, n1 }, { 1.0 - w, w } };
     const int c = a.centre(grain);
     const double x = (1.0 - w) * a.reference[n0] + w * a.reference[n1] - a.reference[c];
-    const double y = (1.0 - w) * a.reference[n0 + lanes] + w * a.reference[n1 + lanes]
-        - a.reference[c + lanes];
+    const double y =
+        (1.0 - w) * a.reference[n0 + lanes] + w * a.reference[n1 + lanes] - a.reference[c + lanes];
     return { true, grain, { c, c },
         { 1.0, (x * direction.y - y * direction.x) / a.radius[grain] } };
 }
@@ -100,7 +100,8 @@ void add_contact(const Assembly& a, int contact, StiffnessBound& bound)
             }
             // sizes of the shares: 2 in all, more where a point beyond its edge extrapolates
             const double k = stiffness * area * (sides[0].size() + sides[1].size());
-            for (const SpringSide& side : sides) add_spring(a, side, k, bound);
+            for (const SpringSide& side : sides)
+                add_spring(a, side, k, bound);
         }
     }
 }
@@ -116,8 +117,7 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
         const int n1 = a.edge_nodes[row_index(p.edge, 1, 2)];
         for (const auto& [direction, stiffness] : { std::pair { n, p.stiffness },
                  std::pair { Point { -n.y, n.x }, p.shear_stiffness } }) {
-            const SpringSide s
-                = spring_side(a, a.edge_grain[p.edge], n0, n1, p.weight, direction);
+            const SpringSide s = spring_side(a, a.edge_grain[p.edge], n0, n1, p.weight, direction);
             const double k = stiffness * (s.size() + 1.0);
             add_spring(a, s, k, bound);
             own += k;
@@ -140,7 +140,8 @@ template <class Visit> void for_each_node(const Assembly& a, Visit visit)
             visit(scalar_index(a.centre(g)));
             continue;
         }
-        for (int n = 0; n < a.nodes_of(g); ++n) visit(scalar_index(a.node(g, n)));
+        for (int n = 0; n < a.nodes_of(g); ++n)
+            visit(scalar_index(a.node(g, n)));
     }
 }
 
@@ -156,7 +157,8 @@ double mass_for(double bound, double damping, double dt)
 void scale_plates(Assembly& a, double damping, double dt)
 {
     StiffnessBound unused = stiffness_bound(a);
-    for (Plate& p : a.plates) p.mass = mass_for(add_plate(a, p, unused), damping, dt);
+    for (Plate& p : a.plates)
+        p.mass = mass_for(add_plate(a, p, unused), damping, dt);
 }
 
 }  // namespace
@@ -166,9 +168,12 @@ StiffnessBound stiffness_bound(const Assembly& a)
     StiffnessBound bound;
     bound.node.assign(a.inverse_mass.size(), 0.0);
     bound.rotation.assign(a.inverse_inertia.size(), 0.0);
-    for (int g = 0; g < a.grains; ++g) add_elements(a, g, bound.node);
-    for (int c = 0; c < a.contacts; ++c) add_contact(a, c, bound);
-    for (const Plate& p : a.plates) add_plate(a, p, bound);
+    for (int g = 0; g < a.grains; ++g)
+        add_elements(a, g, bound.node);
+    for (int c = 0; c < a.contacts; ++c)
+        add_contact(a, c, bound);
+    for (const Plate& p : a.plates)
+        add_plate(a, p, bound);
     return bound;
 }
 
@@ -177,8 +182,8 @@ void scale_masses(Assembly& a, double damping, double dt)
     check_damping(damping);
     check_positive("time step", dt, "s");
     const StiffnessBound bound = stiffness_bound(a);
-    for_each_node(a,
-        [&](int i) { a.inverse_mass[i] = inverse(mass_for(bound.node[i], damping, dt)); });
+    for_each_node(
+        a, [&](int i) { a.inverse_mass[i] = inverse(mass_for(bound.node[i], damping, dt)); });
     for (int g = 0; g < a.grains; ++g) {
         const int i = rigid_index(a, g);
         if (!a.is_rigid(g)) continue;
@@ -201,7 +206,8 @@ void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>&
     }
     for (int t = 0; t < triangles_of(a, g); ++t) {
         const double share = density / 3.0 * shape_of(a, g, t).volume;
-        for (int n : triangle_nodes(a, g, t)) mass[scalar_index(a.node(g, n))] += share;
+        for (int n : triangle_nodes(a, g, t))
+            mass[scalar_index(a.node(g, n))] += share;
     }
 }
 
@@ -211,7 +217,8 @@ double set_real_masses(Assembly& a, double damping)
 {
     check_damping(damping);
     Array<double> mass(a.inverse_mass.size(), 0.0), inertia(a.inverse_inertia.size(), 0.0);
-    for (int g = 0; g < a.grains; ++g) add_real_mass(a, g, mass, inertia);
+    for (int g = 0; g < a.grains; ++g)
+        add_real_mass(a, g, mass, inertia);
     const StiffnessBound bound = stiffness_bound(a);
     double least = std::numeric_limits<double>::infinity();  // of mass / stiffness
     for_each_node(a, [&](int i) {

@@ -49,7 +49,8 @@ double kinetic_of_velocities(const Assembly& a)
 double first_of_pairs(const Array<double>& values)
 {
     double total = 0.0;
-    for (std::size_t i = 0; i < values.size(); i += 2) total += values[i];
+    for (std::size_t i = 0; i < values.size(); i += 2)
+        total += values[i];
     return total;
 }
 
@@ -58,8 +59,10 @@ double first_of_pairs(const Array<double>& values)
 Energies energies(const Assembly& a)
 {
     Energies e;
-    for (double k : a.kinetic) e.kinetic += k;
-    for (int g = 0; g < a.grains; ++g) e.elastic += grain_energy(a, g);
+    for (double k : a.kinetic)
+        e.kinetic += k;
+    for (int g = 0; g < a.grains; ++g)
+        e.elastic += grain_energy(a, g);
     for (int c = 0; c < a.contacts; ++c) {
         const LawParameters& law = a.laws[a.contact_law[c]];
         for (int p = 0; p < a.points; ++p) {
@@ -88,17 +91,19 @@ void open_books(Assembly& a)
     for (int c = 0; c < a.contacts; ++c) {
         for (int p = 0; p < a.points; ++p) {
             for (int row : { 5, 6 }) {  // the two dissipated energies
-                a.point_state[row_index(c, p * ContactRows::state + row,
-                    a.points * ContactRows::state)] = 0.0;
+                a.point_state[row_index(
+                    c, p * ContactRows::state + row, a.points * ContactRows::state)] = 0.0;
             }
         }
     }
     // the halves of the last step's works that fall into the next step stay
     for (auto* work : { &a.damping_work, &a.driven_work }) {
-        for (std::size_t i = 0; i < work->size(); i += 2) (*work)[i] = 0.0;
+        for (std::size_t i = 0; i < work->size(); i += 2)
+            (*work)[i] = 0.0;
     }
     a.pressure_work = 0.0;
-    for (Plate& p : a.plates) p.boundary_work = p.damping_work = p.friction_energy = 0.0;
+    for (Plate& p : a.plates)
+        p.boundary_work = p.damping_work = p.friction_energy = 0.0;
     if (a.step == 0) a.kinetic[0] = kinetic_of_velocities(a);
     const Energies now = energies(a);
     a.initial_energy = now.kinetic + now.elastic;
@@ -107,7 +112,8 @@ void open_books(Assembly& a)
 double unbalanced_ratio(const Assembly& a)
 {
     double largest = *std::max_element(a.largest_force.begin(), a.largest_force.end());
-    for (const Plate& p : a.plates) largest = std::max(largest, p.unbalanced);
+    for (const Plate& p : a.plates)
+        largest = std::max(largest, p.unbalanced);
     double sum = 0.0;
     for (int c = 0; c < a.contacts; ++c) {
         const double* f = &a.contact_force[row_index(c, 0, ContactRows::forces)];

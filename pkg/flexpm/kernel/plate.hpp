@@ -25,19 +25,20 @@ struct Plate {
     int points = 1;                ///< per edge: 1 in the middle, 2 at the ends
 
     // what drives it
-    bool loaded = false;    ///< moves along its normal under `load`; else `velocity` is prescribed
-    double load = 0.0;      ///< force on the plate along its normal [N]
-    Point velocity;         ///< half a step after `displacement` [m/s]
-    double mass = 0.0;      ///< of a loaded plate, scaled [kg]
+    bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
+    double load = 0.0;    ///< force on the plate along its normal [N]
+    Point velocity;       ///< half a step after `displacement` [m/s]
+    double mass = 0.0;    ///< of a loaded plate, scaled [kg]
 
     // state
-    Point displacement;               ///< [m]
-    std::vector<int> edges;           ///< boundary edges that may touch it
-    std::vector<double> gap;          ///< [edge][point] at the reference [m]
-    std::vector<double> area;         ///< [edge][point] [m^2]
-    std::vector<double> opening;      ///< [edge][point] gap at the last step [m]
-    std::vector<double> shear_force;  ///< [edge][point] on the grain along (-normal.y, normal.x) [N]
-    Point force;                      ///< on the specimen at the last step [N]
+    Point displacement;           ///< [m]
+    std::vector<int> edges;       ///< boundary edges that may touch it
+    std::vector<double> gap;      ///< [edge][point] at the reference [m]
+    std::vector<double> area;     ///< [edge][point] [m^2]
+    std::vector<double> opening;  ///< [edge][point] gap at the last step [m]
+    std::vector<double>
+        shear_force;  ///< [edge][point] on the grain along (-normal.y, normal.x) [N]
+    Point force;      ///< on the specimen at the last step [N]
 
     // energy [J]
     double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows

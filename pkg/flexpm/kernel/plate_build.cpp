@@ -21,10 +21,7 @@ Point reference_of(const Assembly& a, int node)
 struct Edge {
     Point start, end;
     double length() const { return std::hypot(end.x - start.x, end.y - start.y); }
-    Point inward() const
-    {
-        return { (start.y - end.y) / length(), (end.x - start.x) / length() };
-    }
+    Point inward() const { return { (start.y - end.y) / length(), (end.x - start.x) / length() }; }
 };
 
 Edge edge_of(const Assembly& a, int edge)
@@ -87,7 +84,8 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
     for (int e = 0; e < a.edges; ++e) {
         if (a.edge_side[e] == side) edges.push_back(e);
     }
-    if (edges.empty()) refuse("side", side, "", "has no boundary edges; name a side of the outline");
+    if (edges.empty())
+        refuse("side", side, "", "has no boundary edges; name a side of the outline");
     const Point normal = edge_of(a, edges.front()).inward();
     const Point direction = { -normal.y, normal.x };
     double first = std::numeric_limits<double>::infinity(), last = -first;
@@ -106,9 +104,10 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
         p.position = edge_of(a, edges.front()).start;
         for (int e : edges) {
             const Edge edge = edge_of(a, e);
-            const double middle
-                = 0.5 * (along(direction, edge.start) + along(direction, edge.end)) - first;
-            if (std::clamp(static_cast<int>(middle / width), 0, pieces - 1) == i) p.edges.push_back(e);
+            const double middle =
+                0.5 * (along(direction, edge.start) + along(direction, edge.end)) - first;
+            if (std::clamp(static_cast<int>(middle / width), 0, pieces - 1) == i)
+                p.edges.push_back(e);
         }
         if (p.edges.empty()) {
             refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
@@ -130,7 +129,8 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
         const Edge edge = edge_of(a, e);
         if (along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
     }
-    if (p.edges.empty()) refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
+    if (p.edges.empty())
+        refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
     p.points = a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
     for (int e : p.edges) {
         const Edge edge = edge_of(a, e);

@@ -28,7 +28,8 @@ struct EdgeValues {
 
 EdgeValues values_at(const Assembly& a, const PlatePoint& p)
 {
-    return { a.edge_nodes[row_index(p.edge, 0, 2)], a.edge_nodes[row_index(p.edge, 1, 2)], p.weight };
+    return { a.edge_nodes[row_index(p.edge, 0, 2)], a.edge_nodes[row_index(p.edge, 1, 2)],
+        p.weight };
 }
 
 void add_force(Assembly& a, const PlatePoint& p, Point force)
@@ -128,7 +129,8 @@ void update_plates(Assembly& a, double dt, double damping)
             }
         }
     }
-    for (Plate& plate : a.plates) update_plate(a, plate, dt, damping);
+    for (Plate& plate : a.plates)
+        update_plate(a, plate, dt, damping);
 }
 
 double elastic_energy(const Plate& plate)

@@ -14,9 +14,9 @@ namespace flexpm {
 
 /// How a plate touches the grains.
 struct PlateContact {
-    double stiffness = 0.0;    ///< K_n [Pa/m]; 0: that of the first contact law
-    double friction = 0.0;     ///< [-]; the shear stiffness has the ratio of the first contact law
-    bool bonded = false;       ///< also pulls
+    double stiffness = 0.0;  ///< K_n [Pa/m]; 0: that of the first contact law
+    double friction = 0.0;   ///< [-]; the shear stiffness has the ratio of the first contact law
+    bool bonded = false;     ///< also pulls
 };
 
 /// Lay plates on a straight side of the outline, side by side and of equal width: one for a platen,
@@ -41,9 +41,9 @@ void update_plates(Assembly& a, double dt, double damping);
 
 /// One-point contact of a plate, for sums.
 struct PlatePoint {
-    int edge;          ///< boundary edge
-    double weight;     ///< of the edge's second node [-]
-    double stiffness;  ///< normal [N/m]
+    int edge;                ///< boundary edge
+    double weight;           ///< of the edge's second node [-]
+    double stiffness;        ///< normal [N/m]
     double shear_stiffness;  ///< [N/m], 0 if smooth
 };
 PlatePoint plate_point(const Plate& p, int index);

@@ -21,17 +21,17 @@ __attribute__((always_inline)) inline Turn turn_by(double angle)
     const double h = 0.5 * angle, q = h * h;
     const double t = h
         * (1.0
-            + q * (1.0 / 3.0
-                  + q * (2.0 / 15.0
-                        + q * (17.0 / 315.0
-                              + q * (62.0 / 2835.0 + q * (1382.0 / 155925.0))))));
+            + q
+                * (1.0 / 3.0
+                    + q
+                        * (2.0 / 15.0
+                            + q * (17.0 / 315.0 + q * (62.0 / 2835.0 + q * (1382.0 / 155925.0))))));
     const double scale = 2.0 * t / (1.0 + t * t);
     return { -t * scale, scale };
 }
 
 /// Moments need the arms at the end of the step; nodes are there when forces are known.
-__attribute__((always_inline)) inline void
-spread_lanes(const RigidRows& b, double dt)
+__attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, double dt)
 {
     const int centre = 2 * (b.nodes - 1) * lanes;
     alignas(64) double along[lanes], across[lanes];
@@ -49,15 +49,15 @@ spread_lanes(const RigidRows& b, double dt)
             const double ry = (b.reference[i + lanes + l] - b.reference[centre + lanes + l])
                 + (b.displacement[i + lanes + l] - b.displacement[centre + lanes + l]);
             b.velocity[i + l] = b.velocity[centre + l] + (along[l] * rx - across[l] * ry);
-            b.velocity[i + lanes + l]
-                = b.velocity[centre + lanes + l] + (across[l] * rx + along[l] * ry);
+            b.velocity[i + lanes + l] =
+                b.velocity[centre + lanes + l] + (across[l] * rx + along[l] * ry);
         }
     }
 }
 
 template <bool Measure>
-__attribute__((always_inline)) inline void
-integrate_lanes(const RigidRows& b, double dt, double damping, StepSums& sums)
+__attribute__((always_inline)) inline void integrate_lanes(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
 {
     const int centre = 2 * (b.nodes - 1) * lanes;
     alignas(64) double fx[lanes], fy[lanes], moment[lanes] = {}, reach[lanes] = {};
@@ -81,12 +81,12 @@ integrate_lanes(const RigidRows& b, double dt, double damping, StepSums& sums)
     }
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
-        integrate_one<Measure>(fx[l], b.held[l], b.inverse_mass[l], 1.0, dt, damping,
-            b.velocity[centre + l], sums, l);
+        integrate_one<Measure>(
+            fx[l], b.held[l], b.inverse_mass[l], 1.0, dt, damping, b.velocity[centre + l], sums, l);
         integrate_one<Measure>(fy[l], b.held[lanes + l], b.inverse_mass[l], 1.0, dt, damping,
             b.velocity[centre + lanes + l], sums, l);
-        integrate_one<Measure>(moment[l], b.spin_held[l], b.inverse_inertia[l],
-            std::sqrt(reach[l]), dt, damping, b.spin[l], sums, l);
+        integrate_one<Measure>(moment[l], b.spin_held[l], b.inverse_inertia[l], std::sqrt(reach[l]),
+            dt, damping, b.spin[l], sums, l);
     }
     spread_lanes(b, dt);
 }
@@ -115,22 +115,21 @@ FLEXPM_MULTIVERSION void move_rigid(const RigidRows& b, double dt)
         for (int l = 0; l < lanes; ++l) {
             const double rx = b.reference[i + l] - b.reference[centre + l];
             const double ry = b.reference[i + lanes + l] - b.reference[centre + lanes + l];
-            b.displacement[i + l]
-                = b.displacement[centre + l] + (along[l] * rx - across[l] * ry);
-            b.displacement[i + lanes + l]
-                = b.displacement[centre + lanes + l] + (across[l] * rx + along[l] * ry);
+            b.displacement[i + l] = b.displacement[centre + l] + (along[l] * rx - across[l] * ry);
+            b.displacement[i + lanes + l] =
+                b.displacement[centre + lanes + l] + (across[l] * rx + along[l] * ry);
         }
     }
 }
 
-FLEXPM_MULTIVERSION void
-integrate_rigid(const RigidRows& b, double dt, double damping, StepSums& sums)
+FLEXPM_MULTIVERSION void integrate_rigid(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
 {
     integrate_lanes<false>(b, dt, damping, sums);
 }
 
-FLEXPM_MULTIVERSION void
-integrate_rigid_measured(const RigidRows& b, double dt, double damping, StepSums& sums)
+FLEXPM_MULTIVERSION void integrate_rigid_measured(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
 {
     integrate_lanes<true>(b, dt, damping, sums);
 }

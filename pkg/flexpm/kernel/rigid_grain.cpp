@@ -55,10 +55,7 @@ void drive_spin(Assembly& a, int grain, double spin, double dt)
     a.spin_held[rigid_index(a, grain)] = 1;
 }
 
-double rotation_of(const Assembly& a, int grain)
-{
-    return a.rotation[rigid_index(a, grain, 2, 3)];
-}
+double rotation_of(const Assembly& a, int grain) { return a.rotation[rigid_index(a, grain, 2, 3)]; }
 
 CellSection cell_section(const Assembly& a, int grain)
 {

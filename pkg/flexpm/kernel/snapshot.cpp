@@ -25,10 +25,11 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
     const PlaneStiffness c = stiffness_of(a, grain);
     for (int t = 0; t < triangles_of(a, grain); ++t) {
         const auto n = triangle_nodes(a, grain, t);
-        for (int i : n) s.triangles.push_back(first + i);
+        for (int i : n)
+            s.triangles.push_back(first + i);
         s.triangle_grain.push_back(grain);
-        const Tensor stress
-            = cauchy_stress(shape_of(a, grain, t), c, displacement_of(a, a.node(grain, n[0])),
+        const Tensor stress =
+            cauchy_stress(shape_of(a, grain, t), c, displacement_of(a, a.node(grain, n[0])),
                 displacement_of(a, a.node(grain, n[1])), displacement_of(a, a.node(grain, n[2])));
         s.triangle_stress.insert(s.triangle_stress.end(), { stress.xx, stress.yy, stress.xy });
     }
@@ -36,8 +37,10 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
 
 void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
-    for (int side = 0; side < 2; ++side) s.contact_grains.push_back(a.contact_grains[2 * contact + side]);
-    for (int end = 0; end < 2; ++end) push(s.contact_ends, contact_end(a, contact, end));
+    for (int side = 0; side < 2; ++side)
+        s.contact_grains.push_back(a.contact_grains[2 * contact + side]);
+    for (int end = 0; end < 2; ++end)
+        push(s.contact_ends, contact_end(a, contact, end));
     for (int p = 0; p < a.points; ++p) {
         const int index = row_index(contact, p, a.points);
         s.point_opening.push_back(point_state(a, contact, p).opening);
@@ -66,8 +69,8 @@ Point contact_end(const Assembly& a, int contact, int end)
 {
     Point sum;
     for (int side = 0; side < 2; ++side) {
-        const Point p = a.position(
-            a.contact_nodes[row_index(contact, 2 * side + end, ContactRows::nodes)]);
+        const Point p =
+            a.position(a.contact_nodes[row_index(contact, 2 * side + end, ContactRows::nodes)]);
         sum.x += 0.5 * p.x;
         sum.y += 0.5 * p.y;
     }
@@ -77,8 +80,10 @@ Point contact_end(const Assembly& a, int contact, int end)
 Snapshot take_snapshot(const Assembly& a)
 {
     Snapshot s;
-    for (int g = 0; g < a.grains; ++g) add_grain(a, g, s);
-    for (int c = 0; c < a.contacts; ++c) add_contact(a, c, s);
+    for (int g = 0; g < a.grains; ++g)
+        add_grain(a, g, s);
+    for (int c = 0; c < a.contacts; ++c)
+        add_contact(a, c, s);
     return s;
 }
 

@@ -35,7 +35,8 @@ double strain_between(const Station& first, const Station& second)
 Station band(const Assembly& a, double height)
 {
     double diameter = 0.0;
-    for (double r : a.radius) diameter += 2.0 * r / a.grains;
+    for (double r : a.radius)
+        diameter += 2.0 * r / a.grains;
     const double bottom = a.reference[side_nodes(a, bottom_side).front() + lanes];
     Station s;
     for (int g = 0; g < a.grains; ++g) {

@@ -34,7 +34,8 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
 {
     double* u = b.displacement;
     double* f = b.force;
-    for (int i = 0; i < 2 * lanes * b.nodes; ++i) u[i] += dt * b.velocity[i];
+    for (int i = 0; i < 2 * lanes * b.nodes; ++i)
+        u[i] += dt * b.velocity[i];
     for (int t = 0; t < b.triangles; ++t) {
         const int n0 = 2 * lanes * b.connectivity[3 * t];
         const int n1 = 2 * lanes * b.connectivity[3 * t + 1];
@@ -42,13 +43,12 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
         const double* s = b.shape + 5 * lanes * t;
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
-            const TriangleShape shape
-                = { s[l], s[lanes + l], s[2 * lanes + l], s[3 * lanes + l], s[4 * lanes + l] };
-            const PlaneStiffness c
-                = { b.stiffness[l], b.stiffness[lanes + l], b.stiffness[2 * lanes + l] };
-            const TriangleForces e
-                = triangle_forces(shape, c, { u[n0 + l], u[n0 + lanes + l] },
-                    { u[n1 + l], u[n1 + lanes + l] }, { u[n2 + l], u[n2 + lanes + l] });
+            const TriangleShape shape = { s[l], s[lanes + l], s[2 * lanes + l], s[3 * lanes + l],
+                s[4 * lanes + l] };
+            const PlaneStiffness c = { b.stiffness[l], b.stiffness[lanes + l],
+                b.stiffness[2 * lanes + l] };
+            const TriangleForces e = triangle_forces(shape, c, { u[n0 + l], u[n0 + lanes + l] },
+                { u[n1 + l], u[n1 + lanes + l] }, { u[n2 + l], u[n2 + lanes + l] });
             f[n0 + l] -= e.f1x + e.f2x;
             f[n0 + lanes + l] -= e.f1y + e.f2y;
             f[n1 + l] += e.f1x;
@@ -60,8 +60,8 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
 }
 
 template <bool Measure>
-__attribute__((always_inline)) inline void
-integrate_lanes(const Rows& b, double dt, double damping, StepSums& sums)
+__attribute__((always_inline)) inline void integrate_lanes(
+    const Rows& b, double dt, double damping, StepSums& sums)
 {
     for (int n = 0; n < b.nodes; ++n) {
         for (int c = 0; c < 2; ++c) {
@@ -82,7 +82,8 @@ FLEXPM_MULTIVERSION void integrate(const Rows& b, double dt, double damping, Ste
 {
     integrate_lanes<false>(b, dt, damping, sums);
 }
-FLEXPM_MULTIVERSION void integrate_measured(const Rows& b, double dt, double damping, StepSums& sums)
+FLEXPM_MULTIVERSION void integrate_measured(
+    const Rows& b, double dt, double damping, StepSums& sums)
 {
     integrate_lanes<true>(b, dt, damping, sums);
 }
@@ -109,7 +110,8 @@ void gather_forces(const Assembly& a, int block, double* force)
 double sum(const double* values)
 {
     double total = 0.0;
-    for (int l = 0; l < lanes; ++l) total += values[l];
+    for (int l = 0; l < lanes; ++l)
+        total += values[l];
     return total;
 }
 
@@ -177,7 +179,8 @@ void step(Assembly& a, const StepOptions& options)
 #pragma omp parallel num_threads(options.threads) if (options.threads > 1)
     {
 #pragma omp for schedule(static)
-        for (int b = 0; b < contact_blocks; ++b) update_contact_block(a, b, options.dt);
+        for (int b = 0; b < contact_blocks; ++b)
+            update_contact_block(a, b, options.dt);
 #pragma omp single
         for (int b = 0; b < a.edge_blocks(); ++b) {
             a.pressure_work += update_edge_block(a, b, options.dt);
@@ -185,7 +188,8 @@ void step(Assembly& a, const StepOptions& options)
 #pragma omp single
         update_plates(a, options.dt, options.damping);
 #pragma omp for schedule(static)
-        for (int b = 0; b < blocks; ++b) update_grain_block(a, b, options);
+        for (int b = 0; b < blocks; ++b)
+            update_grain_block(a, b, options);
     }
     ++a.step;
 }

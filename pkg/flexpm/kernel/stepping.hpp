@@ -11,10 +11,10 @@
 namespace flexpm {
 
 struct StepOptions {
-    double dt = 1.0;        ///< time step [s]; 1 with scaled masses
-    double damping = 0.7;   ///< alpha of Eq. 2 [-], 0 <= alpha < 1
-    int threads = 1;        ///< results do not depend on it
-    bool measure = false;   ///< also sum kinetic energy and largest unbalanced force
+    double dt = 1.0;       ///< time step [s]; 1 with scaled masses
+    double damping = 0.7;  ///< alpha of Eq. 2 [-], 0 <= alpha < 1
+    int threads = 1;       ///< results do not depend on it
+    bool measure = false;  ///< also sum kinetic energy and largest unbalanced force
 };
 
 void step(Assembly& a, const StepOptions& options);

@@ -27,9 +27,9 @@ int count_shared_edges(const PowerDiagram& diagram)
 
 void refuse_hidden(const Disc& d, int i)
 {
-    throw std::invalid_argument("tessellate: disc " + std::to_string(i) + ": radius = "
-        + number(d.radius) + " m at (" + number(d.centre.x) + ", " + number(d.centre.y)
-        + ") m is hidden by others, must have a cell; remove or move it");
+    throw std::invalid_argument("tessellate: disc " + std::to_string(i)
+        + ": radius = " + number(d.radius) + " m at (" + number(d.centre.x) + ", "
+        + number(d.centre.y) + ") m is hidden by others, must have a cell; remove or move it");
 }
 
 void add_edges(Tessellation& t, const std::vector<CellEdge>& cell, int index,

@@ -36,8 +36,8 @@ TriangleShape triangle_shape(Point p0, Point p1, Point p2, double thickness)
         0.5 * twice_area * thickness };
 }
 
-double
-triangle_energy(const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
+double triangle_energy(
+    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
 {
     const Tensor e = green_strain(displacement_gradient(s, u0, u1, u2));
     const Tensor p = stress(c, e);
@@ -56,8 +56,8 @@ Tensor cauchy_stress(const TriangleShape& s, const PlaneStiffness& c, Point u0, 
 
 StiffnessBlock stiffness_block(const TriangleShape& s, const PlaneStiffness& c, int a, int b)
 {
-    const std::array<Point, 3> g
-        = { { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y }, { s.g2x, s.g2y } } };
+    const std::array<Point, 3> g = { { { -s.g1x - s.g2x, -s.g1y - s.g2y }, { s.g1x, s.g1y },
+        { s.g2x, s.g2y } } };
     const Point u = g[a], v = g[b];
     return { s.volume * (c.normal * u.x * v.x + c.shear * u.y * v.y),
         s.volume * (c.cross * u.x * v.y + c.shear * u.y * v.x),

@@ -47,8 +47,8 @@ struct Gradient {
 };
 
 /// From the displacements of the three nodes [m]: small strains keep all their digits.
-__attribute__((always_inline)) inline Gradient
-displacement_gradient(const TriangleShape& s, Point u0, Point u1, Point u2)
+__attribute__((always_inline)) inline Gradient displacement_gradient(
+    const TriangleShape& s, Point u0, Point u1, Point u2)
 {
     const double ax = u1.x - u0.x, ay = u1.y - u0.y;
     const double bx = u2.x - u0.x, by = u2.y - u0.y;
@@ -83,8 +83,8 @@ struct TriangleForces {
 };
 
 /// @param u0, u1, u2  displacements of the nodes [m]
-__attribute__((always_inline)) inline TriangleForces
-triangle_forces(const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
+__attribute__((always_inline)) inline TriangleForces triangle_forces(
+    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
 {
     const Gradient h = displacement_gradient(s, u0, u1, u2);
     const Gradient p = first_stress(h, stress(c, green_strain(h)));

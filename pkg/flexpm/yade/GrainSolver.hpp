@@ -2,9 +2,9 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
+#include <flexpm/yade/array_view.hpp>
 #include <flexpm/yade/assembly_archive.hpp>
 #include <flexpm/yade/yade_lite.hpp>
-#include <flexpm/yade/array_view.hpp>
 
 namespace yade {
 
@@ -21,17 +21,11 @@ public:
 	static shared_ptr<GrainSolver> ofGrain(int grain);
 	static shared_ptr<GrainSolver> ofContact(int contact);
 
-	void assemble(
-	        py::object tessellation,
-	        py::object centres,
-	        py::object radii,
-	        Real                  thickness,
-	        py::list   materials,
-	        py::dict   options);
-	void                  addToScene(py::list materials);
-	void                  scaleMasses();
-	Real                  useRealMasses();
-	void                  openBooks();
+	void       assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options);
+	void       addToScene(py::list materials);
+	void       scaleMasses();
+	Real       useRealMasses();
+	void       openBooks();
 	py::tuple  elasticConstants() const;
 	py::dict   energies() const;
 	py::dict   snapshot() const;

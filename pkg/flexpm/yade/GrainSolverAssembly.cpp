@@ -36,11 +36,11 @@ namespace {
 void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options)
 {
 	flexpm::AssemblyOptions o;
-	o.thickness           = thickness;
-	o.mesh                = py::extract<std::string>(options["mesh"])() == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
-	o.points              = py::extract<int>(options["points"]);
-	o.on_centre_line      = py::extract<bool>(options["centre_line"]);
-	const auto ofGrains   = materialsOf(materials);
+	o.thickness         = thickness;
+	o.mesh              = py::extract<std::string>(options["mesh"])() == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
+	o.points            = py::extract<int>(options["points"]);
+	o.on_centre_line    = py::extract<bool>(options["centre_line"]);
+	const auto ofGrains = materialsOf(materials);
 	for (const auto& m : ofGrains) {
 		o.elastic.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
 		o.laws.push_back(contactOf(static_cast<const GrainMat&>(*m)));
@@ -60,12 +60,12 @@ void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
 	bodyIds.clear();
 	const auto& world = Omega::instance().getScene();
 	for (int grain = 0; grain < assembly.grains; ++grain) {
-		auto body  = boost::make_shared<Body>();
-		auto cell  = boost::make_shared<LaguerreCell>();
-		cell->grain = grain;
-		body->shape    = cell;
-		body->material = materials[assembly.grain_material[grain]];
-		const auto p   = assembly.position(assembly.centre(grain));
+		auto body        = boost::make_shared<Body>();
+		auto cell        = boost::make_shared<LaguerreCell>();
+		cell->grain      = grain;
+		body->shape      = cell;
+		body->material   = materials[assembly.grain_material[grain]];
+		const auto p     = assembly.position(assembly.centre(grain));
 		body->state->pos = body->state->refPos = Vector3r(p.x, p.y, 0);
 		body->state->blockedDOFs               = State::DOF_ALL;
 		body->setBounded(true);

@@ -79,22 +79,22 @@ py::dict GrainSolver::snapshot() const
 	const auto s = flexpm::take_snapshot(assembly);
 	const int  p = assembly.points;
 	py::dict   d;
-	d["positions"]        = copied(s.positions, 2);
-	d["reference"]        = copied(s.reference, 2);
-	d["velocities"]       = copied(s.velocities, 2);
-	d["forces"]           = copied(s.forces, 2);
-	d["triangles"]        = copied(s.triangles, 3);
-	d["triangle_grain"]   = copied(s.triangle_grain, 0);
-	d["triangle_stress"]  = copied(s.triangle_stress, 3);
-	d["contact_grains"]   = copied(s.contact_grains, 2);
-	d["contact_ends"]     = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
-	d["point_opening"]    = copied(s.point_opening, p);
-	d["point_slip"]       = copied(s.point_slip, p);
-	d["point_damage"]     = copied(s.point_damage, p);
-	d["point_traction"]   = copied(s.point_traction, 2).attr("reshape")(-1, p, 2);
-	d["crack_step"]       = copied(s.crack_step, p);
-	d["crack_mode"]       = copied(s.crack_mode, p);
-	d["crack_position"]   = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
+	d["positions"]       = copied(s.positions, 2);
+	d["reference"]       = copied(s.reference, 2);
+	d["velocities"]      = copied(s.velocities, 2);
+	d["forces"]          = copied(s.forces, 2);
+	d["triangles"]       = copied(s.triangles, 3);
+	d["triangle_grain"]  = copied(s.triangle_grain, 0);
+	d["triangle_stress"] = copied(s.triangle_stress, 3);
+	d["contact_grains"]  = copied(s.contact_grains, 2);
+	d["contact_ends"]    = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
+	d["point_opening"]   = copied(s.point_opening, p);
+	d["point_slip"]      = copied(s.point_slip, p);
+	d["point_damage"]    = copied(s.point_damage, p);
+	d["point_traction"]  = copied(s.point_traction, 2).attr("reshape")(-1, p, 2);
+	d["crack_step"]      = copied(s.crack_step, p);
+	d["crack_mode"]      = copied(s.crack_mode, p);
+	d["crack_position"]  = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
 	return d;
 }
 

@@ -26,10 +26,7 @@ namespace {
 	}
 
 	/// The same for a member of flexpm::PointState.
-	py::object stateView(int contact, int member)
-	{
-		return pointView(contact, &flexpm::Assembly::point_state, member, flexpm::ContactRows::state);
-	}
+	py::object stateView(int contact, int member) { return pointView(contact, &flexpm::Assembly::point_state, member, flexpm::ContactRows::state); }
 
 	/// (points,) or (points, columns) copy of what `value(point)` appends.
 	template <class Value> py::object pointCopy(int contact, int columns, Value value)

@@ -25,22 +25,22 @@ namespace {
 	};
 
 	constexpr std::array<Column, 16> recorded { {
-	        { "step", [](const auto& o) { return Real(o.step); } },
-	        { "axial_strain", [](const auto& o) { return o.axial_strain; } },
-	        { "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
-	        { "axial_stress", [](const auto& o) { return o.axial_stress; } },
-	        { "confinement", [](const auto& o) { return o.confinement; } },
-	        { "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
-	        { "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
-	        { "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
-	        { "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
-	        { "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
-	        { "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
-	        { "damage_energy", [](const auto& o) { return o.energies.damage; } },
-	        { "friction_energy", [](const auto& o) { return o.energies.friction; } },
-	        { "damping_energy", [](const auto& o) { return o.energies.damping; } },
-	        { "boundary_work", [](const auto& o) { return o.energies.boundary_work; } },
-	        { "initial_energy", [](const auto& o) { return o.energies.initial; } },
+		{ "step", [](const auto& o) { return Real(o.step); } },
+		{ "axial_strain", [](const auto& o) { return o.axial_strain; } },
+		{ "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
+		{ "axial_stress", [](const auto& o) { return o.axial_stress; } },
+		{ "confinement", [](const auto& o) { return o.confinement; } },
+		{ "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
+		{ "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
+		{ "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
+		{ "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
+		{ "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
+		{ "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
+		{ "damage_energy", [](const auto& o) { return o.energies.damage; } },
+		{ "friction_energy", [](const auto& o) { return o.energies.friction; } },
+		{ "damping_energy", [](const auto& o) { return o.energies.damping; } },
+		{ "boundary_work", [](const auto& o) { return o.energies.boundary_work; } },
+		{ "initial_energy", [](const auto& o) { return o.energies.initial; } },
 	} };
 
 } // namespace

@@ -46,9 +46,9 @@ public:
 	~AxialRecorder() override;
 	void action() override;
 
-	boost::python::list  names() const;
+	boost::python::list   names() const;
 	boost::python::object rows() const;
-	boost::python::dict  scales() const;
+	boost::python::dict   scales() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,

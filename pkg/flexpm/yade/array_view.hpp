@@ -24,8 +24,8 @@ enum class Access { readOnly, readWrite };
 ///
 /// @param strides  bytes from one element to the next along each axis
 template <class T>
-boost::python::object array_view(
-        const T* data, const std::vector<std::ptrdiff_t>& shape, const std::vector<std::ptrdiff_t>& strides, boost::python::object owner, Access access)
+boost::python::object
+array_view(const T* data, const std::vector<std::ptrdiff_t>& shape, const std::vector<std::ptrdiff_t>& strides, boost::python::object owner, Access access)
 {
 	namespace py = boost::python;
 	static const T nothing {};
@@ -35,12 +35,12 @@ boost::python::object array_view(
 	for (std::ptrdiff_t n : strides)
 		steps.append(n);
 	py::dict interface;
-	interface["version"] = 3;
-	interface["typestr"] = type_string<T>();
-	interface["shape"]   = py::tuple(sizes);
-	interface["strides"] = py::tuple(steps);
-	interface["data"]    = py::make_tuple(reinterpret_cast<std::uintptr_t>(data != nullptr ? data : &nothing), access == Access::readOnly);
-	py::object holder              = py::import("types").attr("SimpleNamespace")();
+	interface["version"]               = 3;
+	interface["typestr"]               = type_string<T>();
+	interface["shape"]                 = py::tuple(sizes);
+	interface["strides"]               = py::tuple(steps);
+	interface["data"]                  = py::make_tuple(reinterpret_cast<std::uintptr_t>(data != nullptr ? data : &nothing), access == Access::readOnly);
+	py::object holder                  = py::import("types").attr("SimpleNamespace")();
 	holder.attr("__array_interface__") = interface;
 	holder.attr("owner")               = owner; // numpy keeps the holder, the holder keeps the owner
 	return py::import("numpy").attr("asarray")(holder);
@@ -79,7 +79,7 @@ public:
 		}
 	}
 	~InputArray() { PyBuffer_Release(&view); }
-	InputArray(const InputArray&) = delete;
+	InputArray(const InputArray&)            = delete;
 	InputArray& operator=(const InputArray&) = delete;
 
 	std::size_t size(int axis) const { return static_cast<std::size_t>(view.shape[axis]); }
