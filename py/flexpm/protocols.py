@@ -7,12 +7,12 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from statistics import median
 from typing import Any
 
 import numpy as np
-
 import yade
 from yade import wrapper
 
@@ -28,8 +28,8 @@ from .specimen import Specimen
 #: Called with (steps done, steps expected, text).
 Progress = Callable[[float, float, str], None]
 
-#: Share of a wave crossing's stretch by which the ends may move in that time: the mean strain grows
-#: by k times the reference strain while a wave crosses the specimen once. Fixed by halving the rate.
+#: k of the loading rate: the mean strain grows by k times the reference strain while a wave crosses
+#: the specimen once. Fixed by halving the rate.
 RATE_CONSTANT = {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01}
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-].
@@ -278,7 +278,7 @@ def _step_time(samples: list[tuple[float, int]]) -> float | None:
     """Median wall time of a step [s] over the looks at the simulation."""
     spans = [
         (later[0] - earlier[0]) / (later[1] - earlier[1])
-        for earlier, later in zip(samples, samples[1:], strict=False)
+        for earlier, later in pairwise(samples)
         if later[1] > earlier[1]
     ]
     return median(spans) if spans else None

@@ -14,7 +14,6 @@ from collections.abc import Callable
 from statistics import median
 
 import numpy as np
-
 import yade
 
 from . import __version__

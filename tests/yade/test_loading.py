@@ -92,8 +92,9 @@ def test_3d_window_that_existed_before(package_parent: Path, tmp_path: Path) -> 
 
 
 def test_loading_again_changes_nothing() -> None:
-    import flexpm
     import yade
+
+    import flexpm
 
     before = flexpm.load()
     known = list(yade.__all__)
