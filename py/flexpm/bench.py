@@ -145,7 +145,7 @@ def _build_own(specimen: Specimen, threads: int, **options: Any) -> dict[str, in
     built = models.build(specimen, None, threads=threads, **options)
     recorder = wrapper.AxialRecorder()
     built.add_engines(after=(recorder,))
-    plan = protocols.schedule(recorder.scales(), "uniaxial", 1.0, None)
+    plan = protocols.schedule(recorder.scales(), "uniaxial", protocols.Settings())
     built.add_engines(before=(wrapper.PlatenEngine(velocity=-plan.velocity),))
     return built.solver.counts()
 

@@ -14,13 +14,15 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from . import materials
+from . import materials, yade_models
 from .errors import InputError
 from .materials import Material
 from .specimen import Specimen
 
-#: Models that this version has.
-MODELS = ("flexible",)
+#: Models of this module's own solver.
+SOLVER_MODELS = ("flexible",)
+#: All models that this version has.
+MODELS = (*SOLVER_MODELS, *yade_models.NAMES)
 MESHES = ("refined", "fan")
 POINTS = (1, 2, 3)
 
@@ -75,7 +77,7 @@ class Model:
 
 def build(
     specimen: Specimen,
-    material: Material | str = "augig-table7",
+    material: Material | str | None = None,
     model: str = "flexible",
     *,
     points: int = 3,
@@ -83,15 +85,15 @@ def build(
     damping: float = DAMPING,
     dynamic: bool = False,
     threads: int = 1,
-) -> Model:
+) -> Model | yade_models.SphereModel:
     """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
 
     Bodies that the scene has already are kept, its engines are replaced.
 
     Args:
         specimen: The grains.
-        material: Preset, file, or material.
-        model: ``flexible``.
+        material: Preset, file, or material; None for the default of the model.
+        model: ``flexible``, or YADE's own ``jcfpm`` or ``cohfrict``.
         points: Contact points per contact, 1, 2 or 3 (Lobatto).
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
         damping: Local damping alpha [-], 0 <= alpha < 1.
@@ -106,6 +108,12 @@ def build(
     """
     _require_one_of("model", model, MODELS)
     _require_damping(damping)
+    if model in yade_models.NAMES:
+        _require_one_of(f"points of model {model}", points, (POINTS[-1],))
+        _require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
+        return yade_models.build(
+            specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
+        )
     if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
     chosen = materials.load(material, model)
@@ -144,7 +152,7 @@ def elastic(
     Raises:
         InputError: for an argument out of range or a specimen that is no rectangle.
     """
-    _require_one_of("model", model, MODELS)
+    _require_one_of("model", model, SOLVER_MODELS)
     solver = _assembled(specimen, materials.load(material, model), model, points, mesh)
     try:
         modulus, ratio = solver.elasticConstants()

@@ -16,7 +16,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from . import __version__, curve, export, materials, models, plot
+from . import __version__, curve, export, materials, models, plot, yade_models
 from .curve import Curve
 from .errors import InputError, SimulationError
 from .files import output_folder
@@ -110,7 +110,7 @@ def run(
             strain reaches `max_strain`.
         specimen: A rectangle; y is the axial direction.
         material: Preset, file, or material; None for the default of the model.
-        model: ``flexible``.
+        model: ``flexible``, or YADE's own ``jcfpm`` or ``cohfrict``.
         confinement: Lateral pressure [Pa], for ``biaxial`` only.
         points: Contact points per contact, 1, 2 or 3.
         mesh: ``refined`` or ``fan``.
@@ -127,8 +127,9 @@ def run(
     Raises:
         InputError: for an argument out of range.
     """
-    if test not in TESTS:
-        raise InputError(f"run: test = {test!r}, must be one of {', '.join(TESTS)}")
+    tests = tests_of(model)
+    if test not in tests:
+        raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
     settings = Settings(confinement, rate, max_strain)
     folder = None if out is None else output_folder(out)
     chosen = materials.load(material or materials.default_name(model), model)
@@ -138,7 +139,7 @@ def run(
     )
     if folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = TESTS[test](built, settings, progress)
+    result = tests[test](built, settings, progress)
     if folder is not None:
         write_files(folder, result, built.snapshot())
     return result
@@ -179,6 +180,15 @@ TESTS: dict[str, Callable[..., Result]] = {
     "tension": run_tension,
     "biaxial": run_biaxial,
 }
+
+
+def tests_of(model: str) -> dict[str, Callable[..., Result]]:
+    """Tests that a model can do, by name."""
+    if model in yade_models.NAMES:
+        from . import yade_protocols  # which needs this module
+
+        return yade_protocols.TESTS
+    return TESTS
 
 
 def _run_axial(

@@ -50,7 +50,8 @@ class Grips:
             [built.ids[grain] for grain in tributary_lengths(built.specimen, side)]
             for side in (BOTTOM, TOP)
         )
-        for body in (*self.bottom, *self.top):
+        built.gripped |= {*self.bottom, *self.top}
+        for body in built.gripped:
             state = yade.O.bodies[body].state
             state.blockedDOFs = "yzXY"
             state.isDamped = False  # else YADE books a part of the grips' work as damped

@@ -18,7 +18,7 @@ import numpy as np
 import yade
 from yade import utils, wrapper
 
-from . import materials, yade_bonds
+from . import materials, yade_bonds, yade_snapshot
 from .errors import InputError
 from .materials import Material
 from .specimen import Specimen
@@ -50,6 +50,7 @@ class SphereModel:
         interactions: One for each bond; not real any more once it is lost.
         cracks: Bonds that have broken.
         plates: Bodies of the plates.
+        gripped: Bodies of grains whose axial motion is given.
     """
 
     specimen: Specimen
@@ -63,6 +64,7 @@ class SphereModel:
     interactions: list[Any] = field(init=False)
     cracks: CrackWatch = field(init=False)
     plates: list[int] = field(default_factory=list)
+    gripped: set[int] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.interactions = _make_bonds(self)
@@ -80,6 +82,11 @@ class SphereModel:
             "nodes": None,
             "triangles": None,
         }
+
+    def snapshot(self) -> dict[str, np.ndarray]:
+        """The present state as plain arrays; their list is in the documentation."""
+        self.cracks.look()
+        return yade_snapshot.snapshot(self)
 
     def add_plate(self, face: float, sense: int) -> int:
         """Put a fixed, frictionless, horizontal plate beside the specimen.

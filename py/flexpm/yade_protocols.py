@@ -18,7 +18,7 @@ import yade
 
 from . import __version__
 from .errors import InputError
-from .protocols import DEFAULT_STRAINS, Progress, Schedule
+from .protocols import DEFAULT_STRAINS, Progress, Schedule, Settings
 from .results import Result
 from .yade_bonds import tributary_lengths
 from .yade_loading import (
@@ -40,7 +40,7 @@ RATE_CONSTANT = {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian"
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
 #: Rows of the record up to the reference strain.
-_ROWS = 200
+_ROWS = 100
 #: The isotropic stress is reached in this many crossings of a wave, and then held until at rest.
 _RAMP_CROSSINGS = 20
 _REST = 1e-3  #: at rest: largest resultant over mean contact force [-]
@@ -49,17 +49,11 @@ _MOST_HOLDING = 200  #: crossings
 _DIAMETRAL = 5.0
 
 
-def run_uniaxial(
-    built: SphereModel,
-    confinement: float,
-    rate: float,
-    max_strain: float | None,
-    progress: Progress | None,
-) -> Result:
+def run_uniaxial(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Compress a built rectangle axially without lateral pressure."""
     _require_kind(built, "uniaxial", "rectangle")
-    _require_unconfined("uniaxial", confinement)
-    plan = _schedule(built, "uniaxial", rate, max_strain)
+    settings.refuse_confinement("uniaxial")
+    plan = _schedule(built, "uniaxial", settings)
     plates = _squeeze(built)
     plates.move(-plan.velocity)
     start_evenly(built, -plan.velocity, 0.0, plan.height)
@@ -72,17 +66,11 @@ def run_uniaxial(
     return _run("uniaxial", built, plan, area, sample, progress)
 
 
-def run_tension(
-    built: SphereModel,
-    confinement: float,
-    rate: float,
-    max_strain: float | None,
-    progress: Progress | None,
-) -> Result:
+def run_tension(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Pull the outermost layers of spheres of a built rectangle apart."""
     _require_kind(built, "tension", "rectangle")
-    _require_unconfined("tension", confinement)
-    plan = _schedule(built, "tension", rate, max_strain)
+    settings.refuse_confinement("tension")
+    plan = _schedule(built, "tension", settings)
     grips = Grips(built)
     hold_sideways(built)
     start_evenly(built, plan.velocity, 0.0, plan.height)
@@ -96,19 +84,14 @@ def run_tension(
     return _run("tension", built, plan, area, sample, progress)
 
 
-def run_biaxial(
-    built: SphereModel,
-    confinement: float,
-    rate: float,
-    max_strain: float | None,
-    progress: Progress | None,
-) -> Result:
+def run_biaxial(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Press a built rectangle isotropically, then compress it axially at constant pressure.
 
     Strains count from the isotropic state.
     """
+    confinement = settings.confinement
     _require_kind(built, "biaxial", "rectangle")
-    plan = _schedule(built, "biaxial", rate, max_strain)
+    plan = _schedule(built, "biaxial", settings)
     hold_sideways(built)
     sides = Pressure(built, (LEFT, RIGHT))
     if confinement > 0.0:
@@ -129,17 +112,11 @@ def run_biaxial(
     return _run("biaxial", built, plan, area, sample, progress)
 
 
-def run_brazilian(
-    built: SphereModel,
-    confinement: float,
-    rate: float,
-    max_strain: float | None,
-    progress: Progress | None,
-) -> Result:
+def run_brazilian(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Squeeze a built disc between two plates; stress is 2P / (pi D t), strain travel / D."""
     _require_kind(built, "brazilian", "disc")
-    _require_unconfined("brazilian", confinement)
-    plan = _schedule(built, "brazilian", rate, max_strain)
+    settings.refuse_confinement("brazilian")
+    plan = _schedule(built, "brazilian", settings)
     reach = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
     heights = built.specimen.centres[:, 1]
     plates = Plates(built, float(np.min(heights - reach)), float(np.max(heights + reach)))
@@ -200,14 +177,15 @@ def _press_evenly(
             return
 
 
-def _schedule(built: SphereModel, test: str, rate: float, max_strain: float | None) -> Schedule:
+def _schedule(built: SphereModel, test: str, settings: Settings) -> Schedule:
     """Velocity and end as in the other models, from the contacts alone."""
     height = built.specimen.dimensions.get("height", built.specimen.dimensions.get("diameter"))
     modulus = _modulus(built)
-    reference = _strength(built, test) / modulus * (_DIAMETRAL if test == "brazilian" else 1.0)
+    factor = _DIAMETRAL if test == "brazilian" else 1.0
+    reference = factor * (_strength(built, test) + settings.confinement) / modulus
     crossing = _crossing_steps(built) * yade.O.dt
-    velocity = rate * RATE_CONSTANT[test] * reference * height / crossing
-    largest = DEFAULT_STRAINS * reference if max_strain is None else max_strain
+    velocity = settings.rate * RATE_CONSTANT[test] * reference * height / crossing
+    largest = settings.max_strain or DEFAULT_STRAINS * reference
     return Schedule(velocity, reference, largest, height, yade.O.dt)
 
 
@@ -288,8 +266,3 @@ def _require_kind(built: SphereModel, test: str, kind: str) -> None:
     found = built.specimen.kind
     if found != kind:
         raise InputError(f"run: specimen = {found}, must be a {kind} for {test}; make another")
-
-
-def _require_unconfined(test: str, confinement: float) -> None:
-    if confinement != 0.0:
-        raise InputError(f"run: confinement = {confinement} Pa, must be 0 for {test}; leave it out")

@@ -77,7 +77,7 @@ class Gauge:
 class Ending:
     """When a test has shown what it is made for."""
 
-    least_peak: float  #: no fall counts before the stress has reached this [Pa]
+    least_peak: float  #: no fall counts before the stress has risen by this [Pa]
     max_strain: float  #: of the specimen between its ends; the test ends there [-]
     stop_ratio: float = 0.5  #: ends once the stress has fallen below this part of its peak [-]
 
@@ -104,7 +104,7 @@ class Recorder:
     ending: Ending
     sample: Callable[[], Sample]
     curve: Curve = field(default_factory=Curve)
-    peak: float = 0.0
+    peak: float = 0.0  #: largest stress above the confinement [Pa]
     over: bool = False
     diverged: bool = False
     work: float = 0.0
@@ -138,8 +138,9 @@ class Recorder:
             damping_energy=_damping_energy(),
             boundary_work=self.work + now.other_work,
         )
-        self.peak = max(self.peak, now.stress)
-        fallen = now.stress < self.ending.stop_ratio * self.peak
+        above = now.stress - now.confinement
+        self.peak = max(self.peak, above)
+        fallen = above < self.ending.stop_ratio * self.peak
         self.over = (self.peak >= self.ending.least_peak and fallen) or (
             now.travel >= self.ending.max_strain * self.height
         )
