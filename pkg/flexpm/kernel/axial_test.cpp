@@ -15,6 +15,7 @@ namespace flexpm {
 namespace {
 
 constexpr int lateral = 0, axial = 1;
+constexpr double pi = 3.14159265358979323846;
 
 void need_sides(const Assembly& a)
 {
@@ -42,6 +43,33 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
         if (a.edge_side[e] == right_side) return a.edge_pressure[e];
     }
     return 0.0;
+}
+
+/// What every test records.
+void add_common(const Assembly& a, AxialObservation& o)
+{
+    o.unbalanced_ratio = unbalanced_ratio(a);
+    o.cracks = count_cracks(a);
+    o.energies = energies(a);
+}
+
+/// Growth of the distance between the outermost left and right grains of a disc [m].
+double disc_widening(const Assembly& a)
+{
+    int first = a.centre(0), last = first;
+    for (int g = 0; g < a.grains; ++g) {
+        const int c = a.centre(g);
+        if (a.reference[c] < a.reference[first]) first = c;
+        if (a.reference[c] > a.reference[last]) last = c;
+    }
+    return a.displacement[last] - a.displacement[first];
+}
+
+double crossing(const Assembly& a, double height, double width, double dt)
+{
+    double mass = 0.0;
+    for (double m : a.inverse_mass) mass += m > 0.0 ? 1.0 / m : 0.0;
+    return std::sqrt(mass * height / (series_modulus(a) * width * a.thickness)) / dt;
 }
 
 }  // namespace
@@ -76,9 +104,26 @@ AxialObservation observe(const Assembly& a, const AxialGeometry& g)
     o.confinement = lateral_pressure(a, g);
     const double larger = std::max(std::fabs(top), std::fabs(bottom));
     o.end_mismatch = larger > 0.0 ? std::fabs(top + bottom) / larger : 0.0;
-    o.unbalanced_ratio = unbalanced_ratio(a);
-    o.cracks = count_cracks(a);
-    o.energies = energies(a);
+    add_common(a, o);
+    return o;
+}
+
+AxialObservation observe_disc(const Assembly& a, double diameter)
+{
+    if (a.plates.size() < 2) {
+        throw std::invalid_argument("observe_disc: plates = " + std::to_string(a.plates.size())
+            + ", must be a lower and an upper one; add them first");
+    }
+    const Plate &lower = a.plates[0], &upper = a.plates[1];
+    const double up = lower.force.y, down = -upper.force.y;
+    AxialObservation o;
+    o.step = a.step;
+    o.axial_strain = (lower.displacement.y - upper.displacement.y) / diameter;
+    o.lateral_strain = disc_widening(a) / diameter;
+    o.axial_stress = (up + down) / (pi * diameter * a.thickness);
+    const double larger = std::max(std::fabs(up), std::fabs(down));
+    o.end_mismatch = larger > 0.0 ? std::fabs(up - down) / larger : 0.0;
+    add_common(a, o);
     return o;
 }
 
@@ -136,10 +181,25 @@ double series_modulus(const Assembly& a)
 double crossing_steps(const Assembly& a, double dt)
 {
     const AxialGeometry g = rectangle_of(a, Sense::compression);
-    double mass = 0.0;
-    for (double m : a.inverse_mass)
-        mass += m > 0.0 ? 1.0 / m : 0.0;
-    return std::sqrt(mass * g.height / (series_modulus(a) * g.width * a.thickness)) / dt;
+    return crossing(a, g.height, g.width, dt);
+}
+
+TestScales rectangle_scales(const Assembly& a, Sense sense, double dt)
+{
+    const AxialGeometry g = rectangle_of(a, sense);
+    return { crossing_steps(a, dt), series_modulus(a), reference_strength(a, sense), g.height,
+        g.width };
+}
+
+TestScales disc_scales(const Assembly& a, double diameter, double dt)
+{
+    return { crossing(a, diameter, 0.25 * pi * diameter, dt), 0.25 * series_modulus(a),
+        reference_strength(a, Sense::tension), diameter, diameter };
+}
+
+double ramp_factor(std::int64_t step, int ramp_steps)
+{
+    return step + 1 < ramp_steps ? static_cast<double>(step + 1) / ramp_steps : 1.0;
 }
 
 double reference_strength(const Assembly& a, Sense sense)

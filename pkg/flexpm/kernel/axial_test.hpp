@@ -51,6 +51,11 @@ AxialGeometry rectangle_of(const Assembly& a, Sense sense);
 /// Of the last step, which must have been measured.
 AxialObservation observe(const Assembly& a, const AxialGeometry& geometry);
 
+/// The same of a disc between a lower and an upper plate, the first two of the assembly: strains are
+/// the closure of the plates and the widening of the disc over its diameter, the stress is the
+/// tensile one of an elastic disc's centre, 2 P / (pi D t), with P the mean of both plates' forces.
+AxialObservation observe_disc(const Assembly& a, double diameter);
+
 /// Hold the bottom axially and one of its nodes laterally; nothing moves yet.
 void grip_bottom(Assembly& a);
 
@@ -72,5 +77,22 @@ double crossing_steps(const Assembly& a, double dt);
 /// c and tan(phi) of the first law in compression, its tensile strength in tension. A scale for the
 /// loading rate and for the default end of a test, no prediction.
 double reference_strength(const Assembly& a, Sense sense);
+
+/// Scales of a test, for its loading rate and its default end.
+struct TestScales {
+    double crossing_steps = 0.0;  ///< steps in which a wave of the scaled masses crosses the height
+    double modulus = 0.0;         ///< stress over strain of the record, roughly [Pa]
+    double strength = 0.0;        ///< reference_strength() [Pa]
+    double height = 0.0;          ///< [m]
+    double width = 0.0;           ///< [m]
+};
+TestScales rectangle_scales(const Assembly& a, Sense sense, double dt);
+
+/// Of observe_disc(): its plates close about four times as much as a strip of the disc's material
+/// strains under the recorded stress.
+TestScales disc_scales(const Assembly& a, double diameter, double dt);
+
+/// Part of the full value in the coming step of an even ramp over `ramp_steps`.
+double ramp_factor(std::int64_t step, int ramp_steps);
 
 }  // namespace flexpm

@@ -147,15 +147,15 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
     return static_cast<int>(a.plates.size()) - 1;
 }
 
-void set_load(Assembly& a, int plate, double load)
+void press(Assembly& a, int plate, double pressure)
 {
     check_index(a, plate);
-    check_finite("load of a plate", load, "N");
+    check_not_negative("pressure on a plate", pressure, "Pa");
     if (a.plates[plate].mass <= 0.0) {
         refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
     }
     a.plates[plate].loaded = true;
-    a.plates[plate].load = load;
+    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
 }
 
 void set_velocity(Assembly& a, int plate, Point velocity)

@@ -29,8 +29,8 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
 /// outermost point; edges that face it may come into contact. Returns its number.
 int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact);
 
-/// Let a plate move along its normal under a force [N] instead of a given velocity.
-void set_load(Assembly& a, int plate, double load);
+/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity.
+void press(Assembly& a, int plate, double pressure);
 
 /// Prescribe a plate's velocity [m/s].
 void set_velocity(Assembly& a, int plate, Point velocity);

@@ -51,6 +51,11 @@ public:
 		.def("addToScene", &GrainSolver::addToScene, (py::arg("materials")), "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", &GrainSolver::scaleMasses, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", &GrainSolver::useRealMasses, "Use the real masses; returns the stable time step [s].")
+		.def("addSidePlates", &GrainSolver::addSidePlates, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0.),
+			"Lay rigid plates on a side of the outline, side by side, and return their numbers. Scale the masses afterwards.")
+		.def("addTouchingPlate", &GrainSolver::addTouchingPlate, (py::arg("normal"), py::arg("friction") = 0.),
+			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
+		.def("plates", &GrainSolver::plates, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("openBooks", &GrainSolver::openBooks, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", &GrainSolver::elasticConstants, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
 		.def("energies", &GrainSolver::energies, "Energies of the last step [J], by name.")

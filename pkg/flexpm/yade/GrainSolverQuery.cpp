@@ -6,6 +6,7 @@
 #include <flexpm/kernel/elastic_solve.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/snapshot.hpp>
 
 namespace yade {
@@ -13,6 +14,37 @@ namespace yade {
 using flexpm_bindings::copied;
 
 void GrainSolver::openBooks() { flexpm::open_books(assembly); }
+
+py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction)
+{
+	py::list numbers;
+	for (int plate : flexpm::add_side_plates(assembly, side, pieces, { 0, friction, bonded }))
+		numbers.append(plate);
+	return numbers;
+}
+
+int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
+{
+	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
+}
+
+py::list GrainSolver::plates() const
+{
+	py::list all;
+	for (std::size_t i = 0; i < assembly.plates.size(); ++i) {
+		const flexpm::Plate& p = assembly.plates[i];
+		py::dict             d;
+		d["side"]          = p.side;
+		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
+		d["width"]         = p.width;
+		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);
+		d["velocity"]      = py::make_tuple(p.velocity.x, p.velocity.y);
+		d["force"]         = py::make_tuple(p.force.x, p.force.y);
+		d["contact_width"] = flexpm::contact_width(assembly, static_cast<int>(i));
+		all.append(d);
+	}
+	return all;
+}
 
 py::tuple GrainSolver::elasticConstants() const
 {

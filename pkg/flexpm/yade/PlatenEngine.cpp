@@ -14,9 +14,6 @@ YADE_PLUGIN((PlatenEngine)(ConfinementEngine)(AxialRecorder));
 
 namespace {
 
-	/// Part of the full value in the coming step of a ramp.
-	Real rampFactor(std::int64_t step, int rampSteps) { return step + 1 < rampSteps ? Real(step + 1) / rampSteps : 1.; }
-
 	flexpm::Sense senseOf(bool tension) { return tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
 
 	struct Column {
@@ -64,7 +61,7 @@ void ConfinementEngine::action()
 {
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int side : sides)
-		flexpm::set_pressure(assembly, side, pressure * rampFactor(assembly.step, rampSteps));
+		flexpm::set_pressure(assembly, side, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
 }
 
 AxialRecorder::~AxialRecorder() = default;
@@ -73,7 +70,8 @@ void AxialRecorder::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (solver->assembly.step % solver->measurePeriod != 0) return;
-	auto now = flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
+	auto now = diameter > 0 ? flexpm::observe_disc(solver->assembly, diameter)
+	                        : flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
 	if (fromNow && values.empty()) zero = Vector2r(now.axial_strain, now.lateral_strain);
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
@@ -98,13 +96,14 @@ py::dict AxialRecorder::scales() const
 {
 	const auto world    = Omega::instance().getScene();
 	const auto solver   = GrainSolver::ofScene(*world);
-	const auto geometry = flexpm::rectangle_of(solver->assembly, senseOf(tension));
+	const auto s        = diameter > 0 ? flexpm::disc_scales(solver->assembly, diameter, world->dt)
+	                                   : flexpm::rectangle_scales(solver->assembly, senseOf(tension), world->dt);
 	py::dict   d;
-	d["crossing_steps"] = flexpm::crossing_steps(solver->assembly, world->dt);
-	d["modulus"]        = flexpm::series_modulus(solver->assembly);
-	d["strength"]       = flexpm::reference_strength(solver->assembly, senseOf(tension));
-	d["height"]         = geometry.height;
-	d["width"]          = geometry.width;
+	d["crossing_steps"] = s.crossing_steps;
+	d["modulus"]        = s.modulus;
+	d["strength"]       = s.strength;
+	d["height"]         = s.height;
+	d["width"]          = s.width;
 	return d;
 }
 

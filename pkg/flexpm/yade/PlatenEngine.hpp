@@ -54,6 +54,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` and stops the "
 		"simulation when the test is over. Place it after the solver.",
+		((Real, diameter, 0.,, "Of a disc between a lower and an upper plate; 0: the specimen is a rectangle [m]."))
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
 		((Real, stopRatio, .5,, "The test is over once the stress has fallen below this part of its peak [-]."))
 		((Real, leastPeak, 0.,, "No fall counts before the stress has reached this [Pa]."))

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Driving plates.
+#include <flexpm/yade/PlateEngine.hpp>
+
+#include <flexpm/kernel/axial_test.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/yade/GrainSolver.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PlateEngine));
+
+PlateEngine::~PlateEngine() = default;
+
+void PlateEngine::action()
+{
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	for (int plate : plates) {
+		if (loaded) flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
+		else
+			flexpm::set_velocity(assembly, plate, { velocity[0], velocity[1] });
+	}
+	if (evenStart && !started) flexpm::start_evenly(assembly, velocity[1]);
+	started = true;
+}
+
+} // namespace yade
