@@ -37,7 +37,7 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 {
 	flexpm::AssemblyOptions o;
 	o.thickness         = thickness;
-	o.rigid             = py::extract<bool>(options["rigid"]);
+	o.rigid             = py::extract<bool>(options.get("rigid", false));
 	o.mesh              = py::extract<std::string>(options["mesh"])() == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
 	o.points            = py::extract<int>(options["points"]);
 	o.on_centre_line    = py::extract<bool>(options["centre_line"]);
