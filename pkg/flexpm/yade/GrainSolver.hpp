@@ -26,6 +26,9 @@ public:
 	void       scaleMasses();
 	Real       useRealMasses();
 	void       openBooks();
+	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
+	int        addTouchingPlate(Vector3r normal, Real friction);
+	py::list   plates() const;
 	py::tuple  elasticConstants() const;
 	py::dict   energies() const;
 	py::dict   snapshot() const;
