@@ -112,6 +112,9 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
         )
     click.echo(console.result_table(result))
     click.echo(f"  files                   {folder}/")
+    if result.resumed_at is not None:
+        again = "was complete" if result.resumed_at >= result.steps else "was taken up"
+        click.echo(f"  an earlier run there {again} at step {result.resumed_at}")
     if result.failed:
         raise SimulationError(
             f"status = {result.status} after {result.steps} steps, no strength was found; "

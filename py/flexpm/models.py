@@ -52,12 +52,13 @@ class Model:
     engines: list[Any]
 
     def run(self, steps: int) -> None:
-        """Advance by `steps` and wait for the end.
+        """Advance by `steps`.
 
         Raises:
             RuntimeError: if a number is not finite any more.
         """
-        yade.O.run(steps, True)
+        for _ in range(steps):
+            yade.O.step()
 
     def add_engines(self, *, before: tuple[Any, ...] = (), after: tuple[Any, ...] = ()) -> None:
         """Put engines of a protocol just before and after the solver's step."""
@@ -69,6 +70,15 @@ class Model:
         """Take engines of a protocol out again."""
         self.engines = [engine for engine in self.engines if engine not in engines]
         yade.O.engines = self.engines
+
+    def engine(self, kind: str) -> Any:
+        """The engine of a class."""
+        return next(engine for engine in self.engines if type(engine).__name__ == kind)
+
+    def rebind(self) -> None:
+        """Take over the engines of a scene that has been loaded."""
+        self.engines = list(yade.O.engines)
+        self.solver = self.engine("GrainSolver")
 
     def snapshot(self) -> dict[str, np.ndarray]:
         """The present state as plain arrays; their list is in the documentation."""

@@ -4,12 +4,9 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import numpy as np
@@ -17,6 +14,8 @@ import yade
 from yade import wrapper
 
 from . import __version__, curve, export, materials, models, plot, yade_models
+from .checkpoint import INTERVAL, Checkpoint, inputs_of
+from .course import Course, Progress
 from .curve import Curve
 from .errors import InputError, SimulationError
 from .files import output_folder
@@ -24,9 +23,6 @@ from .materials import Material
 from .models import Model
 from .results import Result, cracks_from_snapshot
 from .specimen import Specimen
-
-#: Called with (steps done, steps expected, text).
-Progress = Callable[[float, float, str], None]
 
 #: k of the loading rate: the mean strain grows by k times the reference strain while a wave crosses
 #: the specimen once. Fixed by halving the rate.
@@ -42,8 +38,6 @@ _RAMP_CROSSINGS = 10
 _AT_REST = 0.01
 #: Most wave crossings to wait for that.
 _LONGEST_REST = 100
-#: Wall time between two looks at a running simulation [s].
-_POLL = 0.1
 
 
 @dataclass(frozen=True)
@@ -100,8 +94,13 @@ def run(
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
+    checkpoint_interval: float = INTERVAL,
 ) -> Result:
     """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
+
+    With `out`, checkpoints are saved there. A run into a folder that holds a checkpoint of the same
+    inputs goes on from it, to the same bits as without an interruption; if that run was complete,
+    its result is returned and no step is done.
 
     Args:
         test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
@@ -120,12 +119,13 @@ def run(
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
+        checkpoint_interval: Wall time between two checkpoints [s], > 0.
 
     Returns:
         The measures, the record and the cracks.
 
     Raises:
-        InputError: for an argument out of range.
+        InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
     tests = tests_of(model)
     if test not in tests:
@@ -133,46 +133,79 @@ def run(
     settings = Settings(confinement, rate, max_strain)
     folder = None if out is None else output_folder(out)
     chosen = materials.load(material or materials.default_name(model), model)
+    options = {"points": points, "mesh": mesh, "dynamic": dynamic}
+    inputs = _inputs(test, specimen, chosen, model, settings, options)
+    checkpoint = Checkpoint(folder, inputs, checkpoint_interval)
     yade.O.reset()
-    built = models.build(
-        specimen, chosen, model, points=points, mesh=mesh, dynamic=dynamic, threads=threads
-    )
-    if folder is not None:
+    built = models.build(specimen, chosen, model, threads=threads, **options)
+    if checkpoint.found:
+        checkpoint.restore()
+        built.rebind()
+        built.solver.ompThreads = threads
+    elif folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = tests[test](built, settings, progress)
+    result = tests[test](built, settings, Course(checkpoint, progress))
+    result.resumed_at = checkpoint.resumed_at
     if folder is not None:
         write_files(folder, result, built.snapshot())
     return result
 
 
-def run_uniaxial(built: Model, settings: Settings, progress: Progress | None) -> Result:
+def _inputs(
+    test: str,
+    specimen: Specimen,
+    chosen: Material,
+    model: str,
+    settings: Settings,
+    options: dict[str, Any],
+) -> dict[str, Any]:
+    """All that determines a run; the number of threads does not."""
+    return inputs_of(
+        specimen,
+        chosen.law(model),
+        flexpm=__version__,
+        yade=yade.config.version,
+        test=test,
+        model=model,
+        **asdict(settings),
+        **options,
+    )
+
+
+def run_uniaxial(built: Model, settings: Settings, course: Course) -> Result:
     """Compress a built specimen axially without lateral pressure."""
     settings.refuse_confinement("uniaxial")
-    return _run_axial("uniaxial", built, settings, progress)
+    return _run_axial("uniaxial", built, settings, course)
 
 
-def run_tension(built: Model, settings: Settings, progress: Progress | None) -> Result:
+def run_tension(built: Model, settings: Settings, course: Course) -> Result:
     """Pull a built specimen axially."""
     settings.refuse_confinement("tension")
-    return _run_axial("tension", built, settings, progress)
+    return _run_axial("tension", built, settings, course)
 
 
-def run_biaxial(built: Model, settings: Settings, progress: Progress | None) -> Result:
+def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
     """Press a built specimen from all sides, then compress it axially under lateral pressure.
 
     Strains count from the isotropic state.
     """
-    confinement = wrapper.ConfinementEngine(pressure=settings.confinement, sides=[1, 2, 3])
-    platens = wrapper.PlatenEngine(holdTop=False)
-    built.add_engines(before=(confinement, platens))
-    scales = wrapper.AxialRecorder().scales()
-    confinement.rampSteps = math.ceil(_RAMP_CROSSINGS * scales["crossing_steps"])
-    built.run(confinement.rampSteps)
-    _settle(built, math.ceil(scales["crossing_steps"]))
-    confinement.sides = [1, 3]
-    built.solver.clearPressure(2)  # held from now on; the reaction takes over
-    built.remove_engines(platens)
-    return _run_axial("biaxial", built, settings, progress, fromNow=True)
+
+    def prepare() -> None:
+        scales = wrapper.AxialRecorder().scales()
+        ramp = math.ceil(_RAMP_CROSSINGS * scales["crossing_steps"])
+        confinement = wrapper.ConfinementEngine(
+            pressure=settings.confinement, sides=[1, 2, 3], rampSteps=ramp
+        )
+        built.add_engines(before=(confinement, wrapper.PlatenEngine(holdTop=False)))
+
+    course.stage(prepare, lambda: _settle(built, course))
+
+    def hold() -> None:
+        built.engine("ConfinementEngine").sides = [1, 3]
+        built.solver.clearPressure(2)  # held from now on; the reaction takes over
+        built.remove_engines(built.engine("PlatenEngine"))
+
+    return _run_axial("biaxial", built, settings, course, hold, fromNow=True)
 
 
 TESTS: dict[str, Callable[..., Result]] = {
@@ -192,25 +225,50 @@ def tests_of(model: str) -> dict[str, Callable[..., Result]]:
 
 
 def _run_axial(
-    test: str, built: Model, settings: Settings, progress: Progress | None, **options: Any
+    test: str,
+    built: Model,
+    settings: Settings,
+    course: Course,
+    before: Callable[[], None] = bool,
+    **options: Any,
 ) -> Result:
     """Drive the top of a built specimen until the test is over."""
     tension = test == "tension"
-    recorder = wrapper.AxialRecorder(tension=tension, **options)
-    built.add_engines(after=(recorder,))
-    plan = schedule(recorder.scales(), test, settings)
-    recorder.maxStrain = plan.max_strain
-    recorder.leastPeak = settings.confinement + _LEAST_PEAK * recorder.scales()["strength"]
-    sign = 1.0 if tension else -1.0
-    built.add_engines(before=(wrapper.PlatenEngine(velocity=sign * plan.velocity),))
-    diverged, step_time = _drive(plan, recorder, progress)
-    return _result(test, built, recorder, diverged, step_time)
+
+    def prepare() -> None:
+        before()
+        recorder = wrapper.AxialRecorder(tension=tension, **options)
+        built.add_engines(after=(recorder,))
+        scales = recorder.scales()
+        plan = schedule(scales, test, settings)
+        recorder.maxStrain = plan.max_strain
+        recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
+        velocity = plan.velocity if tension else -plan.velocity
+        built.add_engines(before=(wrapper.PlatenEngine(velocity=velocity),))
+
+    diverged = False
+
+    def advance() -> None:
+        nonlocal diverged
+        recorder = built.engine("AxialRecorder")
+        diverged = _drive(schedule(recorder.scales(), test, settings), recorder, course)
+
+    course.stage(prepare, advance)
+    if not diverged:
+        course.finish()
+    return _result(test, built, diverged, course.step_time)
 
 
-def _settle(built: Model, steps: int) -> None:
-    """Run until the forces balance, looking every `steps`."""
-    for _ in range(_LONGEST_REST):
-        built.run(steps)
+def _settle(built: Model, course: Course) -> None:
+    """Raise the pressure and run until the forces balance, looking now and then."""
+    ramp = built.engine("ConfinementEngine").rampSteps
+    steps = math.ceil(ramp / _RAMP_CROSSINGS)
+    expected = course.stage_start + ramp + 10 * steps
+    for look in range(1, _LONGEST_REST + 1):
+        end = course.stage_start + ramp + look * steps
+        if end < yade.O.iter:
+            continue  # a resumed run has looked then
+        course.run_to(end, expected=expected, text=lambda: "isotropic pressure")
         if built.solver.unbalanced() < _AT_REST:
             return
     raise SimulationError(
@@ -250,54 +308,26 @@ def write_files(folder: Path, result: Result, snapshot: dict[str, np.ndarray]) -
     plot.crack_picture(folder / "cracks.png", snapshot)
 
 
-def _drive(plan: Schedule, recorder: Any, progress: Progress | None) -> tuple[bool, float | None]:
-    """Run until the recorder stops the simulation.
-
-    Returns:
-        Whether it met a number that is not finite, and the median wall time of a step [s].
-    """
-    omega = yade.O
+def _drive(plan: Schedule, recorder: Any, course: Course) -> bool:
+    """Run until the recorder stops the simulation; tell whether a number was not finite."""
     # most tests end well before the largest strain; the bar grows if one does not
-    expected = min(
-        plan.steps, math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
-    )
-    samples: list[tuple[float, int]] = [(time.perf_counter(), omega.iter)]
-    omega.run(plan.steps)
+    likely = math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
     try:
-        while omega.running:
-            time.sleep(_POLL)
-            samples.append((time.perf_counter(), omega.iter))
-            if progress is not None:
-                progress(omega.iter, max(expected, 1.05 * omega.iter), _status(recorder))
-        omega.wait()
+        course.run_to(
+            course.stage_start + plan.steps,
+            expected=course.stage_start + min(plan.steps, likely),
+            text=lambda: f"peak {recorder.peak * 1e-6:5.1f} MPa",
+            over=lambda: recorder.state != 0,
+        )
     except RuntimeError as error:
         if "not a finite number" not in str(error):
             raise
-        return True, _step_time(samples)
-    except BaseException:
-        omega.pause()
-        raise
-    return False, _step_time(samples)
+        return True
+    return False
 
 
-def _status(recorder: Any) -> str:
-    return f"peak {recorder.peak * 1e-6:5.1f} MPa"
-
-
-def _step_time(samples: list[tuple[float, int]]) -> float | None:
-    """Median wall time of a step [s] over the looks at the simulation."""
-    spans = [
-        (later[0] - earlier[0]) / (later[1] - earlier[1])
-        for earlier, later in pairwise(samples)
-        if later[1] > earlier[1]
-    ]
-    return median(spans) if spans else None
-
-
-def _result(
-    test: str, built: Model, recorder: Any, diverged: bool, step_time: float | None
-) -> Result:
-    counts = built.solver.counts()
+def _result(test: str, built: Model, diverged: bool, step_time: float | None) -> Result:
+    counts, recorder = built.solver.counts(), built.engine("AxialRecorder")
     result = Result(
         flexpm=__version__,
         yade=yade.config.version,

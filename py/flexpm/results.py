@@ -68,6 +68,7 @@ class Result:
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
+    resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
 
     @property
     def failed(self) -> bool:
@@ -120,7 +121,7 @@ class Result:
 
     def as_dict(self) -> dict[str, Any]:
         """The content of result.json; numbers that are not finite become None."""
-        hidden = ("curve", "cracks")
+        hidden = ("curve", "cracks", "resumed_at")
         return {
             name: _plain(getattr(self, name))
             for name in self.__dataclass_fields__
