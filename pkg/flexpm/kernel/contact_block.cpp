@@ -109,6 +109,7 @@ template <int Points>
 __attribute__((always_inline)) inline void spread_forces(
     const Rows& b, const double* normal, const double* shear)
 {
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
         double moment = 0.0, sum_x = 0.0, sum_y = 0.0, a1x = 0.0, a1y = 0.0, b1x = 0.0, b1y = 0.0;
