@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/simd.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace flexpm {
@@ -220,12 +221,18 @@ FLEXPM_MULTIVERSION int update_3(const Rows& b, double dt, std::uint8_t* cracked
 /// Parameters of the block's contacts, one law or several, as rows.
 void fill_law(const Assembly& a, int block, double* rows)
 {
-    for (int l = 0; l < lanes; ++l) {
-        const int contact = std::min(block * lanes + l, a.contacts - 1);
-        const double* law = &a.laws[a.contact_law[contact]].normal_stiffness;
+    const int first = block * lanes, last = std::min(first + lanes, a.contacts) - 1;
+    const int* kinds = a.contact_law.data();
+    const bool one = std::all_of(
+        kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
+    for (int l = 0; l < (one ? 1 : lanes); ++l) {
+        const double* law = &a.laws[kinds[std::min(first + l, last)]].normal_stiffness;
         for (int r = 0; r < law_rows; ++r)
             rows[r * lanes + l] = law[r];
     }
+    if (!one) return;
+    for (int r = 0; r < law_rows; ++r)
+        std::fill_n(rows + r * lanes + 1, lanes - 1, rows[r * lanes]);
 }
 
 /// Where a point is now: the middle of its places on the two edges.
