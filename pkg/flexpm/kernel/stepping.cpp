@@ -59,33 +59,58 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
     }
 }
 
-template <bool Measure>
+bool holds_any(const Rows& b)
+{
+    std::uint8_t any = 0;
+    for (int i = 0; i < 2 * lanes * b.nodes; ++i)
+        any |= b.held[i];
+    return any != 0;
+}
+
+/// Few blocks lie on a boundary: all others are integrated without looking at `held`. Bytes and
+/// doubles in one loop are not vectorised, hence the copy; the sums are a local, which no row aliases.
+template <bool Measure, bool Held>
 __attribute__((always_inline)) inline void integrate_lanes(
+    const Rows& b, double dt, double damping, StepSums& total)
+{
+    StepSums sums;
+    for (int n = 0; n < b.nodes; ++n) {
+        const double* f = b.force + 2 * n * lanes;
+        double* v = b.velocity + 2 * n * lanes;
+        const double* inverse_mass = b.inverse_mass + n * lanes;
+        alignas(64) double held[2 * lanes] = {};
+        if (Held) std::copy_n(b.held + 2 * n * lanes, 2 * lanes, held);
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            const int y = lanes + l;
+            integrate_one<Measure>(
+                f[l], Held ? held[l] : 0.0, inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
+            integrate_one<Measure>(
+                f[y], Held ? held[y] : 0.0, inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
+        }
+    }
+    total = sums;
+}
+
+template <bool Measure>
+__attribute__((always_inline)) inline void integrate_block(
     const Rows& b, double dt, double damping, StepSums& sums)
 {
-    for (int n = 0; n < b.nodes; ++n) {
-        for (int c = 0; c < 2; ++c) {
-            const double* f = b.force + (2 * n + c) * lanes;
-            double* v = b.velocity + (2 * n + c) * lanes;
-            const std::uint8_t* held = b.held + (2 * n + c) * lanes;
-            const double* inverse_mass = b.inverse_mass + n * lanes;
-#pragma GCC ivdep
-            for (int l = 0; l < lanes; ++l) {
-                integrate_one<Measure>(
-                    f[l], held[l], inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
-            }
-        }
+    if (holds_any(b)) {
+        integrate_lanes<Measure, true>(b, dt, damping, sums);
+    } else {
+        integrate_lanes<Measure, false>(b, dt, damping, sums);
     }
 }
 
 FLEXPM_MULTIVERSION void integrate(const Rows& b, double dt, double damping, StepSums& sums)
 {
-    integrate_lanes<false>(b, dt, damping, sums);
+    integrate_block<false>(b, dt, damping, sums);
 }
 FLEXPM_MULTIVERSION void integrate_measured(
     const Rows& b, double dt, double damping, StepSums& sums)
 {
-    integrate_lanes<true>(b, dt, damping, sums);
+    integrate_block<true>(b, dt, damping, sums);
 }
 
 /// Forces of contacts and boundary pressure, in the fixed order of the gather list. The force array
