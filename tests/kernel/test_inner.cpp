@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Inner particles: equal areas, and a conforming tessellation across the edges of grains.
+#include <flexpm/kernel/edge_collapse.hpp>
+#include <flexpm/kernel/inner_cells.hpp>
+
+#include <catch2/catch.hpp>
+
+#include "specimens.hpp"
+
+#include <map>
+
+using flexpm::Point;
+
+namespace {
+
+double length_of(const flexpm::Tessellation& t, int v0, int v1)
+{
+    return std::hypot(t.vertices[v1].x - t.vertices[v0].x, t.vertices[v1].y - t.vertices[v0].y);
+}
+
+/// True if the cell has the edge from v0 to v1 in its counter-clockwise sense.
+bool has_edge(const flexpm::Tessellation& t, int cell, int v0, int v1)
+{
+    const int first = t.cell_offsets[cell], n = t.vertices_of(cell);
+    for (int k = 0; k < n; ++k) {
+        if (t.cell_vertices[first + k] == v0 && t.cell_vertices[first + (k + 1) % n] == v1) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("power cells of relaxed seeds share a polygon evenly", "[inner]")
+{
+    const auto cells = specimens::random_grains(12e-3, 18e-3, 3e-3, GENERATE(1, 2)).cells;
+    for (int c = 0; c < cells.cells(); ++c) {
+        const auto polygon = flexpm::cell_polygon(cells, c);
+        const auto packing = flexpm::relax_seeds(polygon, 26);
+        REQUIRE(packing.cells.size() == 26);
+        const double mean = flexpm::cell_area(cells, c) / 26;
+        double total = 0.0;
+        for (const auto& cell : packing.cells) {
+            std::vector<Point> corners;
+            for (const auto& k : cell) corners.push_back(k.point);
+            const double area = flexpm::polygon_shape(corners).area;
+            CHECK(area == Approx(mean).epsilon(0.02));
+            total += area;
+        }
+        CHECK(total == Approx(26 * mean).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("inner cells tile the specimen and meet edge to edge", "[inner]")
+{
+    const auto s = specimens::random_grains(15e-3, 24e-3, 3e-3, GENERATE(1, 2, 3));
+    const double count = GENERATE(1.0, 7.0, 26.0);
+    const auto inner = flexpm::make_inner_cells(s.cells, count);
+    const auto& t = inner.cells;
+    CHECK(t.cells() == Approx(count * s.cells.cells()).epsilon(0.03));
+    double area = 0.0;
+    for (int c = 0; c < t.cells(); ++c) {
+        CHECK(t.vertices_of(c) >= 3);
+        CHECK(flexpm::cell_area(t, c) > 0.0);
+        area += flexpm::cell_area(t, c);
+        const double seat = 3.14159265358979 * inner.discs[c].radius * inner.discs[c].radius;
+        CHECK(seat == Approx(flexpm::cell_area(t, c)).epsilon(0.15));  // before corners were merged
+    }
+    CHECK(area == Approx(15e-3 * 24e-3).epsilon(1e-9));
+
+    const int edges = static_cast<int>(t.shared_edges.size() + t.boundary_edges.size());
+    CHECK(static_cast<int>(t.vertices.size()) - edges + t.cells() == 1);  // Euler
+    int sides = 0;
+    for (int c = 0; c < t.cells(); ++c) sides += t.vertices_of(c);
+    CHECK(sides == static_cast<int>(2 * t.shared_edges.size() + t.boundary_edges.size()));
+    for (const auto& e : t.shared_edges) {
+        CHECK(e.cell_a < e.cell_b);
+        CHECK(has_edge(t, e.cell_a, e.vertex_0, e.vertex_1));
+        CHECK(has_edge(t, e.cell_b, e.vertex_1, e.vertex_0));
+    }
+    for (const auto& e : t.boundary_edges) CHECK(has_edge(t, e.cell, e.vertex_0, e.vertex_1));
+}
+
+TEST_CASE("stretches along a grain's edge add up to it", "[inner]")
+{
+    const auto s = specimens::random_grains(15e-3, 24e-3, 3e-3, 4);
+    const auto inner = flexpm::make_inner_cells(s.cells);
+    std::map<std::pair<int, int>, double> lengths;
+    for (std::size_t i = 0; i < inner.outer.size(); ++i) {
+        const auto& e = inner.cells.shared_edges[i];
+        const int a = inner.grain[e.cell_a], b = inner.grain[e.cell_b];
+        CHECK(inner.outer[i] == (a != b));
+        if (a != b) lengths[std::minmax(a, b)] += length_of(inner.cells, e.vertex_0, e.vertex_1);
+    }
+    for (const auto& e : s.cells.shared_edges) {
+        const double length = length_of(s.cells, e.vertex_0, e.vertex_1);
+        CHECK(lengths[std::minmax(e.cell_a, e.cell_b)] == Approx(length).epsilon(1e-9));
+    }
+    CHECK(lengths.size() == s.cells.shared_edges.size());
+}
+
+TEST_CASE("inner cells do not depend on anything but the grains", "[inner]")
+{
+    const auto s = specimens::random_grains(9e-3, 9e-3, 3e-3, 4);
+    const auto one = flexpm::make_inner_cells(s.cells), two = flexpm::make_inner_cells(s.cells);
+    REQUIRE(one.discs.size() == two.discs.size());
+    for (std::size_t i = 0; i < one.discs.size(); ++i) {
+        CHECK(one.discs[i].centre.x == two.discs[i].centre.x);
+        CHECK(one.discs[i].radius == two.discs[i].radius);
+    }
+    CHECK_THROWS_WITH(flexpm::make_inner_cells(s.cells, 0.0), Catch::Contains("between 1 and 1000"));
+}
