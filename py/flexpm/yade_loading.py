@@ -129,14 +129,17 @@ class Pressure:
         return state.pos[0], state.pos[1], math.copysign(1.0, axis[2]) * angle
 
 
-def hold_sideways(built: SphereModel) -> None:
-    """Keep the middle sphere of the lower end in its place sideways; else nothing does."""
-    specimen = built.specimen
-    grains = list(tributary_lengths(specimen, BOTTOM))
-    x = specimen.centres[grains, 0]
-    middle = built.ids[grains[int(np.argmin(np.abs(x - specimen.centres[:, 0].mean())))]]
-    state = yade.O.bodies[middle].state
+def hold_sideways(built: SphereModel, grain: int) -> None:
+    """Keep the place of a grain sideways."""
+    state = yade.O.bodies[built.ids[grain]].state
     state.blockedDOFs = "x" + str(state.blockedDOFs)
+
+
+def middle_of_bottom(built: SphereModel) -> int:
+    """The grain of a rectangle's lower end that is nearest to its middle."""
+    grains = list(tributary_lengths(built.specimen, BOTTOM))
+    away = np.abs(built.specimen.centres[grains, 0] - built.specimen.centres[:, 0].mean())
+    return grains[int(np.argmin(away))]
 
 
 def start_evenly(built: SphereModel, velocity: float, low: float, height: float) -> None:

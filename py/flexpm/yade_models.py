@@ -236,12 +236,17 @@ def _set_masses(
 def _engines(specimen: Specimen, model: str, damping: float, threads: int) -> tuple[Any, list[Any]]:
     if model == "jcfpm":
         law = wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()
-        geometries = [wrapper.Ig2_Sphere_Sphere_ScGeom(), wrapper.Ig2_Box_Sphere_ScGeom()]
+        spheres = wrapper.Ig2_Sphere_Sphere_ScGeom()
+        geometries = [spheres, wrapper.Ig2_Box_Sphere_ScGeom()]
         physics = wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys()
     else:
         law = wrapper.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()
-        geometries = [wrapper.Ig2_Sphere_Sphere_ScGeom6D(), wrapper.Ig2_Box_Sphere_ScGeom6D()]
+        spheres = wrapper.Ig2_Sphere_Sphere_ScGeom6D()
+        geometries = [spheres, wrapper.Ig2_Box_Sphere_ScGeom6D()]
         physics = wrapper.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()
+    # shear displacements then have the levers that the moments have; else YADE scales them by the
+    # sum of the radii over the distance, and the bond's shear stiffness with them
+    spheres.avoidGranularRatcheting = False
     bounds = [wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_Box_Aabb()]
     loop = wrapper.InteractionLoop(geometries, [physics], [law])
     newton = wrapper.NewtonIntegrator(damping=damping)

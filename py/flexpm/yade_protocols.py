@@ -17,6 +17,7 @@ import numpy as np
 import yade
 
 from . import __version__
+from .curve import ELASTIC_WINDOW, Curve, differential_stress
 from .errors import InputError
 from .protocols import DEFAULT_STRAINS, Progress, Schedule, Settings
 from .results import Result
@@ -30,17 +31,22 @@ from .yade_loading import (
     Plates,
     Pressure,
     hold_sideways,
+    middle_of_bottom,
     start_evenly,
 )
 from .yade_models import SphereModel
 from .yade_record import Ending, Gauge, Recorder, Sample
 
 #: Growth of the mean strain over the reference strain while a wave crosses the specimen once [-].
-RATE_CONSTANT = {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02}
+#: Fixed by halving the rate.
+RATE_CONSTANT = {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.01}
+#: A bond that breaks at once leaves its whole force unbalanced, however slow the test is. A test
+#: is quasi-static if the median of the unbalanced-force ratio up to the peak is below this [-].
+QUASISTATIC_MEDIAN = 0.02
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
 #: Rows of the record up to the reference strain.
-_ROWS = 100
+_ROWS = 200
 #: The isotropic stress is reached in this many crossings of a wave, and then held until at rest.
 _RAMP_CROSSINGS = 20
 _REST = 1e-3  #: at rest: largest resultant over mean contact force [-]
@@ -72,7 +78,7 @@ def run_tension(built: SphereModel, settings: Settings, progress: Progress | Non
     settings.refuse_confinement("tension")
     plan = _schedule(built, "tension", settings)
     grips = Grips(built)
-    hold_sideways(built)
+    hold_sideways(built, middle_of_bottom(built))
     start_evenly(built, plan.velocity, 0.0, plan.height)
     grips.move(plan.velocity)
     gauge, area = Gauge(built), _area(built)
@@ -92,7 +98,7 @@ def run_biaxial(built: SphereModel, settings: Settings, progress: Progress | Non
     confinement = settings.confinement
     _require_kind(built, "biaxial", "rectangle")
     plan = _schedule(built, "biaxial", settings)
-    hold_sideways(built)
+    hold_sideways(built, middle_of_bottom(built))
     sides = Pressure(built, (LEFT, RIGHT))
     if confinement > 0.0:
         _press_evenly(built, confinement, plan, progress)
@@ -118,8 +124,11 @@ def run_brazilian(built: SphereModel, settings: Settings, progress: Progress | N
     settings.refuse_confinement("brazilian")
     plan = _schedule(built, "brazilian", settings)
     reach = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
-    heights = built.specimen.centres[:, 1]
-    plates = Plates(built, float(np.min(heights - reach)), float(np.max(heights + reach)))
+    lowest, highest = built.specimen.centres[:, 1] - reach, built.specimen.centres[:, 1] + reach
+    plates = Plates(built, float(lowest.min()), float(highest.max()))
+    # a disc that stands on one sphere would roll
+    hold_sideways(built, int(np.argmin(lowest)))
+    hold_sideways(built, int(np.argmax(highest)))
     plates.move(-plan.velocity)
     area = 0.5 * math.pi * plan.height * built.specimen.thickness
 
@@ -157,7 +166,7 @@ def _squeeze(built: SphereModel, pressure: float = 0.0) -> Plates:
         for plate in (plates.bottom, plates.top):
             built.press(plate, pressure)
     else:
-        hold_sideways(built)
+        hold_sideways(built, middle_of_bottom(built))
     return plates
 
 
@@ -259,7 +268,17 @@ def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float)
     result.curve = recorder.curve
     result.cracks = built.cracks.cracks(recorder.curve)
     result.measure(diverged=recorder.diverged)
+    if result.status == "not_quasistatic" and _is_calm(recorder.curve):
+        result.status = "ok"
     return result
+
+
+def _is_calm(record: Curve) -> bool:
+    """Whether forces balance on the way to the peak but for the moments of breakage."""
+    stress = differential_stress(record)
+    peak = int(np.argmax(stress))
+    start = int(np.argmax(stress >= ELASTIC_WINDOW[0] * stress[peak]))
+    return float(np.median(record["unbalanced_ratio"][start : peak + 1])) <= QUASISTATIC_MEDIAN
 
 
 def _require_kind(built: SphereModel, test: str, kind: str) -> None:

@@ -108,7 +108,7 @@ class Recorder:
     over: bool = False
     diverged: bool = False
     work: float = 0.0
-    _last: Sample | None = None
+    _last: Sample = field(default_factory=lambda: Sample(0.0, 0.0, 0.0))
 
     def record(self) -> None:
         """Add a row for the present state."""
@@ -117,9 +117,8 @@ class Recorder:
             self.diverged = self.over = True
             return
         self.built.cracks.look()
-        if self._last is not None:
-            mean = 0.5 * (now.stress + self._last.stress)
-            self.work += mean * self.area * (now.travel - self._last.travel)
+        mean = 0.5 * (now.stress + self._last.stress)
+        self.work += mean * self.area * (now.travel - self._last.travel)
         self._last = now
         tensile, shear = self.built.cracks.counts
         self.curve.append(

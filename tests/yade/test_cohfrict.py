@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE's CohFrict on flexpm's discs and bonds: the mapping of one bond, and the tests."""
+
+import bonded_pair
+import numpy as np
+import pytest
+
+from flexpm import models, protocols, yade_bonds, yade_protocols
+from flexpm.bench import yade
+from flexpm.specimen import Specimen
+
+MODEL = "cohfrict"
+GAP, TOUCH, OVERLAP = 0.9, 1.0, 1.05  # overlapping discs are shrunk until they touch
+
+
+@pytest.fixture(scope="module")
+def rectangle():
+    return Specimen.rectangle(0.02, 0.04, 0.01, seed=2)
+
+
+@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
+def test_a_bond_has_the_stiffness_of_its_edge(radius_share):
+    assert bonded_pair.stiffnesses(MODEL, radius_share) == pytest.approx(1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
+def test_a_bond_resists_bending_as_its_edge_does(radius_share):
+    assert bonded_pair.bending(radius_share) == pytest.approx(1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
+def test_a_bond_breaks_at_the_tensile_strength_of_its_edge(radius_share):
+    largest, promised, rest = bonded_pair.pull_until_broken(MODEL, radius_share)
+    assert (1.0 - 2e-3) * promised < largest <= (1.0 + 1e-9) * promised  # one step is 1.5e-3
+    assert rest == 0.0
+
+
+@pytest.mark.parametrize("pressure", [0.0, 20e6, 80e6])
+def test_a_bond_breaks_at_cohesion_and_friction_of_its_edge(pressure):
+    largest, promised, rest, friction = bonded_pair.shear_until_broken(MODEL, pressure)
+    assert largest == pytest.approx(promised, rel=2e-3)
+    assert rest == pytest.approx(friction, rel=1e-3, abs=1e-6 * promised)
+
+
+@pytest.mark.parametrize("radius_share", [TOUCH, OVERLAP])
+def test_a_torn_pair_is_not_flung_apart(radius_share):
+    largest, bound = bonded_pair.close_again(MODEL, radius_share)
+    assert largest <= bound
+
+
+def test_discs_are_shrunk_until_none_overlap(rectangle):
+    radii = yade_bonds.separate_radii(rectangle)
+    apart = np.linalg.norm(rectangle.centres[:, None] - rectangle.centres[None], axis=2)
+    np.fill_diagonal(apart, np.inf)
+    assert np.all(radii[:, None] + radii[None] <= apart * (1.0 + 1e-12))
+    assert np.all(radii <= rectangle.radii)
+    assert np.all(radii > 0.8 * rectangle.radii)
+    room = np.minimum(rectangle.centres, [0.02, 0.04] - rectangle.centres).min(axis=1)
+    assert np.all(radii <= room)
+
+
+def test_masses_keep_an_undamped_assembly_calm(rectangle):
+    models.build(rectangle, None, MODEL, damping=0.0)
+    rng = np.random.default_rng(1)
+    for body in yade.O.bodies:
+        body.state.vel = (*rng.normal(size=2) * 1e-14, 0.0)
+    start = yade.utils.kineticEnergy()
+    for _ in range(3000):
+        yade.O.step()
+    assert yade.utils.kineticEnergy() < 2.0 * start
+
+
+def test_unbroken_bonds_keep_the_balance_of_energy(rectangle):
+    result = protocols.run("tension", rectangle, model=MODEL)
+    assert bonded_pair.balance_before_cracks(result.curve) == pytest.approx(1.0, abs=0.01)
+    assert result.tensile_cracks == sum(crack.mode == 1 for crack in result.cracks) > 0
+    assert 0.0 < result.peak_stress < result.material["tensile_strength"]
+    assert result.status == "ok"
+
+
+def test_a_fast_test_says_that_it_is_not_quasistatic(rectangle):
+    result = protocols.run("uniaxial", rectangle, model=MODEL, rate=40.0)
+    assert result.status == "not_quasistatic"
+
+
+def test_grains_carry_the_stresses_of_the_specimen(rectangle):
+    built = models.build(rectangle, None, MODEL)
+    settings = protocols.Settings(confinement=4e6, rate=4.0, max_strain=5e-4)
+    record = yade_protocols.run_biaxial(built, settings, None).curve
+    state = built.snapshot()
+    first = np.unique(state["triangle_grain"], return_index=True)[1]
+    stress, areas = state["triangle_stress"][first], np.array(rectangle.tessellation.cell_areas)
+    # grains on the rim lack the forces of plates and pressure
+    x, y = rectangle.centres.T
+    inner = (np.abs(x - 0.01) < 0.006) & (np.abs(y - 0.02) < 0.015)
+    mean = np.average(stress[inner], axis=0, weights=areas[inner])
+    assert mean[0] == pytest.approx(-4e6, rel=0.1)
+    assert mean[1] == pytest.approx(-record["axial_stress"][-1], rel=0.05)
+    assert abs(mean[2]) < 0.05 * abs(mean[1])
+    moved = state["positions"] - state["reference"]
+    top, bottom = (state["reference"][:, 1] > 0.03), (state["reference"][:, 1] < 0.01)
+    assert moved[top, 1].mean() < moved[bottom, 1].mean()

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE's JCFpm on flexpm's discs and bonds: the mapping of one bond, and the tests."""
+
+import json
+
+import bonded_pair
+import numpy as np
+import pytest
+
+from flexpm import cli, models, protocols
+from flexpm.bench import yade
+from flexpm.curve import peak_row
+from flexpm.errors import InputError
+from flexpm.specimen import Specimen
+
+MODEL = "jcfpm"
+GAP, TOUCH, OVERLAP = 0.9, 1.0, 1.05
+
+
+@pytest.fixture(scope="module")
+def rectangle():
+    return Specimen.rectangle(0.02, 0.04, 0.01, seed=2)
+
+
+@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
+def test_a_bond_has_the_stiffness_of_its_edge(radius_share):
+    assert bonded_pair.stiffnesses(MODEL, radius_share) == pytest.approx(1.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
+def test_a_bond_breaks_at_the_tensile_strength_of_its_edge(radius_share):
+    largest, promised, rest = bonded_pair.pull_until_broken(MODEL, radius_share)
+    assert (1.0 - 2e-3) * promised < largest <= (1.0 + 1e-9) * promised  # one step is 1.5e-3
+    assert rest == 0.0
+
+
+@pytest.mark.parametrize("pressure", [0.0, 20e6, 80e6])
+def test_a_bond_breaks_at_cohesion_and_friction_of_its_edge(pressure):
+    largest, promised, rest, friction = bonded_pair.shear_until_broken(MODEL, pressure)
+    assert largest == pytest.approx(promised, rel=2e-3)
+    assert rest == pytest.approx(friction, rel=1e-3, abs=1e-6 * promised)
+
+
+@pytest.mark.parametrize("radius_share", [TOUCH, OVERLAP])
+def test_a_torn_pair_is_not_flung_apart(radius_share):
+    largest, bound = bonded_pair.close_again(MODEL, radius_share)
+    # a contact that is found anew is as stiff as the mean bond, twice the disc's own radius over it
+    assert largest <= 2.0 * bound
+
+
+def test_bonds_are_those_of_the_cells_and_nothing_else_pulls(rectangle):
+    built = models.build(rectangle, None, MODEL)
+    yade.O.step()
+    pairs = {(i.id1, i.id2) for i in yade.O.interactions if i.phys.isCohesive}
+    assert pairs == {(int(a), int(b)) for a, b, *_ in rectangle.tessellation.shared_edges}
+    strengths = [bond.FnMax for bond in built.cracks.contacts]
+    law = built.material.law(MODEL)
+    assert np.array(strengths) == pytest.approx(law["tensile_strength"] * built.bonds.areas)
+    assert max(np.linalg.norm(yade.O.forces.f(k)) for k in built.ids) == 0.0
+
+
+def test_unbroken_bonds_keep_the_balance_of_energy(rectangle):
+    result = protocols.run("uniaxial", rectangle, model=MODEL, rate=4.0)
+    assert bonded_pair.balance_before_cracks(result.curve) == pytest.approx(1.0, abs=0.02)
+    assert result.youngs_modulus == pytest.approx(25e9, rel=0.1)  # Table 1's rigid set is for 25.8
+
+
+def test_the_record_agrees_with_the_law_and_the_cracks(rectangle):
+    result = protocols.run("tension", rectangle, model=MODEL)
+    law = yade.O.engines[2].lawDispatcher.functors[0]
+    assert (result.tensile_cracks, result.shear_cracks) == (law.nbTensCracks, law.nbShearCracks)
+    modes = [crack.mode for crack in result.cracks]
+    assert (modes.count(1), modes.count(2)) == (result.tensile_cracks, result.shear_cracks)
+    assert result.energy_error is None
+    broken = [crack.contact for crack in result.cracks]
+    assert len(set(broken)) == len(broken)
+    # a tension test cannot carry more than its bonds do
+    assert 0.0 < result.peak_stress < result.material["tensile_strength"]
+
+
+def test_the_pressure_stays_until_the_peak(rectangle):
+    pressure = 4e6
+    result = protocols.run("biaxial", rectangle, model=MODEL, confinement=pressure, rate=4.0)
+    record = result.curve
+    peak = peak_row(record)
+    assert record["confinement"][: peak + 1] == pytest.approx(pressure, rel=0.01)
+    line = np.polyfit(record["axial_strain"][1:10], record["axial_stress"][1:10], 1)
+    assert line[1] == pytest.approx(pressure, rel=0.03)  # where the axial stage started
+    alone = protocols.run("uniaxial", rectangle, model=MODEL, rate=4.0)
+    assert result.peak_stress > alone.peak_stress + pressure
+
+
+def test_a_disc_splits_along_its_loaded_diameter():
+    disc = Specimen.disc(0.03, 0.01, seed=2)
+    result = protocols.run("brazilian", disc, model=MODEL, rate=2.0)
+    places = np.array([(crack.x, crack.y) for crack in result.cracks])
+    spread = places.std(axis=0)
+    assert spread[1] > 1.4 * spread[0]  # 1 if cracks were everywhere
+    assert result.youngs_modulus is None
+
+
+def test_the_same_run_gives_the_same_bits(rectangle):
+    runs = [protocols.run("tension", rectangle, model=MODEL).curve.array for _ in range(2)]
+    assert np.array_equal(*runs, equal_nan=True)
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [({"points": 1}, "points"), ({"mesh": "fan"}, "mesh"), ({"damping": 1.0}, "damping")],
+)
+def test_what_the_model_does_not_have_is_refused(rectangle, options, word):
+    with pytest.raises(InputError, match=word):
+        models.build(rectangle, None, MODEL, **options)
+
+
+def test_tests_refuse_the_wrong_shape(rectangle):
+    with pytest.raises(InputError, match="disc"):
+        protocols.run("brazilian", rectangle, model=MODEL)
+    with pytest.raises(InputError, match="confinement"):
+        protocols.run("uniaxial", rectangle, model=MODEL, confinement=1e6)
+
+
+def test_the_command_writes_the_files_of_a_run(tmp_path):
+    options = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01", "--quiet"]
+    assert cli.main(["run", "tension", "--model", MODEL, *options, "--out", str(tmp_path)]) == 0
+    result = json.loads((tmp_path / "result.json").read_text())
+    assert result["model"] == MODEL
+    assert result["nodes"] is None
+    assert result["energy_error"] is None
+    assert result["material"]["name"] == "augig-table2-bilinear"
+    names = {file.name for file in tmp_path.iterdir()}
+    assert names >= {"curve.csv", "cracks.csv", "specimen.vtu", "final.vtu", "curve.png"}
