@@ -132,15 +132,16 @@ __attribute__((always_inline)) inline bool advance_elastic(const LawParameters& 
     const double normal = opening * (opening > 0.0 ? slope : p.normal_stiffness);
     const double shear = s.shear_traction + p.shear_stiffness * slip_step;
     const double limit = std::max((1.0 - d) * p.cohesion - p.friction * normal, 0.0);
-    const bool same_secant = law::secant(p, reach, d) == slope;
-    const bool no_opening_damage = (reach - s.max_opening) * law::normal_damage(p, reach) == 0.0;
+    // a new largest opening stays elastic below the strength that is left, hence below u_e
+    const bool same_secant = (reach == s.max_opening)
+        | (p.normal_stiffness * reach <= (1.0 - d) * p.tensile_strength);
     next = s;
     next.opening = opening;
     next.max_opening = reach;
     next.shear_traction = shear;
     next.slip = s.slip + slip_step;
     traction = { normal, shear, d, d };
-    return same_secant & no_opening_damage & (std::fabs(shear) <= limit);
+    return same_secant & (std::fabs(shear) <= limit);
 }
 
 /// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
