@@ -23,21 +23,24 @@ struct StepSums {
 ///
 /// @param force   generalised force without damping; of a rotation the moment
 /// @param length  what makes a force of it for the unbalanced ratio: 1, or an arm [m] of a moment
-template <bool Measure>
+/// @tparam Held   false: `held` is 0, there is no holder's work
+template <bool Measure, bool Held = true>
 __attribute__((always_inline)) inline void integrate_one(double force, double held,
     double inverse_mass, double length, double dt, double damping, double& velocity, StepSums& sums,
     int l)
 {
-    const double old = velocity, free = 1.0 - held;
+    const double old = velocity, free = Held ? 1.0 - held : 1.0;
     const double against = old > 0.0 ? -1.0 : (old < 0.0 ? 1.0 : 0.0);
     const double damp = free * against * damping * std::fabs(force);
     const double next = old + dt * (free * force + damp) * inverse_mass;
-    const double reaction = (free - 1.0) * force;
     velocity = next;
     sums.damped[l] -= 0.5 * dt * damp * old;
     sums.damped_next[l] -= 0.5 * dt * damp * next;
-    sums.driven[l] += 0.5 * dt * reaction * old;
-    sums.driven_next[l] += 0.5 * dt * reaction * next;
+    if (Held) {
+        const double reaction = (free - 1.0) * force;
+        sums.driven[l] += 0.5 * dt * reaction * old;
+        sums.driven_next[l] += 0.5 * dt * reaction * next;
+    }
     if (Measure) {
         const double mass = inverse_mass > 0.0 ? free / inverse_mass : 0.0;
         sums.kinetic[l] += 0.5 * mass * old * next;

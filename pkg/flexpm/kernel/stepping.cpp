@@ -83,10 +83,10 @@ __attribute__((always_inline)) inline void integrate_lanes(
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
             const int y = lanes + l;
-            integrate_one<Measure>(
-                f[l], Held ? held[l] : 0.0, inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
-            integrate_one<Measure>(
-                f[y], Held ? held[y] : 0.0, inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
+            integrate_one<Measure, Held>(
+                f[l], held[l], inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
+            integrate_one<Measure, Held>(
+                f[y], held[y], inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
         }
     }
     total = sums;
