@@ -203,15 +203,17 @@ void step(Assembly& a, const StepOptions& options)
     const int contact_blocks = a.contact_blocks(), blocks = a.blocks();
 #pragma omp parallel num_threads(options.threads) if (options.threads > 1)
     {
-#pragma omp for schedule(static)
+        // contacts and boundary only read the nodes: neither waits for the other
+#pragma omp for schedule(static) nowait
         for (int b = 0; b < contact_blocks; ++b)
             update_contact_block(a, b, options.dt);
 #pragma omp single
-        for (int b = 0; b < a.edge_blocks(); ++b) {
-            a.pressure_work += update_edge_block(a, b, options.dt);
+        {
+            for (int b = 0; b < a.edge_blocks(); ++b) {
+                a.pressure_work += update_edge_block(a, b, options.dt);
+            }
+            update_plates(a, options.dt, options.damping);
         }
-#pragma omp single
-        update_plates(a, options.dt, options.damping);
 #pragma omp for schedule(static)
         for (int b = 0; b < blocks; ++b)
             update_grain_block(a, b, options);
