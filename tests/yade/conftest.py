@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A small specimen, built and pulled, for the tests of what YADE sees of it."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import flexpm
+
+sys.path.insert(0, str(Path(__file__).parent))  # helpers that stand beside the tests
+
+# importing flexpm has told Python where YADE is
+wrapper = importlib.import_module("yade.wrapper")
+
+#: Opening speed of the ends [m/step]: fast, so that contacts break within some thousand steps.
+PULL = 5e-9
+
+
+@pytest.fixture(scope="session")
+def specimen() -> flexpm.Specimen:
+    return flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
+
+
+@pytest.fixture
+def make(specimen: flexpm.Specimen) -> Callable[..., flexpm.Model]:
+    """Build the specimen in an empty scene, its ends driven at `velocity` if that is given."""
+
+    def made(velocity: float | None = None, **options: Any) -> flexpm.Model:
+        wrapper.Omega().reset()
+        model = flexpm.build(specimen, **options)
+        if velocity is not None:
+            model.add_engines(before=(wrapper.PlatenEngine(velocity=velocity),))
+        return model
+
+    return made
+
+
+@pytest.fixture
+def half_broken(make: Callable[..., flexpm.Model]) -> flexpm.Model:
+    """A specimen in tension of which some points are damaged and some contacts broken in part."""
+    model = make(PULL)
+    while sum(model.solver.cracks()) < 3:
+        model.run(100)
+        assert wrapper.Omega().iter < 10000, "no contact broke"
+    damage = model.snapshot()["point_damage"]
+    assert ((damage > 0.0) & (damage < 1.0)).any()
+    cracked = damage == 1.0
+    assert (cracked.any(axis=1) & ~cracked.all(axis=1)).any()
+    return model
+
+
+def solver_of_scene() -> Any:
+    """The solver of the present scene, which loading a file replaces."""
+    return next(e for e in wrapper.Omega().engines if isinstance(e, wrapper.GrainSolver))
+
+
+@pytest.fixture
+def scene_solver() -> Callable[[], Any]:
+    return solver_of_scene
+
+
+@pytest.fixture
+def bits() -> Callable[[], dict[str, bytes]]:
+    """All arrays of the present scene, its energies and the bodies' positions, as bytes."""
+
+    def read() -> dict[str, bytes]:
+        solver = solver_of_scene()
+        omega = wrapper.Omega()
+        found = {name: values.tobytes() for name, values in solver.snapshot().items()}
+        found["energies"] = np.array(list(solver.energies().values())).tobytes()
+        states = [(*b.state.pos, *b.state.vel) for b in omega.bodies if b is not None]
+        found["states"] = np.array(states).tobytes()
+        found["step"] = str(omega.iter).encode()
+        return found
+
+    return read

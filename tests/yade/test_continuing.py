@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Saved and loaded scenes continue to the same bits, also with contacts that are broken in part."""
+
+from __future__ import annotations
+
+import pytest
+from yade import wrapper
+
+STEPS = 300
+O = wrapper.Omega()  # noqa: E741 - its name in YADE
+
+
+@pytest.mark.parametrize("suffix", [".yade.gz", ".yade", ".xml", ".bin"])
+def test_a_loaded_file_continues_to_the_same_bits(half_broken, bits, tmp_path, suffix):
+    file = str(tmp_path / f"scene{suffix}")
+    O.save(file)
+    before = bits()
+    half_broken.run(STEPS)
+    uninterrupted = bits()
+    changed = {name for name in before if before[name] != uninterrupted[name]}
+    assert changed >= {"positions", "velocities", "point_opening", "point_damage", "energies"}
+    O.reset()
+    O.load(file)
+    assert bits() == before
+    O.run(STEPS, True)
+    assert bits() == uninterrupted
+
+
+def test_memory_and_reload_continue_to_the_same_bits(half_broken, bits, tmp_path):
+    O.saveTmp()
+    O.save(str(tmp_path / "scene.bin"))
+    half_broken.run(STEPS)
+    uninterrupted = bits()
+    O.loadTmp()
+    O.run(STEPS, True)
+    assert bits() == uninterrupted
+    O.load(str(tmp_path / "scene.bin"))
+    O.run(50, True)
+    O.reload()
+    O.run(STEPS, True)
+    assert bits() == uninterrupted
+
+
+def test_a_scene_saved_in_the_middle_of_a_ramp_continues(make, bits, tmp_path):
+    model = make()
+    press = wrapper.ConfinementEngine(pressure=5e6, sides=[0, 1, 2, 3], rampSteps=400)
+    platens = wrapper.PlatenEngine(holdTop=False)
+    model.add_engines(before=(press, platens))
+    model.run(150)
+    O.save(str(tmp_path / "scene.yade.gz"))
+    model.run(400)
+    uninterrupted = bits()
+    O.load(str(tmp_path / "scene.yade.gz"))
+    O.run(400, True)
+    assert bits() == uninterrupted
+
+
+def test_erased_grains_and_bonds_stay_dead_after_loading(make, bits, tmp_path, scene_solver):
+    model = make(velocity=1e-9)
+    model.run(10)
+    bond = next(i for i in O.interactions if i.isReal)
+    O.interactions.erase(bond.id1, bond.id2)
+    O.bodies.erase(model.solver.bodyIds[-1])
+    model.run(10)
+    O.save(str(tmp_path / "scene.bin"))
+    model.run(STEPS)
+    uninterrupted = bits()
+    O.load(str(tmp_path / "scene.bin"))
+    O.run(STEPS, True)
+    assert bits() == uninterrupted
+    assert len(scene_solver().bodyIds) == len(model.specimen.discs)
+
+
+def test_the_number_of_threads_does_not_change_a_bit(make, bits):
+    results = []
+    for threads in (1, 2):
+        model = make(velocity=6e-9, threads=threads)
+        model.run(2500)
+        assert sum(model.solver.cracks()) > 0
+        results.append(bits())
+    assert results[0] == results[1]

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs that were killed or interrupted go on from their checkpoint to the same bits."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+import flexpm
+from flexpm.checkpoint import Checkpoint
+
+PYTHON = "/usr/bin/python3"
+SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
+TESTS = {
+    "uniaxial": {"rate": 4.0},
+    "tension": {"rate": 1.0},
+    "biaxial": {"rate": 4.0, "confinement": 5e6},
+}
+SCRIPT = """
+import json, sys, flexpm
+job = json.loads(sys.argv[1])
+specimen = flexpm.Specimen.rectangle(**job["size"])
+flexpm.run(job["test"], specimen, out="out", checkpoint_interval=1e-3, **job["settings"])
+"""
+
+
+@pytest.fixture(scope="module")
+def small() -> flexpm.Specimen:
+    return flexpm.Specimen.rectangle(**SIZE)
+
+
+def start(test: str, folder: Path, package_parent: Path) -> subprocess.Popen[str]:
+    job = json.dumps({"size": SIZE, "test": test, "settings": TESTS[test]})
+    environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
+    command = [PYTHON, "-c", SCRIPT, job]
+    return subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE, text=True)
+
+
+def saved(folder: Path) -> dict:
+    """The checkpoint that is there; its file is whole at any time."""
+    file = folder / "out" / "checkpoint.json"
+    return json.loads(file.read_text()) if file.exists() else {"stage": 0, "scene": ""}
+
+
+def kill_after(process: subprocess.Popen[str], folder: Path, stage: int) -> dict:
+    """Kill the process once it has written a new checkpoint of `stage`."""
+    before = saved(folder)["scene"]
+    while process.poll() is None:
+        found = saved(folder)
+        if found["scene"] != before and found["stage"] >= stage:
+            break
+        time.sleep(0.002)
+    process.kill()
+    assert process.wait() == -signal.SIGKILL, process.stderr.read()
+    process.stderr.close()
+    return saved(folder)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("test", TESTS)
+def test_a_killed_run_ends_with_the_same_bits(small, package_parent, tmp_path, test):
+    # a biaxial test is killed first in its isotropic stage, then in the axial one
+    stages = (1, 2) if test == "biaxial" else (1,)
+    for stage in stages:
+        left = kill_after(start(test, tmp_path, package_parent), tmp_path, stage)
+        assert left["stage"] == stage
+        assert (tmp_path / "out" / left["scene"]).exists()
+        assert not (tmp_path / "out" / "result.json").exists()
+    resumed = flexpm.run(test, small, out=tmp_path / "out", **TESTS[test])
+    assert 0 < resumed.resumed_at < resumed.steps
+    flexpm.run(test, small, out=tmp_path / "whole", **TESTS[test])
+    for name in ("curve.csv", "cracks.csv", "final.vtu"):
+        assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+    names = {file.name for file in (tmp_path / "out").iterdir()}
+    assert len([name for name in names if "checkpoint" in name]) == 2, names
+
+
+@pytest.mark.long
+def test_a_complete_run_is_not_repeated(small, tmp_path):
+    first = flexpm.run("tension", small, rate=4.0, out=tmp_path)
+    assert first.resumed_at is None
+    record = (tmp_path / "curve.csv").read_bytes()
+    (tmp_path / "curve.csv").unlink()
+    again = flexpm.run("tension", small, rate=4.0, threads=2, out=tmp_path)
+    assert again.resumed_at >= again.steps
+    assert (tmp_path / "curve.csv").read_bytes() == record
+    # the time of a step comes from the run that did the steps
+    assert again.as_dict() == first.as_dict()
+    assert again.cracks == first.cracks
+
+
+@pytest.mark.long
+def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
+    flexpm.run("tension", small, rate=4.0, out=tmp_path)
+    others = (
+        ({"rate": 2.0}, "rate = 4.0 there, 2.0 here"),
+        ({"rate": 4.0, "mesh": "fan"}, "mesh = refined there, fan here"),
+        (
+            {"rate": 4.0, "material": "augig-table2-brittle"},
+            "tensile_strength = 8500000.0 there, 13700000.0 here",
+        ),
+    )
+    for settings, message in others:
+        with pytest.raises(flexpm.InputError, match="holds a checkpoint of another run") as caught:
+            flexpm.run("tension", small, out=tmp_path, **settings)
+        assert message in str(caught.value)
+        assert "\n" not in str(caught.value)
+    other = flexpm.Specimen.rectangle(**{**SIZE, "seed": 2})
+    with pytest.raises(flexpm.InputError, match="seed = 1 there, 2 here"):
+        flexpm.run("tension", other, rate=4.0, out=tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupted_command_saves_a_checkpoint(package_parent, tmp_path, number, code):
+    size = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01"]
+    environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
+    command = [PYTHON, "-m", "flexpm", "run", "uniaxial", *size, "--out", "out", "--rate", "0.1"]
+    process = subprocess.Popen(
+        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True
+    )
+    # written before the first step
+    while not (tmp_path / "out" / "specimen.vtu").exists():
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.01)
+    time.sleep(0.7)
+    process.send_signal(number)
+    errors = process.communicate(timeout=30)[1]
+    assert (process.returncode, errors.count("\n")) == (code, 1), errors
+    left = saved(tmp_path)
+    assert left["stage"] == 1
+    assert (tmp_path / "out" / left["scene"]).exists()
+    assert int(left["scene"].removeprefix("checkpoint-").removesuffix(".bin")) > 0
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"scene": "x"}', "null"])
+def test_a_file_that_is_no_checkpoint_is_refused_in_one_line(tmp_path, text):
+    (tmp_path / "checkpoint.json").write_text(text)
+    with pytest.raises(flexpm.InputError, match=r"must be a checkpoint of flexpm") as caught:
+        Checkpoint(tmp_path, {})
+    assert "\n" not in str(caught.value)
+
+
+def test_a_damaged_scene_is_refused_in_one_line(small, tmp_path):
+    flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
+    scene = next(tmp_path.glob("checkpoint-*.bin"))
+    scene.write_bytes(scene.read_bytes()[:1000])
+    with pytest.raises(flexpm.InputError, match=r"cannot be read .* remove") as caught:
+        flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("interval", [0.0, -1.0, float("nan")])
+def test_an_interval_that_is_not_positive_is_refused(tmp_path, interval):
+    with pytest.raises(flexpm.InputError, match="checkpoint_interval"):
+        Checkpoint(tmp_path, {}, interval)

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What bodies and interactions show of the solver's arrays, and what scripts can write there."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from yade import wrapper
+
+O = wrapper.Omega()  # noqa: E741 - its name in YADE
+
+
+def bonds() -> list:
+    return [i for i in O.interactions if i.isReal]
+
+
+def test_grains_are_bodies_and_bonds_are_interactions(make):
+    model = make()
+    counts = model.solver.counts()
+    assert len(O.bodies) == counts["grains"] == len(model.specimen.discs)
+    assert len(bonds()) == counts["contacts"]
+    assert all(isinstance(b.shape, wrapper.LaguerreCell) for b in O.bodies)
+    assert sum(len(b.shape.positions) for b in O.bodies) == counts["nodes"]
+    assert sum(len(b.shape.triangles) for b in O.bodies) == counts["triangles"]
+
+
+def test_bodies_follow_the_centre_nodes(half_broken):
+    for body in O.bodies:
+        cell = body.shape
+        centre = cell.vertices
+        assert tuple(body.state.pos)[:2] == tuple(cell.positions[centre])
+        assert tuple(body.state.vel)[:2] == tuple(cell.velocities[centre])
+        assert body.state.pos[2] == 0.0
+    disc = half_broken.specimen.discs[7, :2]
+    cell = O.bodies[half_broken.solver.bodyIds[7]].shape
+    start = cell.positions[cell.vertices] - cell.displacements[cell.vertices]
+    assert start == pytest.approx(disc, abs=1e-17)
+
+
+def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(make):
+    model = make()
+    cell = O.bodies[3].shape
+    velocities, displacements, forces = cell.velocities, cell.displacements, cell.forces
+    positions = cell.positions
+    start = positions.copy()
+    assert not displacements.any() and not forces.any()
+    velocities[0] = (3e-9, -2e-9)
+    O.step()
+    # the views are the solver's own memory: nothing was read again
+    assert tuple(displacements[0]) == (3e-9, -2e-9)
+    assert positions[0] == pytest.approx(start[0] + (3e-9, -2e-9), rel=1e-15)
+    assert forces[0] @ (3e-9, -2e-9) < 0.0, "the grain resists"
+    snapshot = model.snapshot()
+    first = sum(len(O.bodies[b].shape.positions) for b in range(3))
+    assert (snapshot["forces"][first : first + len(forces)] == forces).all()
+
+
+def test_a_held_node_keeps_the_velocity_that_a_script_gives_it(make):
+    make()
+    cell = O.bodies[3].shape
+    cell.held[0] = 1
+    cell.velocities[0] = (1e-9, 0.0)
+    O.run(25, True)
+    assert cell.displacements[0] == pytest.approx((25e-9, 0.0), rel=1e-12)
+    cell.held[0] = 0
+    O.run(50, True)
+    assert cell.velocities[0, 0] != 1e-9
+
+
+def test_results_cannot_be_written(make):
+    make()
+    cell = O.bodies[0].shape
+    bond = bonds()[0]
+    for view in (cell.positions, cell.forces, bond.phys.opening, bond.phys.cracked):
+        with pytest.raises(ValueError, match="read-only"):
+            view[:] = 1
+
+
+def test_views_keep_their_memory_alive(make):
+    make()
+    velocities = O.bodies[0].shape.velocities
+    velocities[:] = 4.0
+    O.reset()
+    assert (velocities == 4.0).all()
+
+
+def test_bonds_show_their_points(half_broken):
+    snapshot = half_broken.snapshot()
+    law = half_broken.material.law("flexible")
+    for number, bond in enumerate(sorted(bonds(), key=lambda i: (i.id1, i.id2))):
+        phys, geom = bond.phys, bond.geom
+        assert [bond.id1, bond.id2] == list(snapshot["contact_grains"][number])
+        for name in ("opening", "slip", "damage", "traction"):
+            assert (getattr(phys, name) == snapshot[f"point_{name}"][number]).all()
+        assert (phys.cracked == snapshot["crack_mode"][number]).all()
+        assert ((phys.cracked > 0) == (phys.damage >= 1.0)).all()
+        sound = phys.damage == 0.0
+        elastic = law["normal_stiffness"] * phys.opening[sound]
+        assert phys.traction[sound, 0] == pytest.approx(elastic, rel=1e-12, abs=1e-6)
+        a, b = (O.bodies[i].state.pos for i in (bond.id1, bond.id2))
+        assert geom.normal == pytest.approx((b - a).normalized(), abs=1e-5)
+        length = np.linalg.norm(geom.ends[1] - geom.ends[0])
+        thickness = half_broken.specimen.thickness
+        assert phys.area.sum() == pytest.approx(length * thickness, rel=1e-3)
+        assert tuple(geom.contactPoint)[:2] == pytest.approx(geom.ends.mean(axis=0))
+
+
+def test_copies_and_pickles_of_a_shape_are_handles_of_the_same_grain(make):
+    make()
+    shape = O.bodies[5].shape
+    for other in (copy.deepcopy(shape), pickle.loads(pickle.dumps(shape))):
+        assert other.grain == shape.grain
+        other.velocities[0, 0] = shape.velocities[0, 0] + 1.0
+        assert other.velocities[0, 0] == shape.velocities[0, 0]
+    bond = bonds()[0]
+    phys = pickle.loads(pickle.dumps(bond.phys))
+    assert (phys.area == bond.phys.area).all()
+
+
+def test_a_handle_without_its_solver_says_so(make):
+    make()
+    shape, phys = O.bodies[5].shape, bonds()[0].phys
+    O.reset()
+    for read in (lambda: shape.positions, lambda: phys.opening):
+        with pytest.raises(RuntimeError, match=r"GrainSolver.*flexpm\.build"):
+            read()
+    make()
+    with pytest.raises(RuntimeError, match=r"grain = -1, is no grain"):
+        wrapper.LaguerreCell().positions  # noqa: B018
