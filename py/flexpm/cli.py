@@ -57,6 +57,7 @@ def command() -> None:
 @click.argument("test", metavar="TEST")
 @cli_options.model_options
 @cli_options.rectangle_options
+@cli_options.disc_options
 @cli_options.packing_options
 @click.option(
     "--confinement",
@@ -87,18 +88,19 @@ def command() -> None:
 def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     """Run a laboratory test and write its files.
 
-    TEST is uniaxial: compression along the height of a rectangular specimen.
+    TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
+    compression of a disc of the given diameter.
     """
     check_name("test", test, TESTS)
     model = options["model"]
     chosen = _material(options)
     folder = output_folder(out)
     flexpm = _library()
-    _require("test", test, flexpm.protocols.TESTS)
     _require("model", model, flexpm.models.MODELS)
+    _require("test", test, flexpm.protocols.tests_of(model))
     settings = ("confinement", "rate", "max_strain", "dynamic", "threads")
     with console.Progress(quiet) as progress:
-        specimen = _rectangle(options, progress)
+        specimen = (_disc if test == "brazilian" else _rectangle)(options, progress)
         result = flexpm.protocols.run(
             test,
             specimen,
@@ -171,12 +173,8 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = output_folder(out)
-    _load_yade()
-    specimens = importlib.import_module("flexpm.specimen")
     with console.Progress(quiet) as progress:
-        made = specimens.Specimen.disc(
-            diameter=options["diameter"], progress=progress, **_packing(options)
-        )
+        made = _disc(options, progress)
     _describe(made, folder, mesh)
 
 
@@ -291,7 +289,28 @@ def _packing(options: dict[str, Any]) -> dict[str, Any]:
     return {name: options[name] for name in ("thickness", "diameters", "porosity", "seed")}
 
 
+def _refuse_other_shape(shape: str, *names: str) -> None:
+    """Sizes that were given for another shape than the specimen's would be ignored silently."""
+    context = click.get_current_context()
+    for name in names:
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            raise InputError(
+                f"{name} = {context.params.get(name)} m, must not be given for a {shape}; "
+                "leave it out"
+            )
+
+
+def _disc(options: dict[str, Any], progress: console.Progress) -> Specimen:
+    _refuse_other_shape("disc", "width", "height")
+    _load_yade()
+    specimens = importlib.import_module("flexpm.specimen")
+    return specimens.Specimen.disc(
+        diameter=options["diameter"], progress=progress, **_packing(options)
+    )
+
+
 def _rectangle(options: dict[str, Any], progress: console.Progress) -> Specimen:
+    _refuse_other_shape("rectangle", "diameter")
     width, height = options["width"], options["height"]
     _load_yade()
     specimens = importlib.import_module("flexpm.specimen")
