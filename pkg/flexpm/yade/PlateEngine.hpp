@@ -15,7 +15,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(PlateEngine, GlobalEngine,
 		"Moves rigid plates, which :yref:`GrainSolver` holds: at a velocity, or each on its own along its normal under a pressure "
 		"(several plates on a side make a membrane). Place it before :yref:`GrainSolver`.",
-		((vector<int>, plates,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
+		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
 		((bool, loaded, false,, "Let the plates move under the pressure; otherwise they move at the velocity."))
 		((Vector3r, velocity, Vector3r::Zero(),, "Velocity of the plates [m/s, or m per step with scaled masses]."))
 		((Real, pressure, 0.,, "Pressure on the width of each plate, compressive positive [Pa]."))
