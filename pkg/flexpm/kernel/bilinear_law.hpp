@@ -133,8 +133,8 @@ __attribute__((always_inline)) inline bool advance_elastic(const LawParameters& 
     const double shear = s.shear_traction + p.shear_stiffness * slip_step;
     const double limit = std::max((1.0 - d) * p.cohesion - p.friction * normal, 0.0);
     // a new largest opening stays elastic below the strength that is left, hence below u_e
-    const bool same_secant = (reach == s.max_opening)
-        | (p.normal_stiffness * reach <= (1.0 - d) * p.tensile_strength);
+    const bool same_secant =
+        (reach == s.max_opening) | (p.normal_stiffness * reach <= (1.0 - d) * p.tensile_strength);
     next = s;
     next.opening = opening;
     next.max_opening = reach;

@@ -108,22 +108,4 @@ Tessellation tessellate(
     return t;
 }
 
-std::vector<Point> cell_polygon(const Tessellation& t, int cell)
-{
-    std::vector<Point> polygon;
-    for (int k = t.cell_offsets[cell]; k < t.cell_offsets[cell + 1]; ++k)
-        polygon.push_back(t.vertices[t.cell_vertices[k]]);
-    return polygon;
-}
-
-double cell_area(const Tessellation& t, int cell)
-{
-    return polygon_shape(cell_polygon(t, cell)).area;
-}
-
-Point cell_centroid(const Tessellation& t, int cell)
-{
-    return polygon_shape(cell_polygon(t, cell)).centroid;
-}
-
 }  // namespace flexpm

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  A fixed number of steps of a fixed specimen; scripts/checks/instructions.py counts what they cost.
+#include "loaded.hpp"
+
+#include <flexpm/kernel/measures.hpp>
+
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+constexpr int rows = 24;
+constexpr double size = 3e-3;          // [m]
+constexpr double slow = -1e-9 * rows;  // no point leaves its elastic branch
+constexpr double fast = 2e-7 * rows;   // every point in tension softens after a few steps
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    const std::string name = argc == 2 ? argv[1] : "";
+    const bool softening = name == "softening";
+    try {
+        flexpm::Assembly a = specimens::assemble(
+            specimens::grid(rows, rows, size), loaded::options(softening ? "refined" : name));
+        loaded::load(a, softening ? fast : slow);
+        loaded::run(a, 40);
+        const flexpm::Energies e = flexpm::energies(a);
+        std::printf("%d grains, %d contacts, elastic %.3g J, damage %.3g J\n", a.grains, a.contacts,
+            e.elastic, e.damage);
+        return (e.damage > 0.0) == softening ? 0 : 1;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "step_count: %s (or: softening)\n", error.what());
+        return 2;
+    }
+}
