@@ -122,7 +122,7 @@ def grow(
         start = time.perf_counter()
         specimen = _specimen(width * side, height * side, seed, progress)
         packed = time.perf_counter() - start
-        share = max(TURNS, steps // scale)
+        share = max(10 * TURNS, steps // scale)
         timing = compare(
             specimen, steps=share, threads=threads, names=("refined",), progress=progress
         )

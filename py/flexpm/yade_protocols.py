@@ -39,7 +39,7 @@ from .yade_record import Ending, Gauge, Recorder, Sample
 
 #: Growth of the mean strain over the reference strain while a wave crosses the specimen once [-].
 #: Fixed by halving the rate.
-RATE_CONSTANT = {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.005}
+RATE_CONSTANT = {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025}
 #: A bond that breaks at once leaves its whole force unbalanced, however slow the test is. A test
 #: is quasi-static if the median of the unbalanced-force ratio up to the peak is below this [-].
 QUASISTATIC_MEDIAN = 0.02
