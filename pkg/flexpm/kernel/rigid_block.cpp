@@ -57,9 +57,13 @@ __attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, doub
 
 template <bool Measure>
 __attribute__((always_inline)) inline void integrate_lanes(
-    const RigidRows& b, double dt, double damping, StepSums& sums)
+    const RigidRows& b, double dt, double damping, StepSums& total)
 {
     const int centre = 2 * (b.nodes - 1) * lanes;
+    StepSums sums;                       // a local, which no row aliases
+    alignas(64) double held[3 * lanes];  // bytes and doubles in one loop are not vectorised
+    std::copy_n(b.held, 2 * lanes, held);
+    std::copy_n(b.spin_held, lanes, held + 2 * lanes);
     alignas(64) double fx[lanes], fy[lanes], moment[lanes] = {}, reach[lanes] = {};
     for (int l = 0; l < lanes; ++l) {
         fx[l] = b.force[centre + l];
@@ -67,6 +71,7 @@ __attribute__((always_inline)) inline void integrate_lanes(
     }
     for (int n = 0; n + 1 < b.nodes; ++n) {
         const int i = 2 * n * lanes;
+#pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
             const double rx = (b.reference[i + l] - b.reference[centre + l])
                 + (b.displacement[i + l] - b.displacement[centre + l]);
@@ -82,12 +87,13 @@ __attribute__((always_inline)) inline void integrate_lanes(
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         integrate_one<Measure>(
-            fx[l], b.held[l], b.inverse_mass[l], 1.0, dt, damping, b.velocity[centre + l], sums, l);
-        integrate_one<Measure>(fy[l], b.held[lanes + l], b.inverse_mass[l], 1.0, dt, damping,
+            fx[l], held[l], b.inverse_mass[l], 1.0, dt, damping, b.velocity[centre + l], sums, l);
+        integrate_one<Measure>(fy[l], held[lanes + l], b.inverse_mass[l], 1.0, dt, damping,
             b.velocity[centre + lanes + l], sums, l);
-        integrate_one<Measure>(moment[l], b.spin_held[l], b.inverse_inertia[l], std::sqrt(reach[l]),
-            dt, damping, b.spin[l], sums, l);
+        integrate_one<Measure>(moment[l], held[2 * lanes + l], b.inverse_inertia[l],
+            std::sqrt(reach[l]), dt, damping, b.spin[l], sums, l);
     }
+    total = sums;
     spread_lanes(b, dt);
 }
 
