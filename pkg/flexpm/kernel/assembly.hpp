@@ -14,6 +14,8 @@
 #include <flexpm/kernel/types.hpp>
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace flexpm {
@@ -32,8 +34,9 @@ enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2 }
 
 /// Rows of a contact block, in units of `lanes`.
 struct ContactRows {
-    static constexpr int nodes = 6;   ///< a0, a1, b0, b1, centre a, centre b
-    static constexpr int state = 7;   ///< members of PointState, in their order
+    static constexpr int nodes = 6;  ///< a0, a1, b0, b1, centre a, centre b
+    static constexpr int state = 7;  ///< members of PointState, in their order
+    static constexpr int opening = 0, slip = 3, shear_damage = 4;  ///< some of them
     static constexpr int forces = 8;  ///< x, y of the forces on a0, a1, b0, b1
     static constexpr int plate = 4;   ///< of a boundary edge: first row of the plates' forces
 };
@@ -79,17 +82,21 @@ struct Assembly {
     std::vector<LawParameters> laws;
     std::vector<int> contact_grains;  ///< two per contact, the smaller first
     std::vector<int> contact_law;     ///< index into `laws`
-    Array<int> contact_nodes;         ///< node offsets, ContactRows::nodes
-    Array<double> weight;             ///< [point][side]: share of the edge's second node [-]
-    Array<double> area;               ///< [point] [m^2]
-    Array<double> span;               ///< [x, y] from centre a to centre b when bonded [m]
-    Array<double> edge_reach;         ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
-    Array<double> normal;             ///< [x, y] of the current unit normal, from a to b
-    Array<double> point_state;        ///< [point][ContactRows::state]
-    Array<int> crack_step;            ///< [point]: step of the crack, -1 while intact
-    Array<std::uint8_t> crack_mode;   ///< [point]: CrackMode
-    Array<double> crack_position;     ///< [point][x, y] where it cracked [m]
-    Array<double> contact_force;      ///< ContactRows::forces [N]
+    std::vector<std::uint8_t>
+        contact_bonded;  ///< 1: since the specimen was bonded, 0: touched later
+    /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
+    std::map<std::pair<int, int>, double> close_pairs;
+    Array<int> contact_nodes;        ///< node offsets, ContactRows::nodes
+    Array<double> weight;            ///< [point][side]: share of the edge's second node [-]
+    Array<double> area;              ///< [point] [m^2]
+    Array<double> span;              ///< [x, y] from centre a to centre b when bonded [m]
+    Array<double> edge_reach;        ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
+    Array<double> normal;            ///< [x, y] of the current unit normal, from a to b
+    Array<double> point_state;       ///< [point][ContactRows::state]
+    Array<int> crack_step;           ///< [point]: step of the crack, -1 while intact
+    Array<std::uint8_t> crack_mode;  ///< [point]: CrackMode
+    Array<double> crack_position;    ///< [point][x, y] where it cracked [m]
+    Array<double> contact_force;     ///< ContactRows::forces [N]
 
     // boundary edges: [block][row][lane]
     std::vector<int> edge_grain;
@@ -111,6 +118,8 @@ struct Assembly {
     Array<double> damping_work;  ///< [block][done, second half of the last step]
     Array<double> driven_work;   ///< the same for nodes with prescribed velocity
     double pressure_work = 0.0;
+    double past_damage = 0.0;  ///< dissipated by contacts that are gone
+    double past_friction = 0.0;
     double initial_energy = 0.0;  ///< kinetic and elastic energy when the books were opened
     std::int64_t step = 0;        ///< steps done
 

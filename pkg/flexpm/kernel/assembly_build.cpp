@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace flexpm {
 
@@ -185,17 +186,33 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
 void size_contacts(Assembly& a)
 {
     const int padded = a.contact_blocks() * lanes;
-    a.contact_nodes.assign(padded * ContactRows::nodes, 0);
-    a.weight.assign(padded * 2 * a.points, 0.0);
-    a.area.assign(padded * a.points, 0.0);
-    a.span.assign(padded * 2, 0.0);
-    a.edge_reach.assign(padded * 2, 0.0);
-    a.normal.assign(padded * 2, 0.0);
-    a.point_state.assign(padded * a.points * ContactRows::state, 0.0);
-    a.crack_step.assign(padded * a.points, -1);
-    a.crack_mode.assign(padded * a.points, intact);
-    a.crack_position.assign(padded * a.points * 2, 0.0);
-    a.contact_force.assign(padded * ContactRows::forces, 0.0);
+    visit_contact_rows(a,
+        [&](auto& values, int rows) { values.assign(static_cast<std::size_t>(padded) * rows, 0); });
+    std::fill(a.crack_step.begin(), a.crack_step.end(), -1);
+}
+
+/// Grains that meet in a point, share no edge, and whose discs overlap: they touch later.
+void find_close_pairs(Assembly& a, const Tessellation& t)
+{
+    std::vector<std::vector<int>> cells_at(t.vertices.size());
+    for (int c = 0; c < t.cells(); ++c) {
+        for (int i = t.cell_offsets[c]; i < t.cell_offsets[c + 1]; ++i) {
+            cells_at[t.cell_vertices[i]].push_back(c);
+        }
+    }
+    std::set<std::pair<int, int>> bonded;
+    for (const SharedEdge& e : t.shared_edges)
+        bonded.insert({ e.cell_a, e.cell_b });
+    for (const auto& cells : cells_at) {
+        for (int g : cells) {
+            for (int h : cells) {
+                if (g >= h || bonded.count({ g, h })) continue;
+                const Point p = a.position(a.centre(g)), q = a.position(a.centre(h));
+                const double d = std::hypot(q.x - p.x, q.y - p.y);
+                if (d < a.radius[g] + a.radius[h]) a.close_pairs[{ g, h }] = d;
+            }
+        }
+    }
 }
 
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
@@ -214,6 +231,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
         fill_contact(a, c, e, grains, points);
         if (c >= a.contacts) continue;
         a.contact_grains.insert(a.contact_grains.end(), { e.cell_a, e.cell_b });
+        a.contact_bonded.push_back(1);
         a.contact_law.push_back(
             a.grain_material[e.cell_a] * materials + a.grain_material[e.cell_b]);
     }
@@ -231,36 +249,6 @@ void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedG
         a.edge_side.push_back(e.side);
         a.edge_nodes[row_index(i, 0, 2)] = node_of_vertex(a, grains, e.cell, e.vertex_0);
         a.edge_nodes[row_index(i, 1, 2)] = node_of_vertex(a, grains, e.cell, e.vertex_1);
-    }
-}
-
-/// Per block of grains, in the order of contacts and then of edges: which forces act on which nodes.
-void list_forces(Assembly& a)
-{
-    std::vector<std::vector<int>> lists(a.blocks());
-    const auto add = [&](int grain, int force, int n0, int n1) {
-        const int block = a.grain_slot[grain] / lanes;
-        lists[block].insert(
-            lists[block].end(), { force, n0 - a.block_nodes[block], n1 - a.block_nodes[block] });
-    };
-    for (int c = 0; c < a.contacts; ++c) {
-        for (int side = 0; side < 2; ++side) {
-            add(a.contact_grains[2 * c + side], row_index(c, 4 * side, ContactRows::forces),
-                a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)],
-                a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)]);
-        }
-    }
-    for (int e = 0; e < a.edges; ++e) {
-        for (int row : { 0, ContactRows::plate }) {
-            add(a.edge_grain[e], ~row_index(e, row, ContactRows::forces),
-                a.edge_nodes[row_index(e, 0, 2)], a.edge_nodes[row_index(e, 1, 2)]);
-        }
-    }
-    a.gather_first.assign(1, 0);
-    a.gather.clear();
-    for (const auto& list : lists) {
-        a.gather.insert(a.gather.end(), list.begin(), list.end());
-        a.gather_first.push_back(static_cast<int>(a.gather.size()));
     }
 }
 
@@ -290,6 +278,35 @@ void check(const Tessellation& t, const AssemblyOptions& o)
 
 }  // namespace
 
+void list_forces(Assembly& a)
+{
+    std::vector<std::vector<int>> lists(a.blocks());
+    const auto add = [&](int grain, int force, int n0, int n1) {
+        const int block = a.grain_slot[grain] / lanes;
+        lists[block].insert(
+            lists[block].end(), { force, n0 - a.block_nodes[block], n1 - a.block_nodes[block] });
+    };
+    for (int c = 0; c < a.contacts; ++c) {
+        for (int side = 0; side < 2; ++side) {
+            add(a.contact_grains[2 * c + side], row_index(c, 4 * side, ContactRows::forces),
+                a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)],
+                a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)]);
+        }
+    }
+    for (int e = 0; e < a.edges; ++e) {
+        for (int row : { 0, ContactRows::plate }) {
+            add(a.edge_grain[e], ~row_index(e, row, ContactRows::forces),
+                a.edge_nodes[row_index(e, 0, 2)], a.edge_nodes[row_index(e, 1, 2)]);
+        }
+    }
+    a.gather_first.assign(1, 0);
+    a.gather.clear();
+    for (const auto& list : lists) {
+        a.gather.insert(a.gather.end(), list.begin(), list.end());
+        a.gather_first.push_back(static_cast<int>(a.gather.size()));
+    }
+}
+
 Assembly make_assembly(
     const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options)
 {
@@ -314,6 +331,7 @@ Assembly make_assembly(
     bond(a, t, discs, grains, options);
     lay_out_edges(a, t, grains);
     list_forces(a);
+    find_close_pairs(a, t);
     return a;
 }
 

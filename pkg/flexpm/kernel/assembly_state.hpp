@@ -34,6 +34,23 @@ template <class LawType, class Visitor> void visit_law(LawType& p, Visitor&& vis
     visit("slip_rate", p.slip_rate);
 }
 
+/// Calls visit(array, rows) for all arrays with rows per contact.
+template <class AssemblyType, class Visitor>
+void visit_contact_rows(AssemblyType& a, Visitor&& visit)
+{
+    visit(a.contact_nodes, ContactRows::nodes);
+    visit(a.weight, 2 * a.points);
+    visit(a.area, a.points);
+    visit(a.span, 2);
+    visit(a.edge_reach, 2);
+    visit(a.normal, 2);
+    visit(a.point_state, a.points * ContactRows::state);
+    visit(a.crack_step, a.points);
+    visit(a.crack_mode, a.points);
+    visit(a.crack_position, 2 * a.points);
+    visit(a.contact_force, ContactRows::forces);
+}
+
 template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, Visitor&& visit)
 {
     visit("grains", a.grains);
@@ -65,6 +82,8 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("laws", a.laws);
     visit("contact_grains", a.contact_grains);
     visit("contact_law", a.contact_law);
+    visit("contact_bonded", a.contact_bonded);
+    visit("close_pairs", a.close_pairs);
     visit("contact_nodes", a.contact_nodes);
     visit("weight", a.weight);
     visit("area", a.area);
@@ -87,6 +106,8 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("damping_work", a.damping_work);
     visit("driven_work", a.driven_work);
     visit("pressure_work", a.pressure_work);
+    visit("past_damage", a.past_damage);
+    visit("past_friction", a.past_friction);
     visit("initial_energy", a.initial_energy);
     visit("step", a.step);
     visit("kinetic", a.kinetic);

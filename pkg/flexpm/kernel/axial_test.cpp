@@ -68,7 +68,8 @@ double disc_widening(const Assembly& a)
 double crossing(const Assembly& a, double height, double width, double dt)
 {
     double mass = 0.0;
-    for (double m : a.inverse_mass) mass += m > 0.0 ? 1.0 / m : 0.0;
+    for (double m : a.inverse_mass)
+        mass += m > 0.0 ? 1.0 / m : 0.0;
     return std::sqrt(mass * height / (series_modulus(a) * width * a.thickness)) / dt;
 }
 

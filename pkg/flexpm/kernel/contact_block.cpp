@@ -13,8 +13,7 @@ namespace {
 
 constexpr int law_rows = sizeof(LawParameters) / sizeof(double);
 constexpr int most_points = 3;
-// members of PointState
-constexpr int opening_row = 0, slip_row = 3 * lanes;
+constexpr int opening_row = ContactRows::opening * lanes, slip_row = ContactRows::slip * lanes;
 
 /// The rows of one block of contacts.
 struct Rows {
@@ -223,8 +222,8 @@ void fill_law(const Assembly& a, int block, double* rows)
 {
     const int first = block * lanes, last = std::min(first + lanes, a.contacts) - 1;
     const int* kinds = a.contact_law.data();
-    const bool one = std::all_of(
-        kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
+    const bool one =
+        std::all_of(kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
     for (int l = 0; l < (one ? 1 : lanes); ++l) {
         const double* law = &a.laws[kinds[std::min(first + l, last)]].normal_stiffness;
         for (int r = 0; r < law_rows; ++r)

@@ -28,7 +28,8 @@ public:
     }
     int find(int i) const
     {
-        while (parent[i] != i) i = parent[i];
+        while (parent[i] != i)
+            i = parent[i];
         return i;
     }
     void join(int i, int j)
@@ -81,8 +82,8 @@ void add_grain(Builder& b, int grain, int count)
             const int corner = b.grains.cell_offsets[grain] + (-1 - tag);
             // between two edges of the grain lies a vertex of the coarse tessellation
             const bool of_grain = tag < 0 && before < 0 && tag != before;
-            const int vertex = of_grain ? b.grains.cell_vertices[corner]
-                                        : b.vertices.add(cell[k].point);
+            const int vertex =
+                of_grain ? b.grains.cell_vertices[corner] : b.vertices.add(cell[k].point);
             corners.push_back({ vertex, tag < 0 ? tag : first + tag });
             points.push_back(cell[k].point);
         }
@@ -98,7 +99,10 @@ void add_grain(Builder& b, int grain, int count)
     }
 }
 
-int next_of(const std::vector<Corner>& cell, std::size_t k) { return cell[(k + 1) % cell.size()].vertex; }
+int next_of(const std::vector<Corner>& cell, std::size_t k)
+{
+    return cell[(k + 1) % cell.size()].vertex;
+}
 
 /// Ends of an edge that two cells of a grain share become the same vertices; short edges vanish.
 void join_inside(Builder& b)
@@ -193,7 +197,8 @@ void join_across(Builder& b, const SharedEdge& e)
     const auto along_a = stretches_of(b, e.cell_a, ka);
     auto along_b = stretches_of(b, e.cell_b, kb);
     std::reverse(along_b.begin(), along_b.end());
-    for (Stretch& s : along_b) std::swap(s.start, s.end);
+    for (Stretch& s : along_b)
+        std::swap(s.start, s.end);
     const int origin = e.vertex_0;
     const auto place = [&](int vertex) { return b.vertices.distance(origin, vertex); };
     std::size_t i = 0, j = 0;
@@ -249,8 +254,8 @@ InnerCells finish(Builder& b)
     t.uncollapsed_shared_edges = static_cast<int>(t.shared_edges.size());
     std::map<int, int> numbers;  // vertices in use
     const auto number = [&](int vertex) {
-        const auto [entry, fresh] = numbers.try_emplace(
-            b.vertices.find(vertex), static_cast<int>(t.vertices.size()));
+        const auto [entry, fresh] =
+            numbers.try_emplace(b.vertices.find(vertex), static_cast<int>(t.vertices.size()));
         if (fresh) t.vertices.push_back(b.vertices.place(vertex));
         return entry->second;
     };
@@ -286,10 +291,12 @@ InnerCells make_inner_cells(const Tessellation& grains, double mean_count)
         refuse("inner particles in a grain", mean_count, "", "must be between 1 and 1000");
     }
     double area = 0.0;
-    for (int g = 0; g < grains.cells(); ++g) area += cell_area(grains, g) / grains.cells();
+    for (int g = 0; g < grains.cells(); ++g)
+        area += cell_area(grains, g) / grains.cells();
     const double diameter = 2.0 * std::sqrt(area / mean_count / pi);
     Builder b { grains, merge_distance * diameter, {}, {}, {}, {}, {}, {}, {} };
-    for (Point p : grains.vertices) b.vertices.add(p);
+    for (Point p : grains.vertices)
+        b.vertices.add(p);
     for (int g = 0; g < grains.cells(); ++g) {
         b.first_cell.push_back(static_cast<int>(b.cells.size()));
         const double count = std::round(mean_count * cell_area(grains, g) / area);
@@ -298,7 +305,8 @@ InnerCells make_inner_cells(const Tessellation& grains, double mean_count)
     b.first_cell.push_back(static_cast<int>(b.cells.size()));
     join_inside(b);
     share_inside(b);
-    for (const SharedEdge& e : grains.shared_edges) join_across(b, e);
+    for (const SharedEdge& e : grains.shared_edges)
+        join_across(b, e);
     return finish(b);
 }
 

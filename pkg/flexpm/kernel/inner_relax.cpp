@@ -18,7 +18,8 @@ using Cell = std::vector<InnerCorner>;
 std::vector<Point> points_of(const Cell& cell)
 {
     std::vector<Point> points;
-    for (const InnerCorner& c : cell) points.push_back(c.point);
+    for (const InnerCorner& c : cell)
+        points.push_back(c.point);
     return points;
 }
 
@@ -27,7 +28,8 @@ bool inside(const std::vector<Point>& polygon, Point p)
     bool in = false;
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
         const Point a = polygon[i], b = polygon[j];
-        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) in = !in;
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y))
+            in = !in;
     }
     return in;
 }
@@ -69,8 +71,8 @@ void clip(Cell& cell, Point slope, double offset, int tag, Cell& scratch)
 }
 
 /// Power cells of the seeds inside the polygon.
-void cut_cells(const std::vector<Point>& polygon, const std::vector<double>& weights,
-    InnerPacking& packing)
+void cut_cells(
+    const std::vector<Point>& polygon, const std::vector<double>& weights, InnerPacking& packing)
 {
     const int count = static_cast<int>(packing.seeds.size());
     Cell scratch;
@@ -85,7 +87,8 @@ void cut_cells(const std::vector<Point>& polygon, const std::vector<double>& wei
             if (j == i) continue;
             const Point o = packing.seeds[j];
             clip(cell, { 2.0 * (o.x - s.x), 2.0 * (o.y - s.y) },
-                s.x * s.x + s.y * s.y - o.x * o.x - o.y * o.y + weights[j] - weights[i], j, scratch);
+                s.x * s.x + s.y * s.y - o.x * o.x - o.y * o.y + weights[j] - weights[i], j,
+                scratch);
         }
     }
 }
@@ -111,7 +114,8 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
     // about the centroid: differences of squared places keep their digits
     const PolygonShape shape = polygon_shape(polygon);
     std::vector<Point> local;
-    for (Point p : polygon) local.push_back({ p.x - shape.centroid.x, p.y - shape.centroid.y });
+    for (Point p : polygon)
+        local.push_back({ p.x - shape.centroid.x, p.y - shape.centroid.y });
     InnerPacking packing { first_seeds(local, count), std::vector<Cell>(count) };
     std::vector<double> weights(count, 0.0);
     const double mean = shape.area / count;
@@ -120,20 +124,22 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
         double worst = 0.0, moved = 0.0;
         std::vector<Point> next = packing.seeds;
         for (int i = 0; i < count; ++i) {
-            const PolygonShape s = packing.cells[i].size() < 3 ? PolygonShape {}
-                                                               : polygon_shape(points_of(packing.cells[i]));
+            const PolygonShape s = packing.cells[i].size() < 3
+                ? PolygonShape {}
+                : polygon_shape(points_of(packing.cells[i]));
             worst = std::max(worst, std::fabs(s.area / mean - 1.0));
             weights[i] += 0.5 * (mean - s.area) / std::max(growth(packing, i), 0.5);
             // an empty cell keeps its seed: its weight brings it back
             if (s.area > 0.0) next[i] = s.centroid;
-            moved = std::max(moved, std::hypot(next[i].x - packing.seeds[i].x,
-                next[i].y - packing.seeds[i].y));
+            moved = std::max(
+                moved, std::hypot(next[i].x - packing.seeds[i].x, next[i].y - packing.seeds[i].y));
         }
         if (worst < area_tolerance && moved < 0.01 * std::sqrt(mean)) break;
         packing.seeds = next;
     }
     cut_cells(local, weights, packing);
-    for (Point& p : packing.seeds) p = { p.x + shape.centroid.x, p.y + shape.centroid.y };
+    for (Point& p : packing.seeds)
+        p = { p.x + shape.centroid.x, p.y + shape.centroid.y };
     for (Cell& cell : packing.cells) {
         for (InnerCorner& c : cell) {
             c.point = { c.point.x + shape.centroid.x, c.point.y + shape.centroid.y };

@@ -26,6 +26,16 @@ double grain_energy(const Assembly& a, int grain)
     return total;
 }
 
+double first_of_pairs(const Array<double>& values)
+{
+    double total = 0.0;
+    for (std::size_t i = 0; i < values.size(); i += 2)
+        total += values[i];
+    return total;
+}
+
+}  // namespace
+
 double kinetic_of_velocities(const Assembly& a)
 {
     double total = 0.0;
@@ -46,16 +56,6 @@ double kinetic_of_velocities(const Assembly& a)
     return total;
 }
 
-double first_of_pairs(const Array<double>& values)
-{
-    double total = 0.0;
-    for (std::size_t i = 0; i < values.size(); i += 2)
-        total += values[i];
-    return total;
-}
-
-}  // namespace
-
 Energies energies(const Assembly& a)
 {
     Energies e;
@@ -73,6 +73,8 @@ Energies energies(const Assembly& a)
             e.friction += area * s.friction_energy;
         }
     }
+    e.damage += a.past_damage;
+    e.friction += a.past_friction;
     e.damping = first_of_pairs(a.damping_work);
     e.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
     for (const Plate& p : a.plates) {
@@ -101,7 +103,7 @@ void open_books(Assembly& a)
         for (std::size_t i = 0; i < work->size(); i += 2)
             (*work)[i] = 0.0;
     }
-    a.pressure_work = 0.0;
+    a.pressure_work = a.past_damage = a.past_friction = 0.0;
     for (Plate& p : a.plates)
         p.boundary_work = p.damping_work = p.friction_energy = 0.0;
     if (a.step == 0) a.kinetic[0] = kinetic_of_velocities(a);

@@ -28,6 +28,9 @@ Energies energies(const Assembly& a);
 /// set; later it is that of the last step, which must have been measured.
 void open_books(Assembly& a);
 
+/// Kinetic energy as if no force acted on the present velocities: 1/2 m v^2 [J].
+double kinetic_of_velocities(const Assembly& a);
+
 /// Largest force component on a free node over the mean contact force [-]; of the last measured
 /// step. 0 without contact forces.
 double unbalanced_ratio(const Assembly& a);

@@ -71,7 +71,10 @@ void Gl1_LaguerreCell::go(const shared_ptr<Shape>& shape, const shared_ptr<State
 	const Pen pen { *assembly, grain, state->pos, scale };
 	glDisable(GL_LIGHTING);
 	glColor3d(shape->color[0], shape->color[1], shape->color[2]);
+	glEnable(GL_POLYGON_OFFSET_FILL); // lines lie in the plane of the faces and must win
+	glPolygonOffset(1.f, 2.f);
 	if (!wire) pen.triangles(GL_TRIANGLES);
+	glDisable(GL_POLYGON_OFFSET_FILL);
 	glColor3d(.15, .15, .15);
 	if (wire || mesh) pen.triangles(GL_LINE_LOOP);
 	pen.outline();

@@ -3,7 +3,6 @@
 #include <flexpm/yade/GrainSolver.hpp>
 
 #include <flexpm/kernel/measures.hpp>
-#include <flexpm/kernel/retire.hpp>
 #include <flexpm/kernel/stepping.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
@@ -50,16 +49,34 @@ void GrainSolver::action()
 	flexpm::step(assembly, options);
 	publishBodies();
 	if (options.measure) check();
+	if (assembly.step % touchPeriod == 0) changeContacts();
 }
+
+namespace {
+
+	/// A node has used up half of the way that its grain's bound leaves it; what is left is for the steps until the next look.
+	bool nearBound(const flexpm::Assembly& a, int grain, const Bound& bound)
+	{
+		const Real margin = .5 * bound.sweepLength;
+		for (int n = 0; n < a.nodes_of(grain); ++n) {
+			const auto p = a.position(a.node(grain, n));
+			if (p.x < bound.min[0] + margin || p.x > bound.max[0] - margin || p.y < bound.min[1] + margin || p.y > bound.max[1] - margin)
+				return true;
+		}
+		return false;
+	}
+
+} // namespace
 
 void GrainSolver::check()
 {
 	const std::string bad = flexpm::find_bad_number(assembly);
 	if (!bad.empty()) throw std::runtime_error("GrainSolver: " + bad);
-	// the collider watches centres only when NewtonIntegrator runs, which grains do not need
-	for (const Body::id_t id : bodyIds) {
-		const auto& b = (*scene->bodies)[id];
-		if (b && b->bound && (b->state->pos - b->bound->refPos).norm() > b->bound->sweepLength) scene->doSort = true;
+	retireErased(); // a script that keeps a handle delays its destruction
+	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
+	for (int grain = 0; grain < assembly.grains; ++grain) {
+		const auto& b = (*scene->bodies)[bodyIds[grain]];
+		if (b && b->bound && nearBound(assembly, grain, *b->bound)) scene->doSort = true;
 	}
 }
 
@@ -72,18 +89,6 @@ void GrainSolver::publishBodies()
 		const auto p      = assembly.position(centre);
 		b->state->pos     = Vector3r(p.x, p.y, 0);
 		b->state->vel     = Vector3r(assembly.velocity[centre], assembly.velocity[centre + flexpm::lanes], 0);
-	}
-}
-
-void GrainSolver::retireErased()
-{
-	seenDestroyed = destroyedContacts();
-	for (int c = 0; c < assembly.contacts; ++c) {
-		const auto bond = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
-		if (!bond || !bond->isReal()) flexpm::retire_contact(assembly, c);
-	}
-	for (int grain = 0; grain < assembly.grains; ++grain) {
-		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::retire_grain(assembly, grain);
 	}
 }
 

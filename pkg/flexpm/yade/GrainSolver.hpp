@@ -2,6 +2,7 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
+#include <flexpm/kernel/contact_change.hpp>
 #include <flexpm/yade/array_view.hpp>
 #include <flexpm/yade/assembly_archive.hpp>
 #include <flexpm/yade/yade_lite.hpp>
@@ -46,7 +47,9 @@ public:
 		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force, and between two checks for numbers that are not finite [-]."))
+		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
+		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("thickness"), py::arg("materials"), py::arg("options")),
@@ -73,11 +76,15 @@ public:
 	DECLARE_LOGGER;
 
 private:
-	void insertBodies(const vector<shared_ptr<Material>>& materials);
-	void insertContacts();
-	void publishBodies();
-	void retireErased();
-	void check();
+	vector<flexpm::GrainPair> candidates; // pairs without a contact whose bounding boxes overlap
+	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
+	void                      insertContacts();
+	void                      publishBodies();
+	void                      retireErased();
+	void                      listCandidates();
+	void                      changeContacts();
+	void                      renumberContacts();
+	void                      check();
 };
 REGISTER_SERIALIZABLE(GrainSolver);
 

@@ -90,8 +90,16 @@ void GrainSolver::insertContacts()
 	seenDestroyed = destroyedContacts();
 }
 
-void GrainSolver::scaleMasses() { flexpm::scale_masses(assembly, damping, Omega::instance().getScene()->dt); }
+void GrainSolver::scaleMasses()
+{
+	scaled = true;
+	flexpm::scale_masses(assembly, damping, Omega::instance().getScene()->dt);
+}
 
-Real GrainSolver::useRealMasses() { return flexpm::set_real_masses(assembly, damping); }
+Real GrainSolver::useRealMasses()
+{
+	scaled = false;
+	return flexpm::set_real_masses(assembly, damping);
+}
 
 } // namespace yade

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/stepping.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
+#include <flexpm/yade/LobattoContact.hpp>
 
 namespace yade {
 
@@ -25,7 +26,7 @@ namespace {
 
 } // namespace
 
-LaguerreCell::~LaguerreCell() = default;
+LaguerreCell::~LaguerreCell() { ++destroyedContacts(); }
 
 py::object LaguerreCell::positions() const
 {

@@ -70,9 +70,9 @@ py::object LobattoGeom::ends() const
 
 LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
 
-py::object LobattoPhys::opening() const { return stateView(contact, 0); }
+py::object LobattoPhys::opening() const { return stateView(contact, flexpm::ContactRows::opening); }
 
-py::object LobattoPhys::slip() const { return stateView(contact, 3); }
+py::object LobattoPhys::slip() const { return stateView(contact, flexpm::ContactRows::slip); }
 
 py::object LobattoPhys::area() const { return pointView(contact, &flexpm::Assembly::area); }
 

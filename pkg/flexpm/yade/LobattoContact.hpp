@@ -58,7 +58,7 @@ public:
 };
 REGISTER_SERIALIZABLE(LobattoPhys);
 
-/// Counts the handles that have been destroyed; the solver looks for erased bonds when it has changed.
+/// Counts the handles of bonds and grains that have been destroyed; the solver looks for erased ones when it has changed.
 std::atomic<long>& destroyedContacts();
 
 } // namespace yade

@@ -16,7 +16,8 @@ void PlateEngine::action()
 {
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int plate : plates) {
-		if (loaded) flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
+		if (loaded)
+			flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
 		else
 			flexpm::set_velocity(assembly, plate, { velocity[0], velocity[1] });
 	}

@@ -94,10 +94,10 @@ py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, 
 
 py::dict AxialRecorder::scales() const
 {
-	const auto world    = Omega::instance().getScene();
-	const auto solver   = GrainSolver::ofScene(*world);
-	const auto s        = diameter > 0 ? flexpm::disc_scales(solver->assembly, diameter, world->dt)
-	                                   : flexpm::rectangle_scales(solver->assembly, senseOf(tension), world->dt);
+	const auto world  = Omega::instance().getScene();
+	const auto solver = GrainSolver::ofScene(*world);
+	const auto s      = diameter > 0 ? flexpm::disc_scales(solver->assembly, diameter, world->dt)
+	                                 : flexpm::rectangle_scales(solver->assembly, senseOf(tension), world->dt);
 	py::dict   d;
 	d["crossing_steps"] = s.crossing_steps;
 	d["modulus"]        = s.modulus;

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly.hpp>
 
+#include <boost/serialization/map.hpp>
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/vector.hpp>
 

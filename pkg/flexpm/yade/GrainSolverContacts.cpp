@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Contacts that come and go: the collider's pairs to the kernel, the kernel's contacts to interactions.
+#include <flexpm/yade/GrainSolver.hpp>
+
+#include <flexpm/kernel/retire.hpp>
+#include <flexpm/yade/LaguerreCell.hpp>
+#include <flexpm/yade/LobattoContact.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+void GrainSolver::retireErased()
+{
+	seenDestroyed = destroyedContacts();
+	for (int c = 0; c < assembly.contacts; ++c) {
+		const auto bond = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+		if (!bond || !bond->isReal()) flexpm::retire_contact(assembly, c);
+	}
+	for (int grain = 0; grain < assembly.grains; ++grain) {
+		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::retire_grain(assembly, grain);
+	}
+}
+
+void GrainSolver::listCandidates()
+{
+	candidates.clear();
+	const auto grainOf = [&](Body::id_t id) {
+		const auto& b    = (*scene->bodies)[id];
+		const auto* cell = b ? dynamic_cast<const LaguerreCell*>(b->shape.get()) : nullptr;
+		return cell ? cell->grain : -1;
+	};
+	for (const auto& pair : *scene->interactions) {
+		if (pair->isReal()) continue;
+		const int g = grainOf(pair->getId1()), h = grainOf(pair->getId2());
+		if (g >= 0 && h >= 0) candidates.push_back({ std::min(g, h), std::max(g, h) });
+	}
+	std::sort(candidates.begin(), candidates.end());
+}
+
+void GrainSolver::changeContacts()
+{
+	vector<int> over;
+	if (assembly.step % measurePeriod == 0) {
+		listCandidates();
+		for (int c = 0; c < assembly.contacts; ++c) {
+			if (flexpm::is_over(assembly, c)) over.push_back(c);
+		}
+	}
+	vector<flexpm::GrainPair> touching;
+	for (const auto& pair : candidates) {
+		if (flexpm::centre_distance(assembly, pair[0], pair[1]) < flexpm::touching_distance(assembly, pair)) touching.push_back(pair);
+	}
+	if (over.empty() && touching.empty()) return;
+	for (int c : over)
+		scene->interactions->requestErase(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+	flexpm::change_contacts(assembly, over, touching, damping, scaled ? scene->dt : 0.);
+	renumberContacts();
+	listCandidates();
+}
+
+void GrainSolver::renumberContacts()
+{
+	for (int c = 0; c < assembly.contacts; ++c) {
+		const auto pair = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+		if (!pair || (assembly.contact_bonded[c] && !pair->isReal())) continue;
+		if (!pair->isReal()) {
+			pair->geom         = boost::make_shared<LobattoGeom>();
+			pair->phys         = boost::make_shared<LobattoPhys>();
+			pair->iterMadeReal = scene->iter;
+		}
+		static_cast<LobattoGeom&>(*pair->geom).contact = c;
+		static_cast<LobattoPhys&>(*pair->phys).contact = c;
+	}
+	seenDestroyed = destroyedContacts();
+}
+
+} // namespace yade
