@@ -18,8 +18,8 @@ const specimens::Specimen& paper_size()
 
 void count(benchmark::State& state, double items, const char* name)
 {
-    state.counters[std::string("ns/") + name] = benchmark::Counter(
-        items * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters[std::string("per ") + name] = benchmark::Counter(
+        items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void contact_blocks(benchmark::State& state)
