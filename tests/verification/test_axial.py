@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Axial tests of small specimens against the elastic solve, the bounds of the law and the energy books."""
+
+import flexpm
+import numpy as np
+import pytest
+import yade
+from flexpm import protocols
+
+WIDTH, HEIGHT = 0.02, 0.04  # [m]
+STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]
+
+
+@pytest.fixture(scope="module")
+def specimen():
+    return flexpm.Specimen.rectangle(WIDTH, HEIGHT, thickness=0.08, seed=3)
+
+
+@pytest.fixture(scope="module")
+def results(specimen):
+    """Run each axial test once, early enough past the peak."""
+    return {
+        "uniaxial": flexpm.run("uniaxial", specimen),
+        "tension": flexpm.run("tension", specimen),
+        "biaxial": flexpm.run("biaxial", specimen, confinement=4e6, rate=2.0),
+    }
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial"])
+def test_slopes_are_those_of_the_elastic_solve(specimen, results, test):
+    elastic = flexpm.elastic(specimen)
+    result = results[test]
+    assert result.youngs_modulus == pytest.approx(elastic["youngs_modulus"], rel=0.01)
+    assert result.poissons_ratio == pytest.approx(elastic["poissons_ratio"], abs=0.01)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial"])
+def test_runs_are_quasistatic_and_their_books_close(results, test):
+    result = results[test]
+    assert result.status == "ok"
+    assert result.energy_error < 0.01
+    assert result.tensile_cracks + result.shear_cracks == len(result.cracks) > 0
+
+
+@pytest.mark.long
+def test_direct_tension_lies_below_the_contacts_strength_and_is_brittle(results):
+    result = results["tension"]
+    assert 0.5 * STRENGTH < result.peak_stress < 1.2 * STRENGTH
+    assert result.tensile_cracks > result.shear_cracks
+
+
+@pytest.mark.long
+def test_confinement_is_held_and_strengthens(results):
+    confined = results["biaxial"]
+    assert np.all(np.abs(confined.curve["confinement"] / 4e6 - 1.0) < 0.01)
+    assert confined.peak_stress > results["uniaxial"].peak_stress + 4e6
+
+
+@pytest.mark.long
+def test_a_specimen_has_one_slope_before_its_peak(results):
+    """The secant at 3/4 of the peak is still within 3 % of the slope at its start."""
+    record = results["uniaxial"].curve
+    stress, strain = record["axial_stress"], record["axial_strain"]
+    row = int(np.argmax(stress >= 0.75 * results["uniaxial"].peak_stress))
+    assert stress[row] / strain[row] == pytest.approx(results["uniaxial"].youngs_modulus, rel=0.03)
+
+
+def test_the_rate_scales_with_its_factor_and_the_wave():
+    scales = {"strength": 1e8, "modulus": 2e10, "crossing_steps": 500.0, "height": 0.1}
+    yade.O.dt = 1.0  # scaled masses
+    one = protocols.schedule(scales, "uniaxial", protocols.Settings())
+    two = protocols.schedule(scales, "uniaxial", protocols.Settings(rate=2.0))
+    k = protocols.RATE_CONSTANT["uniaxial"]
+    assert one.velocity == pytest.approx(k * (1e8 / 2e10) * 0.1 / 500.0)
+    assert two.velocity == pytest.approx(2.0 * one.velocity)
