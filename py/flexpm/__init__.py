@@ -47,7 +47,14 @@ if not _is_command():
     _load_classes()
 
 
+#: Modules that scripts use as attributes of the package.
+_MODULES = ("export", "materials", "models", "plot", "protocols", "results", "specimen")
+
+
 def __getattr__(name: str) -> object:
+    if name in _MODULES:
+        _load_classes()
+        return importlib.import_module(f".{name}", __name__)
     if name in _PUBLIC:
         _load_classes()
         value = getattr(importlib.import_module(f".{_PUBLIC[name]}", __name__), name)

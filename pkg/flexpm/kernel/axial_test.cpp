@@ -100,7 +100,8 @@ AxialObservation observe(const Assembly& a, const AxialGeometry& g)
     const SpecimenStrain strain = specimen_strain(a);
     o.axial_strain = sign * strain.axial;
     o.lateral_strain = -sign * strain.lateral;
-    // the drag of damping on the moving grains adds to one end what it takes from the other
+    // Deviation D25: the drag of damping on the moving grains adds to one end what it takes from the
+    // other
     o.axial_stress = sign * 0.5 * (top - bottom) / (g.width * a.thickness);
     o.confinement = lateral_pressure(a, g);
     const double larger = std::max(std::fabs(top), std::fabs(bottom));

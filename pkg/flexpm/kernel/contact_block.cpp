@@ -64,7 +64,7 @@ __attribute__((always_inline)) inline void store_state(const PointState& s, doub
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
 /// the new normal: with it the work of a turning contact is what its energy says to third order.
 ///
-/// Both grains are compared in the middle of the gap between their places of a point (the paper's one
+/// Deviation D24: both grains are compared in the middle of the gap between their places of a point (the paper's one
 /// contact location, Eq. 9), to which each edge carries its own rotation: a pair that turns as one
 /// body neither opens nor slips.
 template <int Points>

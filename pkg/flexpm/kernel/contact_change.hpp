@@ -4,7 +4,7 @@
 /// A bonded pair keeps its contact until all its points are cracked and its centres are further apart
 /// than when bonded and than the two disc radii. A new contact starts when the discs touch, without
 /// cohesion, at the nearest edges of the two grains; so no energy appears.
-/// Deviation D22: all points of a new contact lie in one place, between the two discs: it carries no
+/// Deviation D23: all points of a new contact lie in one place, between the two discs: it carries no
 /// moment. The corners of cells may overlap once grains have come loose.
 #pragma once
 
