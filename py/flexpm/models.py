@@ -20,7 +20,7 @@ from .materials import Material
 from .specimen import Specimen
 
 #: Models of this module's own solver.
-SOLVER_MODELS = ("flexible",)
+SOLVER_MODELS = ("flexible", "rigid")
 #: All models that this version has.
 MODELS = (*SOLVER_MODELS, *yade_models.NAMES)
 MESHES = ("refined", "fan")
@@ -43,6 +43,7 @@ class Model:
         name: Name of the model.
         solver: The engine that holds and steps the grains.
         engines: All engines of the model; ``solver`` is one of them.
+        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
     """
 
     specimen: Specimen
@@ -50,6 +51,18 @@ class Model:
     name: str
     solver: Any
     engines: list[Any]
+    dynamic: bool = False
+
+    def set_masses(self) -> None:
+        """Scale the masses, or set the real ones and their stable time step, before the first step.
+
+        Needed again after plates have been laid.
+        """
+        if self.dynamic:
+            yade.O.dt = self.solver.useRealMasses()
+        else:
+            yade.O.dt = 1.0
+            self.solver.scaleMasses()
 
     def run(self, steps: int) -> None:
         """Advance by `steps`.
@@ -103,7 +116,7 @@ def build(
     Args:
         specimen: The grains.
         material: Preset, file, or material; None for the default of the model.
-        model: ``flexible``, or YADE's own ``jcfpm`` or ``cohfrict``.
+        model: ``flexible``, ``rigid``, or YADE's own ``jcfpm`` or ``cohfrict``.
         points: Contact points per contact, 1, 2 or 3 (Lobatto).
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
         damping: Local damping alpha [-], 0 <= alpha < 1.
@@ -131,12 +144,11 @@ def build(
     solver.damping = damping
     solver.ompThreads = threads
     solver.addToScene(_grain_materials(chosen, model))
-    yade.O.dt = solver.useRealMasses() if dynamic else 1.0
-    if not dynamic:
-        solver.scaleMasses()
     engines = [_collider(specimen), solver, _idle_newton()]
     yade.O.engines = engines
-    return Model(specimen, chosen, model, solver, engines)
+    built = Model(specimen, chosen, model, solver, engines, dynamic)
+    built.set_masses()
+    return built
 
 
 def elastic(
@@ -152,7 +164,7 @@ def elastic(
     Args:
         specimen: A rectangle.
         material: Preset, file, or material.
-        model: ``flexible``.
+        model: ``flexible`` or ``rigid``.
         points: Contact points per contact.
         mesh: ``refined`` or ``fan``.
 
@@ -184,7 +196,12 @@ def _assembled(specimen: Specimen, chosen: Material, model: str, points: int, me
             radii=np.ascontiguousarray(discs[:, 2]),
             thickness=float(specimen.thickness),
             materials=_grain_materials(chosen, model),
-            options={"mesh": mesh, "points": points, "centre_line": False},
+            options={
+                "rigid": model != "flexible",
+                "mesh": mesh,
+                "points": points,
+                "centre_line": False,
+            },
         )
     except (ValueError, RuntimeError) as error:
         raise InputError(f"build: {error}") from error
@@ -196,8 +213,8 @@ def _grain_materials(chosen: Material, model: str) -> list[Any]:
     return [
         wrapper.GrainMat(
             label=chosen.name,
-            young=law["young"],
-            poisson=law["poisson"],
+            young=law["young"] or 0.0,  # rigid grains have none
+            poisson=law["poisson"] or 0.0,
             density=law["density"],
             normalStiffness=law["normal_stiffness"],
             shearRatio=law["shear_ratio"],

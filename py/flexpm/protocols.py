@@ -19,6 +19,7 @@ from .course import Course, Progress
 from .curve import Curve
 from .errors import InputError, SimulationError
 from .files import output_folder
+from .loading import loading_of, squeeze_disc
 from .materials import Material
 from .models import Model
 from .results import Result, cracks_from_snapshot
@@ -26,7 +27,7 @@ from .specimen import Specimen
 
 #: k of the loading rate: the mean strain grows by k times the reference strain while a wave crosses
 #: the specimen once. Fixed by halving the rate.
-RATE_CONSTANT = {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01}
+RATE_CONSTANT = {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01, "brazilian": 0.01}
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-].
 DEFAULT_STRAINS = 4.0
@@ -106,12 +107,13 @@ def run(
 
     Args:
         test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
-            the same ends; ``biaxial``: compression under `confinement`, applied to all sides first.
+            the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
+            ``brazilian``: a disc between two plates.
             A test is over when the stress above the confinement has fallen to half its peak or the
             strain reaches `max_strain`.
-        specimen: A rectangle; y is the axial direction.
+        specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
         material: Preset, file, or material; None for the default of the model.
-        model: ``flexible``, or YADE's own ``jcfpm`` or ``cohfrict``.
+        model: ``flexible`` or ``rigid``, or YADE's own ``jcfpm`` or ``cohfrict``.
         confinement: Lateral pressure [Pa], for ``biaxial`` only.
         points: Contact points per contact, 1, 2 or 3.
         mesh: ``refined`` or ``fan``.
@@ -192,28 +194,43 @@ def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
     Strains count from the isotropic state.
     """
 
+    loading = loading_of(built)
+
     def prepare() -> None:
-        scales = wrapper.AxialRecorder().scales()
-        ramp = math.ceil(_RAMP_CROSSINGS * scales["crossing_steps"])
-        confinement = wrapper.ConfinementEngine(
-            pressure=settings.confinement, sides=[1, 2, 3], rampSteps=ramp
-        )
-        built.add_engines(before=(confinement, wrapper.PlatenEngine(holdTop=False)))
+        crossing = math.ceil(wrapper.AxialRecorder().scales()["crossing_steps"])
+        loading.confine(built, settings.confinement, _RAMP_CROSSINGS * crossing)
 
-    course.stage(prepare, lambda: _settle(built, course))
+    course.stage(prepare, lambda: _settle(built, course, loading.ramp(built)))
+    return _run_axial(
+        "biaxial", built, settings, course, lambda: loading.hold(built), fromNow=True
+    )
 
-    def hold() -> None:
-        built.engine("ConfinementEngine").sides = [1, 3]
-        built.solver.clearPressure(2)  # held from now on; the reaction takes over
-        built.remove_engines(built.engine("PlatenEngine"))
 
-    return _run_axial("biaxial", built, settings, course, hold, fromNow=True)
+def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:
+    """Press a built disc between two plates; stress 2 P / (pi D t), strain closure / D."""
+    settings.refuse_confinement("brazilian")
+    diameter = built.specimen.dimensions.get("diameter")
+    if diameter is None:
+        raise InputError(f"run: specimen = {built.specimen.kind}, must be a disc for brazilian")
+
+    def prepare() -> None:
+        recorder = wrapper.AxialRecorder(diameter=diameter)
+        built.add_engines(after=(recorder,))
+        plan = _limit(recorder, "brazilian", settings)
+        squeeze_disc(built, plan.velocity)
+
+    result = _finish("brazilian", built, settings, course, prepare)
+    result.youngs_modulus = None  # the slope of the plates' closure is no modulus of the rock
+    result.poissons_ratio = None
+    result.contact_width = float(np.mean([p["contact_width"] for p in built.solver.plates()]))
+    return result
 
 
 TESTS: dict[str, Callable[..., Result]] = {
     "uniaxial": run_uniaxial,
     "tension": run_tension,
     "biaxial": run_biaxial,
+    "brazilian": run_brazilian,
 }
 
 
@@ -241,13 +258,25 @@ def _run_axial(
         before()
         recorder = wrapper.AxialRecorder(tension=tension, **options)
         built.add_engines(after=(recorder,))
-        scales = recorder.scales()
-        plan = schedule(scales, test, settings)
-        recorder.maxStrain = plan.max_strain
-        recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
-        velocity = plan.velocity if tension else -plan.velocity
-        built.add_engines(before=(wrapper.PlatenEngine(velocity=velocity),))
+        plan = _limit(recorder, test, settings)
+        loading_of(built).drive(built, plan.velocity if tension else -plan.velocity)
 
+    return _finish(test, built, settings, course, prepare)
+
+
+def _limit(recorder: Any, test: str, settings: Settings) -> Schedule:
+    """Tell the recorder when the test is over."""
+    scales = recorder.scales()
+    plan = schedule(scales, test, settings)
+    recorder.maxStrain = plan.max_strain
+    recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
+    return plan
+
+
+def _finish(
+    test: str, built: Model, settings: Settings, course: Course, prepare: Callable[[], None]
+) -> Result:
+    """Do the last stage of a test, in which its recorder works."""
     diverged = False
 
     def advance() -> None:
@@ -261,9 +290,8 @@ def _run_axial(
     return _result(test, built, diverged, course.step_time)
 
 
-def _settle(built: Model, course: Course) -> None:
-    """Raise the pressure and run until the forces balance, looking now and then."""
-    ramp = built.engine("ConfinementEngine").rampSteps
+def _settle(built: Model, course: Course, ramp: int) -> None:
+    """Raise the pressure in `ramp` steps and run until the forces balance, looking now and then."""
     steps = math.ceil(ramp / _RAMP_CROSSINGS)
     expected = course.stage_start + ramp + 10 * steps
     for look in range(1, _LONGEST_REST + 1):

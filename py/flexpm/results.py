@@ -65,6 +65,7 @@ class Result:
     shear_cracks: int = 0  #: cracked points
     unbalanced_ratio: float | None = None  #: largest up to the peak [-]
     energy_error: float | None = None  #: relative to the largest work [-]
+    contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
