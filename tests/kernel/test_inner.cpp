@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Inner particles: equal areas, and a conforming tessellation across the edges of grains.
 #include <flexpm/kernel/edge_collapse.hpp>
+#include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/inner_cells.hpp>
+#include <flexpm/kernel/mass_scaling.hpp>
+#include <flexpm/kernel/rigid_grain.hpp>
+#include <flexpm/kernel/stepping.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -9,6 +13,8 @@
 
 #include <map>
 
+using flexpm::Assembly;
+using flexpm::lanes;
 using flexpm::Point;
 
 namespace {
@@ -96,6 +102,56 @@ TEST_CASE("stretches along a grain's edge add up to it", "[inner]")
         CHECK(lengths[std::minmax(e.cell_a, e.cell_b)] == Approx(length).epsilon(1e-9));
     }
     CHECK(lengths.size() == s.cells.shared_edges.size());
+}
+
+TEST_CASE("an unbreakable contact has the same stiffness and never leaves its elastic branch", "[inner]")
+{
+    const auto law = flexpm::make_law(flexpm::unbreakable(specimens::granite_contact()));
+    flexpm::PointState s;
+    const auto t = flexpm::advance_point(law, 1e-4, 1e-4, s);
+    CHECK(t.damage == 0.0);
+    CHECK(t.normal == Approx(1.80e14 * 1e-4).epsilon(1e-14));
+    CHECK(t.shear == Approx(0.28 * 1.80e14 * 1e-4).epsilon(1e-14));
+}
+
+TEST_CASE("contacts across an edge of a grain may take its normal", "[inner]")
+{
+    const auto s = specimens::random_grains(9e-3, 9e-3, 3e-3, 2);
+    const auto inner = flexpm::make_inner_cells(s.cells, 9.0);
+    auto o = specimens::options();
+    o.rigid = true;
+    o.points = 1;
+    o.laws.push_back(flexpm::unbreakable(o.laws[0]));
+    o.edge_normal = inner.outer;
+    for (auto outer : inner.outer) o.edge_law.push_back(outer ? 0 : 1);
+    Assembly a = flexpm::make_assembly(inner.cells, inner.discs, o);
+    flexpm::scale_masses(a, 0.7);
+    // the whole specimen turns: normals follow and nothing is strained
+    const double angle = 0.3 / 50;
+    const Point pivot = { a.reference[a.centre(0)], a.reference[a.centre(0) + lanes] };
+    for (int i = 0; i < 50; ++i) {
+        for (int g = 0; g < a.grains; ++g) {
+            const Point p = a.position(a.centre(g));
+            const double c = std::cos(angle) - 1.0, sn = std::sin(angle);
+            const double x = p.x - pivot.x, y = p.y - pivot.y;
+            flexpm::set_motion(a, g, { c * x - sn * y, sn * x + c * y }, angle, 1.0);
+        }
+        flexpm::step(a, flexpm::StepOptions());
+    }
+    const double turned = 0.3;
+    for (int c = 0; c < a.contacts; ++c) {
+        const auto& e = inner.cells.shared_edges[c];
+        const Point p = inner.cells.vertices[e.vertex_0], q = inner.cells.vertices[e.vertex_1];
+        const Point ca = inner.discs[e.cell_a].centre, cb = inner.discs[e.cell_b].centre;
+        Point n = { q.y - p.y, p.x - q.x };
+        if (!inner.outer[c]) n = { cb.x - ca.x, cb.y - ca.y };
+        const double d = std::hypot(n.x, n.y);
+        const Point now = flexpm::normal_of(a, c);
+        CHECK(now.x == Approx((std::cos(turned) * n.x - std::sin(turned) * n.y) / d).margin(1e-9));
+        CHECK(now.y == Approx((std::sin(turned) * n.x + std::cos(turned) * n.y) / d).margin(1e-9));
+        CHECK(std::fabs(flexpm::point_state(a, c, 0).opening) < 1e-12);
+        CHECK(std::fabs(flexpm::point_state(a, c, 0).slip) < 1e-12);
+    }
 }
 
 TEST_CASE("inner cells do not depend on anything but the grains", "[inner]")

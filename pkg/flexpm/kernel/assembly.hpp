@@ -89,7 +89,8 @@ struct Assembly {
     Array<int> contact_nodes;        ///< node offsets, ContactRows::nodes
     Array<double> weight;            ///< [point][side]: share of the edge's second node [-]
     Array<double> area;              ///< [point] [m^2]
-    Array<double> span;              ///< [x, y] from centre a to centre b when bonded [m]
+    /// [x, y] from centre a to centre b when bonded [m]; zero: the normal is that of the edges.
+    Array<double> span;
     Array<double> edge_reach;        ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
     Array<double> normal;            ///< [x, y] of the current unit normal, from a to b
     Array<double> point_state;       ///< [point][ContactRows::state]

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/assembly_build.hpp>
 
 #include <flexpm/kernel/checks.hpp>
+#include <flexpm/kernel/grain_access.hpp>
 
 #include <algorithm>
 #include <array>
@@ -155,7 +156,7 @@ int node_of_vertex(const Assembly& a, const std::vector<MeshedGrain>& grains, in
 
 /// Rows of contact `c` from shared edge `e` (padded contacts repeat the last edge, without area).
 void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<MeshedGrain>& grains,
-    const EdgePoints& points)
+    const EdgePoints& points, bool of_edge)
 {
     const bool real = c < a.contacts;
     const int nodes[] = { node_of_vertex(a, grains, e.cell_a, e.vertex_0),
@@ -174,12 +175,12 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
         }
     }
     const Point ca = a.position(nodes[4]), cb = a.position(nodes[5]);
-    const double dx = cb.x - ca.x, dy = cb.y - ca.y, d = std::hypot(dx, dy);
-    a.span[row_index(c, 0, 2)] = dx;
-    a.span[row_index(c, 1, 2)] = dy;
-    a.normal[row_index(c, 0, 2)] = dx / d;
-    a.normal[row_index(c, 1, 2)] = dy / d;
-    const double along = ((p1.y - p0.y) * dx - (p1.x - p0.x) * dy) / d;
+    a.span[row_index(c, 0, 2)] = of_edge ? 0.0 : cb.x - ca.x;
+    a.span[row_index(c, 1, 2)] = of_edge ? 0.0 : cb.y - ca.y;
+    const Point n = bonded_normal(a, c);
+    a.normal[row_index(c, 0, 2)] = n.x;
+    a.normal[row_index(c, 1, 2)] = n.y;
+    const double along = (p1.y - p0.y) * n.x - (p1.x - p0.x) * n.y;
     a.edge_reach[row_index(c, 0, 2)] = a.edge_reach[row_index(c, 1, 2)] = 1.0 / along;
 }
 
@@ -228,12 +229,15 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
             points.weight[0] = centre_line_weight(t.vertices[e.vertex_0], t.vertices[e.vertex_1],
                 discs[t.disc_of_cell[e.cell_a]], discs[t.disc_of_cell[e.cell_b]]);
         }
-        fill_contact(a, c, e, grains, points);
+        const int edge = std::min(c, a.contacts - 1);
+        const bool of_edge = !options.edge_normal.empty() && options.edge_normal[edge] != 0;
+        fill_contact(a, c, e, grains, points, of_edge);
         if (c >= a.contacts) continue;
         a.contact_grains.insert(a.contact_grains.end(), { e.cell_a, e.cell_b });
         a.contact_bonded.push_back(1);
-        a.contact_law.push_back(
-            a.grain_material[e.cell_a] * materials + a.grain_material[e.cell_b]);
+        a.contact_law.push_back(!options.edge_law.empty()
+                ? options.edge_law[c]
+                : a.grain_material[e.cell_a] * materials + a.grain_material[e.cell_b]);
     }
 }
 
@@ -252,6 +256,21 @@ void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedG
     }
 }
 
+void check_edges(const Tessellation& t, const AssemblyOptions& o)
+{
+    for (std::size_t given : { o.edge_law.size(), o.edge_normal.size() }) {
+        if (given != 0 && given != t.shared_edges.size()) {
+            refuse("choices for edges", static_cast<double>(given), "",
+                "must be one for each shared edge");
+        }
+    }
+    for (int law : o.edge_law) {
+        if (law < 0 || law >= static_cast<int>(o.laws.size())) {
+            refuse("law of an edge", law, "", "must be the index of a law");
+        }
+    }
+}
+
 void check(const Tessellation& t, const AssemblyOptions& o)
 {
     check_positive("thickness", o.thickness, "m");
@@ -261,7 +280,8 @@ void check(const Tessellation& t, const AssemblyOptions& o)
     }
     const std::size_t materials = o.elastic.size();
     if (materials == 0) refuse("materials", 0, "", "give at least one");
-    if (o.laws.size() != materials * materials) {
+    check_edges(t, o);
+    if (o.edge_law.empty() && o.laws.size() != materials * materials) {
         refuse("contact laws", static_cast<double>(o.laws.size()), "",
             "must be one for each ordered pair of materials");
     }

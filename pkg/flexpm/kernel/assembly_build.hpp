@@ -6,6 +6,8 @@
 #include <flexpm/kernel/grain_mesh.hpp>
 #include <flexpm/kernel/tessellation.hpp>
 
+#include <cstdint>
+
 namespace flexpm {
 
 struct AssemblyOptions {
@@ -16,6 +18,9 @@ struct AssemblyOptions {
     bool on_centre_line = false;  ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
     std::vector<ElasticMaterial> elastic;
     std::vector<int> grain_material;    ///< per cell, into `elastic`; empty: all 0
+    std::vector<int> edge_law;  ///< per shared edge, into `laws`; empty: by the materials of its cells
+    std::vector<std::uint8_t> edge_normal;  ///< per shared edge: 1 takes the normal of the edge,
+                                            ///< 0 that between the centres; empty: all 0
     std::vector<ContactMaterial> laws;  ///< per pair of materials: laws[i * elastic.size() + j]
 };
 

@@ -56,4 +56,15 @@ LawParameters make_law(const ContactMaterial& m)
     return p;
 }
 
+ContactMaterial unbreakable(const ContactMaterial& material)
+{
+    constexpr double far = 1.0;  // [m]
+    ContactMaterial m = material;
+    m.tensile_strength = m.normal_stiffness * far;
+    m.cohesion = m.shear_ratio * m.normal_stiffness * far;
+    m.tensile_fracture_energy = m.tensile_strength * far;
+    m.shear_fracture_energy = m.cohesion * far;
+    return m;
+}
+
 }  // namespace flexpm

@@ -44,6 +44,9 @@ constexpr double brittle_rate = 1e200;
 ///         is below the elastic energy at the strength by more than 1e-12 of it
 LawParameters make_law(const ContactMaterial& material);
 
+/// The same stiffness and friction, and strengths that an opening or a slip of one metre would reach.
+ContactMaterial unbreakable(const ContactMaterial& material);
+
 /// State of a point; what it needs to continue. All zero = bonded and unloaded.
 struct PointState {
     double opening = 0.0;          ///< u [m], relative to the bonded state; compression < 0

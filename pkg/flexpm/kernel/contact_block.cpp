@@ -17,6 +17,7 @@ constexpr int opening_row = ContactRows::opening * lanes, slip_row = ContactRows
 
 /// The rows of one block of contacts.
 struct Rows {
+    const double* reference;
     const double* displacement;
     const double* velocity;
     const int* nodes;
@@ -28,6 +29,7 @@ struct Rows {
     double* state;
     double* force;
     const double* law;  ///< [law_rows][lanes]
+    bool of_edges;      ///< a contact of the block takes its normal from its edges
 };
 
 /// What a block works out for its points on the way, [point][lane].
@@ -61,25 +63,44 @@ __attribute__((always_inline)) inline void store_state(const PointState& s, doub
     r[6 * lanes] = s.friction_energy;
 }
 
+/// A vector along the normal at the end of the step: between the centres, or, where a contact has no
+/// span, across the mean of the two edges.
+template <bool OfEdges>
+__attribute__((always_inline)) inline Point direction(const Rows& b, double dt, int l)
+{
+    const double *u = b.displacement, *v = b.velocity;
+    const int ca = b.nodes[4 * lanes + l], cb = b.nodes[5 * lanes + l];
+    const double dx = b.span[l] + ((u[cb] + dt * v[cb]) - (u[ca] + dt * v[ca]));
+    const double dy = b.span[lanes + l]
+        + ((u[cb + lanes] + dt * v[cb + lanes]) - (u[ca + lanes] + dt * v[ca + lanes]));
+    if (!OfEdges) return { dx, dy };
+    double ex = 0.0, ey = 0.0;
+    for (int side = 0; side < 2; ++side) {
+        const int n0 = b.nodes[2 * side * lanes + l], n1 = b.nodes[(2 * side + 1) * lanes + l];
+        ex += (b.reference[n1] - b.reference[n0]) + (u[n1] + dt * v[n1]) - (u[n0] + dt * v[n0]);
+        ey += (b.reference[n1 + lanes] - b.reference[n0 + lanes])
+            + (u[n1 + lanes] + dt * v[n1 + lanes]) - (u[n0 + lanes] + dt * v[n0 + lanes]);
+    }
+    const bool of_edge = (b.span[l] == 0.0) & (b.span[lanes + l] == 0.0);
+    return { of_edge ? ey : dx, of_edge ? -ex : dy };
+}
+
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
 /// the new normal: with it the work of a turning contact is what its energy says to third order.
 ///
 /// Deviation D24: both grains are compared in the middle of the gap between their places of a point (the paper's one
 /// contact location, Eq. 9), to which each edge carries its own rotation: a pair that turns as one
 /// body neither opens nor slips.
-template <int Points>
+template <int Points, bool OfEdges>
 __attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
 {
-    const double* u = b.displacement;
     const double* v = b.velocity;
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         const int a0 = b.nodes[l], a1 = b.nodes[lanes + l];
         const int b0 = b.nodes[2 * lanes + l], b1 = b.nodes[3 * lanes + l];
-        const int ca = b.nodes[4 * lanes + l], cb = b.nodes[5 * lanes + l];
-        const double dx = b.span[l] + ((u[cb] + dt * v[cb]) - (u[ca] + dt * v[ca]));
-        const double dy = b.span[lanes + l]
-            + ((u[cb + lanes] + dt * v[cb + lanes]) - (u[ca + lanes] + dt * v[ca + lanes]));
+        const Point along_normal = direction<OfEdges>(b, dt, l);
+        const double dx = along_normal.x, dy = along_normal.y;
         const double distance = std::sqrt(dx * dx + dy * dy);
         const double nx = dx / distance, ny = dy / distance;
         const double mx = 0.5 * (b.normal[l] + nx), my = 0.5 * (b.normal[lanes + l] + ny);
@@ -150,7 +171,7 @@ __attribute__((always_inline)) inline int update_lanes(
     const Rows& b, double dt, std::uint8_t* cracked)
 {
     Motion motion;
-    move_points<Points>(b, dt, motion);
+    (b.of_edges ? move_points<Points, true> : move_points<Points, false>)(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     alignas(64) double next[Points * 4 * lanes];
@@ -234,6 +255,15 @@ void fill_law(const Assembly& a, int block, double* rows)
         std::fill_n(rows + r * lanes + 1, lanes - 1, rows[r * lanes]);
 }
 
+/// Contacts without a span, which is what marks them.
+bool any_normal_of_edge(const Assembly& a, int block)
+{
+    const double* span = a.span.data() + 2 * lanes * block;
+    bool any = false;
+    for (int l = 0; l < lanes; ++l) any |= (span[l] == 0.0) & (span[lanes + l] == 0.0);
+    return any;
+}
+
 /// Where a point is now: the middle of its places on the two edges.
 Point point_position(const Assembly& a, int contact, int point, double dt)
 {
@@ -277,12 +307,13 @@ void update_contact_block(Assembly& a, int block, double dt)
     alignas(64) double law[law_rows * lanes];
     fill_law(a, block, law);
     const int first = block * lanes;
-    const Rows rows = { a.displacement.data(), a.velocity.data(),
+    const Rows rows = { a.reference.data(), a.displacement.data(), a.velocity.data(),
         a.contact_nodes.data() + first * ContactRows::nodes, a.weight.data() + first * 2 * a.points,
         a.area.data() + first * a.points, a.span.data() + first * 2,
         a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
-        a.contact_force.data() + first * ContactRows::forces, law };
+        a.contact_force.data() + first * ContactRows::forces, law,
+        any_normal_of_edge(a, block) };
     std::uint8_t cracked[most_points * lanes];
     const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
         : a.points == 2              ? update_2(rows, dt, cracked)

@@ -65,10 +65,17 @@ inline Point normal_of(const Assembly& a, int contact)
     return { a.normal[row_index(contact, 0, 2)], a.normal[row_index(contact, 1, 2)] };
 }
 
-/// Unit normal of a contact when it was bonded, from a to b.
+/// Unit normal of a contact when it was bonded, from a to b: along the centres, or across the edge of
+/// a contact without a span.
 inline Point bonded_normal(const Assembly& a, int contact)
 {
-    const double x = a.span[row_index(contact, 0, 2)], y = a.span[row_index(contact, 1, 2)];
+    double x = a.span[row_index(contact, 0, 2)], y = a.span[row_index(contact, 1, 2)];
+    if (x == 0.0 && y == 0.0) {
+        const int n0 = a.contact_nodes[row_index(contact, 0, ContactRows::nodes)];
+        const int n1 = a.contact_nodes[row_index(contact, 1, ContactRows::nodes)];
+        x = a.reference[n1 + lanes] - a.reference[n0 + lanes];
+        y = a.reference[n0] - a.reference[n1];
+    }
     const double length = std::hypot(x, y);
     return { x / length, y / length };
 }
