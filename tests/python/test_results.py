@@ -38,6 +38,7 @@ KEYS = [
     "shear_cracks",
     "unbalanced_ratio",
     "energy_error",
+    "contact_width",
     "status",
 ]
 

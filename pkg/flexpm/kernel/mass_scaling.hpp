@@ -2,6 +2,7 @@
 /// @file  Bound of the nodal stiffness, scaled masses and stable time step, paper Sec. 2.4.
 /// Deviation D4: Eq. 20 (m = K_t / 4) is unstable with the damping of Eq. 2, which lowers the limit
 /// to omega dt < 2 / sqrt(1 + alpha); masses carry the factor s (1 + alpha).
+/// Deviation D26: real masses of rigid grains are those of the cell, centred in the disc.
 #pragma once
 
 #include <flexpm/kernel/assembly.hpp>
