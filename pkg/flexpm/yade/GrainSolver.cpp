@@ -48,8 +48,8 @@ void GrainSolver::action()
 	options.measure = (assembly.step + 1) % measurePeriod == 0;
 	flexpm::step(assembly, options);
 	publishBodies();
-	if (options.measure) check();
 	if (assembly.step % touchPeriod == 0) changeContacts();
+	if (options.measure) check();
 }
 
 namespace {
@@ -78,6 +78,7 @@ void GrainSolver::check()
 		const auto& b = (*scene->bodies)[bodyIds[grain]];
 		if (b && b->bound && nearBound(assembly, grain, *b->bound)) scene->doSort = true;
 	}
+	if (scene->doSort) listed = false;
 }
 
 void GrainSolver::publishBodies()

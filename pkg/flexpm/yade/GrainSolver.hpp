@@ -76,7 +76,8 @@ public:
 	DECLARE_LOGGER;
 
 private:
-	vector<flexpm::GrainPair> candidates; // pairs without a contact whose bounding boxes overlap
+	vector<flexpm::GrainPair> candidates;     // pairs without a contact whose bounding boxes overlap
+	bool                      listed = false; // the candidates are those of the collider's last run
 	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
 	void                      insertContacts();
 	void                      publishBodies();

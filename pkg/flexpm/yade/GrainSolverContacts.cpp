@@ -13,6 +13,7 @@ namespace yade {
 void GrainSolver::retireErased()
 {
 	seenDestroyed = destroyedContacts();
+	listed        = false; // what was erased may touch again
 	for (int c = 0; c < assembly.contacts; ++c) {
 		const auto bond = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
 		if (!bond || !bond->isReal()) flexpm::retire_contact(assembly, c);
@@ -36,11 +37,13 @@ void GrainSolver::listCandidates()
 		if (g >= 0 && h >= 0) candidates.push_back({ std::min(g, h), std::max(g, h) });
 	}
 	std::sort(candidates.begin(), candidates.end());
+	listed = true;
 }
 
 void GrainSolver::changeContacts()
 {
 	vector<int> over;
+	if (!listed) listCandidates(); // also in a scene that was loaded, whose collider has just run
 	if (assembly.step % measurePeriod == 0) {
 		listCandidates();
 		for (int c = 0; c < assembly.contacts; ++c) {
