@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from yade import wrapper
 
@@ -69,6 +71,31 @@ def test_erased_grains_and_bonds_stay_dead_after_loading(make, bits, tmp_path, s
     O.run(STEPS, True)
     assert bits() == uninterrupted
     assert len(scene_solver().bodyIds) == len(model.specimen.discs)
+
+
+def test_contacts_come_and_go_at_the_same_steps_after_loading(make, bits, tmp_path):
+    def pairs() -> frozenset:
+        return frozenset((i.id1, i.id2) for i in O.interactions if i.isReal)
+
+    model = make()
+    for bond in [i for i in O.interactions if i.isReal and 12 in (i.id1, i.id2)]:
+        O.interactions.erase(bond.id1, bond.id2)
+    cell = O.bodies[12].shape
+    cell.held[:] = 1
+    cell.velocities[:] = (0.0, 4e-7)
+    model.run(437)
+    O.save(str(tmp_path / "scene.bin"))
+    uninterrupted, touching = [], [pairs()]
+    for _ in range(40):
+        model.run(13)
+        uninterrupted.append(bits())
+        touching.append(pairs())
+    assert any(later - earlier for earlier, later in pairwise(touching)), "no new contact"
+    assert any(earlier - later for earlier, later in pairwise(touching)), "no contact ended"
+    O.load(str(tmp_path / "scene.bin"))
+    for expected in uninterrupted:
+        O.run(13, True)
+        assert bits() == expected
 
 
 def test_the_number_of_threads_does_not_change_a_bit(make, bits):
