@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the ends and sides of a specimen are loaded, paper Sec. 4.1. SI units.
 
-Deformable grains: boundary nodes are driven and boundary edges pressed directly. Rigid grains: rigid
-plates with one-point contacts, sides pressed by a membrane of independent plates.
+Deformable grains: boundary nodes are driven and boundary edges pressed directly. Rigid grains:
+rigid plates with one-point contacts, sides pressed by a membrane of independent plates.
 """
 
 from __future__ import annotations

@@ -201,9 +201,7 @@ def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
         loading.confine(built, settings.confinement, _RAMP_CROSSINGS * crossing)
 
     course.stage(prepare, lambda: _settle(built, course, loading.ramp(built)))
-    return _run_axial(
-        "biaxial", built, settings, course, lambda: loading.hold(built), fromNow=True
-    )
+    return _run_axial("biaxial", built, settings, course, lambda: loading.hold(built), fromNow=True)
 
 
 def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:

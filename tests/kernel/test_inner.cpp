@@ -29,7 +29,8 @@ bool has_edge(const flexpm::Tessellation& t, int cell, int v0, int v1)
 {
     const int first = t.cell_offsets[cell], n = t.vertices_of(cell);
     for (int k = 0; k < n; ++k) {
-        if (t.cell_vertices[first + k] == v0 && t.cell_vertices[first + (k + 1) % n] == v1) return true;
+        if (t.cell_vertices[first + k] == v0 && t.cell_vertices[first + (k + 1) % n] == v1)
+            return true;
     }
     return false;
 }
@@ -47,7 +48,8 @@ TEST_CASE("power cells of relaxed seeds share a polygon evenly", "[inner]")
         double total = 0.0;
         for (const auto& cell : packing.cells) {
             std::vector<Point> corners;
-            for (const auto& k : cell) corners.push_back(k.point);
+            for (const auto& k : cell)
+                corners.push_back(k.point);
             const double area = flexpm::polygon_shape(corners).area;
             CHECK(area == Approx(mean).epsilon(0.02));
             total += area;
@@ -76,14 +78,16 @@ TEST_CASE("inner cells tile the specimen and meet edge to edge", "[inner]")
     const int edges = static_cast<int>(t.shared_edges.size() + t.boundary_edges.size());
     CHECK(static_cast<int>(t.vertices.size()) - edges + t.cells() == 1);  // Euler
     int sides = 0;
-    for (int c = 0; c < t.cells(); ++c) sides += t.vertices_of(c);
+    for (int c = 0; c < t.cells(); ++c)
+        sides += t.vertices_of(c);
     CHECK(sides == static_cast<int>(2 * t.shared_edges.size() + t.boundary_edges.size()));
     for (const auto& e : t.shared_edges) {
         CHECK(e.cell_a < e.cell_b);
         CHECK(has_edge(t, e.cell_a, e.vertex_0, e.vertex_1));
         CHECK(has_edge(t, e.cell_b, e.vertex_1, e.vertex_0));
     }
-    for (const auto& e : t.boundary_edges) CHECK(has_edge(t, e.cell, e.vertex_0, e.vertex_1));
+    for (const auto& e : t.boundary_edges)
+        CHECK(has_edge(t, e.cell, e.vertex_0, e.vertex_1));
 }
 
 TEST_CASE("stretches along a grain's edge add up to it", "[inner]")
@@ -104,7 +108,8 @@ TEST_CASE("stretches along a grain's edge add up to it", "[inner]")
     CHECK(lengths.size() == s.cells.shared_edges.size());
 }
 
-TEST_CASE("an unbreakable contact has the same stiffness and never leaves its elastic branch", "[inner]")
+TEST_CASE(
+    "an unbreakable contact has the same stiffness and never leaves its elastic branch", "[inner]")
 {
     const auto law = flexpm::make_law(flexpm::unbreakable(specimens::granite_contact()));
     flexpm::PointState s;
@@ -123,7 +128,8 @@ TEST_CASE("contacts across an edge of a grain may take its normal", "[inner]")
     o.points = 1;
     o.laws.push_back(flexpm::unbreakable(o.laws[0]));
     o.edge_normal = inner.outer;
-    for (auto outer : inner.outer) o.edge_law.push_back(outer ? 0 : 1);
+    for (auto outer : inner.outer)
+        o.edge_law.push_back(outer ? 0 : 1);
     Assembly a = flexpm::make_assembly(inner.cells, inner.discs, o);
     flexpm::scale_masses(a, 0.7);
     // the whole specimen turns: normals follow and nothing is strained
@@ -163,5 +169,6 @@ TEST_CASE("inner cells do not depend on anything but the grains", "[inner]")
         CHECK(one.discs[i].centre.x == two.discs[i].centre.x);
         CHECK(one.discs[i].radius == two.discs[i].radius);
     }
-    CHECK_THROWS_WITH(flexpm::make_inner_cells(s.cells, 0.0), Catch::Contains("between 1 and 1000"));
+    CHECK_THROWS_WITH(
+        flexpm::make_inner_cells(s.cells, 0.0), Catch::Contains("between 1 and 1000"));
 }

@@ -118,7 +118,8 @@ TEST_CASE("friction of a plate is Coulomb's, and its loss is booked", "[plate]")
 {
     Assembly a = squares(1, 1, true);
     const double friction = 0.3;
-    const int upper = flexpm::add_side_plates(a, flexpm::top_side, 1, { 0.0, friction, false }).front();
+    const int upper =
+        flexpm::add_side_plates(a, flexpm::top_side, 1, { 0.0, friction, false }).front();
     flexpm::scale_masses(a, 0.0);
     a.held[a.centre(0)] = a.held[a.centre(0) + lanes] = 1;
     flexpm::drive_spin(a, 0, 0.0, 1.0);
@@ -134,7 +135,8 @@ TEST_CASE("friction of a plate is Coulomb's, and its loss is booked", "[plate]")
     CHECK(flexpm::plate_force(a, flexpm::top_side).x == Approx(friction * normal).epsilon(1e-12));
     const double elastic = friction * normal / (0.28 * k);  // slip before it slides
     CHECK(flexpm::energies(a).friction
-        == Approx(friction * normal * (slip - elastic)).epsilon(1e-3));  // sliding starts within a step
+        == Approx(friction * normal * (slip - elastic))
+               .epsilon(1e-3));  // sliding starts within a step
     CHECK(flexpm::energies(a).boundary_work == Approx(sum(flexpm::energies(a))).epsilon(1e-12));
 }
 
@@ -146,12 +148,14 @@ TEST_CASE("a membrane of loaded plates presses with its pressure", "[plate]")
         return o;
     }());
     std::vector<int> membrane = flexpm::add_side_plates(a, flexpm::left_side, 6, {});
-    for (int p : flexpm::add_side_plates(a, flexpm::right_side, 6, {})) membrane.push_back(p);
+    for (int p : flexpm::add_side_plates(a, flexpm::right_side, 6, {}))
+        membrane.push_back(p);
     flexpm::scale_masses(a, 0.7);
     const double pressure = 4e6;
     Balance balance;
     for (int i = 0; i < 3000; ++i) {
-        for (int p : membrane) flexpm::press(a, p, pressure * flexpm::ramp_factor(a.step, 1000));
+        for (int p : membrane)
+            flexpm::press(a, p, pressure * flexpm::ramp_factor(a.step, 1000));
         run(a, 1);
         if (i % 50 == 0) balance.look(a);
     }
@@ -201,7 +205,8 @@ TEST_CASE("plates are checked", "[plate]")
     CHECK_THROWS_WITH(flexpm::add_side_plates(a, 9, 1, {}), Catch::Contains("side = 9"));
     CHECK_THROWS_WITH(flexpm::add_side_plates(a, 0, 0, {}), Catch::Contains("at least 1"));
     CHECK_THROWS_WITH(flexpm::add_side_plates(a, 0, 40, {}), Catch::Contains("fewer plates"));
-    CHECK_THROWS_WITH(flexpm::add_side_plates(a, 0, 1, { -1.0, 0.0, false }), Catch::Contains("stiffness"));
+    CHECK_THROWS_WITH(
+        flexpm::add_side_plates(a, 0, 1, { -1.0, 0.0, false }), Catch::Contains("stiffness"));
     const int plate = flexpm::add_side_plates(a, 0, 1, {}).front();
     CHECK_THROWS_WITH(flexpm::press(a, plate, 1e6), Catch::Contains("scale the masses"));
     CHECK_THROWS_WITH(flexpm::set_velocity(a, 7, { 0.0, 0.0 }), Catch::Contains("plate = 7"));

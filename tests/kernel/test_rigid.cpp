@@ -111,8 +111,8 @@ TEST_CASE("a grid of rigid squares has E = K_n a and no Poisson's ratio", "[rigi
 
 TEST_CASE("the elastic solve of rigid grains holds the forces in balance", "[rigid][elastic]")
 {
-    const Assembly a = rigid(
-        specimens::random_grains(12e-3, 18e-3, 3e-3, 5), specimens::strong_contact(1.08e13));
+    const Assembly a =
+        rigid(specimens::random_grains(12e-3, 18e-3, 3e-3, 5), specimens::strong_contact(1.08e13));
     std::vector<flexpm::Prescribed> held;
     const int first = a.centre(0), other = a.centre(a.grains - 1);
     held.push_back({ first, 0.0 });
@@ -123,29 +123,33 @@ TEST_CASE("the elastic solve of rigid grains holds the forces in balance", "[rig
     const auto s = flexpm::solve_static(a, held);
     solved.force = s.force;
     double largest = 0.0;
-    for (double f : s.force) largest = std::max(largest, std::fabs(f));
+    for (double f : s.force)
+        largest = std::max(largest, std::fabs(f));
     REQUIRE(largest > 1.0);
     for (int g = 1; g + 1 < a.grains; ++g) {
         const auto sum = flexpm::resultant_on(solved, g);
         CHECK(std::hypot(sum.force.x, sum.force.y) < 1e-8 * largest);
         CHECK(std::fabs(sum.moment) < 1e-8 * largest * a.radius[g]);
     }
-    CHECK_THROWS_WITH(flexpm::solve_static(a, { { a.node(0, 0), 0.0 } }),
-        Catch::Contains("rigid grain"));
+    CHECK_THROWS_WITH(
+        flexpm::solve_static(a, { { a.node(0, 0), 0.0 } }), Catch::Contains("rigid grain"));
 }
 
 TEST_CASE("stepping rigid grains arrives at the elastic solve", "[rigid][elastic]")
 {
-    Assembly a = rigid(
-        specimens::random_grains(9e-3, 12e-3, 3e-3, 5), specimens::strong_contact(1.08e13));
+    Assembly a =
+        rigid(specimens::random_grains(9e-3, 12e-3, 3e-3, 5), specimens::strong_contact(1.08e13));
     const std::vector<int> ends = { a.centre(0), a.centre(a.grains - 1) };
     const auto s = flexpm::solve_static(a,
-        { { ends[0], 0.0 }, { ends[0] + lanes, 0.0 }, { ends[1], 1e-7 }, { ends[1] + lanes, 0.0 } });
+        { { ends[0], 0.0 }, { ends[0] + lanes, 0.0 }, { ends[1], 1e-7 },
+            { ends[1] + lanes, 0.0 } });
     flexpm::scale_masses(a, 0.7);
-    for (int i : ends) a.held[i] = a.held[i + lanes] = 1;
+    for (int i : ends)
+        a.held[i] = a.held[i + lanes] = 1;
     flexpm::set_motion(a, a.grains - 1, { 1e-10, 0.0 }, 0.0, 1.0);
     run(a, 1000, 0.7);
-    flexpm::set_motion(a, a.grains - 1, { 0.0, 0.0 }, a.spin[flexpm::rigid_index(a, a.grains - 1)], 1.0);
+    flexpm::set_motion(
+        a, a.grains - 1, { 0.0, 0.0 }, a.spin[flexpm::rigid_index(a, a.grains - 1)], 1.0);
     run(a, 4000, 0.7);
     for (int g = 0; g < a.grains; ++g) {
         for (int n = 0; n < a.nodes_of(g); ++n) {
@@ -183,8 +187,10 @@ TEST_CASE("contacts of rigid grains follow those of deformable grains led along 
                 const double angle = i * spin;
                 const double rx = reference.x - soft.reference[c];
                 const double ry = reference.y - soft.reference[c + lanes];
-                return Point { soft.reference[c] + i * speed + std::cos(angle) * rx - std::sin(angle) * ry,
-                    soft.reference[c + lanes] + 0.5 * i * speed + std::sin(angle) * rx + std::cos(angle) * ry };
+                return Point { soft.reference[c] + i * speed + std::cos(angle) * rx
+                        - std::sin(angle) * ry,
+                    soft.reference[c + lanes] + 0.5 * i * speed + std::sin(angle) * rx
+                        + std::cos(angle) * ry };
             }
             return reference;
         });
@@ -255,8 +261,8 @@ TEST_CASE("real masses and inertia of rigid grains are those of their cells", "[
     const double mass = 2650.0 * size * size * specimens::thickness;
     for (int g = 0; g < a.grains; ++g) {
         CHECK(1.0 / a.inverse_mass[flexpm::scalar_index(a.centre(g))] == Approx(mass));
-        CHECK(1.0 / a.inverse_inertia[flexpm::rigid_index(a, g)]
-            == Approx(mass * size * size / 6.0));
+        CHECK(
+            1.0 / a.inverse_inertia[flexpm::rigid_index(a, g)] == Approx(mass * size * size / 6.0));
     }
     // the bound lies above the highest frequency, at most twofold: omega^2 <= row sum of M^-1 K
     CHECK(dt > 0.0);
@@ -268,8 +274,8 @@ TEST_CASE("real masses and inertia of rigid grains are those of their cells", "[
 
 TEST_CASE("energy of breaking rigid grains is accounted for", "[rigid][energy]")
 {
-    Assembly a = rigid(
-        specimens::random_grains(9e-3, 12e-3, 3e-3, 9), specimens::granite_contact());
+    Assembly a =
+        rigid(specimens::random_grains(9e-3, 12e-3, 3e-3, 9), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7);
     for (int e = 0; e < a.edges; ++e) {
         const int c = a.centre(a.edge_grain[e]);

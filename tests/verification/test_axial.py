@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Axial tests of small specimens against the elastic solve, the bounds of the law and the energy books."""
+"""Axial tests of small specimens: elastic solve, bounds of the law, energy books."""
 
-import flexpm
 import numpy as np
 import pytest
 import yade
+
+import flexpm
 from flexpm import protocols
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]

@@ -3,9 +3,10 @@
 
 from statistics import mean
 
-import flexpm
 import numpy as np
 import pytest
+
+import flexpm
 
 pytestmark = pytest.mark.slow
 

@@ -86,9 +86,9 @@ struct Assembly {
         contact_bonded;  ///< 1: since the specimen was bonded, 0: touched later
     /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
     std::map<std::pair<int, int>, double> close_pairs;
-    Array<int> contact_nodes;        ///< node offsets, ContactRows::nodes
-    Array<double> weight;            ///< [point][side]: share of the edge's second node [-]
-    Array<double> area;              ///< [point] [m^2]
+    Array<int> contact_nodes;  ///< node offsets, ContactRows::nodes
+    Array<double> weight;      ///< [point][side]: share of the edge's second node [-]
+    Array<double> area;        ///< [point] [m^2]
     /// [x, y] from centre a to centre b when bonded [m]; zero: the normal is that of the edges.
     Array<double> span;
     Array<double> edge_reach;        ///< [side]: 1 / (edge along the tangent) when bonded [1/m]

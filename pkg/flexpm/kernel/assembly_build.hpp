@@ -17,11 +17,12 @@ struct AssemblyOptions {
     int points = 3;               ///< contact points: 3 or 2 (Lobatto), 1 (middle of the edge)
     bool on_centre_line = false;  ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
     std::vector<ElasticMaterial> elastic;
-    std::vector<int> grain_material;    ///< per cell, into `elastic`; empty: all 0
-    std::vector<int> edge_law;  ///< per shared edge, into `laws`; empty: by the materials of its cells
+    std::vector<int> grain_material;  ///< per cell, into `elastic`; empty: all 0
+    std::vector<int>
+        edge_law;  ///< per shared edge, into `laws`; empty: by the materials of its cells
     std::vector<std::uint8_t> edge_normal;  ///< per shared edge: 1 takes the normal of the edge,
                                             ///< 0 that between the centres; empty: all 0
-    std::vector<ContactMaterial> laws;  ///< per pair of materials: laws[i * elastic.size() + j]
+    std::vector<ContactMaterial> laws;      ///< per pair of materials: laws[i * elastic.size() + j]
 };
 
 /// @throws std::invalid_argument  if an option is out of range

@@ -260,7 +260,8 @@ bool any_normal_of_edge(const Assembly& a, int block)
 {
     const double* span = a.span.data() + 2 * lanes * block;
     bool any = false;
-    for (int l = 0; l < lanes; ++l) any |= (span[l] == 0.0) & (span[lanes + l] == 0.0);
+    for (int l = 0; l < lanes; ++l)
+        any |= (span[l] == 0.0) & (span[lanes + l] == 0.0);
     return any;
 }
 
@@ -312,8 +313,7 @@ void update_contact_block(Assembly& a, int block, double dt)
         a.area.data() + first * a.points, a.span.data() + first * 2,
         a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
-        a.contact_force.data() + first * ContactRows::forces, law,
-        any_normal_of_edge(a, block) };
+        a.contact_force.data() + first * ContactRows::forces, law, any_normal_of_edge(a, block) };
     std::uint8_t cracked[most_points * lanes];
     const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
         : a.points == 2              ? update_2(rows, dt, cracked)

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,6 +53,12 @@ inline PointState point_state(const Assembly& a, int contact, int point)
     const double* s = &a.point_state[row_index(
         contact, point * ContactRows::state, a.points * ContactRows::state)];
     return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes], s[5 * lanes], s[6 * lanes] };
+}
+
+/// Contacts of the bonded specimen, those that have ended included.
+inline int bonded_contacts(const Assembly& a)
+{
+    return static_cast<int>(std::count(a.contact_bonded.begin(), a.contact_bonded.end(), 1));
 }
 
 inline double damage_of(const Assembly& a, int contact, int point)

@@ -81,7 +81,8 @@ py::dict GrainSolver::counts() const
 	}
 	py::dict d;
 	d["grains"]    = assembly.grains;
-	d["contacts"]  = assembly.contacts;
+	d["contacts"]  = flexpm::bonded_contacts(assembly); // as in the specimen; others have touched since
+	d["touching"]  = assembly.contacts - flexpm::bonded_contacts(assembly);
 	d["nodes"]     = nodes;
 	d["triangles"] = triangles;
 	d["groups"]    = assembly.groups.size();
