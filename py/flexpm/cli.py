@@ -134,7 +134,7 @@ def elastic(**options: Any) -> None:
     model = options["model"]
     chosen = _material(options)
     flexpm = _library()
-    _require("model", model, flexpm.models.MODELS)
+    _require("model", model, flexpm.models.SOLVER_MODELS)
     with console.Progress(options["quiet"]) as progress:
         specimen = _rectangle(options, progress)
         progress.close()

@@ -86,12 +86,11 @@ def test_elastic_prints_the_constants(capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["run", "biaxial"], "test = 'biaxial', is not available"),
-        (["run", "uniaxial", "--model", "rigid"], "model = 'rigid', is not available"),
+        (["run", "uniaxial", "--model", "inner"], "model = 'inner', is not available"),
         (["elastic", "--model", "jcfpm"], "model = 'jcfpm', is not available"),
     ],
 )
-def test_what_is_still_to_come_is_refused_in_one_line(capsys, tmp_path, arguments, message):
+def test_what_a_model_cannot_do_is_refused_in_one_line(capsys, tmp_path, arguments, message):
     out = ["--out", str(tmp_path)] if arguments[0] == "run" else []
     assert cli.main([*arguments, *SMALL, *out]) == 2
     output, errors = capsys.readouterr()
