@@ -88,9 +88,9 @@ __attribute__((always_inline)) inline Point direction(const Rows& b, double dt, 
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
 /// the new normal: with it the work of a turning contact is what its energy says to third order.
 ///
-/// Deviation D24: both grains are compared in the middle of the gap between their places of a point (the paper's one
-/// contact location, Eq. 9), to which each edge carries its own rotation: a pair that turns as one
-/// body neither opens nor slips.
+/// Deviation D24: both grains are compared in the middle of the gap between their places of a point
+/// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair that
+/// turns as one body neither opens nor slips.
 template <int Points, bool OfEdges>
 __attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
 {
@@ -171,7 +171,11 @@ __attribute__((always_inline)) inline int update_lanes(
     const Rows& b, double dt, std::uint8_t* cracked)
 {
     Motion motion;
-    (b.of_edges ? move_points<Points, true> : move_points<Points, false>)(b, dt, motion);
+    // two calls, not one through a pointer: only a direct call is compiled for each instruction set
+    if (b.of_edges)
+        move_points<Points, true>(b, dt, motion);
+    else
+        move_points<Points, false>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     alignas(64) double next[Points * 4 * lanes];

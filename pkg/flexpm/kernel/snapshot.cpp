@@ -12,6 +12,18 @@ namespace {
 
 void push(std::vector<double>& to, Point p) { to.insert(to.end(), { p.x, p.y }); }
 
+/// A rigid grain has no triangles: a fan without stress shows its shape.
+void add_fan(const Assembly& a, int grain, int first, Snapshot& s)
+{
+    const int corners = a.group(a.grain_slot[grain] / lanes).vertices;
+    for (int k = 0; k < corners; ++k) {
+        s.triangles.insert(
+            s.triangles.end(), { first + k, first + (k + 1) % corners, first + corners });
+        s.triangle_grain.push_back(grain);
+        s.triangle_stress.insert(s.triangle_stress.end(), { 0.0, 0.0, 0.0 });
+    }
+}
+
 void add_grain(const Assembly& a, int grain, Snapshot& s)
 {
     const int first = static_cast<int>(s.positions.size() / 2);
@@ -22,6 +34,7 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
         push(s.velocities, { a.velocity[node], a.velocity[node + lanes] });
         push(s.forces, force_of(a, node));
     }
+    if (a.is_rigid(grain)) add_fan(a, grain, first, s);
     const PlaneStiffness c = stiffness_of(a, grain);
     for (int t = 0; t < triangles_of(a, grain); ++t) {
         const auto n = triangle_nodes(a, grain, t);
