@@ -113,6 +113,16 @@ TEST_CASE("Grains touch at the sum of their radii, or where their discs overlapp
     CHECK(flexpm::touching_distance(a, { 0, 2 }) == 0.9 * radii);
 }
 
+TEST_CASE("Near pairs are those that no acting contact holds")
+{
+    Assembly a = row_of_three();
+    CHECK(flexpm::near_pairs(a, 0.1 * size).empty());  // two bonds, and the outer grains are far
+    CHECK(flexpm::near_pairs(a, 1.1 * size) == std::vector<GrainPair> { { 0, 2 } });
+    move_last(a, 1e-5, 2000);
+    flexpm::change_contacts(a, { 1 }, {}, 0.7, 1.0);
+    CHECK(flexpm::near_pairs(a, 0.1 * size) == std::vector<GrainPair> { { 1, 2 } });
+}
+
 TEST_CASE("Masses rise for a new contact, never fall, and the energy of that is booked")
 {
     Assembly a = row_of_three();

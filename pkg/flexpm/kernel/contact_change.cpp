@@ -165,6 +165,15 @@ void raise_masses(Assembly& a, double damping, double dt)
     }
 }
 
+/// A contact that has not been retired.
+bool carries(const Assembly& a, int contact)
+{
+    double area = 0.0;
+    for (int p = 0; p < a.points; ++p)
+        area += a.area[row_index(contact, p, a.points)];
+    return area > 0.0;
+}
+
 }  // namespace
 
 double centre_distance(const Assembly& a, int grain_a, int grain_b)
@@ -180,12 +189,36 @@ double touching_distance(const Assembly& a, GrainPair pair)
     return close == a.close_pairs.end() ? radii : std::min(radii, close->second);
 }
 
+std::vector<GrainPair> near_pairs(const Assembly& a, double margin)
+{
+    std::vector<GrainPair> held;
+    for (int c = 0; c < a.contacts; ++c) {
+        if (carries(a, c)) held.push_back({ a.contact_grains[2 * c], a.contact_grains[2 * c + 1] });
+    }
+    std::sort(held.begin(), held.end());
+    std::vector<std::pair<double, int>> along;  // of the centres, along x
+    for (int g = 0; g < a.grains; ++g)
+        along.push_back({ a.position(a.centre(g)).x, g });
+    std::sort(along.begin(), along.end());
+    const double largest = *std::max_element(a.radius.begin(), a.radius.end());
+    std::vector<GrainPair> near;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+        const int g = along[i].second;
+        for (std::size_t j = i + 1; j < along.size(); ++j) {
+            if (along[j].first - along[i].first > a.radius[g] + largest + margin) break;
+            const int h = along[j].second;
+            const GrainPair pair { std::min(g, h), std::max(g, h) };
+            const bool close = centre_distance(a, g, h) < a.radius[g] + a.radius[h] + margin;
+            if (close && !std::binary_search(held.begin(), held.end(), pair)) near.push_back(pair);
+        }
+    }
+    std::sort(near.begin(), near.end());
+    return near;
+}
+
 bool is_over(const Assembly& a, int contact)
 {
-    double area = 0.0;
-    for (int p = 0; p < a.points; ++p)
-        area += a.area[row_index(contact, p, a.points)];
-    if (area == 0.0) return !a.contact_bonded[contact];
+    if (!carries(a, contact)) return !a.contact_bonded[contact];
     for (int p = 0; p < a.points; ++p) {
         if (damage_of(a, contact, p) < 1.0) return false;
     }

@@ -78,7 +78,6 @@ void GrainSolver::check()
 		const auto& b = (*scene->bodies)[bodyIds[grain]];
 		if (b && b->bound && nearBound(assembly, grain, *b->bound)) scene->doSort = true;
 	}
-	if (scene->doSort) listed = false;
 }
 
 void GrainSolver::publishBodies()

@@ -48,6 +48,7 @@ public:
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force, and between two checks for numbers that are not finite [-]."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
+		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next measured step [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
@@ -76,8 +77,8 @@ public:
 	DECLARE_LOGGER;
 
 private:
-	vector<flexpm::GrainPair> candidates;     // pairs without a contact whose bounding boxes overlap
-	bool                      listed = false; // the candidates are those of the collider's last run
+	vector<flexpm::GrainPair> candidates;     // near pairs without a contact
+	bool                      listed = false; // the candidates are up to date
 	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
 	void                      insertContacts();
 	void                      publishBodies();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Contacts that come and go: the collider's pairs to the kernel, the kernel's contacts to interactions.
+/// @file  Contacts that come and go: the kernel's contacts to interactions.
 #include <flexpm/yade/GrainSolver.hpp>
 
 #include <flexpm/kernel/retire.hpp>
-#include <flexpm/yade/LaguerreCell.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
 #include <algorithm>
@@ -25,25 +24,16 @@ void GrainSolver::retireErased()
 
 void GrainSolver::listCandidates()
 {
-	candidates.clear();
-	const auto grainOf = [&](Body::id_t id) {
-		const auto& b    = (*scene->bodies)[id];
-		const auto* cell = b ? dynamic_cast<const LaguerreCell*>(b->shape.get()) : nullptr;
-		return cell ? cell->grain : -1;
-	};
-	for (const auto& pair : *scene->interactions) {
-		if (pair->isReal()) continue;
-		const int g = grainOf(pair->getId1()), h = grainOf(pair->getId2());
-		if (g >= 0 && h >= 0) candidates.push_back({ std::min(g, h), std::max(g, h) });
-	}
-	std::sort(candidates.begin(), candidates.end());
+	candidates          = flexpm::near_pairs(assembly, touchMargin * 2 * assembly.radius[0]);
+	const auto isErased = [&](const flexpm::GrainPair& pair) { return !(*scene->bodies)[bodyIds[pair[0]]] || !(*scene->bodies)[bodyIds[pair[1]]]; };
+	candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isErased), candidates.end());
 	listed = true;
 }
 
 void GrainSolver::changeContacts()
 {
 	vector<int> over;
-	if (!listed) listCandidates(); // also in a scene that was loaded, whose collider has just run
+	if (!listed) listCandidates(); // also in a scene that was loaded
 	if (assembly.step % measurePeriod == 0) {
 		listCandidates();
 		for (int c = 0; c < assembly.contacts; ++c) {
@@ -65,8 +55,13 @@ void GrainSolver::changeContacts()
 void GrainSolver::renumberContacts()
 {
 	for (int c = 0; c < assembly.contacts; ++c) {
-		const auto pair = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
-		if (!pair || (assembly.contact_bonded[c] && !pair->isReal())) continue;
+		const Body::id_t id1 = bodyIds[assembly.contact_grains[2 * c]], id2 = bodyIds[assembly.contact_grains[2 * c + 1]];
+		auto             pair = scene->interactions->find(id1, id2);
+		if (assembly.contact_bonded[c] && (!pair || !pair->isReal())) continue; // it has ended
+		if (!pair) {
+			pair = boost::make_shared<Interaction>(id1, id2);
+			scene->interactions->insert(pair);
+		}
 		if (!pair->isReal()) {
 			pair->geom         = boost::make_shared<LobattoGeom>();
 			pair->phys         = boost::make_shared<LobattoPhys>();
