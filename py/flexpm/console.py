@@ -114,7 +114,10 @@ def result_table(result: Result) -> str:
         ("Poisson's ratio", scaled(result.poissons_ratio, 1.0, "", 3)),
         ("peak stress", scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
+        ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
         ("cracked points", counts),
+        ("first tensile, shear crack", _first_cracks(result)),
+        ("fragments", _fragments(result)),
         ("unbalanced-force ratio", scaled(result.unbalanced_ratio, 1.0, "", 2)),
         ("energy error", scaled(result.energy_error, 100.0, "%", 2)),
         ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
@@ -124,6 +127,18 @@ def result_table(result: Result) -> str:
         rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
     name = result.material.get("name", "")
     return table(rows, f"{result.test}, {result.model} model, {name}, seed {result.seed}")
+
+
+def _first_cracks(result: Result) -> str:
+    stresses = result.first_tensile_crack_stress, result.first_shear_crack_stress
+    return "at " + ", ".join(scaled(stress, 1e-6, "MPa") for stress in stresses)
+
+
+def _fragments(result: Result) -> str:
+    if result.fragments is None:
+        return "-"
+    share = scaled(result.largest_fragment, 100.0, "%", 3)
+    return f"{result.fragments}, the largest with {share} of the area"
 
 
 def statistics_table(found: dict[str, Any]) -> str:

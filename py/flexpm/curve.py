@@ -8,6 +8,7 @@ compression tests, narrowing in tension tests.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -42,6 +43,8 @@ ENERGIES = (
 ELASTIC_WINDOW = (0.05, 0.25)
 #: The largest stress counts as a peak once the stress has fallen by this fraction of it.
 PEAK_DROP = 0.10
+#: Cracking has set in once this share of all cracked points of a mode have cracked.
+ONSET_SHARE = 0.05
 
 
 class Curve:
@@ -149,6 +152,29 @@ def softening_slope(curve: Curve) -> float | None:
     fallen = np.flatnonzero(stress[peak:] <= 0.5 * stress[peak])
     rows = slice(peak, peak + int(fallen[0]) + 1 if len(fallen) else len(stress))
     return _slope(curve["axial_strain"][rows], stress[rows], fewest=2)
+
+
+def crack_onset(
+    curve: Curve, steps: Sequence[int], share: float = ONSET_SHARE
+) -> tuple[float | None, float | None]:
+    """Axial strain [-] and stress [Pa] at which a share of the cracks were there.
+
+    Args:
+        curve: The record; values between its rows are interpolated in the step.
+        steps: Step of each crack, in any order.
+        share: Share of the cracks [-]; the first one counts at least, so 0 is the first crack.
+
+    Returns:
+        Strain and stress; None for both without a crack or a record.
+    """
+    if len(steps) == 0 or len(curve) == 0:
+        return None, None
+    number = max(1, math.ceil(share * len(steps)))
+    step = np.sort(np.asarray(steps))[number - 1]
+    return tuple(
+        float(np.interp(step, curve["step"], curve[name]))
+        for name in ("axial_strain", "axial_stress")
+    )
 
 
 def energy_error(curve: Curve, initial: float | None = None) -> float | None:

@@ -22,6 +22,7 @@ from vtkmodules.vtkCommonDataModel import (
 )
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
+from . import fragments
 from .files import whole_file
 
 GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
@@ -45,7 +46,8 @@ def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
             (M,), `triangle_stress` (M, 3) [Pa] as xx, yy, xy, `contact_grains` (C, 2),
             `contact_ends` (C, 2, 2) [m], `point_opening`, `point_slip` (C, P) [m], `point_damage`
             (C, P) [-], `point_traction` (C, P, 2) [Pa] as normal, shear, `crack_step` and
-            `crack_mode` (C, P). `triangle_stress_zz` (M,) [Pa] may be added in plane strain.
+            `crack_mode` (C, P). `triangle_stress_zz` (M,) [Pa] may be added in plane strain,
+            `grain_mineral` for each grain if there are minerals.
     """
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
@@ -100,13 +102,22 @@ def _grain_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, 
     tensor[:, [0, 1, 3]] = stress
     tensor[:, 2] = snapshot.get("triangle_stress_zz", 0.0)
     largest, smallest = principal_stresses(stress)
+    grain = np.asarray(snapshot["triangle_grain"])
     return {
         "kind": (np.full(len(stress), GRAIN), ()),
-        "grain": (np.asarray(snapshot["triangle_grain"]), ()),
+        "grain": (grain, ()),
+        "mineral": (_minerals(snapshot)[grain], ()),
+        "fragment": (fragments.of_snapshot(snapshot).labels[grain], ()),
         "stress": (tensor, _TENSOR),
         "principal_stress_1": (largest, ()),
         "principal_stress_2": (smallest, ()),
     }
+
+
+def _minerals(snapshot: Snapshot) -> np.ndarray:
+    """Mineral of each grain; 0 if all grains are alike."""
+    grains = int(np.max(snapshot["triangle_grain"], initial=-1)) + 1
+    return np.asarray(snapshot.get("grain_mineral", np.zeros(grains, dtype=int)))
 
 
 def _contact_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, ...]]]:

@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from . import curve as measures
+from . import fragments
 from .curve import Curve
 from .files import whole_file
 from .results import SHEAR, TENSILE, Result
@@ -27,8 +28,11 @@ from .results import SHEAR, TENSILE, Result
 COLOURS = {TENSILE: "#0072b2", SHEAR: "#d55e00"}
 MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks"}
 _GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
+#: Fragments by their rank, loose grains; the largest fragment has the first tint of the grains.
+_FRAGMENTS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#0072b2", "#d55e00")
+_LOOSE = "#8c8674"
 _EDGE = "#6b6455"
-_STYLE = {
+STYLE = {
     "font.size": 9.0,
     "axes.labelsize": 9.5,
     "legend.fontsize": 8.5,
@@ -40,7 +44,7 @@ _STYLE = {
 
 def curve_picture(path: Path | str, result: Result) -> None:
     """Draw stress and crack counts over strain, the line of Young's modulus, and the peak."""
-    with rc_context(_STYLE):
+    with rc_context(STYLE):
         figure = Figure(figsize=(5.6, 3.9), layout="constrained")
         axes = figure.add_subplot()
         record = result.curve
@@ -60,7 +64,7 @@ def curve_picture(path: Path | str, result: Result) -> None:
         handles = [*axes.get_legend_handles_labels()[0], *counts.get_legend_handles_labels()[0]]
         axes.legend(handles=handles, loc="upper left", frameon=False)
         axes.set_title(_caption(result), fontsize=9.5, loc="left")
-        _save(figure, path)
+        save(figure, path)
 
 
 def specimen_picture(
@@ -77,7 +81,7 @@ def specimen_picture(
         mesh: Nodes (N, 2) [m] and triangles (M, 3) to draw in the grains.
         caption: Line above the picture.
     """
-    with rc_context(_STYLE):
+    with rc_context(STYLE):
         figure, axes = _map_figure(polygons)
         _draw_grains(axes, polygons)
         if mesh is not None:
@@ -86,7 +90,7 @@ def specimen_picture(
             axes.add_collection(lines)
         _draw_scale_bar(axes)
         axes.set_title(caption, fontsize=9.5, loc="left")
-        _save(figure, path)
+        save(figure, path)
 
 
 def crack_picture(path: Path | str, snapshot: Mapping[str, np.ndarray], caption: str = "") -> None:
@@ -97,24 +101,60 @@ def crack_picture(path: Path | str, snapshot: Mapping[str, np.ndarray], caption:
         snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
         caption: Line above the picture.
     """
-    polygons = [snapshot["positions"][corners] for corners in grain_corners(snapshot["triangles"])]
-    segments = crack_segments(snapshot)
-    with rc_context(_STYLE):
-        figure, axes = _map_figure(polygons)
-        _draw_grains(axes, polygons)
-        handles = []
-        for mode in (TENSILE, SHEAR):
-            lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
-            axes.add_collection(lines)
-            points = int(np.count_nonzero(np.asarray(snapshot["crack_mode"]) == mode))
-            label = f"{MODE_NAMES[mode]} ({points})"
-            handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
+    with rc_context(STYLE):
+        figure, axes = _map_figure([snapshot["positions"]])
+        handles = draw_cracks(axes, snapshot)
         axes.legend(
             handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False
         )
-        _draw_scale_bar(axes)
         axes.set_title(caption, fontsize=9.5, loc="left")
-        _save(figure, path)
+        save(figure, path)
+
+
+def draw_cracks(axes: Axes, snapshot: Mapping[str, np.ndarray]) -> list[Line2D]:
+    """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
+    polygons = [snapshot["positions"][corners] for corners in grain_corners(snapshot["triangles"])]
+    _draw_grains(axes, polygons)
+    segments, handles = crack_segments(snapshot), []
+    for mode in (TENSILE, SHEAR):
+        lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
+        axes.add_collection(lines)
+        points = int(np.count_nonzero(np.asarray(snapshot["crack_mode"]) == mode))
+        label = f"{MODE_NAMES[mode]} ({points})"
+        handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
+    _draw_scale_bar(axes)
+    return handles
+
+
+def fragment_picture(
+    path: Path | str, snapshot: Mapping[str, np.ndarray], caption: str = ""
+) -> None:
+    """Draw the deformed grains in the colour of their fragment.
+
+    Grains of the largest fragment are pale, grains that hang on no other one are dark.
+
+    Args:
+        path: Picture to write.
+        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
+        caption: Line above the picture; if empty, the number of fragments.
+    """
+    found = fragments.of_snapshot(snapshot)
+    colours = [_FRAGMENTS[rank % len(_FRAGMENTS)] for rank in range(len(found))]
+    colours = np.where(found.grains > 1, colours, _LOOSE)
+    colours[0] = _GRAIN_TINTS[0]
+    outlines = grain_corners(snapshot["triangles"])
+    node_grain = np.zeros(len(snapshot["positions"]), dtype=int)
+    node_grain[np.ravel(snapshot["triangles"])] = np.repeat(snapshot["triangle_grain"], 3)
+    polygons = [snapshot["positions"][corners] for corners in outlines]
+    with rc_context(STYLE):
+        figure, axes = _map_figure(polygons)
+        grains = np.array([node_grain[corners[0]] for corners in outlines])
+        _draw_grains(axes, polygons, colours[found.labels[grains]])
+        _draw_scale_bar(axes)
+        largest = 100.0 * found.areas[0] / found.areas.sum()
+        text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
+        axes.set_title(caption or text, fontsize=9.5, loc="left")
+        save(figure, path)
 
 
 def cell_polygons(tessellation: Any) -> list[np.ndarray]:
@@ -213,8 +253,11 @@ def _map_figure(polygons: Sequence[np.ndarray]) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def _draw_grains(axes: Axes, polygons: Sequence[np.ndarray]) -> None:
-    tints = [_GRAIN_TINTS[number * 7 % len(_GRAIN_TINTS)] for number in range(len(polygons))]
+def _draw_grains(
+    axes: Axes, polygons: Sequence[np.ndarray], tints: Sequence[str] | None = None
+) -> None:
+    if tints is None:
+        tints = [_GRAIN_TINTS[number * 7 % len(_GRAIN_TINTS)] for number in range(len(polygons))]
     scaled = [1e3 * np.asarray(polygon) for polygon in polygons]
     grains = PolyCollection(scaled, facecolors=tints, edgecolors=_EDGE, linewidths=0.25)
     axes.add_collection(grains)
@@ -237,6 +280,7 @@ def _unique_edges(triangles: np.ndarray) -> np.ndarray:
     return np.unique(np.sort(edges, axis=1), axis=0)
 
 
-def _save(figure: Figure, path: Path | str) -> None:
+def save(figure: Figure, path: Path | str) -> None:
+    """Write a picture, whole or not at all."""
     with whole_file(path) as temporary:
         figure.savefig(temporary)

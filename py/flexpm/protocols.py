@@ -150,8 +150,9 @@ def run(
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
     result = tests[test](built, settings, Course(checkpoint, progress))
     result.resumed_at = checkpoint.resumed_at
+    result.measure_fragments(built.snapshot())
     if folder is not None:
-        write_files(folder, result, built.snapshot())
+        write_files(folder, result)
     return result
 
 
@@ -328,12 +329,13 @@ def schedule(scales: dict[str, float], test: str, settings: Settings) -> Schedul
     return Schedule(velocity, reference, largest, scales["height"], dt)
 
 
-def write_files(folder: Path, result: Result, snapshot: dict[str, np.ndarray]) -> None:
+def write_files(folder: Path, result: Result) -> None:
     """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
     result.write(folder)
-    export.write_vtu(folder / "final.vtu", snapshot)
+    export.write_vtu(folder / "final.vtu", result.snapshot)
     plot.curve_picture(folder / "curve.png", result)
-    plot.crack_picture(folder / "cracks.png", snapshot)
+    plot.crack_picture(folder / "cracks.png", result.snapshot)
+    plot.fragment_picture(folder / "fragments.png", result.snapshot)
 
 
 def _drive(plan: Schedule, recorder: Any, course: Course) -> bool:

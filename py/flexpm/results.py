@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import curve as measures
+from . import fragments
 from .curve import Curve
 from .files import output_folder, write_text
 
@@ -67,20 +68,27 @@ class Result:
     unbalanced_ratio: float | None = None  #: largest up to the peak [-]
     energy_error: float | None = None  #: relative to the largest work [-]
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
+    softening_slope: float | None = None  #: of stress over strain after the peak, negative [Pa]
+    first_tensile_crack_strain: float | None = None  #: [-]
+    first_tensile_crack_stress: float | None = None  #: [Pa]
+    first_shear_crack_strain: float | None = None  #: [-]
+    first_shear_crack_stress: float | None = None  #: [Pa]
+    tensile_onset_strain: float | None = None  #: once 5 % of the final tensile cracks are there [-]
+    tensile_onset_stress: float | None = None  #: [Pa]
+    shear_onset_strain: float | None = None  #: the same of shear cracks [-]
+    shear_onset_stress: float | None = None  #: [Pa]
+    fragments: int | None = None  #: grains that hang together at the end, counted
+    largest_fragment: float | None = None  #: its share of the area [-]
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
+    snapshot: Mapping[str, np.ndarray] | None = field(default=None, repr=False)  #: final state
     resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
 
     @property
     def failed(self) -> bool:
         """Whether the simulation failed: it diverged or passed no peak."""
         return self.status in FAILED
-
-    @property
-    def softening_slope(self) -> float | None:
-        """Slope of stress over strain after the peak [Pa], negative."""
-        return measures.softening_slope(self.curve)
 
     def measure(
         self,
@@ -101,6 +109,8 @@ class Result:
         self.poissons_ratio = measures.poissons_ratio(record)
         self.unbalanced_ratio = measures.unbalanced_ratio(record)
         self.energy_error = measures.energy_error(record, initial_energy)
+        self.softening_slope = measures.softening_slope(record)
+        self._measure_onset()
         if len(record):
             self.steps = int(record["step"][-1])
             self.confinement = float(record["confinement"][-1])
@@ -111,6 +121,26 @@ class Result:
             self.peak_stress = float(record["axial_stress"][peak])
             self.peak_strain = float(record["axial_strain"][peak])
         self.status = self._status(diverged, peak, max_unbalanced)
+
+    def measure_fragments(self, snapshot: Mapping[str, np.ndarray]) -> None:
+        """Keep the final state and count what hangs together in it.
+
+        Args:
+            snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
+        """
+        found = fragments.of_snapshot(snapshot)
+        self.snapshot = snapshot
+        self.fragments = len(found)
+        self.largest_fragment = float(found.areas[0] / found.areas.sum())
+
+    def _measure_onset(self) -> None:
+        for mode, name in _MODES.items():
+            steps = [crack.step for crack in self.cracks if crack.mode == mode]
+            labels = {f"first_{name}_crack": 0.0, f"{name}_onset": measures.ONSET_SHARE}
+            for label, share in labels.items():
+                strain, stress = measures.crack_onset(self.curve, steps, share)
+                setattr(self, f"{label}_strain", strain)
+                setattr(self, f"{label}_stress", stress)
 
     def _status(self, diverged: bool, peak: int | None, max_unbalanced: float) -> str:
         stress = self.curve["axial_stress"]
@@ -123,7 +153,7 @@ class Result:
 
     def as_dict(self) -> dict[str, Any]:
         """The content of result.json; numbers that are not finite become None."""
-        hidden = ("curve", "cracks", "resumed_at")
+        hidden = ("curve", "cracks", "snapshot", "resumed_at")
         return {
             name: _plain(getattr(self, name))
             for name in self.__dataclass_fields__
@@ -131,10 +161,12 @@ class Result:
         }
 
     def write(self, folder: Path | str) -> None:
-        """Write result.json, curve.csv and cracks.csv into `folder`, each whole or not at all."""
+        """Write result.json and the tables into `folder`, each whole or not at all."""
         folder = output_folder(folder)
         write_text(folder / "curve.csv", self.curve.csv())
         write_text(folder / "cracks.csv", cracks_csv(self.cracks))
+        if self.snapshot is not None:
+            write_text(folder / "fragments.csv", fragments.of_snapshot(self.snapshot).csv())
         text = json.dumps(self.as_dict(), indent=2, allow_nan=False)
         write_text(folder / "result.json", text + "\n")
 

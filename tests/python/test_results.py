@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sample_snapshot import HEIGHT, WIDTH, wall
 
 from flexpm import curve as measures
 from flexpm.curve import COLUMNS, Curve
@@ -39,6 +40,17 @@ KEYS = [
     "unbalanced_ratio",
     "energy_error",
     "contact_width",
+    "softening_slope",
+    "first_tensile_crack_strain",
+    "first_tensile_crack_stress",
+    "first_shear_crack_strain",
+    "first_shear_crack_stress",
+    "tensile_onset_strain",
+    "tensile_onset_stress",
+    "shear_onset_strain",
+    "shear_onset_stress",
+    "fragments",
+    "largest_fragment",
     "status",
 ]
 
@@ -251,6 +263,51 @@ def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
     assert [c.strain for c in cracks] == pytest.approx([0.01, 0.02, 0.03])
     assert (cracks[0].x, cracks[0].y) == (4.0, 5.0)
     assert len(cracks_csv(cracks).splitlines()) == 4
+
+
+@given(
+    steps=st.lists(st.integers(0, 5000), min_size=1, max_size=60),
+    share=st.floats(0.0, 1.0),
+)
+def test_onset_is_when_the_share_of_the_cracks_was_there(steps, share):
+    record = triangular_record()
+    strain, stress = measures.crack_onset(record, steps, share)
+    step = np.interp(strain, record["axial_strain"], record["step"])
+    assert np.count_nonzero(np.array(steps) <= step + 1e-6) >= share * len(steps)
+    assert np.count_nonzero(np.array(steps) < step - 1e-6) < max(1, share * len(steps))
+    assert stress == pytest.approx(
+        np.interp(strain, record["axial_strain"], record["axial_stress"])
+    )
+
+
+def test_first_crack_and_onset_by_mode():
+    result = result_of(triangular_record())
+    tensile = [Crack(step, 0.0, 0.0, 0.0, 1, step, 0) for step in range(1000, 2000, 25)]
+    result.cracks = [*tensile, Crack(3000, 0.0, 0.0, 0.0, 2, 0, 1)]
+    result.measure()
+    at = result.curve["axial_stress"]
+    assert result.first_tensile_crack_stress == pytest.approx(at[100])
+    assert result.tensile_onset_stress == pytest.approx(0.5 * (at[102] + at[103]))  # 2 of 40
+    assert result.first_shear_crack_stress == result.shear_onset_stress == pytest.approx(at[300])
+    result.cracks = tensile
+    result.measure()
+    assert result.first_shear_crack_strain is result.shear_onset_stress is None
+
+
+def test_fragments_of_a_result_and_their_table(tmp_path):
+    snapshot = wall()  # 3 x 4 equal grains
+    result = result_of(triangular_record())
+    result.measure_fragments(snapshot)
+    assert (result.fragments, result.largest_fragment) == (1, pytest.approx(1.0))
+    first_row = snapshot["contact_grains"].min(axis=1) < 3
+    apart = first_row & (snapshot["contact_grains"].max(axis=1) >= 3)
+    snapshot["point_damage"][apart] = 1.0
+    result.measure_fragments(snapshot)
+    assert (result.fragments, result.largest_fragment) == (2, pytest.approx(0.75))
+    result.write(tmp_path)
+    rows = list(csv.DictReader((tmp_path / "fragments.csv").read_text().splitlines()))
+    assert [int(line["grains"]) for line in rows] == [9, 3]
+    assert sum(float(line["area"]) for line in rows) == pytest.approx(12 * WIDTH * HEIGHT)
 
 
 def test_a_file_is_whole_or_keeps_its_old_content(tmp_path):
