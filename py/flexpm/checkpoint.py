@@ -152,6 +152,7 @@ def inputs_of(specimen: Specimen, law: dict[str, Any], **settings: Any) -> dict[
         "short_edge": specimen.short_edge,
         "grains": len(specimen.discs),
         "discs": _checksum(specimen.discs),
+        "minerals": None if specimen.minerals is None else _checksum(specimen.minerals),
         "outline": _checksum(outline),
         **{f"material {key}": value for key, value in law.items()},
     }

@@ -281,7 +281,7 @@ def _material(options: dict[str, Any]) -> materials.Material:
     """The material with its changes, checked for the model."""
     model = options["model"]
     chosen = materials.load(options["material"], model).with_set(options["assignments"], model)
-    chosen.law(model)
+    chosen.description(model)
     return chosen
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from . import minerals
 from .errors import InputError
 from .material_keys import (
     CHOICES,
@@ -24,6 +25,7 @@ from .material_keys import (
     checked,
     nearest,
 )
+from .minerals import Mineral
 
 #: Elastic set that each model uses. YADE's own models bond the same discs as the rigid model.
 ELASTIC_SET = {
@@ -65,6 +67,7 @@ class Material:
     softening: str = "bilinear"  #: bilinear or brittle
     density: float = 2650.0  #: [kg/m3], used by dynamic runs and by gravity
     plane: str = "stress"  #: plane stress or plane strain of the triangles
+    minerals: tuple[Mineral, ...] = ()  #: kinds of grains; none: all grains alike
 
     def __post_init__(self) -> None:
         for key in COMMON_KEYS:
@@ -79,13 +82,15 @@ class Material:
             for key in ENERGY_KEYS:
                 if getattr(self, key) is None:
                     raise InputError(f"material {key} is missing; bilinear softening needs it")
+        object.__setattr__(self, "minerals", minerals.checked(self.minerals))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], name: str = "custom") -> Material:
         """Build a material from nested keys as they stand in a TOML file.
 
         Args:
-            data: Common keys and a table `elastic` of sets; `name` is optional.
+            data: Common keys, a table `elastic` of sets, a list `mineral` of tables if grains
+                differ; `name` is optional.
             name: Name if `data` holds none.
 
         Raises:
@@ -94,18 +99,21 @@ class Material:
         common = dict(data)
         label = str(common.pop("name", name))
         sets = common.pop("elastic", {})
+        kinds = common.pop("mineral", ())
         if not isinstance(sets, Mapping):
             raise InputError(f"material elastic = {sets!r}, must be tables like [elastic.flexible]")
         for key in common:
-            check_name("material key", key, [*COMMON_KEYS, "name", "elastic"])
+            check_name("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
         for key in ("tensile_strength", "cohesion", "friction"):
             if key not in common:
                 raise InputError(f"material {key} is missing; give it in [{UNITS[key]}]")
         elastic = {set_name: _elastic_from(set_name, values) for set_name, values in sets.items()}
-        return cls(name=label, elastic=elastic, **common)
+        return cls(name=label, elastic=elastic, minerals=kinds, **common)
 
     def with_set(self, assignments: Iterable[str], model: str = "flexible") -> Material:
         """Return a copy with `KEY=VALUE` assignments applied; elastic keys go to `model`'s set.
+
+        What a mineral changes itself stays as it is.
 
         Choosing brittle softening drops fracture energies that came with the material, since
         brittle means that they equal the elastic energies.
@@ -149,6 +157,35 @@ class Material:
         for key, elastic in zip(ENERGY_KEYS, self.elastic_energies(model), strict=True):
             values[key] = self._energy(key, elastic)
         return values
+
+    def description(self, model: str = "flexible") -> dict[str, Any]:
+        """``law`` of `model`, and if grains differ also that of each mineral, by `minerals`.
+
+        Raises:
+            InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
+                several.
+        """
+        values: dict[str, Any] = self.law(model)
+        if not self.minerals:
+            return values
+        if model not in minerals.MODELS:
+            raise InputError(
+                f"material = {self.name!r} has minerals, model {model} takes one kind of grain; "
+                f"use {' or '.join(minerals.MODELS)}"
+            )
+        minerals.pair_materials(self, model)
+        kinds = zip(self.minerals, minerals.mineral_materials(self), strict=True)
+        return values | {
+            "minerals": [
+                {"name": kind.name, "fraction": kind.fraction, **own.law(model)}
+                for kind, own in kinds
+            ]
+        }
+
+    @staticmethod
+    def elastic_set_name(model: str) -> str:
+        """Name of the elastic set that `model` uses."""
+        return elastic_set_name(model)
 
     def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
         """Energies [N/m] a point has stored at its tensile and at its shear strength."""

@@ -14,7 +14,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from . import materials, yade_models
+from . import materials, mineral_map, minerals, yade_models
 from .errors import InputError
 from .materials import Material
 from .specimen import Specimen
@@ -44,6 +44,7 @@ class Model:
         solver: The engine that holds and steps the grains.
         engines: All engines of the model; ``solver`` is one of them.
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        minerals: Index of each grain's mineral, or None if all grains are alike.
     """
 
     specimen: Specimen
@@ -52,6 +53,7 @@ class Model:
     solver: Any
     engines: list[Any]
     dynamic: bool = False
+    minerals: np.ndarray | None = None
 
     def set_masses(self) -> None:
         """Scale the masses, or set the real ones and their stable time step, before the first step.
@@ -95,7 +97,20 @@ class Model:
 
     def snapshot(self) -> dict[str, np.ndarray]:
         """The present state as plain arrays; their list is in the documentation."""
-        return self.solver.snapshot()
+        found = self.solver.snapshot()
+        if self.minerals is not None:
+            found["grain_mineral"] = self.minerals
+        return found
+
+    def describe_material(self) -> dict[str, Any]:
+        """Name and parameters of the material, of minerals also the area that they have."""
+        found = {"name": self.material.name, **self.material.description(self.name)}
+        if self.minerals is not None:
+            kinds = found["minerals"]
+            areas = mineral_map.area_fractions(self.specimen, self.minerals, len(kinds))
+            for kind, area in zip(kinds, areas, strict=True):
+                kind["area_fraction"] = area
+        return found
 
 
 def build(
@@ -129,11 +144,9 @@ def build(
     Raises:
         InputError: for an argument or a material property out of range.
     """
-    _require_one_of("model", model, MODELS)
+    check(model, points=points, mesh=mesh)
     _require_damping(damping)
     if model in yade_models.NAMES:
-        _require_one_of(f"points of model {model}", points, (POINTS[-1],))
-        _require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
         return yade_models.build(
             specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
         )
@@ -146,9 +159,21 @@ def build(
     solver.addToScene(_grain_materials(chosen, model))
     engines = [_collider(specimen), solver, _idle_newton()]
     yade.O.engines = engines
-    built = Model(specimen, chosen, model, solver, engines, dynamic)
+    kinds = mineral_map.minerals_of(specimen, chosen)
+    built = Model(specimen, chosen, model, solver, engines, dynamic, kinds)
     built.set_masses()
     return built
+
+
+def check(model: str, *, points: int, mesh: str) -> None:
+    """Raise InputError for an unknown model, or for points or a mesh that it cannot have."""
+    _require_one_of("model", model, MODELS)
+    if model in yade_models.NAMES:
+        _require_one_of(f"points of model {model}", points, (POINTS[-1],))
+        _require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
+    else:
+        _require_one_of("points", points, POINTS)
+        _require_one_of("mesh", mesh, MESHES)
 
 
 def elastic(
@@ -187,6 +212,7 @@ def _assembled(specimen: Specimen, chosen: Material, model: str, points: int, me
     """Make the solver with the packed arrays of the bonded, unloaded grains."""
     _require_one_of("points", points, POINTS)
     _require_one_of("mesh", mesh, MESHES)
+    chosen.description(model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
     discs = np.ascontiguousarray(specimen.discs, dtype=float)
     try:
@@ -201,6 +227,7 @@ def _assembled(specimen: Specimen, chosen: Material, model: str, points: int, me
                 "mesh": mesh,
                 "points": points,
                 "centre_line": False,
+                **_mineral_options(specimen, chosen, model),
             },
         )
     except (ValueError, RuntimeError) as error:
@@ -209,23 +236,35 @@ def _assembled(specimen: Specimen, chosen: Material, model: str, points: int, me
 
 
 def _grain_materials(chosen: Material, model: str) -> list[Any]:
+    """Of each mineral, or of all grains."""
+    return [_grain_material(kind, model) for kind in minerals.mineral_materials(chosen)]
+
+
+def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> dict[str, Any]:
+    """Minerals of the grains and contacts of each pair of minerals, for the solver."""
+    found = mineral_map.minerals_of(specimen, chosen)
+    if found is None:
+        return {}
+    pairs = minerals.pair_materials(chosen, model)
+    return {"minerals": found, "pairs": [_grain_material(pair, model) for pair in pairs]}
+
+
+def _grain_material(chosen: Material, model: str) -> Any:
     law = chosen.law(model)
-    return [
-        wrapper.GrainMat(
-            label=chosen.name,
-            young=law["young"] or 0.0,  # rigid grains have none
-            poisson=law["poisson"] or 0.0,
-            density=law["density"],
-            normalStiffness=law["normal_stiffness"],
-            shearRatio=law["shear_ratio"],
-            tensileStrength=law["tensile_strength"],
-            cohesion=law["cohesion"],
-            friction=law["friction"],
-            tensileFractureEnergy=law["tensile_fracture_energy"],
-            shearFractureEnergy=law["shear_fracture_energy"],
-            planeStrain=law["plane"] == "strain",
-        )
-    ]
+    return wrapper.GrainMat(
+        label=chosen.name,
+        young=law["young"] or 0.0,  # rigid grains have none
+        poisson=law["poisson"] or 0.0,
+        density=law["density"],
+        normalStiffness=law["normal_stiffness"],
+        shearRatio=law["shear_ratio"],
+        tensileStrength=law["tensile_strength"],
+        cohesion=law["cohesion"],
+        friction=law["friction"],
+        tensileFractureEnergy=law["tensile_fracture_energy"],
+        shearFractureEnergy=law["shear_fracture_energy"],
+        planeStrain=law["plane"] == "strain",
+    )
 
 
 def _collider(specimen: Specimen) -> Any:

@@ -131,14 +131,11 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    tests = tests_of(model)
-    if test not in tests:
-        raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
     settings = Settings(confinement, rate, max_strain)
     folder = None if out is None else output_folder(out)
     chosen = materials.load(material or materials.default_name(model), model)
     options = {"points": points, "mesh": mesh, "dynamic": dynamic}
-    inputs = _inputs(test, specimen, chosen, model, settings, options)
+    inputs = check(test, specimen, chosen, model, settings, options)
     checkpoint = Checkpoint(folder, inputs, checkpoint_interval)
     yade.O.reset()
     built = models.build(specimen, chosen, model, threads=threads, **options)
@@ -148,7 +145,7 @@ def run(
         built.solver.ompThreads = threads
     elif folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = tests[test](built, settings, Course(checkpoint, progress))
+    result = tests_of(model)[test](built, settings, Course(checkpoint, progress))
     result.resumed_at = checkpoint.resumed_at
     result.measure_fragments(built.snapshot())
     if folder is not None:
@@ -156,7 +153,7 @@ def run(
     return result
 
 
-def _inputs(
+def check(
     test: str,
     specimen: Specimen,
     chosen: Material,
@@ -164,10 +161,34 @@ def _inputs(
     settings: Settings,
     options: dict[str, Any],
 ) -> dict[str, Any]:
-    """All that determines a run; the number of threads does not."""
+    """Refuse what a run could not do, before YADE's scene is touched.
+
+    Args:
+        test: Name of the test.
+        specimen: The grains.
+        chosen: Their material.
+        model: Name of the model.
+        settings: Of the test.
+        options: ``points``, ``mesh`` and ``dynamic`` of the model.
+
+    Returns:
+        All that determines the run; the number of threads does not.
+
+    Raises:
+        InputError: for what `model` or `test` cannot have.
+    """
+    models.check(model, points=options["points"], mesh=options["mesh"])
+    tests = tests_of(model)
+    if test not in tests:
+        raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
+    shape = "disc" if test == "brazilian" else "rectangle"
+    if specimen.kind != shape:
+        raise InputError(f"run: specimen = {specimen.kind}, must be a {shape} for {test}")
+    if test != "biaxial":
+        settings.refuse_confinement(test)
     return inputs_of(
         specimen,
-        chosen.law(model),
+        chosen.description(model),
         flexpm=__version__,
         yade=yade.config.version,
         test=test,
@@ -364,7 +385,7 @@ def _result(test: str, built: Model, diverged: bool, step_time: float | None) ->
         yade=yade.config.version,
         test=test,
         model=built.name,
-        material={"name": built.material.name, **built.material.law(built.name)},
+        material=built.describe_material(),
         seed=built.specimen.seed,
         grains=counts["grains"],
         contacts=counts["contacts"],

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -55,6 +56,7 @@ class Specimen:
         seed: Seed of a generated packing, else None.
         short_edge: Edges of cells below this share of the mean diameter were collapsed [-].
         removed_discs: Generated discs that had no cell and were left out.
+        minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
     """
 
     discs: np.ndarray
@@ -66,6 +68,7 @@ class Specimen:
     seed: int | None
     short_edge: float
     removed_discs: int = 0
+    minerals: np.ndarray | None = None
 
     @classmethod
     def rectangle(
@@ -171,6 +174,25 @@ class Specimen:
         if not isinstance(outline, Circle):
             outline = rows("Specimen.from_discs: outline", outline)
         return _tessellated(cls, discs, outline, thickness, seed=None, short_edge=short_edge)
+
+    def with_minerals(self, minerals: Sequence[int] | np.ndarray) -> Specimen:
+        """Return the same grains, each of a given mineral.
+
+        Args:
+            minerals: For each grain an index into the minerals of the material.
+
+        Raises:
+            InputError: if it is not one index for each grain.
+        """
+        given = np.asarray(minerals)
+        if given.shape != (len(self.discs),) or given.dtype.kind not in "iu" or given.min() < 0:
+            raise InputError(
+                f"Specimen.with_minerals: minerals = {given.dtype} array of shape {given.shape}, "
+                f"must be {len(self.discs)} indices from 0, one for each grain"
+            )
+        given = given.astype(np.int32)
+        given.setflags(write=False)
+        return dataclasses.replace(self, minerals=given)
 
     @property
     def centres(self) -> np.ndarray:

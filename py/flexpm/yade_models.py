@@ -168,7 +168,7 @@ def build(
     if model not in NAMES:
         raise InputError(f"build: model = {model!r}, must be one of {', '.join(NAMES)}")
     chosen = materials.load(material, model)
-    law = chosen.law(model)
+    law = chosen.description(model)  # which refuses minerals
     bonds = yade_bonds.bonds_of(specimen, law)
     radii = specimen.radii if model == "jcfpm" else yade_bonds.separate_radii(specimen)
     sphere, plate = _materials(model, law, bonds, radii)

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/axial_test.hpp>
 
 #include <flexpm/kernel/boundary.hpp>
+#include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
 
@@ -176,8 +177,11 @@ double series_modulus(const Assembly& a)
     double diameter = 0.0;
     for (double r : a.radius)
         diameter += 2.0 * r / a.grains;
-    const double of_contacts = a.laws[0].normal_stiffness * diameter;
-    return a.is_rigid(0) ? of_contacts : 1.0 / (1.0 / a.elastic[0].young + 1.0 / of_contacts);
+    const double of_contacts =
+        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; }) * diameter;
+    if (a.is_rigid(0)) return of_contacts;
+    const double young = grain_mean(a, [&](int g) { return a.elastic[a.grain_material[g]].young; });
+    return 1.0 / (1.0 / young + 1.0 / of_contacts);
 }
 
 double crossing_steps(const Assembly& a, double dt)
@@ -206,10 +210,13 @@ double ramp_factor(std::int64_t step, int ramp_steps)
 
 double reference_strength(const Assembly& a, Sense sense)
 {
-    const LawParameters& law = a.laws[0];
-    if (sense == Sense::tension) return law.tensile_strength;
+    if (sense == Sense::tension) {
+        return grain_mean(a, [&](int g) { return own_law(a, g).tensile_strength; });
+    }
+    const double cohesion = grain_mean(a, [&](int g) { return own_law(a, g).cohesion; });
+    const double friction = grain_mean(a, [&](int g) { return own_law(a, g).friction; });
     // cos(phi) / (1 - sin(phi)) with tan(phi) = mu
-    return 2.0 * law.cohesion * (std::sqrt(1.0 + law.friction * law.friction) + law.friction);
+    return 2.0 * cohesion * (std::sqrt(1.0 + friction * friction) + friction);
 }
 
 }  // namespace flexpm

@@ -47,6 +47,22 @@ inline Point force_of(const Assembly& a, int node)
     return { a.force[node], a.force[node + lanes] };
 }
 
+/// Law of a contact between two grains of the material of `grain`.
+inline const LawParameters& own_law(const Assembly& a, int grain)
+{
+    return a.laws[a.grain_material[grain] * (a.elastic.size() + 1)];
+}
+
+/// Mean of value(grain) over all grains. Equal values give exactly that value.
+template <class Value> double grain_mean(const Assembly& a, Value value)
+{
+    const double first = value(0);
+    double excess = 0.0;
+    for (int g = 1; g < a.grains; ++g)
+        excess += value(g) - first;
+    return first + excess / a.grains;
+}
+
 /// State of point `point` of a contact.
 inline PointState point_state(const Assembly& a, int contact, int point)
 {

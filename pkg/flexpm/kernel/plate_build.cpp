@@ -36,11 +36,14 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
 {
     check_not_negative("plate stiffness", contact.stiffness, "Pa/m");
     check_not_negative("plate friction", contact.friction, "");
-    const LawParameters& law = a.laws.front();
+    const double normal_stiffness =
+        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; });
+    const double shear_stiffness =
+        grain_mean(a, [&](int g) { return own_law(a, g).shear_stiffness; });
     Plate p;
     p.normal = normal;
-    p.stiffness = contact.stiffness > 0.0 ? contact.stiffness : law.normal_stiffness;
-    p.shear_stiffness = p.stiffness * law.shear_stiffness / law.normal_stiffness;
+    p.stiffness = contact.stiffness > 0.0 ? contact.stiffness : normal_stiffness;
+    p.shear_stiffness = p.stiffness * shear_stiffness / normal_stiffness;
     p.friction = contact.friction;
     p.bonded = contact.bonded;
     return p;

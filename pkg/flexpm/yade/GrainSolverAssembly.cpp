@@ -42,9 +42,13 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 	o.points            = py::extract<int>(options["points"]);
 	o.on_centre_line    = py::extract<bool>(options["centre_line"]);
 	const auto ofGrains = materialsOf(materials);
-	for (const auto& m : ofGrains) {
+	for (const auto& m : ofGrains)
 		o.elastic.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
+	for (const auto& m : options.has_key("pairs") ? materialsOf(py::list(options["pairs"])) : ofGrains)
 		o.laws.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	if (options.has_key("minerals")) {
+		const flexpm_bindings::InputArray<int> minerals(options["minerals"], 1, "minerals");
+		o.grain_material.assign(minerals.data(), minerals.data() + minerals.size(0));
 	}
 	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
 	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);

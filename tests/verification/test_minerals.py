@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grains of several minerals: composites in closed form, draws by area, mixed contacts."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import flexpm
+from flexpm import mineral_map, minerals
+from flexpm.materials import Material, load
+
+SIZE = 2e-3  # of square grains [m]
+COLUMNS, ROWS = 4, 6
+SOFT, HARD = 20e9, 80e9  # [Pa]
+K_SOFT, K_HARD = 5e13, 2e14  # [Pa/m]
+BASE = {
+    "tensile_strength": 8.5e6,
+    "cohesion": 30e6,
+    "friction": 0.4,
+    "tensile_fracture_energy": 20.0,
+    "shear_fracture_energy": 800.0,
+    "elastic": {
+        # no Poisson's ratio to speak of: series and parallel are then exact
+        "flexible": {
+            "young": SOFT,
+            "poisson": 1e-12,
+            "normal_stiffness": K_SOFT,
+            "shear_ratio": 0.3,
+        },
+        "rigid": {"normal_stiffness": K_SOFT, "shear_ratio": 0.3},
+    },
+}
+HARDER = {
+    "flexible": {"young": HARD, "normal_stiffness": K_HARD},
+    "rigid": {"normal_stiffness": K_HARD},
+}
+
+
+def rock(**changes):
+    """Half of the area soft, half of it hard."""
+    kinds = [
+        {"name": "soft", "fraction": 0.5},
+        {"name": "hard", "fraction": 0.5, "elastic": HARDER, **changes},
+    ]
+    return Material.from_dict({**BASE, "mineral": kinds}, "rock")
+
+
+def grid(columns=COLUMNS, rows=ROWS):
+    """Square grains of equal discs."""
+    x, y = (SIZE * (np.arange(n) + 0.5) for n in (columns, rows))
+    centres = np.array([(a, b) for b in y for a in x])
+    width, height = columns * SIZE, rows * SIZE
+    outline = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
+    radii = np.full(len(centres), 0.5 * SIZE)
+    return flexpm.Specimen.from_discs(centres, radii, outline, 0.01, short_edge=0.0)
+
+
+def modulus(specimen, model):
+    return flexpm.elastic(specimen, rock(), model)["youngs_modulus"]
+
+
+def test_layers_across_the_load_have_the_modulus_of_all_parts_in_series():
+    """Reuss: compliances of grains and contacts add up; a mixed contact is two halves in series."""
+    specimen = grid().with_minerals(np.repeat(np.arange(ROWS) % 2, COLUMNS))
+    grains = 0.5 * ROWS * SIZE * (1.0 / SOFT + 1.0 / HARD)
+    mixed = 0.5 * (1.0 / K_SOFT + 1.0 / K_HARD)
+    expected = ROWS * SIZE / (grains + (ROWS - 1) * mixed)
+    assert modulus(specimen, "flexible") == pytest.approx(expected, rel=1e-6)
+    # strains of rigid grains are those of their centres: a contact for each grain
+    assert modulus(specimen, "rigid") == pytest.approx(SIZE / mixed, rel=1e-6)
+
+
+def test_columns_along_the_load_have_the_mean_modulus():
+    """Voigt: columns of one mineral carry side by side."""
+    specimen = grid().with_minerals(np.tile(np.arange(COLUMNS) % 2, ROWS))
+    height = ROWS * SIZE
+    columns = [
+        height / (height / young + (ROWS - 1) / stiffness)
+        for young, stiffness in ((SOFT, K_SOFT), (HARD, K_HARD))
+    ]
+    # not so with rigid grains: the compliance of their plates loads the columns unevenly
+    assert modulus(specimen, "flexible") == pytest.approx(np.mean(columns), rel=1e-6)
+
+
+def test_equal_minerals_are_the_homogeneous_rock_to_the_same_bits():
+    specimen = flexpm.Specimen.rectangle(0.016, 0.03, 0.01, seed=2)
+    for model in ("flexible", "rigid"):
+        plain = load("augig-table7")
+        kinds = [{"name": name, "fraction": 1.0 / 3.0} for name in ("a", "b", "c")]
+        equal = dataclasses.replace(plain, minerals=kinds)
+        one, several = (
+            flexpm.run("uniaxial", specimen, rock, model, rate=20.0, max_strain=6e-3)
+            for rock in (plain, equal)
+        )
+        assert one.tensile_cracks > 0
+        assert np.array_equal(one.curve.array, several.curve.array, equal_nan=True)
+        assert np.array_equal(one.snapshot["positions"], several.snapshot["positions"])
+        assert set(several.snapshot["grain_mineral"]) == {0, 1, 2}
+
+
+@given(
+    weights=st.lists(st.floats(0.05, 1.0), min_size=1, max_size=5),
+    grains=st.integers(1, 400),
+    seed=st.integers(0, 2**64 - 1),
+)
+def test_fractions_are_met_to_half_a_grain_at_each_end(weights, grains, seed):
+    areas = np.random.default_rng(grains).uniform(1.0, 4.0, grains)
+    fractions = np.array(weights) / sum(weights)
+    found = mineral_map.assign(fractions, areas, seed)
+    shares = np.bincount(found, weights=areas, minlength=len(weights))
+    # each mineral has two ends at most
+    assert np.all(np.abs(shares - fractions * areas.sum()) <= areas.max() + 1e-9)
+    assert np.array_equal(found, mineral_map.assign(fractions, areas, seed))
+
+
+def test_minerals_are_drawn_by_the_seed_and_lie_scattered():
+    specimen = grid(40, 40)
+    areas = specimen.tessellation.cell_areas
+    one, other = (mineral_map.assign([0.5, 0.5], areas, seed) for seed in (1, 2))
+    assert not np.array_equal(one, other)
+    # of neighbours drawn independently half are alike; five standard deviations
+    pairs = np.asarray(specimen.tessellation.shared_edges)[:, :2]
+    alike = np.mean(one[pairs[:, 0]] == one[pairs[:, 1]])
+    assert abs(alike - 0.5) < 5.0 * 0.5 / math.sqrt(len(pairs))
+
+
+def test_a_contact_of_two_minerals_is_in_series_and_as_strong_as_the_weaker():
+    mixed = rock(cohesion=50e6, friction=0.2, tensile_fracture_energy=30.0)
+    names = [pair.name for pair in minerals.pair_materials(mixed, "flexible")]
+    assert names == ["soft-soft", "soft-hard", "hard-soft", "hard-hard"]
+    laws = [pair.law("flexible") for pair in minerals.pair_materials(mixed, "flexible")]
+    law = laws[1]
+    assert law["normal_stiffness"] == pytest.approx(2.0 / (1.0 / K_SOFT + 1.0 / K_HARD))
+    assert law["shear_ratio"] == pytest.approx(0.3)
+    assert (law["cohesion"], law["friction"], law["tensile_strength"]) == (30e6, 0.2, 8.5e6)
+    assert (law["tensile_fracture_energy"], law["shear_fracture_energy"]) == (20.0, 800.0)
+    contact = [key for key in law if key not in ("young", "poisson")]
+    assert [laws[2][key] for key in contact] == [law[key] for key in contact]
+    brittle = minerals.pair_materials(rock(softening="brittle"), "flexible")[1].law("flexible")
+    elastic = 8.5e6**2 / (2.0 * brittle["normal_stiffness"])
+    assert brittle["tensile_fracture_energy"] == pytest.approx(elastic)
+
+
+def test_the_solver_has_the_law_of_each_pair_and_grains_their_material():
+    """Steps agree with the solve: the pull of one step on each bond names its stiffness."""
+    kinds = np.random.default_rng(1).integers(0, 2, COLUMNS * ROWS)
+    model = flexpm.build(grid().with_minerals(kinds), rock(density=3000.0))
+    scene = flexpm.models.yade.O
+    stretch = 1e-9  # [m] a step, by the whole column: within the elastic branch
+    for body, (_, y) in zip(model.solver.bodyIds, model.specimen.centres, strict=True):
+        grain = scene.bodies[body]
+        grain.shape.held[:] = 1
+        grain.shape.velocities[:] = (0.0, stretch * round(y / SIZE - 0.5))
+        kind = "hard" if kinds[grain.shape.grain] else "soft"
+        assert (grain.material.label, grain.material.density) == (
+            kind,
+            3000.0 if kind == "hard" else 2650.0,
+        )
+    model.run(1)
+    seen = set()
+    for bond in scene.interactions:
+        pair = {int(kinds[i]) for i in (bond.id1, bond.id2)}
+        opening, traction = bond.phys.opening[1], bond.phys.traction[1]
+        if abs(opening) < 0.5 * stretch:
+            continue  # side by side
+        expected = {(0,): K_SOFT, (1,): K_HARD}.get(
+            tuple(pair), 2.0 / (1.0 / K_SOFT + 1.0 / K_HARD)
+        )
+        assert traction[0] / opening == pytest.approx(expected, rel=1e-9)
+        seen.add(tuple(sorted(pair)))
+    assert seen == {(0,), (1,), (0, 1)}
+
+
+def changed(**changes):
+    data = {**BASE, "mineral": [{"name": "a", "fraction": 0.4}, {"name": "b", "fraction": 0.6}]}
+    data["mineral"][1] |= changes
+    return data
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (changed(fraction=0.5), "fractions = 0.9 in all, must sum up to 1"),
+        (changed(fraction=-0.6), r"\[\[mineral\]\] 2 fraction = -0.6, must be > 0"),
+        (changed(fraction="half"), "fraction = 'half', must be a number"),
+        (changed(name="a"), "'a', is there twice"),
+        (changed(cohesoin=1e6), "cohesoin.*did you mean cohesion"),
+        (changed(plane="strain"), "mineral b key = 'plane'"),
+        (changed(cohesion=-1.0), "mineral b: material cohesion = -1.0 Pa"),
+        (changed(elastic={"flexibel": {}}), "did you mean flexible"),
+        (changed(elastic={"flexible": {"yuong": 1e9}}), "did you mean young"),
+        (changed(elastic={"flexible": 3}), "must be a table"),
+        (changed(tensile_fracture_energy=0.1), "fracture_energy = 0.1 N/m"),
+        ({**BASE, "mineral": {"name": "a"}}, "must be tables"),
+        ({**BASE, "mineral": [3]}, "must be a table"),
+        ({**BASE, "mineral": [{"fraction": 1.0}]}, "name is missing"),
+    ],
+)
+def test_wrong_minerals_are_refused_in_one_line(data, message):
+    with pytest.raises(flexpm.InputError, match=message) as caught:
+        Material.from_dict(data).description("flexible")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("model", ["jcfpm", "cohfrict"])
+def test_yades_own_models_refuse_minerals(model):
+    for call in (flexpm.build, lambda *given: flexpm.run("uniaxial", *given)):
+        with pytest.raises(flexpm.InputError, match="one kind of grain; use flexible or rigid"):
+            call(grid(), rock(), model)
+
+
+@pytest.mark.parametrize("given", [[0], [0.0] * 24, [-1] * 24, [0, 1] * 13])
+def test_wrong_minerals_of_grains_are_refused(given):
+    with pytest.raises(flexpm.InputError, match="must be 24 indices"):
+        grid().with_minerals(given)
+
+
+def test_a_mineral_that_the_rock_does_not_have():
+    with pytest.raises(flexpm.InputError, match="minerals = 2, must be below"):
+        flexpm.build(grid().with_minerals([2] * 24), rock())
+    with pytest.raises(flexpm.InputError, match="minerals = 0, must be below"):
+        flexpm.build(grid().with_minerals([0] * 24), Material.from_dict(BASE))
