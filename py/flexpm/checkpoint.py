@@ -18,7 +18,7 @@ import numpy as np
 import yade
 
 from .errors import InputError
-from .files import whole_file, write_text
+from .files import json_text, whole_file, write_text
 from .specimen import Circle, Specimen
 
 #: Wall time between two checkpoints [s].
@@ -103,7 +103,7 @@ class Checkpoint:
             "hash": _hash(self._inputs),
             "inputs": self._inputs,
         }
-        write_text(self._folder / _NAME, json.dumps(content, indent=2) + "\n")
+        write_text(self._folder / _NAME, json_text(content))
 
     def _read(self, file: Path) -> None:
         try:

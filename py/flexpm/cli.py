@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command `flexpm`: run, elastic, specimen, bench, doctor. SI units; one line for each error.
+"""The command `flexpm` with its subcommands. SI units; one line for each error.
 
 Exit codes: 0 done, 1 the installation is not usable, 2 wrong input, 3 a simulation failed,
 130 interrupted, 143 terminated.
@@ -8,7 +8,6 @@ Exit codes: 0 done, 1 the installation is not usable, 2 wrong input, 3 a simulat
 from __future__ import annotations
 
 import importlib
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,7 +19,7 @@ import click
 from . import __version__, cli_options, console, materials
 from .cli_options import Count, Quantity
 from .errors import InputError, SimulationError
-from .files import output_folder, write_text
+from .files import json_text, output_folder, write_text
 from .material_keys import check_name, nearest
 
 if TYPE_CHECKING:
@@ -128,11 +127,18 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
 @cli_options.model_options
 @cli_options.rectangle_options
 @cli_options.packing_options
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write result.json into this folder, too.",
+)
 @cli_options.quiet_option
-def elastic(**options: Any) -> None:
+def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
     model = options["model"]
     chosen = _material(options)
+    folder = None if out is None else output_folder(out)
     flexpm = _library()
     _require("model", model, flexpm.models.SOLVER_MODELS)
     with console.Progress(options["quiet"]) as progress:
@@ -141,6 +147,10 @@ def elastic(**options: Any) -> None:
         found = flexpm.models.elastic(
             specimen, chosen, model=model, points=int(options["points"]), mesh=options["mesh"]
         )
+    if folder is not None:
+        about = {"flexpm": __version__, "test": "elastic", "model": model, "seed": options["seed"]}
+        material = {"name": chosen.name, **chosen.description(model)}
+        write_text(folder / "result.json", json_text({**about, "material": material, **found}))
     click.echo(f"{model} model, {chosen.name}, seed {options['seed']}")
     click.echo(console.elastic_table(found))
 
@@ -208,6 +218,62 @@ def bench(quiet: bool, **options: Any) -> None:
     with console.Progress(quiet) as progress:
         rows = timing.run(progress=progress, **options)
     click.echo(console.table(rows))
+
+
+@command.command(short_help="Many runs from one file.")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder of the study.  [default: the file's name without .toml, in the working folder]",
+)
+@cli_options.pool_options
+@cli_options.quiet_option
+def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
+    """Do the runs of FILE that are not done yet; table and pictures are made from all."""
+    studies = importlib.import_module("flexpm.study")
+    plan = studies.read(file)
+    folder = output_folder(out or Path(file.stem))
+    with console.Progress(quiet, unit="runs") as progress:
+        rows = studies.run(plan, folder, progress=progress, **options)
+    pictures = importlib.import_module("flexpm.study_plot").draw(plan, rows, folder)
+    failed = rows[rows["exit_code"] != 0]
+    for _, row in failed.iterrows():
+        click.echo(f"failed: runs/{row['hash']}: {row['message']}")
+    click.echo(f"{plan.name}: {len(rows)} runs, {len(failed)} failed")
+    click.echo(f"  files  {', '.join(map(str, [folder / 'table.csv', *pictures]))}")
+    if len(failed):
+        raise SimulationError(f"runs = {len(failed)} of {len(rows)} failed; see the table")
+
+
+@command.command(short_help="Fit a material to a rock.")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder.  [default: the file's name without .toml, in the working folder]",
+)
+@cli_options.pool_options
+@cli_options.quiet_option
+def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
+    """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
+    plan = importlib.import_module("flexpm.calibration").read(file)
+    start = materials.load(plan.material_file, plan.model)
+    folder = output_folder(out or Path(file.stem))
+    search = importlib.import_module("flexpm.calibrate")
+    with console.Progress(quiet, unit="sets") as progress:
+        found = search.run(plan, folder, start=start.law(plan.model), progress=progress, **options)
+    report = importlib.import_module("flexpm.calibration_report")
+    preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
+    report.write_preset(preset, start, plan, found)
+    report.picture(picture, plan, found)
+    click.echo(console.table(report.table_rows(plan, found), f"{plan.name}, {plan.model} model"))
+    click.echo(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
+    missed = [name for name, met in found.met.items() if not met]
+    if missed:
+        raise SimulationError(f"targets = {', '.join(missed)}, not met; see {picture}")
 
 
 @command.command()
@@ -323,7 +389,7 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     """Print the statistics of a specimen and write them with its picture."""
     plot = importlib.import_module("flexpm.plot")
     found = made.statistics()
-    write_text(folder / "specimen.json", json.dumps(found, indent=2) + "\n")
+    write_text(folder / "specimen.json", json_text(found))
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
     triangles = plot.mesh_triangles(made.meshes(mesh)) if mesh else None

@@ -229,3 +229,21 @@ out_option = click.option(
     help="Folder for the files.",
 )
 quiet_option = click.option("--quiet", is_flag=True, help="Show no progress bar.")
+pool_options = combined(
+    click.option(
+        "--workers",
+        type=Count(1),
+        metavar="N",
+        help="Runs at a time.  [default: one per core]",
+    ),
+    click.option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Give the runs to this running Dask scheduler.",
+    ),
+    click.option(
+        "--cluster",
+        metavar="KIND",
+        help="Ask this batch system for workers: slurm, pbs, oar, ... (needs dask-jobqueue).",
+    ),
+)

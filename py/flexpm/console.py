@@ -42,14 +42,15 @@ class Progress:
         "{desc} {percentage:3.0f} % |{bar}| {n:.0f}/{total:.0f} [{rate_fmt}, {remaining} left]"
     )
 
-    def __init__(self, quiet: bool = False) -> None:
+    def __init__(self, quiet: bool = False, unit: str = "steps") -> None:
         self._bar: Any = None
+        self._unit = f" {unit}"
         self._shown = sys.stderr.isatty() and not quiet
 
     def __call__(self, done: float, expected: float, text: str = "") -> None:
-        """Show that `done` of about `expected` steps are done; `text` says what is going on.
+        """Show that `done` of about `expected` are done; `text` says what is going on.
 
-        Fewer steps done than before mean that something new has begun.
+        Fewer done than before mean that something new has begun.
         """
         if not self._shown:
             return
@@ -66,7 +67,7 @@ class Progress:
         self._bar = tqdm(
             desc=text,
             total=max(expected, 1),
-            unit=" steps",
+            unit=self._unit,
             leave=False,
             bar_format=self._FORMAT,
             mininterval=0.2,

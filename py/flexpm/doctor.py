@@ -15,13 +15,18 @@ from . import _loading
 
 Check = tuple[str, bool, str]
 
-# module, name in Debian, what needs it
+# module, what to install, what needs it
 _PACKAGES = (
-    ("numpy", "python3-numpy", "specimens and results"),
-    ("click", "python3-click", "the command flexpm"),
-    ("tqdm", "python3-tqdm", "progress bars"),
-    ("matplotlib", "python3-matplotlib", "pictures"),
-    ("vtkmodules", "python3-vtk9", "files for ParaView"),
+    ("numpy", "the package python3-numpy", "specimens and results"),
+    ("scipy", "the package python3-scipy", "strength criteria, calibrations"),
+    ("click", "the package python3-click", "the command flexpm"),
+    ("tqdm", "the package python3-tqdm", "progress bars"),
+    ("matplotlib", "the package python3-matplotlib", "pictures"),
+    ("vtkmodules", "the package python3-vtk9", "files for ParaView"),
+    ("pandas", "the package python3-pandas", "tables of studies"),
+    ("distributed", "the package python3-distributed", "studies"),
+    ("tomli_w", "the package python3-tomli-w", "calibrated materials"),
+    ("dfols", "DFO-LS from PyPI", "calibrations"),
 )
 
 
@@ -55,10 +60,10 @@ def _python() -> Check:
 
 
 def _packages() -> Iterator[Check]:
-    for name, debian, purpose in _PACKAGES:
+    for name, source, purpose in _PACKAGES:
         # found, not imported: some take a second to load
         if importlib.util.find_spec(name) is None:
-            yield name, False, f"missing, needed for {purpose}; install the package {debian}"
+            yield name, False, f"missing, needed for {purpose}; install {source}"
         else:
             yield name, True, f"{_version(name)} ({purpose})"
 

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from .errors import InputError
 
@@ -40,6 +42,11 @@ def write_text(path: Path | str, text: str) -> None:
     """Write `text` as UTF-8 with Unix line ends, whole or not at all."""
     with whole_file(path) as temporary:
         temporary.write_bytes(text.encode("utf-8"))
+
+
+def json_text(content: Any) -> str:
+    """`content` as readable JSON that ends with a new line; only finite numbers are allowed."""
+    return json.dumps(content, indent=2, allow_nan=False) + "\n"
 
 
 def output_folder(path: Path | str) -> Path:

@@ -32,11 +32,13 @@ _GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
 _FRAGMENTS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#0072b2", "#d55e00")
 _LOOSE = "#8c8674"
 _EDGE = "#6b6455"
+#: Settings of all pictures.
 STYLE = {
     "font.size": 9.0,
     "axes.labelsize": 9.5,
     "legend.fontsize": 8.5,
     "axes.spines.top": False,
+    "axes.spines.right": False,
     "savefig.dpi": 220,
     "lines.solid_capstyle": "round",
 }

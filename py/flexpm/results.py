@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,7 +14,7 @@ import numpy as np
 from . import curve as measures
 from . import fragments
 from .curve import Curve
-from .files import output_folder, write_text
+from .files import json_text, output_folder, write_text
 
 #: A test whose median unbalanced-force ratio up to its peak exceeds this is not quasi-static [-];
 #: twice what the default rate of the flexible model gives.
@@ -167,8 +166,7 @@ class Result:
         write_text(folder / "cracks.csv", cracks_csv(self.cracks))
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", fragments.of_snapshot(self.snapshot).csv())
-        text = json.dumps(self.as_dict(), indent=2, allow_nan=False)
-        write_text(folder / "result.json", text + "\n")
+        write_text(folder / "result.json", json_text(self.as_dict()))
 
 
 def cracks_csv(cracks: Sequence[Crack]) -> str:
