@@ -9,15 +9,13 @@ from typing import Any
 
 import numpy as np
 import tomli_w
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 from . import materials
 from .calibrate import Outcome
 from .calibration import Calibration
 from .files import write_text
 from .materials import Material
-from .plot import STYLE, save
+from .plot import drawing
 
 #: Digits of the values in a preset.
 _DIGITS = 4
@@ -70,10 +68,7 @@ def rounded(value: float) -> float:
 
 def picture(path: Path, plan: Calibration, outcome: Outcome) -> None:
     """Draw each result over its target, with the packings' values and the tolerance."""
-    with rc_context(STYLE):
-        size = (5.6, 1.2 + 0.42 * len(plan.targets))
-        figure = Figure(figsize=size, layout="constrained")
-        axes = figure.add_subplot()
+    with drawing(path, (5.6, 1.2 + 0.42 * len(plan.targets))) as axes:
         for row, target in enumerate(plan.targets):
             found = np.array(outcome.best.measures[target.name], dtype=float) / target.value
             width = 2.0 * target.tolerance
@@ -85,7 +80,6 @@ def picture(path: Path, plan: Calibration, outcome: Outcome) -> None:
         axes.invert_yaxis()
         axes.set_xlabel("result over target [-]; circles: packings, band: tolerance")
         axes.set_title(f"{plan.name}, {plan.model} model", fontsize=9.5, loc="left")
-        save(figure, path)
 
 
 def _without_none(content: dict[str, Any]) -> dict[str, Any]:

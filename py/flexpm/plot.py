@@ -6,8 +6,9 @@ Input in SI units; labels in MPa, % and mm. No window is opened and no display i
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -280,6 +281,20 @@ def _draw_scale_bar(axes: Axes) -> None:
 def _unique_edges(triangles: np.ndarray) -> np.ndarray:
     edges = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
     return np.unique(np.sort(edges, axis=1), axis=0)
+
+
+@contextlib.contextmanager
+def drawing(path: Path | str, size: tuple[float, float] = (5.6, 3.9)) -> Iterator[Axes]:
+    """Axes to draw in, in the style of all pictures; written to `path` afterwards.
+
+    Args:
+        path: Picture to write.
+        size: Width and height [inch].
+    """
+    with rc_context(STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        yield figure.add_subplot()
+        save(figure, path)
 
 
 def save(figure: Figure, path: Path | str) -> None:

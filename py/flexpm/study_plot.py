@@ -13,13 +13,10 @@ from typing import Any
 
 import numpy as np
 import pandas
-from matplotlib import rc_context
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from .errors import InputError
 from .material_keys import UNITS, check_name
-from .plot import STYLE, save
+from .plot import drawing
 from .study import Study
 
 #: Factor and unit of what is drawn in other units than SI's; the rest is drawn as it is.
@@ -81,18 +78,15 @@ def _picture(entries: dict[str, Any], rows: pandas.DataFrame, folder: Path, name
     for column, value in where.items():
         chosen = chosen[chosen[column].isin(value if isinstance(value, list) else [value])]
     path = folder / entries.get("file", f"{y}.png")
-    with rc_context(STYLE):
-        figure = Figure(figsize=(5.6, 3.9), layout="constrained")
-        axes = figure.add_subplot()
+    with drawing(path) as axes:
         _lines(axes, chosen, x, y, by)
         axes.set_xlabel(_label(x))
         axes.set_ylabel(_label(y))
         axes.set_title(entries.get("title", name), fontsize=9.5, loc="left")
-        save(figure, path)
     return path
 
 
-def _lines(axes: Axes, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]) -> None:
+def _lines(axes: Any, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]) -> None:
     drawn = rows.dropna(subset=[x, y])
     lines = [tuple(values) for values in drawn[list(by)].drop_duplicates().to_numpy()]
     for number, values in enumerate(lines):
