@@ -19,6 +19,7 @@ _PUBLIC = {
     "SimulationError": "errors",
     "Specimen": "specimen",
     "build": "models",
+    "compare": "comparison",
     "elastic": "models",
     "run": "protocols",
 }
@@ -48,7 +49,7 @@ if not _is_command():
 
 
 #: Modules that scripts use as attributes of the package.
-_MODULES = ("export", "materials", "models", "plot", "protocols", "results", "specimen")
+_MODULES = ("export", "materials", "models", "plot", "protocols", "results", "specimen", "strength")
 
 
 def __getattr__(name: str) -> object:

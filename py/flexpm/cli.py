@@ -11,22 +11,19 @@ import importlib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from . import __version__, cli_options, console, materials
+from . import __version__, cli_compare, cli_library, cli_options, console
 from .cli_options import Count, Quantity
 from .errors import InputError, SimulationError
 from .files import json_text, output_folder, write_text
 from .material_keys import check_name, nearest
+from .materials import load
 
 if TYPE_CHECKING:
     from .specimen import Specimen
-
-#: Names of the contract; those that a version does not have yet are refused as such.
-TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
 
 
 class Commands(click.Group):
@@ -66,21 +63,7 @@ def command() -> None:
     show_default=True,
     help="Lateral pressure [Pa].",
 )
-@click.option(
-    "--rate",
-    type=Quantity("", above=0.0),
-    default=1.0,
-    metavar="F",
-    show_default=True,
-    help="Factor on the loading rate [-].",
-)
-@click.option(
-    "--max-strain",
-    type=Quantity("", above=0.0),
-    metavar="E",
-    help="Axial strain at which the test ends [-].",
-)
-@click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses.")
+@cli_options.pace_options
 @cli_options.threads_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -90,16 +73,16 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
     compression of a disc of the given diameter.
     """
-    check_name("test", test, TESTS)
+    check_name("test", test, cli_options.TESTS)
     model = options["model"]
-    chosen = _material(options)
+    chosen = cli_library.material(options)
     folder = output_folder(out)
-    flexpm = _library()
-    _require("model", model, flexpm.models.MODELS)
-    _require("test", test, flexpm.protocols.tests_of(model))
+    flexpm = cli_library.library()
+    cli_library.require("model", model, flexpm.models.MODELS)
+    cli_library.require("test", test, flexpm.protocols.tests_of(model))
     settings = ("confinement", "rate", "max_strain", "dynamic", "threads")
     with console.Progress(quiet) as progress:
-        specimen = (_disc if test == "brazilian" else _rectangle)(options, progress)
+        specimen = cli_library.specimen_for(test, options, progress)
         result = flexpm.protocols.run(
             test,
             specimen,
@@ -137,12 +120,12 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
 def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
     model = options["model"]
-    chosen = _material(options)
+    chosen = cli_library.material(options)
     folder = None if out is None else output_folder(out)
-    flexpm = _library()
-    _require("model", model, flexpm.models.SOLVER_MODELS)
+    flexpm = cli_library.library()
+    cli_library.require("model", model, flexpm.models.SOLVER_MODELS)
     with console.Progress(options["quiet"]) as progress:
-        specimen = _rectangle(options, progress)
+        specimen = cli_library.rectangle(options, progress)
         progress.close()
         found = flexpm.models.elastic(
             specimen, chosen, model=model, points=int(options["points"]), mesh=options["mesh"]
@@ -170,7 +153,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = output_folder(out)
     with console.Progress(quiet) as progress:
-        made = _rectangle(options, progress)
+        made = cli_library.rectangle(options, progress)
     _describe(made, folder, mesh)
 
 
@@ -184,7 +167,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = output_folder(out)
     with console.Progress(quiet) as progress:
-        made = _disc(options, progress)
+        made = cli_library.disc(options, progress)
     _describe(made, folder, mesh)
 
 
@@ -213,7 +196,7 @@ def bench(quiet: bool, **options: Any) -> None:
     """Time a step of flexpm's models and of YADE's JCFpm and CohFrict on the same specimen."""
     if options["json_file"] is not None:
         output_folder(options["json_file"].parent)
-    _library()
+    cli_library.library()
     timing = importlib.import_module("flexpm.bench")
     with console.Progress(quiet) as progress:
         rows = timing.run(progress=progress, **options)
@@ -260,7 +243,7 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
 def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
     plan = importlib.import_module("flexpm.calibration").read(file)
-    start = materials.load(plan.material_file, plan.model)
+    start = load(plan.material_file, plan.model)
     folder = output_folder(out or Path(file.stem))
     search = importlib.import_module("flexpm.calibrate")
     with console.Progress(quiet, unit="sets") as progress:
@@ -286,6 +269,9 @@ def doctor(ctx: click.Context) -> None:
         click.echo(f"{'ok  ' if ok else 'FAIL'}  {name}: {text}")
         sound = sound and ok
     ctx.exit(0 if sound else 1)
+
+
+command.add_command(cli_compare.compare)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -320,69 +306,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _failed(text: object, code: int) -> int:
     console.error_line(str(text).removeprefix("flexpm: "))
     return code
-
-
-def _load_yade() -> None:
-    importlib.import_module("flexpm._loading").load()
-    console.catch_signals()
-
-
-def _library() -> ModuleType:
-    """The package with YADE and all modules loaded."""
-    _load_yade()
-    for name in ("models", "protocols"):
-        importlib.import_module(f"flexpm.{name}")
-    return importlib.import_module("flexpm")
-
-
-def _require(what: str, name: str, available: Any) -> None:
-    if name not in available:
-        raise InputError(
-            f"{what} = {name!r}, is not available in flexpm {__version__}; "
-            f"available are {', '.join(available)}"
-        )
-
-
-def _material(options: dict[str, Any]) -> materials.Material:
-    """The material with its changes, checked for the model."""
-    model = options["model"]
-    chosen = materials.load(options["material"], model).with_set(options["assignments"], model)
-    chosen.description(model)
-    return chosen
-
-
-def _packing(options: dict[str, Any]) -> dict[str, Any]:
-    return {name: options[name] for name in ("thickness", "diameters", "porosity", "seed")}
-
-
-def _refuse_other_shape(shape: str, *names: str) -> None:
-    """Sizes that were given for another shape than the specimen's would be ignored silently."""
-    context = click.get_current_context()
-    for name in names:
-        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
-            raise InputError(
-                f"{name} = {context.params.get(name)} m, must not be given for a {shape}; "
-                "leave it out"
-            )
-
-
-def _disc(options: dict[str, Any], progress: console.Progress) -> Specimen:
-    _refuse_other_shape("disc", "width", "height")
-    _load_yade()
-    specimens = importlib.import_module("flexpm.specimen")
-    return specimens.Specimen.disc(
-        diameter=options["diameter"], progress=progress, **_packing(options)
-    )
-
-
-def _rectangle(options: dict[str, Any], progress: console.Progress) -> Specimen:
-    _refuse_other_shape("rectangle", "diameter")
-    width, height = options["width"], options["height"]
-    _load_yade()
-    specimens = importlib.import_module("flexpm.specimen")
-    return specimens.Specimen.rectangle(
-        width=width, height=height, progress=progress, **_packing(options)
-    )
 
 
 def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:

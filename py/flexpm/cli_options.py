@@ -14,6 +14,9 @@ from .errors import InputError
 from .material_keys import check_name
 from .materials import ELASTIC_SET
 
+#: Names of the contract; those that a version does not have yet are refused as such.
+TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+
 
 class Quantity(click.ParamType):
     """A finite number with a unit and a range."""
@@ -87,6 +90,28 @@ class Count(click.ParamType):
         if number < self.at_least:
             raise InputError(f"{label_of(param)} = {value}, must be >= {self.at_least}")
         return number
+
+
+class Each(click.ParamType):
+    """Several values between commas, each once."""
+
+    name = "list"
+
+    def __init__(self, kind: click.ParamType) -> None:
+        self._kind = kind
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[Any, ...]:
+        """Return the values, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = [part.strip() for part in str(value).split(",")]
+        found = tuple(self._kind.convert(part, param, ctx) for part in parts)
+        for one in found:
+            if found.count(one) > 1:
+                raise InputError(f"{label_of(param)} = {value}, must name {one} once")
+        return found
 
 
 class Name(click.ParamType):
@@ -176,15 +201,7 @@ packing_options = combined(
     seed_option,
 )
 disc_options = _length("--diameter", 0.08, "Diameter of the disc")
-model_options = combined(
-    click.option(
-        "--model",
-        type=Name(*ELASTIC_SET),
-        default="flexible",
-        metavar="NAME",
-        show_default=True,
-        help="Model of the grains.",
-    ),
+material_options = combined(
     click.option(
         "--material",
         metavar="NAME|FILE",
@@ -213,6 +230,34 @@ model_options = combined(
         show_default=True,
         help="Triangles in each grain.",
     ),
+)
+model_options = combined(
+    click.option(
+        "--model",
+        type=Name(*ELASTIC_SET),
+        default="flexible",
+        metavar="NAME",
+        show_default=True,
+        help="Model of the grains.",
+    ),
+    material_options,
+)
+pace_options = combined(
+    click.option(
+        "--rate",
+        type=Quantity("", above=0.0),
+        default=1.0,
+        metavar="F",
+        show_default=True,
+        help="Factor on the loading rate [-].",
+    ),
+    click.option(
+        "--max-strain",
+        type=Quantity("", above=0.0),
+        metavar="E",
+        help="Axial strain at which the test ends [-].",
+    ),
+    click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
 )
 drawn_mesh_option = click.option(
     "--mesh",

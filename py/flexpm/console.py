@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .comparison import Case, Envelope
+    from .references import Reference
     from .results import Result
 
 
@@ -140,6 +142,60 @@ def _fragments(result: Result) -> str:
         return "-"
     share = scaled(result.largest_fragment, 100.0, "%", 3)
     return f"{result.fragments}, the largest with {share} of the area"
+
+
+def columns(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Table with a header; the first column to the left, numbers to the right."""
+    lines = [tuple(header), *map(tuple, rows)]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return "\n".join(
+        "  "
+        + "  ".join(
+            cell.rjust(width) if number else cell.ljust(width)
+            for number, (cell, width) in enumerate(zip(line, widths, strict=True))
+        )
+        for line in lines
+    )
+
+
+def comparison_table(cases: Sequence[Case]) -> str:
+    """One line for each run of a comparison."""
+    header = ("run", "E [GPa]", "nu", "peak [MPa]", "strain [%]", "tensile", "shear", "fragments")
+    rows = []
+    for case in cases:
+        found = case.result
+        if found is None:
+            rows.append((case.name, *["-"] * (len(header) - 1), "failed"))
+            continue
+        numbers = (
+            scaled(found.youngs_modulus, 1e-9, ""),
+            scaled(found.poissons_ratio, 1.0, "", 3),
+            scaled(found.peak_stress, 1e-6, ""),
+            scaled(found.peak_strain, 100.0, "", 3),
+            str(found.tensile_cracks),
+            str(found.shear_cracks),
+            str(found.fragments),
+        )
+        rows.append((case.name, *numbers, found.status))
+    return columns((*header, "status"), rows)
+
+
+def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str:
+    """Cohesion, friction angle and Hoek-Brown constants, each with its standard error."""
+    header = ("criterion", "c [MPa]", "+-", "phi [deg]", "+-", "sigma_ci [MPa]", "+-", "m_i", "+-")
+    factors = {"cohesion": 1e-6, "friction_angle": 1.0, "sigma_ci": 1e-6, "m_i": 1.0}
+    rows = []
+    for one in envelopes:
+        found = one.as_dict()
+        cells = [one.model]
+        for name, factor in factors.items():
+            cells.append(scaled(found[name], factor, ""))
+            cells.append(scaled(found[f"{name}_error"], factor, "", 2))
+        rows.append(cells)
+    if rock is not None:
+        measured = scaled(rock.cohesion, 1e-6, ""), scaled(rock.friction_angle, 1.0, "")
+        rows.append((rock.name, measured[0], "-", measured[1], *["-"] * 5))
+    return columns(header, rows)
 
 
 def statistics_table(found: dict[str, Any]) -> str:

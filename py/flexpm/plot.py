@@ -18,6 +18,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from . import curve as measures
 from . import fragments
@@ -32,6 +33,8 @@ _GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
 #: Fragments by their rank, loose grains; the largest fragment has the first tint of the grains.
 _FRAGMENTS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#0072b2", "#d55e00")
 _LOOSE = "#8c8674"
+#: Minerals in their order.
+_MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
 _EDGE = "#6b6455"
 #: Settings of all pictures.
 STYLE = {
@@ -96,17 +99,27 @@ def specimen_picture(
         save(figure, path)
 
 
-def crack_picture(path: Path | str, snapshot: Mapping[str, np.ndarray], caption: str = "") -> None:
+def crack_picture(
+    path: Path | str,
+    snapshot: Mapping[str, np.ndarray],
+    caption: str = "",
+    minerals: Sequence[str] = (),
+) -> None:
     """Draw the deformed grains with their cracks; each point colours its share of a contact.
 
     Args:
         path: Picture to write.
         snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
         caption: Line above the picture.
+        minerals: Their names, for the legend.
     """
     with rc_context(STYLE):
         figure, axes = _map_figure([snapshot["positions"]])
         handles = draw_cracks(axes, snapshot)
+        handles += [
+            Patch(facecolor=_MINERALS[number % len(_MINERALS)], edgecolor=_EDGE, label=name)
+            for number, name in enumerate(minerals)
+        ]
         axes.legend(
             handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False
         )
@@ -116,8 +129,12 @@ def crack_picture(path: Path | str, snapshot: Mapping[str, np.ndarray], caption:
 
 def draw_cracks(axes: Axes, snapshot: Mapping[str, np.ndarray]) -> list[Line2D]:
     """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
-    polygons = [snapshot["positions"][corners] for corners in grain_corners(snapshot["triangles"])]
-    _draw_grains(axes, polygons)
+    outlines = grain_corners(snapshot["triangles"])
+    tints = None
+    if "grain_mineral" in snapshot:
+        minerals = np.asarray(snapshot["grain_mineral"])[_grains_of(snapshot, outlines)]
+        tints = np.array(_MINERALS)[minerals % len(_MINERALS)]
+    _draw_grains(axes, [snapshot["positions"][corners] for corners in outlines], tints)
     segments, handles = crack_segments(snapshot), []
     for mode in (TENSILE, SHEAR):
         lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
@@ -146,13 +163,10 @@ def fragment_picture(
     colours = np.where(found.grains > 1, colours, _LOOSE)
     colours[0] = _GRAIN_TINTS[0]
     outlines = grain_corners(snapshot["triangles"])
-    node_grain = np.zeros(len(snapshot["positions"]), dtype=int)
-    node_grain[np.ravel(snapshot["triangles"])] = np.repeat(snapshot["triangle_grain"], 3)
     polygons = [snapshot["positions"][corners] for corners in outlines]
     with rc_context(STYLE):
         figure, axes = _map_figure(polygons)
-        grains = np.array([node_grain[corners[0]] for corners in outlines])
-        _draw_grains(axes, polygons, colours[found.labels[grains]])
+        _draw_grains(axes, polygons, colours[found.labels[_grains_of(snapshot, outlines)]])
         _draw_scale_bar(axes)
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
@@ -191,6 +205,13 @@ def grain_corners(triangles: np.ndarray) -> list[np.ndarray]:
             node = following.pop(node)
         loops.append(np.array(loop))
     return loops[::-1]
+
+
+def _grains_of(snapshot: Mapping[str, np.ndarray], outlines: Sequence[np.ndarray]) -> np.ndarray:
+    """Grain of each outline."""
+    node_grain = np.zeros(len(snapshot["positions"]), dtype=int)
+    node_grain[np.ravel(snapshot["triangles"])] = np.repeat(snapshot["triangle_grain"], 3)
+    return node_grain[[corners[0] for corners in outlines]]
 
 
 def crack_segments(snapshot: Mapping[str, np.ndarray]) -> dict[int, np.ndarray]:

@@ -355,7 +355,8 @@ def write_files(folder: Path, result: Result) -> None:
     result.write(folder)
     export.write_vtu(folder / "final.vtu", result.snapshot)
     plot.curve_picture(folder / "curve.png", result)
-    plot.crack_picture(folder / "cracks.png", result.snapshot)
+    minerals = [kind["name"] for kind in result.material.get("minerals", ())]
+    plot.crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
     plot.fragment_picture(folder / "fragments.png", result.snapshot)
 
 

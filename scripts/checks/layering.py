@@ -28,7 +28,11 @@ FORBIDDEN_WORDS = {
 }
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
-PYTHON_LIBRARIES = {"matplotlib": {"plot.py"}, "vtk": {"export.py"}, "vtkmodules": {"export.py"}}
+PYTHON_LIBRARIES = {
+    "matplotlib": {"plot.py", "plot_compare.py"},
+    "vtk": {"export.py"},
+    "vtkmodules": {"export.py"},
+}
 
 
 def without_comments(text: str) -> str:
