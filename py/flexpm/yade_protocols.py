@@ -17,7 +17,6 @@ import numpy as np
 import yade
 
 from . import __version__
-from .errors import InputError
 from .protocols import DEFAULT_STRAINS, Progress, Schedule, Settings
 from .results import Result
 from .yade_bonds import tributary_lengths
@@ -56,8 +55,6 @@ _DIAMETRAL = 5.0
 
 def run_uniaxial(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Compress a built rectangle axially without lateral pressure."""
-    _require_kind(built, "uniaxial", "rectangle")
-    settings.refuse_confinement("uniaxial")
     plan = _schedule(built, "uniaxial", settings)
     plates = _squeeze(built)
     plates.move(-plan.velocity)
@@ -73,8 +70,6 @@ def run_uniaxial(built: SphereModel, settings: Settings, progress: Progress | No
 
 def run_tension(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Pull the outermost layers of spheres of a built rectangle apart."""
-    _require_kind(built, "tension", "rectangle")
-    settings.refuse_confinement("tension")
     plan = _schedule(built, "tension", settings)
     grips = Grips(built)
     hold_sideways(built, middle_of_bottom(built))
@@ -95,7 +90,6 @@ def run_biaxial(built: SphereModel, settings: Settings, progress: Progress | Non
     Strains count from the isotropic state.
     """
     confinement = settings.confinement
-    _require_kind(built, "biaxial", "rectangle")
     plan = _schedule(built, "biaxial", settings)
     hold_sideways(built, middle_of_bottom(built))
     sides = Pressure(built, (LEFT, RIGHT))
@@ -119,8 +113,6 @@ def run_biaxial(built: SphereModel, settings: Settings, progress: Progress | Non
 
 def run_brazilian(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
     """Squeeze a built disc between two plates; stress is 2P / (pi D t), strain travel / D."""
-    _require_kind(built, "brazilian", "disc")
-    settings.refuse_confinement("brazilian")
     plan = _schedule(built, "brazilian", settings)
     reach = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
     lowest, highest = built.specimen.centres[:, 1] - reach, built.specimen.centres[:, 1] + reach
@@ -268,9 +260,3 @@ def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float)
     result.cracks = built.cracks.cracks(recorder.curve)
     result.measure(diverged=recorder.diverged, max_unbalanced=QUASISTATIC_MEDIAN)
     return result
-
-
-def _require_kind(built: SphereModel, test: str, kind: str) -> None:
-    found = built.specimen.kind
-    if found != kind:
-        raise InputError(f"run: specimen = {found}, must be a {kind} for {test}; make another")
