@@ -2,13 +2,15 @@
 /// @file  The kernel's step compiled a second time, for the plainest instruction set alone.
 #pragma once
 
+#include <flexpm/kernel/contact_block.hpp>
 #include <flexpm/kernel/stepping.hpp>
 
 namespace flexpm {
 
 void baseline_step(Assembly& a, const StepOptions& options);
 
-void baseline_update_contact_block(Assembly& a, int block, double dt);
+void baseline_update_contact_block(Assembly& a, int block, double dt, LawRows& law);
+void baseline_predict_centres(Assembly& a, int block, double dt);
 double baseline_update_edge_block(Assembly& a, int block, double dt);
 
 }  // namespace flexpm

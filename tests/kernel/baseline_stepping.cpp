@@ -8,6 +8,7 @@
 #undef FLEXPM_MULTIVERSION
 #define FLEXPM_MULTIVERSION
 #define update_contact_block baseline_update_contact_block
+#define predict_centres baseline_predict_centres
 #define update_edge_block baseline_update_edge_block
 #define show_positions baseline_show_positions
 #define step(assembly, options) baseline_step(assembly, options)

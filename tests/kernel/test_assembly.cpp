@@ -139,7 +139,7 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
             const int g = a.contact_grains[2 * c + side];
             for (int n = 0; n < a.nodes_of(g); ++n)
                 owned[side].insert(a.node(g, n));
-            CHECK(a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] == a.centre(g));
+            CHECK(a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] == a.centre_slot(g));
         }
         for (int end = 0; end < 2; ++end) {
             const int na = contact_node(a, c, 0, end), nb = contact_node(a, c, 1, end);

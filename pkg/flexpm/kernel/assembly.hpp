@@ -74,6 +74,9 @@ struct Assembly {
     Array<double> inverse_inertia;  ///< of the scaled or real moment of inertia [1/(kg m^2)]
     Array<std::uint8_t> spin_held;  ///< 1: the spin is prescribed
 
+    /// Displacement of the centres at the end of the step, [block][x, y][lane]; each step fills it.
+    Array<double> next_centre;
+
     // triangles: [block][triangle][g1x, g1y, g2x, g2y, volume][lane]
     Array<double> shape;
     Array<double> stiffness;  ///< [block][normal, cross, shear][lane] [Pa]
@@ -86,7 +89,7 @@ struct Assembly {
         contact_bonded;  ///< 1: since the specimen was bonded, 0: touched later
     /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
     std::map<std::pair<int, int>, double> close_pairs;
-    Array<int> contact_nodes;  ///< node offsets, ContactRows::nodes
+    Array<int> contact_nodes;  ///< offsets: of nodes, and of grains a and b in `next_centre`
     Array<double> weight;      ///< [point][side]: share of the edge's second node [-]
     Array<double> area;        ///< [point] [m^2]
     /// [x, y] from centre a to centre b when bonded [m]; zero: the normal is that of the edges.
@@ -142,6 +145,13 @@ struct Assembly {
         return block_nodes[slot / lanes] + 2 * lanes * number + slot % lanes;
     }
     int centre(int grain) const { return node(grain, group(grain_slot[grain] / lanes).vertices); }
+
+    /// Offset of a grain's centre in `next_centre`.
+    int centre_slot(int grain) const
+    {
+        const int slot = grain_slot[grain];
+        return 2 * lanes * (slot / lanes) + slot % lanes;
+    }
 
     Point position(int node) const
     {

@@ -162,7 +162,8 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
     const int nodes[] = { node_of_vertex(a, grains, e.cell_a, e.vertex_0),
         node_of_vertex(a, grains, e.cell_a, e.vertex_1),
         node_of_vertex(a, grains, e.cell_b, e.vertex_0),
-        node_of_vertex(a, grains, e.cell_b, e.vertex_1), a.centre(e.cell_a), a.centre(e.cell_b) };
+        node_of_vertex(a, grains, e.cell_b, e.vertex_1), a.centre_slot(e.cell_a),
+        a.centre_slot(e.cell_b) };
     for (int i = 0; i < ContactRows::nodes; ++i) {
         a.contact_nodes[row_index(c, i, ContactRows::nodes)] = nodes[i];
     }
@@ -174,7 +175,7 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
             a.weight[row_index(c, 2 * p + side, 2 * a.points)] = points.weight[p];
         }
     }
-    const Point ca = a.position(nodes[4]), cb = a.position(nodes[5]);
+    const Point ca = a.position(a.centre(e.cell_a)), cb = a.position(a.centre(e.cell_b));
     a.span[row_index(c, 0, 2)] = of_edge ? 0.0 : cb.x - ca.x;
     a.span[row_index(c, 1, 2)] = of_edge ? 0.0 : cb.y - ca.y;
     const Point n = bonded_normal(a, c);

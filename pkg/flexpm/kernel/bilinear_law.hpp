@@ -124,14 +124,17 @@ struct Traction {
 
 /// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and
 /// changes nothing, if it would not.
+///
+/// @tparam Intact  true: the point has no damage, which need not be worked out
+template <bool Intact = false>
 __attribute__((always_inline)) inline bool advance_elastic(const LawParameters& p,
     double opening_step, double slip_step, const PointState& s, PointState& next,
     Traction& traction)
 {
-    const double d = law::damage(p, s.max_opening, s.shear_damage);
+    const double d = Intact ? 0.0 : law::damage(p, s.max_opening, s.shear_damage);
     const double opening = s.opening + opening_step;
     const double reach = std::max(s.max_opening, opening);
-    const double slope = law::secant(p, s.max_opening, d);
+    const double slope = Intact ? p.normal_stiffness : law::secant(p, s.max_opening, d);
     const double normal = opening * (opening > 0.0 ? slope : p.normal_stiffness);
     const double shear = s.shear_traction + p.shear_stiffness * slip_step;
     const double limit = std::max((1.0 - d) * p.cohesion - p.friction * normal, 0.0);

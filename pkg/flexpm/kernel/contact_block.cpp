@@ -11,7 +11,6 @@ namespace flexpm {
 
 namespace {
 
-constexpr int law_rows = sizeof(LawParameters) / sizeof(double);
 constexpr int most_points = 3;
 constexpr int opening_row = ContactRows::opening * lanes, slip_row = ContactRows::slip * lanes;
 
@@ -20,6 +19,7 @@ struct Rows {
     const double* reference;
     const double* displacement;
     const double* velocity;
+    const double* centres;
     const int* nodes;
     const double* weight;
     const double* area;
@@ -28,8 +28,7 @@ struct Rows {
     double* normal;
     double* state;
     double* force;
-    const double* law;  ///< [law_rows][lanes]
-    bool of_edges;      ///< a contact of the block takes its normal from its edges
+    const double* law;  ///< LawRows
 };
 
 /// What a block works out for its points on the way, [point][lane].
@@ -51,6 +50,14 @@ __attribute__((always_inline)) inline PointState load_state(const double* rows, 
     return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes], r[6 * lanes] };
 }
 
+__attribute__((always_inline)) inline bool any_of(const std::int64_t* flags)
+{
+    std::int64_t any = 0;
+    for (int l = 0; l < lanes; ++l)
+        any |= flags[l];
+    return any != 0;
+}
+
 __attribute__((always_inline)) inline void store_state(const PointState& s, double* rows, int lane)
 {
     double* r = rows + lane;
@@ -63,17 +70,26 @@ __attribute__((always_inline)) inline void store_state(const PointState& s, doub
     r[6 * lanes] = s.friction_energy;
 }
 
+/// A contact of the block takes its normal from its edges: it has no span, which marks it.
+__attribute__((always_inline)) inline bool any_normal_of_edge(const Rows& b)
+{
+    alignas(64) std::int64_t of_edge[lanes];
+    for (int l = 0; l < lanes; ++l)
+        of_edge[l] = (b.span[l] == 0.0) & (b.span[lanes + l] == 0.0);
+    return any_of(of_edge);
+}
+
 /// A vector along the normal at the end of the step: between the centres, or, where a contact has no
 /// span, across the mean of the two edges.
 template <bool OfEdges>
 __attribute__((always_inline)) inline Point direction(const Rows& b, double dt, int l)
 {
-    const double *u = b.displacement, *v = b.velocity;
+    const double* centres = b.centres;
     const int ca = b.nodes[4 * lanes + l], cb = b.nodes[5 * lanes + l];
-    const double dx = b.span[l] + ((u[cb] + dt * v[cb]) - (u[ca] + dt * v[ca]));
-    const double dy = b.span[lanes + l]
-        + ((u[cb + lanes] + dt * v[cb + lanes]) - (u[ca + lanes] + dt * v[ca + lanes]));
+    const double dx = b.span[l] + (centres[cb] - centres[ca]);
+    const double dy = b.span[lanes + l] + (centres[cb + lanes] - centres[ca + lanes]);
     if (!OfEdges) return { dx, dy };
+    const double *u = b.displacement, *v = b.velocity;
     double ex = 0.0, ey = 0.0;
     for (int side = 0; side < 2; ++side) {
         const int n0 = b.nodes[2 * side * lanes + l], n1 = b.nodes[(2 * side + 1) * lanes + l];
@@ -165,6 +181,50 @@ __attribute__((always_inline)) inline void spread_forces(
     }
 }
 
+/// No point of the block has any damage: true of most blocks.
+template <int Points> __attribute__((always_inline)) inline bool is_intact(const Rows& b)
+{
+    alignas(64) std::int64_t damaged[lanes] = {};
+    for (int p = 0; p < Points; ++p) {
+        const double* state = b.state + p * ContactRows::state * lanes;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            const PointState s = load_state(state, l);
+            const double excess = s.max_opening - law_of(b.law, l).elastic_opening;
+            damaged[l] |= (excess > 0.0) | (s.shear_damage > 0.0);
+        }
+    }
+    return !any_of(damaged);
+}
+
+/// Advances all points as if they stayed on their branch: rows of their tractions and of the first
+/// four members of their next state. Returns whether any does not stay.
+template <int Points, bool Intact>
+__attribute__((always_inline)) inline bool advance_elastic_lanes(
+    const Rows& b, const Motion& motion, double* normal, double* shear, double* next)
+{
+    alignas(64) std::int64_t leaves[lanes] = {};
+    for (int p = 0; p < Points; ++p) {
+        const double* state = b.state + p * ContactRows::state * lanes;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            PointState s;
+            Traction t;
+            const bool elastic =
+                advance_elastic<Intact>(law_of(b.law, l), motion.opening[p * lanes + l],
+                    motion.slip[p * lanes + l], load_state(state, l), s, t);
+            next[(4 * p + 0) * lanes + l] = s.opening;
+            next[(4 * p + 1) * lanes + l] = s.max_opening;
+            next[(4 * p + 2) * lanes + l] = s.shear_traction;
+            next[(4 * p + 3) * lanes + l] = s.slip;
+            normal[p * lanes + l] = t.normal;
+            shear[p * lanes + l] = t.shear;
+            leaves[l] |= !elastic;
+        }
+    }
+    return any_of(leaves);
+}
+
 /// Returns the lanes, summed over points, that cracked in this step.
 template <int Points>
 __attribute__((always_inline)) inline int update_lanes(
@@ -172,39 +232,20 @@ __attribute__((always_inline)) inline int update_lanes(
 {
     Motion motion;
     // two calls, not one through a pointer: only a direct call is compiled for each instruction set
-    if (b.of_edges)
+    if (any_normal_of_edge(b))
         move_points<Points, true>(b, dt, motion);
     else
         move_points<Points, false>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     alignas(64) double next[Points * 4 * lanes];
-    alignas(64) double leaves[lanes] = {};  // > 0 where a point leaves its elastic branch
-    for (int p = 0; p < Points; ++p) {
-        const double* state = b.state + p * ContactRows::state * lanes;
-#pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            PointState s;
-            Traction t;
-            const bool elastic = advance_elastic(law_of(b.law, l), motion.opening[p * lanes + l],
-                motion.slip[p * lanes + l], load_state(state, l), s, t);
-            next[(4 * p + 0) * lanes + l] = s.opening;
-            next[(4 * p + 1) * lanes + l] = s.max_opening;
-            next[(4 * p + 2) * lanes + l] = s.shear_traction;
-            next[(4 * p + 3) * lanes + l] = s.slip;
-            normal[p * lanes + l] = t.normal;
-            shear[p * lanes + l] = t.shear;
-            leaves[l] += elastic ? 0.0 : 1.0;
-        }
-    }
-    double any = 0.0;
-    for (int l = 0; l < lanes; ++l)
-        any += leaves[l];
-
+    const bool any = is_intact<Points>(b)
+        ? advance_elastic_lanes<Points, true>(b, motion, normal, shear, next)
+        : advance_elastic_lanes<Points, false>(b, motion, normal, shear, next);
     int cracks = 0;
     for (int p = 0; p < Points; ++p) {
         double* state = b.state + p * ContactRows::state * lanes;
-        if (any == 0.0) {
+        if (!any) {
             for (int l = 0; l < 4 * lanes; ++l)
                 state[l] = next[4 * p * lanes + l];
             continue;
@@ -242,31 +283,21 @@ FLEXPM_MULTIVERSION int update_3(const Rows& b, double dt, std::uint8_t* cracked
     return update_lanes<3>(b, dt, cracked);
 }
 
-/// Parameters of the block's contacts, one law or several, as rows.
-void fill_law(const Assembly& a, int block, double* rows)
+/// Few blocks differ from the one before: most find their rows filled.
+void fill_law(const Assembly& a, int block, LawRows& rows)
 {
+    if (rows.filled == 0 && a.laws.size() == 1) return;
     const int first = block * lanes, last = std::min(first + lanes, a.contacts) - 1;
     const int* kinds = a.contact_law.data();
     const bool one =
         std::all_of(kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
-    for (int l = 0; l < (one ? 1 : lanes); ++l) {
+    if (one && kinds[last] == rows.filled) return;
+    rows.filled = one ? kinds[last] : LawRows::none;
+    for (int l = 0; l < lanes; ++l) {
         const double* law = &a.laws[kinds[std::min(first + l, last)]].normal_stiffness;
-        for (int r = 0; r < law_rows; ++r)
-            rows[r * lanes + l] = law[r];
+        for (int r = 0; r < LawRows::count; ++r)
+            rows.values[r * lanes + l] = law[r];
     }
-    if (!one) return;
-    for (int r = 0; r < law_rows; ++r)
-        std::fill_n(rows + r * lanes + 1, lanes - 1, rows[r * lanes]);
-}
-
-/// Contacts without a span, which is what marks them.
-bool any_normal_of_edge(const Assembly& a, int block)
-{
-    const double* span = a.span.data() + 2 * lanes * block;
-    bool any = false;
-    for (int l = 0; l < lanes; ++l)
-        any |= (span[l] == 0.0) & (span[lanes + l] == 0.0);
-    return any;
 }
 
 /// Where a point is now: the middle of its places on the two edges.
@@ -307,17 +338,25 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
 
 }  // namespace
 
-void update_contact_block(Assembly& a, int block, double dt)
+void predict_centres(Assembly& a, int block, double dt)
 {
-    alignas(64) double law[law_rows * lanes];
+    const int first = a.block_nodes[block] + 2 * lanes * a.group(block).vertices;
+    const double *u = a.displacement.data() + first, *v = a.velocity.data() + first;
+    double* next = a.next_centre.data() + 2 * lanes * block;
+    for (int i = 0; i < 2 * lanes; ++i)
+        next[i] = u[i] + dt * v[i];
+}
+
+void update_contact_block(Assembly& a, int block, double dt, LawRows& law)
+{
     fill_law(a, block, law);
     const int first = block * lanes;
     const Rows rows = { a.reference.data(), a.displacement.data(), a.velocity.data(),
-        a.contact_nodes.data() + first * ContactRows::nodes, a.weight.data() + first * 2 * a.points,
-        a.area.data() + first * a.points, a.span.data() + first * 2,
-        a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
+        a.next_centre.data(), a.contact_nodes.data() + first * ContactRows::nodes,
+        a.weight.data() + first * 2 * a.points, a.area.data() + first * a.points,
+        a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
-        a.contact_force.data() + first * ContactRows::forces, law, any_normal_of_edge(a, block) };
+        a.contact_force.data() + first * ContactRows::forces, law.values };
     std::uint8_t cracked[most_points * lanes];
     const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
         : a.points == 2              ? update_2(rows, dt, cracked)

@@ -59,7 +59,7 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
         const Place& place = places[side];
         a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)] = place.node_0;
         a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)] = place.node_1;
-        a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] = centres[side];
+        a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] = a.centre_slot(pair[side]);
         // an edge across the tangent cannot carry the gap's couple
         const bool facing = std::fabs(place.along) > 0.5 * place.length;
         a.edge_reach[row_index(c, side, 2)] = facing ? 1.0 / place.along : 0.0;
@@ -174,6 +174,39 @@ bool carries(const Assembly& a, int contact)
     return area > 0.0;
 }
 
+double square_distance(const Assembly& a, GrainPair pair)
+{
+    const Point pa = a.position(a.centre(pair[0])), pb = a.position(a.centre(pair[1]));
+    return (pb.x - pa.x) * (pb.x - pa.x) + (pb.y - pa.y) * (pb.y - pa.y);
+}
+
+/// Calls visit(pair) for all pairs of grains that lie in the same cell, or in two that touch, of a
+/// lattice of squares of side `size`.
+template <class Visit> void for_each_neighbour(const Assembly& a, double size, Visit visit)
+{
+    using Place = std::pair<double, double>;  // row and column, whole numbers of any size
+    std::vector<std::pair<Place, int>> places;
+    for (int g = 0; g < a.grains; ++g) {
+        const Point p = a.position(a.centre(g));
+        places.push_back({ { std::floor(p.y / size), std::floor(p.x / size) }, g });
+    }
+    std::sort(places.begin(), places.end());
+    const auto visit_row = [&](std::size_t from, const std::pair<Place, int>& one, Place last) {
+        for (std::size_t i = from; i < places.size() && places[i].first <= last; ++i) {
+            const int g = one.second, h = places[i].second;
+            visit(GrainPair { std::min(g, h), std::max(g, h) });
+        }
+    };
+    std::size_t above = 0;  // first place in the next row that is not left of the neighbours
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto [row, column] = places[i].first;
+        visit_row(i + 1, places[i], { row, column + 1.0 });
+        while (above < places.size() && places[above].first < Place { row + 1.0, column - 1.0 })
+            ++above;
+        visit_row(above, places[i], { row + 1.0, column + 1.0 });
+    }
+}
+
 }  // namespace
 
 double centre_distance(const Assembly& a, int grain_a, int grain_b)
@@ -189,29 +222,29 @@ double touching_distance(const Assembly& a, GrainPair pair)
     return close == a.close_pairs.end() ? radii : std::min(radii, close->second);
 }
 
+bool is_touching(const Assembly& a, GrainPair pair)
+{
+    const double radii = a.radius[pair[0]] + a.radius[pair[1]];
+    if (square_distance(a, pair) >= radii * radii) return false;  // most pairs, at little cost
+    return centre_distance(a, pair[0], pair[1]) < touching_distance(a, pair);
+}
+
 std::vector<GrainPair> near_pairs(const Assembly& a, double margin)
 {
-    std::vector<GrainPair> held;
+    std::vector<std::pair<int, int>> held;
     for (int c = 0; c < a.contacts; ++c) {
         if (carries(a, c)) held.push_back({ a.contact_grains[2 * c], a.contact_grains[2 * c + 1] });
     }
-    std::sort(held.begin(), held.end());
-    std::vector<std::pair<double, int>> along;  // of the centres, along x
-    for (int g = 0; g < a.grains; ++g)
-        along.push_back({ a.position(a.centre(g)).x, g });
-    std::sort(along.begin(), along.end());
+    if (!std::is_sorted(held.begin(), held.end())) std::sort(held.begin(), held.end());
     const double largest = *std::max_element(a.radius.begin(), a.radius.end());
     std::vector<GrainPair> near;
-    for (std::size_t i = 0; i < along.size(); ++i) {
-        const int g = along[i].second;
-        for (std::size_t j = i + 1; j < along.size(); ++j) {
-            if (along[j].first - along[i].first > a.radius[g] + largest + margin) break;
-            const int h = along[j].second;
-            const GrainPair pair { std::min(g, h), std::max(g, h) };
-            const bool close = centre_distance(a, g, h) < a.radius[g] + a.radius[h] + margin;
-            if (close && !std::binary_search(held.begin(), held.end(), pair)) near.push_back(pair);
-        }
-    }
+    // a little more, so that round-off does not choose
+    for_each_neighbour(a, 1.001 * (2.0 * largest + margin), [&](GrainPair pair) {
+        const double reach = a.radius[pair[0]] + a.radius[pair[1]] + margin;
+        if (square_distance(a, pair) >= reach * reach) return;
+        const std::pair<int, int> key { pair[0], pair[1] };
+        if (!std::binary_search(held.begin(), held.end(), key)) near.push_back(pair);
+    });
     std::sort(near.begin(), near.end());
     return near;
 }

@@ -24,6 +24,9 @@ double centre_distance(const Assembly& a, int grain_a, int grain_b);
 /// the specimen was bonded if their discs overlapped then without sharing an edge.
 double touching_distance(const Assembly& a, GrainPair pair);
 
+/// The discs of two grains without a contact touch.
+bool is_touching(const Assembly& a, GrainPair pair);
+
 /// Pairs whose discs are less than `margin` apart and that no contact holds, ascending. They follow
 /// from the positions alone, so a loaded state finds the same pairs.
 std::vector<GrainPair> near_pairs(const Assembly& a, double margin);

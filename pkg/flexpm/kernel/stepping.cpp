@@ -201,12 +201,17 @@ void show_positions(Assembly& a)
 void step(Assembly& a, const StepOptions& options)
 {
     const int contact_blocks = a.contact_blocks(), blocks = a.blocks();
+    a.next_centre.resize(static_cast<std::size_t>(2 * lanes * blocks));
 #pragma omp parallel num_threads(options.threads) if (options.threads > 1)
     {
-        // contacts and boundary only read the nodes: neither waits for the other
+        LawRows law;
+#pragma omp for schedule(static)
+        for (int b = 0; b < blocks; ++b)
+            predict_centres(a, b, options.dt);
+            // contacts and boundary only read the nodes: neither waits for the other
 #pragma omp for schedule(static) nowait
         for (int b = 0; b < contact_blocks; ++b)
-            update_contact_block(a, b, options.dt);
+            update_contact_block(a, b, options.dt, law);
 #pragma omp single
         {
             for (int b = 0; b < a.edge_blocks(); ++b) {

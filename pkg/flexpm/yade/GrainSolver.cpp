@@ -6,6 +6,8 @@
 #include <flexpm/kernel/stepping.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
+#include <algorithm>
+
 #include <omp.h>
 
 namespace yade {
@@ -80,15 +82,29 @@ void GrainSolver::check()
 	}
 }
 
+namespace {
+
+	State* stateOf(const Body* body) { return body ? body->state.get() : nullptr; }
+
+} // namespace
+
 void GrainSolver::publishBodies()
 {
+	// bodies and states lie scattered in memory: fetch them some grains ahead, or each would be waited for
+	constexpr int bodiesAhead = 24, statesAhead = 12;
+	const auto    bodyOf = [&](int grain) { return (*scene->bodies)[bodyIds[std::min(grain, assembly.grains - 1)]].get(); };
 	for (int grain = 0; grain < assembly.grains; ++grain) {
-		const auto& b = (*scene->bodies)[bodyIds[grain]];
-		if (!b) continue;
+		if (const Body* later = bodyOf(grain + bodiesAhead)) __builtin_prefetch(&later->state);
+		if (const State* soon = stateOf(bodyOf(grain + statesAhead))) {
+			__builtin_prefetch(&soon->pos, 1);
+			__builtin_prefetch(&soon->vel, 1);
+		}
+		State* state = stateOf(bodyOf(grain));
+		if (!state) continue;
 		const int  centre = assembly.centre(grain);
 		const auto p      = assembly.position(centre);
-		b->state->pos     = Vector3r(p.x, p.y, 0);
-		b->state->vel     = Vector3r(assembly.velocity[centre], assembly.velocity[centre + flexpm::lanes], 0);
+		state->pos        = Vector3r(p.x, p.y, 0);
+		state->vel        = Vector3r(assembly.velocity[centre], assembly.velocity[centre + flexpm::lanes], 0);
 	}
 }
 

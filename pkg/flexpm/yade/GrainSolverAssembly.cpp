@@ -64,8 +64,16 @@ void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
 {
 	bodyIds.clear();
 	const auto& world = Omega::instance().getScene();
+	// bodies and states each in a row: every step walks through them
+	vector<shared_ptr<Body>>  bodies(assembly.grains);
+	vector<shared_ptr<State>> states(assembly.grains);
+	for (auto& body : bodies)
+		body = boost::make_shared<Body>();
+	for (auto& state : states)
+		state = boost::make_shared<State>();
 	for (int grain = 0; grain < assembly.grains; ++grain) {
-		auto body        = boost::make_shared<Body>();
+		const auto& body = bodies[grain];
+		body->state      = states[grain];
 		auto cell        = boost::make_shared<LaguerreCell>();
 		cell->grain      = grain;
 		body->shape      = cell;

@@ -42,7 +42,7 @@ void GrainSolver::changeContacts()
 	}
 	vector<flexpm::GrainPair> touching;
 	for (const auto& pair : candidates) {
-		if (flexpm::centre_distance(assembly, pair[0], pair[1]) < flexpm::touching_distance(assembly, pair)) touching.push_back(pair);
+		if (flexpm::is_touching(assembly, pair)) touching.push_back(pair);
 	}
 	if (over.empty() && touching.empty()) return;
 	for (int c : over)
