@@ -49,7 +49,17 @@ if not _is_command():
 
 
 #: Modules that scripts use as attributes of the package.
-_MODULES = ("export", "materials", "models", "plot", "protocols", "results", "specimen", "strength")
+_MODULES = (
+    "export",
+    "materials",
+    "models",
+    "plot",
+    "protocols",
+    "results",
+    "specimen",
+    "strength",
+    "study",
+)
 
 
 def __getattr__(name: str) -> object:

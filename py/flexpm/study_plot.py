@@ -25,6 +25,11 @@ _SHOWN = {
     "peak_stress": (1e-6, "MPa"),
     "confinement": (1e-6, "MPa"),
     "peak_strain": (100.0, "%"),
+    "compressive_strength": (1e-6, "MPa"),
+    "cohesion": (1e-6, "MPa"),
+    "direct": (1e-6, "MPa"),
+    "indirect": (1e-6, "MPa"),
+    "friction_angle": (1.0, "degrees"),
     "poissons_ratio": (1.0, "-"),
 }
 _LARGE = {"Pa": (1e-6, "MPa")}

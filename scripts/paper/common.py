@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Common to the scripts of the paper's figures: studies with committed results, derived measures.
+
+A script does the runs of the study file of its name and writes ``paper-out/NAME/*.png``. Runs
+whose results stand in ``results/NAME.csv`` are not repeated; a script started with ``--keep`` adds
+its new results to that table.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pandas
+
+import flexpm
+from flexpm import study, study_plot
+from flexpm.console import Progress
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results"
+
+
+def options(about: str) -> argparse.Namespace:
+    """Read the options that all scripts have."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("--workers", type=int, help="runs at a time; default: one per core")
+    parser.add_argument("--out", type=Path, default=Path("paper-out"), help="folder of the runs")
+    parser.add_argument("--keep", action="store_true", help="add new results to results/")
+    parser.add_argument("--dry", action="store_true", help="run nothing: use what is there")
+    return parser.parse_args()
+
+
+def results(name: str, chosen: argparse.Namespace) -> tuple[pandas.DataFrame, Path]:
+    """Table of a figure's runs and the folder for its pictures.
+
+    Args:
+        name: Of the study file and the table.
+        chosen: The script's options.
+    """
+    plan = study.read(HERE / f"{name}.toml")
+    table, folder = RESULTS / f"{name}.csv", chosen.out / name
+    known = pandas.read_csv(table) if table.exists() else pandas.DataFrame({"hash": []})
+    missing = [job for job in plan.jobs if job.name not in set(known["hash"])]
+    print(f"{name}: {len(plan.jobs)} runs, {len(missing)} of them not in {table.name}")
+    folder.mkdir(parents=True, exist_ok=True)
+    if missing and not chosen.dry:
+        with Progress(unit="runs") as progress:
+            part = study.Study(plan.name, missing)
+            new = study.run(part, folder, workers=chosen.workers, progress=progress)
+        known = pandas.concat([known, new[new["exit_code"].isin([0, 3])]], ignore_index=True)
+        if chosen.keep:
+            RESULTS.mkdir(exist_ok=True)
+            known.to_csv(table, index=False)
+    order = {job.name: number for number, job in enumerate(plan.jobs)}
+    found = known[known["hash"].isin(order)]
+    return found.sort_values("hash", key=lambda names: names.map(order)), folder
+
+
+def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:
+    """Measures of the rock for each packing, from the peaks of all its tests.
+
+    Args:
+        rows: Runs of the tests uniaxial, biaxial, tension and brazilian.
+        by: Columns that tell the materials and models apart; packings are told apart by seed.
+
+    Returns:
+        Columns `by`, ``seed``, ``compressive_strength``, ``cohesion``, ``friction_angle``,
+        ``hoek_brown_strength``, ``hoek_brown_m``, ``direct``, ``indirect`` (tensile strengths) and
+        their ``ratio``, ``compression_over_direct``; missing where a run is.
+    """
+    made = []
+    for values, group in rows.groupby([*by, "seed"], dropna=False, sort=False):
+        peaks = group.set_index("test")["peak_stress"]
+        compressed = group[group["test"].isin(["uniaxial", "biaxial"])].dropna(subset="peak_stress")
+        confinements = compressed["confinement"].fillna(0.0).astype(float).tolist()
+        one = dict(zip([*by, "seed"], values, strict=True))
+        one["compressive_strength"] = peaks.get("uniaxial")
+        one["direct"], one["indirect"] = peaks.get("tension"), peaks.get("brazilian")
+        one["ratio"] = flexpm.strength.tensile_ratio(one["direct"], one["indirect"])
+        if one["compressive_strength"] and one["direct"]:
+            one["compression_over_direct"] = one["compressive_strength"] / one["direct"]
+        if len(set(confinements)) > 2:
+            strengths = compressed["peak_stress"].astype(float).tolist()
+            line = flexpm.strength.mohr_coulomb(confinements, strengths)
+            curve = flexpm.strength.hoek_brown(confinements, strengths)
+            one |= {"cohesion": line.cohesion, "friction_angle": line.friction_angle}
+            one |= {"hoek_brown_strength": curve.sigma_ci, "hoek_brown_m": curve.m_i}
+        made.append(one)
+    return pandas.DataFrame(made)
+
+
+#: Panels a to g of Figs. 12 and 13.
+PANELS = (
+    "compressive_strength",
+    "friction_angle",
+    "cohesion",
+    "direct",
+    "indirect",
+    "ratio",
+    "compression_over_direct",
+)
+
+
+def macroscopic_pictures(
+    name: str, rows: pandas.DataFrame, folder: Path, keys: list[str], x: str
+) -> list[Path]:
+    """Draw panels a to g over the input `x`, a line for each value of the other `keys`.
+
+    The measures go to ``NAME.csv`` in the folder.
+    """
+    found = macroscopic(rows, keys)
+    found.to_csv(folder / f"{name}.csv", index=False)
+    by = [key for key in keys if key != x]
+    pictures = [
+        {"x": x, "y": y, "by": by, "file": f"{name}{letter}.png", "title": f"{name} {letter}"}
+        for letter, y in zip("abcdefg", PANELS, strict=True)
+        if y in found and found[y].notna().any()
+    ]
+    return study_plot.draw(study.Study(name, [], pictures), found, folder)
