@@ -310,12 +310,14 @@ def _failed(text: object, code: int) -> int:
 
 def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     """Print the statistics of a specimen and write them with its picture."""
-    plot = importlib.import_module("flexpm.plot")
+    plot_maps = importlib.import_module("flexpm.plot_maps")
     found = made.statistics()
     write_text(folder / "specimen.json", json_text(found))
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
-    triangles = plot.mesh_triangles(made.meshes(mesh)) if mesh else None
-    plot.specimen_picture(picture, plot.cell_polygons(made.tessellation), triangles, caption)
+    triangles = plot_maps.mesh_triangles(made.meshes(mesh)) if mesh else None
+    plot_maps.specimen_picture(
+        picture, plot_maps.cell_polygons(made.tessellation), triangles, caption
+    )
     click.echo(console.statistics_table(found))
     click.echo(f"  files  {picture}, {folder / 'specimen.json'}")

@@ -15,7 +15,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import plot
+from . import plot, plot_maps
 from .references import Reference
 from .results import SHEAR, TENSILE, Result
 from .strength import MohrCoulomb
@@ -84,7 +84,7 @@ def cracks_picture(path: Path | str, runs: Runs) -> None:
             axes.set_axis_off()
         for axes, (label, result) in zip(grid, drawn, strict=False):
             axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1] - margin, high[1]))
-            handles = plot.draw_cracks(axes, result.snapshot)
+            handles = plot_maps.draw_cracks(axes, result.snapshot)
             counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
             axes.set_title(f"{label}\n{counts}", fontsize=8.5)
         names = [plot.MODE_NAMES[mode] for mode in (TENSILE, SHEAR)]

@@ -13,7 +13,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from . import __version__, curve, export, materials, models, plot, yade_models
+from . import __version__, curve, export, materials, models, plot, plot_maps, yade_models
 from .checkpoint import INTERVAL, Checkpoint, inputs_of
 from .course import Course, Progress
 from .curve import Curve
@@ -351,8 +351,8 @@ def write_files(folder: Path, result: Result) -> None:
     export.write_vtu(folder / "final.vtu", result.snapshot)
     plot.curve_picture(folder / "curve.png", result)
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
-    plot.crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
-    plot.fragment_picture(folder / "fragments.png", result.snapshot)
+    plot_maps.crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
+    plot_maps.fragment_picture(folder / "fragments.png", result.snapshot)
 
 
 def _drive(plan: Schedule, recorder: Any, course: Course) -> bool:

@@ -29,7 +29,7 @@ FORBIDDEN_WORDS = {
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
 PYTHON_LIBRARIES = {
-    "matplotlib": {"plot.py", "plot_compare.py"},
+    "matplotlib": {"plot.py", "plot_compare.py", "plot_maps.py"},
     "vtk": {"export.py"},
     "vtkmodules": {"export.py"},
 }

@@ -12,7 +12,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
 
-from flexpm import plot
+from flexpm import plot, plot_maps
 from flexpm.curve import COLUMNS, Curve
 from flexpm.results import SHEAR, TENSILE, Result
 
@@ -43,7 +43,7 @@ def result_with_peak(stresses, cracks=0.0):
 
 def test_grain_corners_are_counter_clockwise_polygons_of_the_right_area():
     snapshot = wall(columns=3, rows=4)
-    polygons = plot.grain_corners(snapshot["triangles"])
+    polygons = plot_maps.grain_corners(snapshot["triangles"])
     assert sorted(tuple(sorted(polygon)) for polygon in polygons) == [
         tuple(5 * grain + corner for corner in range(4)) for grain in range(12)
     ]
@@ -55,7 +55,7 @@ def test_grain_corners_are_counter_clockwise_polygons_of_the_right_area():
 @pytest.mark.parametrize(("points", "share"), [(1, 1.0), (2, 0.5), (3, 1 / 6)])
 def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
     snapshot = wall(points=points)
-    segments = plot.crack_segments(snapshot)
+    segments = plot_maps.crack_segments(snapshot)
     for mode in (TENSILE, SHEAR):
         contacts = np.flatnonzero(snapshot["crack_mode"][:, 0] == mode)
         ends = snapshot["contact_ends"][contacts]
@@ -66,9 +66,9 @@ def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
 
 def test_cracks_appear_in_their_colours(tmp_path):
     snapshot = wall()
-    plot.crack_picture(tmp_path / "cracks.png", snapshot, "wall")
+    plot_maps.crack_picture(tmp_path / "cracks.png", snapshot, "wall")
     snapshot["crack_mode"] = np.where(snapshot["crack_mode"] == SHEAR, 0, snapshot["crack_mode"])
-    plot.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
+    plot_maps.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
     for mode, colour in plot.COLOURS.items():
         both = pixels_like(tmp_path / "cracks.png", colour)
         without_shear = pixels_like(tmp_path / "tensile.png", colour)
@@ -79,11 +79,11 @@ def test_cracks_appear_in_their_colours(tmp_path):
 def test_the_mesh_is_drawn_on_request(tmp_path):
     snapshot = wall()
     polygons = [
-        snapshot["positions"][corners] for corners in plot.grain_corners(snapshot["triangles"])
+        snapshot["positions"][corners] for corners in plot_maps.grain_corners(snapshot["triangles"])
     ]
-    plot.specimen_picture(tmp_path / "plain.png", polygons, caption="12 grains")
+    plot_maps.specimen_picture(tmp_path / "plain.png", polygons, caption="12 grains")
     mesh = (snapshot["positions"], snapshot["triangles"])
-    plot.specimen_picture(tmp_path / "mesh.png", polygons, mesh)
+    plot_maps.specimen_picture(tmp_path / "mesh.png", polygons, mesh)
     plain, meshed = imread(tmp_path / "plain.png"), imread(tmp_path / "mesh.png")
     assert min(plain.shape[:2]) > 300
     rows = slice(int(0.15 * plain.shape[0]), int(0.8 * plain.shape[0]))
