@@ -13,8 +13,7 @@ from . import cli_library, cli_options, console
 from .cli_options import Each, Name, Quantity
 from .errors import InputError, SimulationError
 from .files import output_folder
-from .material_keys import check_name
-from .materials import ELASTIC_SET
+from .material_keys import ELASTIC_SET, check_name
 
 
 @click.command(short_help="Several models on one packing.")

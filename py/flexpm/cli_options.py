@@ -11,8 +11,7 @@ from typing import Any
 import click
 
 from .errors import InputError
-from .material_keys import check_name
-from .materials import ELASTIC_SET
+from .material_keys import ELASTIC_SET, check_name
 
 #: Names of the contract; those that a version does not have yet are refused as such.
 TESTS = ("uniaxial", "tension", "biaxial", "brazilian")

@@ -30,6 +30,15 @@ CHOICES = {"softening": ("bilinear", "brittle"), "plane": ("stress", "strain")}
 ELASTIC_KEYS = ("young", "poisson", "normal_stiffness", "shear_ratio")
 COMMON_KEYS = tuple(key for key in UNITS if key not in ELASTIC_KEYS)
 ENERGY_KEYS = ("tensile_fracture_energy", "shear_fracture_energy")
+#: Elastic set that each model uses. YADE's own models bond the same discs as the rigid model.
+ELASTIC_SET = {
+    "flexible": "flexible",
+    "rigid": "rigid",
+    "inner": "inner",
+    "inner-un": "inner",
+    "jcfpm": "rigid",
+    "cohfrict": "rigid",
+}
 
 
 def checked(key: str, value: Any, where: str = "") -> float | str:
@@ -61,6 +70,12 @@ def check_name(label: str, name: Any, known: Sequence[str]) -> None:
         raise InputError(
             f"{label} = {name!r}, unknown{nearest(str(name), known)}; known are {', '.join(known)}"
         )
+
+
+def elastic_set_name(model: str) -> str:
+    """Name of the elastic set that `model` uses."""
+    check_name("model", model, list(ELASTIC_SET))
+    return ELASTIC_SET[model]
 
 
 def nearest(name: str, known: Sequence[str]) -> str:

@@ -19,23 +19,15 @@ from .material_keys import (
     CHOICES,
     COMMON_KEYS,
     ELASTIC_KEYS,
+    ELASTIC_SET,
     ENERGY_KEYS,
     UNITS,
     check_name,
     checked,
+    elastic_set_name,
     nearest,
 )
 from .minerals import Mineral
-
-#: Elastic set that each model uses. YADE's own models bond the same discs as the rigid model.
-ELASTIC_SET = {
-    "flexible": "flexible",
-    "rigid": "rigid",
-    "inner": "inner",
-    "inner-un": "inner",
-    "jcfpm": "rigid",
-    "cohfrict": "rigid",
-}
 
 #: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
 ENERGY_TOLERANCE = 1e-12
@@ -182,11 +174,6 @@ class Material:
             ]
         }
 
-    @staticmethod
-    def elastic_set_name(model: str) -> str:
-        """Name of the elastic set that `model` uses."""
-        return elastic_set_name(model)
-
     def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
         """Energies [N/m] a point has stored at its tensile and at its shear strength."""
         chosen = self._elastic(model)
@@ -219,12 +206,6 @@ class Material:
                 f"peak; the smallest allowed value is {elastic!r} N/m"
             )
         return given
-
-
-def elastic_set_name(model: str) -> str:
-    """Name of the elastic set that `model` uses."""
-    check_name("model", model, list(ELASTIC_SET))
-    return ELASTIC_SET[model]
 
 
 def default_name(model: str = "flexible") -> str:

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .errors import InputError
-from .material_keys import COMMON_KEYS, ELASTIC_KEYS, ENERGY_KEYS, check_name
+from .material_keys import COMMON_KEYS, ELASTIC_KEYS, ENERGY_KEYS, check_name, elastic_set_name
 
 if TYPE_CHECKING:
     from .materials import ElasticSet, Material
@@ -139,7 +139,7 @@ def _pair(first: Material, second: Material, model: str) -> Material:
         key: None if brittle else min(getattr(first, key), getattr(second, key))
         for key in ENERGY_KEYS
     }
-    name = first.elastic_set_name(model)
+    name = elastic_set_name(model)
     return dataclasses.replace(
         first,
         name=f"{first.name}-{second.name}",
