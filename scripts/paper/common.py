@@ -9,13 +9,17 @@ its new results to that table.
 from __future__ import annotations
 
 import argparse
+import json
 from pathlib import Path
 
 import pandas
 
 import flexpm
 from flexpm import study, study_plot
+from flexpm.comparison import Envelope
 from flexpm.console import Progress
+from flexpm.curve import Curve
+from flexpm.results import Result
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
@@ -118,3 +122,29 @@ def macroscopic_pictures(
         if y in found and found[y].notna().any()
     ]
     return study_plot.draw(study.Study(name, [], pictures), found, folder)
+
+
+def envelope_of(label: str, rows: pandas.DataFrame) -> Envelope:
+    """Peaks of all packings under all confinements, with the criteria that describe them."""
+    found = rows[rows["test"].isin(["uniaxial", "biaxial"])].dropna(subset="peak_stress")
+    confinements = found["confinement"].fillna(0.0).astype(float).tolist()
+    peaks = found["peak_stress"].astype(float).tolist()
+    line = flexpm.strength.mohr_coulomb(confinements, peaks)
+    return Envelope(
+        label, confinements, peaks, line, flexpm.strength.hoek_brown(confinements, peaks)
+    )
+
+
+def curves_of(rows: pandas.DataFrame, folder: Path) -> list[tuple[str, Result]]:
+    """Labels and results, with their curves, of runs whose folders are still there."""
+    found = []
+    for _, row in rows.iterrows():
+        run = folder / "runs" / row["hash"]
+        if not (run / "curve.csv").exists():
+            continue
+        result = Result(**json.loads((run / "result.json").read_text(encoding="utf-8")))
+        record = pandas.read_csv(run / "curve.csv")
+        result.curve = Curve.from_columns(list(record.columns), record.to_numpy(dtype=float))
+        pressure = f", {1e-6 * result.confinement:g} MPa" if result.confinement else ""
+        found.append((f"{result.model}{pressure}", result))
+    return found

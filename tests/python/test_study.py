@@ -200,3 +200,11 @@ def test_yade_batch_does_the_runs_of_the_study(tmp_path, package_parent):
     inputs = {**asked[-1].inputs, "width": 0.01, "height": 0.02, "set.cohesion": 3e7, "seed": 2}
     rows = study.run(study.Study("same", [jobs.make(inputs, tmp_path)]), tmp_path / "study")
     assert rows["peak_stress"][0] == found["peak_stress"]
+
+
+@pytest.mark.parametrize(
+    "path", sorted(ROOT.glob("scripts/paper/*.toml")), ids=lambda path: path.stem
+)
+def test_the_papers_study_files_are_valid(path):
+    assert len(study.read(path).jobs) > 10
+    assert (path.with_suffix(".py")).exists()
