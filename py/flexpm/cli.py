@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import __version__, cli_compare, cli_library, cli_options, console
-from .cli_options import Count, Quantity
+from .cli_options import Count, Name, Quantity
 from .errors import InputError, SimulationError
 from .files import json_text, output_folder, write_text
 from .material_keys import check_name, nearest
@@ -64,6 +64,13 @@ def command() -> None:
     help="Lateral pressure [Pa].",
 )
 @cli_options.pace_options
+@click.option(
+    "--start",
+    type=Name("rest", "static"),
+    metavar="rest|static",
+    help="static: from the elastic solution below the first crack, for the flexible model in "
+    "uniaxial and tension; it is the default of tension.",
+)
 @cli_options.threads_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -80,7 +87,7 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     flexpm = cli_library.library()
     cli_library.require("model", model, flexpm.models.MODELS)
     cli_library.require("test", test, flexpm.protocols.tests_of(model))
-    settings = ("confinement", "rate", "max_strain", "dynamic", "threads")
+    settings = ("confinement", "rate", "max_strain", "dynamic", "start", "threads")
     with console.Progress(quiet) as progress:
         specimen = cli_library.specimen_for(test, options, progress)
         result = flexpm.protocols.run(

@@ -43,6 +43,15 @@ _AT_REST = 0.01
 _LONGEST_REST = 100
 
 
+#: ``rest``: unloaded, with an even strain rate; ``static``: at the elastic solution, which needs no
+#: slow steps, where the first contact point is about to leave its elastic branch.
+STARTS = ("rest", "static")
+#: Share of the elastic limit up to which ``static`` goes [-].
+_STATIC_SHARE = 0.9
+#: Steps, all of them recorded, that lead there.
+_STATIC_STEPS = 20
+
+
 @dataclass(frozen=True)
 class Settings:
     """What a user may set of a test."""
@@ -50,11 +59,14 @@ class Settings:
     confinement: float = 0.0  #: lateral pressure [Pa]
     rate: float = 1.0  #: factor on the default loading rate [-]
     max_strain: float | None = None  #: axial strain at which the test ends [-]
+    start: str = "rest"  #: how the loading begins, one of `STARTS`
 
     def __post_init__(self) -> None:
         _require_positive("rate", self.rate)
         if self.max_strain is not None:
             _require_positive("max_strain", self.max_strain)
+        if self.start not in STARTS:
+            raise InputError(f"run: start = {self.start!r}, must be one of {', '.join(STARTS)}")
         if not (math.isfinite(self.confinement) and self.confinement >= 0.0):
             raise InputError(f"run: confinement = {self.confinement} Pa, must not be below 0")
 
@@ -94,6 +106,7 @@ def run(
     rate: float = 1.0,
     max_strain: float | None = None,
     dynamic: bool = False,
+    start: str | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -120,6 +133,9 @@ def run(
         rate: Factor on the default loading rate [-], > 0.
         max_strain: Largest axial strain [-]; None for 4 times that of the reference strength.
         dynamic: Real masses and time instead of scaled masses and unit steps.
+        start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
+            for uniaxial compression and tension of the flexible model. None: ``static`` for its
+            tension with scaled masses, else ``rest``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -131,7 +147,8 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    settings = Settings(confinement, rate, max_strain)
+    quickly = test == "tension" and model == "flexible" and not dynamic
+    settings = Settings(confinement, rate, max_strain, start or ("static" if quickly else "rest"))
     folder = None if out is None else output_folder(out)
     chosen = materials.load(material or materials.default_name(model), model)
     options = {"points": points, "mesh": mesh, "dynamic": dynamic}
@@ -181,6 +198,11 @@ def check(
     tests = tests_of(model)
     if test not in tests:
         raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
+    if settings.start == "static" and (model != "flexible" or test not in ("uniaxial", "tension")):
+        raise InputError(
+            f"run: start = static, must be rest for {test} of model {model}; static needs the "
+            "flexible model and uniaxial or tension"
+        )
     shape = "disc" if test == "brazilian" else "rectangle"
     if specimen.kind != shape:
         raise InputError(f"run: specimen = {specimen.kind}, must be a {shape} for {test}")
@@ -276,7 +298,29 @@ def _run_axial(
         plan = _limit(recorder, test, settings)
         loading_of(built).drive(built, plan.velocity if tension else -plan.velocity)
 
+    if settings.start == "static":
+        course.stage(
+            lambda: _lead(built, prepare),
+            lambda: course.run_to(
+                course.stage_start + _STATIC_STEPS,
+                expected=_STATIC_STEPS,
+                over=lambda: built.engine("AxialRecorder").state != 0,
+            ),
+        )
+        return _finish(test, built, settings, course, lambda: _go_on(built))
     return _finish(test, built, settings, course, prepare)
+
+
+def _lead(built: Model, prepare: Callable[[], None]) -> None:
+    """Record each step of the way along the elastic solution."""
+    prepare()
+    built.engine("PlatenEngine").lead(_STATIC_SHARE, _STATIC_STEPS)
+    built.solver.measurePeriod = 1
+
+
+def _go_on(built: Model) -> None:
+    built.solver.measurePeriod = wrapper.GrainSolver().measurePeriod
+    built.engine("PlatenEngine").goOn()
 
 
 def _limit(recorder: Any, test: str, settings: Settings) -> Schedule:

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/axial_test.hpp>
 #include <flexpm/kernel/boundary.hpp>
+#include <flexpm/kernel/static_start.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 
 #include <array>
@@ -53,6 +54,23 @@ void PlatenEngine::action()
 	if (!gripped && evenStart) flexpm::start_evenly(assembly, velocity);
 	gripped  = true;
 	drivenAt = velocity;
+}
+
+void PlatenEngine::lead(Real share, int steps)
+{
+	const auto world    = Omega::instance().getScene();
+	auto&      assembly = GrainSolver::ofScene(*world)->assembly;
+	flexpm::grip_bottom(assembly);
+	flexpm::move_top(assembly, velocity);
+	flexpm::lead_elastically(assembly, share, steps, world->dt);
+	gripped  = true;
+	drivenAt = velocity;
+}
+
+void PlatenEngine::goOn()
+{
+	const auto world = Omega::instance().getScene();
+	flexpm::go_on(GrainSolver::ofScene(*world)->assembly, velocity, world->dt);
 }
 
 ConfinementEngine::~ConfinementEngine() = default;

@@ -10,9 +10,11 @@ class PlatenEngine : public GlobalEngine {
 public:
 	~PlatenEngine() override;
 	void action() override;
+	void lead(Real share, int steps);
+	void goOn();
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(PlatenEngine, GlobalEngine,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PlatenEngine, GlobalEngine,
 		"Holds the bottom nodes of a rectangular specimen axially (one of them also laterally) and moves the top nodes; "
 		"no friction on either. Place it before :yref:`GrainSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top, positive away from the bottom [m/s, or m per step with scaled masses]."))
@@ -20,6 +22,10 @@ public:
 		((bool, evenStart, true,, "Start all nodes with the velocities of a uniform strain rate, so that no wave runs through the specimen."))
 		((bool, gripped, false, Attr::readonly, "The top has been taken hold of."))
 		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top's nodes have."))
+		, /* ctor */
+		, .def("lead", &PlatenEngine::lead, (boost::python::arg("share"), boost::python::arg("steps")),
+			"Take hold of all nodes of the unloaded specimen: that many steps lead it along its elastic solution to this share of the strain at which the first contact point leaves its elastic branch.")
+		.def("goOn", &PlatenEngine::goOn, "Set the nodes free again after those steps.")
 	);
 	// clang-format on
 };
