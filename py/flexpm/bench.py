@@ -11,24 +11,40 @@ from __future__ import annotations
 import ctypes
 import json
 import math
+import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from statistics import median
 
-import numpy as np
 import yade
-from yade import wrapper
 
-from . import models, protocols, yade_models
-from .bench_report import Case, Timing, machine, scaling_rows, table_rows
+from . import bench_size
+from .bench_cases import BUILDERS
+from .bench_report import (
+    Case,
+    Timing,
+    disc_rows,
+    machine,
+    scaling_picture,
+    scaling_rows,
+    size_rows,
+    table_rows,
+    threads_rows,
+)
 from .files import write_text
 from .packing import Progress
 from .specimen import Specimen
 
 #: Turns of a run; the steps of a model are shared out over them.
 TURNS = 10
+#: Turns of the comparison of threads.
+_THREAD_TURNS = 5
+#: Models of flexpm itself, whose ratios the paper gives.
+_OWN = ("refined", "rigid", "inner", "inner-un")
+#: Thickness of the paper's specimens [m].
+_PAPER = 0.08
 #: Steps of each model before the first turn: the collider's first run, the grip of the platens.
 _WARM_UP = 100
 #: Grains of a scaling run over those of the paper's specimen.
@@ -56,21 +72,58 @@ def run(
         seed: Of the packing.
         threads: Threads of a step.
         json_file: Also written there.
-        scaling: Time the flexible model also with 10 and 40 times the grains.
+        scaling: Time the flexible model also with 10 and 40 times the grains, and draw it beside
+            `json_file`.
 
     Returns:
         Rows (name, value) for a table.
     """
-    timing = compare(
-        _specimen(width, height, seed, progress), steps=steps, threads=threads, progress=progress
-    )
+    specimen, setup = bench_size.timed_set_up(_PAPER, width, height, seed, progress)
+    timing = compare(specimen, steps=steps, threads=threads, progress=progress)
     data, rows = timing.as_dict(), table_rows(timing)
+    data["set_up"] = setup
+    rows += size_rows(setup)
+    disc = compare(_disc(width, seed), steps=steps, threads=threads, names=_OWN, progress=progress)
+    data["brazilian"] = disc.as_dict()
+    rows += disc_rows(disc)
+    pair = compare_threads(specimen, steps, progress)
+    data["two_threads"] = pair
+    rows += threads_rows(pair)
     if scaling:
         data["scaling"] = grow(steps, width, height, seed, threads, progress)
         rows += scaling_rows(data["scaling"])
     if json_file is not None:
         write_text(Path(json_file), json.dumps(data, indent=2) + "\n")
+        if scaling:
+            scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
     return rows
+
+
+def compare_threads(
+    specimen: Specimen, steps: int, progress: Progress | None
+) -> dict[str, float | int]:
+    """Time the flexible model on one thread and on two, in turns, in wall time.
+
+    Returns:
+        Step times [s], the median over the turns of one over two, and the load of the machine
+        before: the number of processes that wait for a core.
+    """
+    load = os.getloadavg()[0]
+    times: dict[int, list[float]] = {1: [], 2: []}
+    for turn in range(_THREAD_TURNS):
+        for threads, spans in times.items():
+            share = max(TURNS, steps // _THREAD_TURNS)
+            found = compare(specimen, steps=share, threads=threads, names=("refined",))
+            spans.append(found.cases[0].step_time)
+        if progress is not None:
+            progress(turn + 1, _THREAD_TURNS, "threads")
+    return {
+        "one": median(times[1]),
+        "two": median(times[2]),
+        "gain": median(one / two for one, two in zip(times[1], times[2], strict=True)),
+        "load": load,
+        "cores": os.cpu_count() or 1,
+    }
 
 
 def compare(
@@ -119,66 +172,18 @@ def grow(
     found = []
     for scale in SCALES:
         side = math.sqrt(scale)
-        start = time.perf_counter()
-        specimen = _specimen(width * side, height * side, seed, progress)
-        packed = time.perf_counter() - start
+        specimen, row = bench_size.timed_set_up(_PAPER, width * side, height * side, seed, progress)
         share = max(10 * TURNS, steps // scale)
         timing = compare(
             specimen, steps=share, threads=threads, names=("refined",), progress=progress
         )
         case = timing.cases[0]
-        grains = case.counts["grains"]
-        found.append(
-            {
-                "grains": grains,
-                "contacts": case.counts["contacts"],
-                "specimen_time": packed,
-                "step_time": case.step_time,
-                "time_per_grain": case.step_time / grains,
-            }
-        )
+        row["step_time"] = case.step_time
+        row["time_per_grain"] = case.step_time / case.counts["grains"]
+        row["bandwidth"] = bench_size.bytes_per_step(case.counts) / case.step_time
+        row["triad"] = bench_size.triad()
+        found.append(row)
     return found
-
-
-def _build_own(specimen: Specimen, threads: int, **options: Any) -> dict[str, int | None]:
-    """A uniaxial test as `flexpm run` sets it up, just before it is driven."""
-    built = models.build(specimen, None, threads=threads, **options)
-    recorder = wrapper.AxialRecorder()
-    built.add_engines(after=(recorder,))
-    plan = protocols.schedule(recorder.scales(), "uniaxial", protocols.Settings())
-    built.add_engines(before=(wrapper.PlatenEngine(velocity=-plan.velocity),))
-    return built.solver.counts()
-
-
-def _build_yade(specimen: Specimen, threads: int, model: str) -> dict[str, int | None]:
-    """Bonded spheres squeezed at about the same rate, without plates and record."""
-    built = yade_models.build(specimen, None, model, damping=models.DAMPING, threads=threads)
-    heights = specimen.centres[:, 1]
-    rate = 1e-8 / np.ptp(heights)
-    for body, height in zip(built.ids, heights.tolist(), strict=True):
-        yade.O.bodies[body].state.vel = (0.0, -rate * height, 0.0)
-    return built.counts()
-
-
-#: Name, label and builder of each model, in the order of a turn.
-BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], dict[str, int | None]]]] = {
-    "refined": (
-        "flexible, refined, 3 points",
-        lambda specimen, threads: _build_own(specimen, threads, mesh="refined", points=3),
-    ),
-    "fan": (
-        "flexible, fan, 3 points",
-        lambda specimen, threads: _build_own(specimen, threads, mesh="fan", points=3),
-    ),
-    "jcfpm": (
-        "YADE JCFpm",
-        lambda specimen, threads: _build_yade(specimen, threads, "jcfpm"),
-    ),
-    "cohfrict": (
-        "YADE CohFrict",
-        lambda specimen, threads: _build_yade(specimen, threads, "cohfrict"),
-    ),
-}
 
 
 def _case(name: str, specimen: Specimen, threads: int) -> Case:
@@ -216,6 +221,5 @@ def _threads(count: int) -> Iterator[None]:
         openmp.omp_set_num_threads(before)
 
 
-def _specimen(width: float, height: float, seed: int, progress: Progress | None) -> Specimen:
-    """Grains and thickness of the paper's specimen."""
-    return Specimen.rectangle(width, height, 0.08, seed=seed, progress=progress)
+def _disc(diameter: float, seed: int) -> Specimen:
+    return Specimen.disc(diameter, _PAPER, seed=seed)

@@ -14,13 +14,15 @@ from typing import Any
 
 import yade
 
-from . import __version__
+from . import __version__, plot
 from .console import scaled
 
 #: Model to which the others are compared.
 REFERENCE = "jcfpm"
-#: Ratios of the paper, Sec. 4: (model, to model, uniaxial).
-PAPER_RATIOS = (("refined", "rigid", 8.15), ("inner", "refined", 3.03))
+#: Load of a machine on which a second core is free.
+_FREE = 0.5
+#: Ratios of the paper, Sec. 4: (model, to model, uniaxial, Brazilian).
+PAPER_RATIOS = (("refined", "rigid", 8.15, 4.79), ("inner", "refined", 3.03, 1.21))
 
 
 @dataclass
@@ -55,6 +57,10 @@ class Timing:
         times = {case.name: case.times for case in self.cases}
         return median(a / b for a, b in zip(times[name], times[reference], strict=True))
 
+    def _to_reference(self, name: str) -> dict[str, float]:
+        known = any(case.name == REFERENCE for case in self.cases)
+        return {f"ratio_to_{REFERENCE}": self.ratio(name)} if known else {}
+
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain data, ratios and spreads included."""
         cases = {}
@@ -65,7 +71,7 @@ class Timing:
                 "step_time": case.step_time,
                 "quartiles": [low, high],
                 "cpu_time": median(case.cpu_times) if self.threads == 1 else None,
-                f"ratio_to_{REFERENCE}": self.ratio(case.name),
+                **self._to_reference(case.name),
                 **case.counts,
             }
         return {
@@ -115,24 +121,71 @@ def table_rows(timing: Timing) -> list[tuple[str, str]]:
     for case in timing.cases:
         ratio = f"{timing.ratio(case.name):.3f} of JCFpm's" if case.name != REFERENCE else "1"
         rows.append((case.label, f"{scaled(case.step_time, 1e6, 'us')}, {ratio}"))
+    return rows + _paper_rows(timing, "uniaxial")
+
+
+def disc_rows(timing: Timing) -> list[tuple[str, str]]:
+    """Describe the models of a Brazilian test as rows (name, value)."""
+    return _paper_rows(timing, "brazilian")
+
+
+def _paper_rows(timing: Timing, test: str) -> list[tuple[str, str]]:
     known = {case.name for case in timing.cases}
-    rows += [
-        (f"{name} / {other}", f"{timing.ratio(name, other):.2f}, paper {paper}")
-        for name, other, paper in PAPER_RATIOS
+    return [
+        (
+            f"{name} / {other}, {test}",
+            f"{timing.ratio(name, other):.2f}, paper {uniaxial if test == 'uniaxial' else disc}",
+        )
+        for name, other, uniaxial, disc in PAPER_RATIOS
         if {name, other} <= known
     ]
-    return rows
+
+
+def threads_rows(found: dict[str, float | int]) -> list[tuple[str, str]]:
+    """Describe two threads against one as rows (name, value)."""
+    word = "" if found["load"] < _FREE else f"; the cores were not free (load {found['load']:.1f})"
+    return [("two threads", f"{found['gain']:.2f} times as fast as one{word}")]
+
+
+def size_rows(found: dict[str, float | int]) -> list[tuple[str, str]]:
+    """Describe set-up, memory and files as rows (name, value)."""
+    return [
+        (
+            "set-up",
+            f"specimen {found['specimen_time']:.1f} s, model {found['model_time']:.2f} s, "
+            f"first step {found['first_step_time']:.2f} s",
+        ),
+        ("memory", f"{found['memory_per_grain'] / 1024:.1f} KiB a grain"),
+        ("one .vtu", f"{found['vtu_time']:.2f} s"),
+    ]
 
 
 def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
     """Describe growth as rows (name, value)."""
     base = found[0]["time_per_grain"]
-    return [
-        (
-            f"{row['grains']} grains",
-            f"{scaled(row['step_time'], 1e6, 'us')}, {scaled(row['time_per_grain'], 1e9, 'ns', 3)} "
-            f"a grain ({row['time_per_grain'] / base:.2f} of the first), "
-            f"specimen in {row['specimen_time']:.1f} s",
+    rows = []
+    for row in found:
+        name = f"{row['grains']} grains"
+        share = row["bandwidth"] / row["triad"]
+        rows.append(
+            (
+                name,
+                f"{scaled(row['step_time'], 1e6, 'us')}, "
+                f"{scaled(row['time_per_grain'], 1e9, 'ns', 3)} a grain "
+                f"({row['time_per_grain'] / base:.2f} of the first), "
+                f"{row['bandwidth'] * 1e-9:.1f} GB/s, {share:.0%} of the triad's",
+            )
         )
-        for row in found
-    ]
+        rows += [(f"{name}: {label}", text) for label, text in size_rows(row)]
+    return rows
+
+
+def scaling_picture(path: Path, found: list[dict[str, float | int]]) -> None:
+    """Draw the time per grain and step over the number of grains."""
+    with plot.drawing(path) as axes:
+        grains = [row["grains"] for row in found]
+        axes.plot(grains, [1e9 * row["time_per_grain"] for row in found], "o-", color="black")
+        axes.set_xscale("log")
+        axes.set_xlabel("grains")
+        axes.set_ylabel("time per grain and step [ns]")
+        axes.set_ylim(bottom=0.0)

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from flexpm import bench, bench_report, cli
+from flexpm import bench, bench_report, bench_size, cli
 from flexpm.specimen import Specimen
 
 yade = bench.yade  # importable only once flexpm has been imported
@@ -46,6 +46,59 @@ def test_own_models_are_timed_with_all_that_a_run_does(specimen, name):
     recorder = yade.O.engines[kinds.index("AxialRecorder")]
     assert len(recorder.rows) == 300 // yade.O.engines[kinds.index("GrainSolver")].measurePeriod
     assert yade.O.bodies[0].state.pos != before
+
+
+def test_rigid_grains_are_timed_between_plates(specimen):
+    bench.BUILDERS["rigid"][1](specimen, 1)
+    assert {"PlateEngine", "AxialRecorder"} <= {type(e).__name__ for e in yade.O.engines}
+    yade.O.run(10, True)
+    assert max(plate["displacement"][1] ** 2 for plate in solver().plates()) > 0.0
+
+
+def solver():
+    return next(e for e in yade.O.engines if type(e).__name__ == "GrainSolver")
+
+
+def test_ratios_stand_beside_those_of_the_paper_for_each_test():
+    found = timing(refined=[2.0, 4.0, 2.0], rigid=[1.0, 2.0, 1.0])
+    assert bench_report.disc_rows(found) == [("refined / rigid, brazilian", "2.00, paper 4.79")]
+    assert "ratio_to_jcfpm" not in found.as_dict()["models"]["rigid"]
+
+
+def test_two_threads_come_with_a_word_when_cores_are_busy():
+    found = {"one": 2.0, "two": 1.0, "gain": 2.0, "load": 0.0, "cores": 2}
+    assert bench_report.threads_rows(found) == [("two threads", "2.00 times as fast as one")]
+    assert "not free (load 3.0)" in bench_report.threads_rows({**found, "load": 3.0})[0][1]
+
+
+def test_set_up_memory_and_file_are_measured(specimen):
+    again, found = bench_size.timed_set_up(0.01, 0.016, 0.032, 2, None)
+    assert np.array_equal(again.discs, specimen.discs)
+    assert found["grains"] == len(specimen.discs)
+    assert all(found[f"{part}_time"] > 0.0 for part in ("specimen", "model", "first_step", "vtu"))
+    assert len(yade.O.bodies) == 0
+
+
+def test_memory_traffic_is_that_of_the_arrays(specimen):
+    counts = bench.BUILDERS["refined"][1](specimen, 1)
+    # arrays of doubles that grow with the nodes: x, y of displacement and velocity, and the mass
+    lower = 5 * 8 * counts["nodes"] + 5 * 8 * counts["triangles"]
+    assert lower < bench_size.bytes_per_step(counts) < 10 * lower
+    assert bench_size.bytes_per_step(dict.fromkeys(counts, 0)) == 0
+
+
+def test_growth_is_drawn_and_described(tmp_path):
+    row = {"specimen_time": 1.0, "model_time": 1.0, "first_step_time": 1.0, "vtu_time": 1.0}
+    row |= {"memory_per_grain": 1024.0, "bandwidth": 1e9, "triad": 4e9}
+    found = [
+        {**row, "grains": n, "step_time": n * cost, "time_per_grain": cost}
+        for n, cost in ((100, 1e-6), (1000, 1.5e-6))
+    ]
+    text = dict(bench_report.scaling_rows(found))
+    assert "1.50 of the first" in text["1000 grains"]
+    assert "25% of the triad's" in text["1000 grains"]
+    bench_report.scaling_picture(tmp_path / "growth.png", found)
+    assert (tmp_path / "growth.png").stat().st_size > 1000
 
 
 @pytest.mark.parametrize("name", ["jcfpm", "cohfrict"])

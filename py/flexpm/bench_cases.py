@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The models whose steps are timed, each as a scene that is ready for its first step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from . import loading, models, protocols, yade_models
+from .specimen import Specimen
+
+
+def build_own(
+    specimen: Specimen, threads: int, model: str = "flexible", **options: Any
+) -> dict[str, int | None]:
+    """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
+    built = models.build(specimen, None, model, threads=threads, **options)
+    disc = specimen.kind == "disc"
+    recorder = wrapper.AxialRecorder(diameter=specimen.dimensions["diameter"] if disc else 0.0)
+    built.add_engines(after=(recorder,))
+    test = "brazilian" if disc else "uniaxial"
+    plan = protocols.schedule(recorder.scales(), test, protocols.Settings())
+    if disc:
+        loading.squeeze_disc(built, plan.velocity)
+    else:
+        loading.loading_of(built).drive(built, -plan.velocity)
+    return built.solver.counts()
+
+
+def _build_yade(specimen: Specimen, threads: int, model: str) -> dict[str, int | None]:
+    """Bonded spheres squeezed at about the same rate, without plates and record."""
+    built = yade_models.build(specimen, None, model, damping=models.DAMPING, threads=threads)
+    heights = specimen.centres[:, 1]
+    rate = 1e-8 / np.ptp(heights)
+    for body, height in zip(built.ids, heights.tolist(), strict=True):
+        yade.O.bodies[body].state.vel = (0.0, -rate * height, 0.0)
+    return built.counts()
+
+
+#: Name, label and builder of each model, in the order of a turn.
+BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], dict[str, int | None]]]] = {
+    "refined": (
+        "flexible, refined, 3 points",
+        lambda specimen, threads: build_own(specimen, threads, mesh="refined", points=3),
+    ),
+    "fan": (
+        "flexible, fan, 3 points",
+        lambda specimen, threads: build_own(specimen, threads, mesh="fan", points=3),
+    ),
+    **{
+        name: (f"{name}, 3 points", partial(build_own, model=name))
+        for name in ("rigid", "inner", "inner-un")
+        if name in models.SOLVER_MODELS
+    },
+    "jcfpm": (
+        "YADE JCFpm",
+        lambda specimen, threads: _build_yade(specimen, threads, "jcfpm"),
+    ),
+    "cohfrict": (
+        "YADE CohFrict",
+        lambda specimen, threads: _build_yade(specimen, threads, "cohfrict"),
+    ),
+}

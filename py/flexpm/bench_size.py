@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a specimen costs besides its steps: set-up, memory, files, and the memory traffic of a step.
+
+Times in seconds, sizes in bytes.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import gc
+import os
+import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import yade
+
+from . import export, models
+from .packing import Progress
+from .specimen import Specimen
+
+#: Bytes that a step of the refined mesh with three points has to move when its arrays exceed the
+#: caches: every array once for each pass that reads or writes it, no write-allocation. A contact:
+#: its rows in the contact pass (nodes 24, weights 48, areas 24, span, reach and normal 64, state
+#: 216, forces 64), its forces (64) and their places (24) in the grain pass.
+_PER_CONTACT = 528
+#: A node: velocity in the contact pass (16); displacement and velocity, both ways (64), force (16),
+#: mass (8) and held flags (2) in the grain pass.
+_PER_NODE = 106
+#: A triangle: shape functions and volume.
+_PER_TRIANGLE = 40
+#: A grain: position and velocity of its body.
+_PER_GRAIN = 48
+
+_TRIAD_LENGTH = 1 << 24  # doubles of each array: 128 MiB, more than any cache
+_TRIAD_BYTES = 5 * 8  # two passes: read and write, read two and write
+_TRIAD_PASSES = 5
+
+
+def timed_set_up(
+    thickness: float, width: float, height: float, seed: int, progress: Progress | None
+) -> tuple[Specimen, dict[str, float | int]]:
+    """Make a rectangle and its flexible model, and take the times and the memory of it.
+
+    Returns:
+        The specimen, and: grains, contacts, specimen_time (packing and cells), model_time (meshes,
+        arrays, bodies, interactions), first_step_time (the collider's first run), vtu_time,
+        memory_per_grain (growth of the resident set from before the packing to after the step).
+    """
+    _give_back()
+    before, start = _resident(), time.perf_counter()
+    specimen = Specimen.rectangle(width, height, thickness, seed=seed, progress=progress)
+    packed = time.perf_counter()
+    yade.O.reset()
+    try:
+        built = models.build(specimen, None)
+        made = time.perf_counter()
+        yade.O.step()
+        stepped = time.perf_counter()
+        memory = _resident() - before
+        counts = built.solver.counts()
+        with TemporaryDirectory() as folder:
+            snapshot = built.snapshot()
+            begin = time.perf_counter()
+            export.write_vtu(Path(folder) / "state.vtu", snapshot)
+            written = time.perf_counter() - begin
+    finally:
+        yade.O.reset()
+    return specimen, {
+        "grains": counts["grains"],
+        "contacts": counts["contacts"],
+        "specimen_time": packed - start,
+        "model_time": made - packed,
+        "first_step_time": stepped - made,
+        "vtu_time": written,
+        "memory_per_grain": memory / counts["grains"],
+    }
+
+
+def bytes_per_step(counts: dict[str, int | None]) -> int:
+    """Memory traffic of a step of the refined mesh with three points [B]."""
+    return (
+        _PER_CONTACT * counts["contacts"]
+        + _PER_NODE * counts["nodes"]
+        + _PER_TRIANGLE * counts["triangles"]
+        + _PER_GRAIN * counts["grains"]
+    )
+
+
+def triad() -> float:
+    """Memory bandwidth of one thread, best of some passes of a = b + s c [B/s]."""
+    a, b, c = (np.full(_TRIAD_LENGTH, value) for value in (0.0, 1.0, 2.0))
+    best = np.inf
+    for _ in range(_TRIAD_PASSES):
+        start = time.perf_counter()
+        np.multiply(c, 3.0, out=a)
+        np.add(a, b, out=a)
+        best = min(best, time.perf_counter() - start)
+    return _TRIAD_BYTES * _TRIAD_LENGTH / best
+
+
+def _resident() -> int:
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def _give_back() -> None:
+    """Return freed memory to the system, so that what is taken next is counted."""
+    gc.collect()
+    ctypes.CDLL("libc.so.6").malloc_trim(0)
