@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 from . import materials, plot_compare, protocols, strength
-from .checkpoint import Checkpoint
 from .course import Progress
 from .errors import InputError, SimulationError
 from .files import output_folder, write_text
@@ -40,6 +39,11 @@ class Case:
     folder: Path | None = None
     result: Result | None = None  #: None if the run failed before it had one
     error: str = ""  #: why it failed
+
+    def inputs(self) -> dict[str, Any]:
+        """What this run does not share with the others."""
+        names = ("material", "model", "confinement")
+        return {name: getattr(self, name) for name in names} | {"out": self.folder}
 
     @property
     def name(self) -> str:
@@ -143,8 +147,9 @@ def compare(
     """
     folder = None if out is None else output_folder(out)
     cases = _plan(test, models, material, confinements, folder)
+    kept = {name: value for name, value in options.items() if name != "threads"}
     for case in cases:
-        _check(case, specimen, options)
+        protocols.plan_run(test, specimen, **case.inputs(), **kept)
     for number, case in enumerate(cases, 1):
         name = f"{number}/{len(cases)} {case.name}"
         _run(case, specimen, _named(progress, name), options)
@@ -179,31 +184,12 @@ def _plan(
     return cases
 
 
-def _check(case: Case, specimen: Specimen, options: dict[str, Any]) -> None:
-    """Refuse what a run would refuse, other inputs in its folder included."""
-    settings = protocols.Settings(
-        case.confinement, options.get("rate", 1.0), options.get("max_strain")
-    )
-    of_model = {"points": 3, "mesh": "refined", "dynamic": False}
-    of_model |= {name: options[name] for name in of_model if name in options}
-    inputs = protocols.check(case.test, specimen, case.material, case.model, settings, of_model)
-    if case.folder is not None:
-        Checkpoint(case.folder, inputs)
-
-
 def _run(
     case: Case, specimen: Specimen, progress: Progress | None, options: dict[str, Any]
 ) -> None:
     try:
         case.result = protocols.run(
-            case.test,
-            specimen,
-            material=case.material,
-            model=case.model,
-            confinement=case.confinement,
-            out=case.folder,
-            progress=progress,
-            **options,
+            case.test, specimen, **case.inputs(), progress=progress, **options
         )
     except SimulationError as error:
         case.error = str(error)

@@ -105,7 +105,8 @@ class Material:
     def with_set(self, assignments: Iterable[str], model: str = "flexible") -> Material:
         """Return a copy with `KEY=VALUE` assignments applied; elastic keys go to `model`'s set.
 
-        What a mineral changes itself stays as it is.
+        ``MINERAL.KEY=VALUE`` changes a key of one mineral; otherwise what a mineral changes itself
+        stays as it is.
 
         Choosing brittle softening drops fracture energies that came with the material, since
         brittle means that they equal the elastic energies.
@@ -117,13 +118,15 @@ class Material:
         if not changes:
             return self
         name = elastic_set_name(model)
+        of_minerals = {key: changes.pop(key) for key in list(changes) if "." in key}
+        kinds = minerals.with_values(self.minerals, of_minerals, name)
         elastic = dict(self.elastic)
         own = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
         if own:
             elastic[name] = dataclasses.replace(self._elastic(model), **own)
         if changes.get("softening") == "brittle":
             changes = dict.fromkeys(ENERGY_KEYS) | changes
-        changed = dataclasses.replace(self, elastic=elastic, **changes)
+        changed = dataclasses.replace(self, elastic=elastic, minerals=kinds, **changes)
         changed.law(model)
         return changed
 
@@ -288,10 +291,11 @@ def _parse_assignment(text: str) -> tuple[str, float | str]:
     key, equals, value = (part.strip() for part in text.partition("="))
     if not equals or not key or not value:
         raise InputError(f"set = {text!r}, must read KEY=VALUE; for example young=30e9")
-    check_name("set", key, list(UNITS))
-    if key in CHOICES:
+    plain = key.rpartition(".")[2]
+    check_name("set", plain, list(UNITS))
+    if plain in CHOICES:
         return key, value
     try:
         return key, float(value)
     except ValueError:
-        raise InputError(f"set {key} = {value!r} {UNITS[key]}, must be a number") from None
+        raise InputError(f"set {key} = {value!r} {UNITS[plain]}, must be a number") from None

@@ -85,6 +85,37 @@ def checked(minerals: Sequence[Any]) -> tuple[Mineral, ...]:
     return made
 
 
+def with_values(
+    kinds: Sequence[Mineral], values: Mapping[str, Any], elastic_set: str
+) -> tuple[Mineral, ...]:
+    """Minerals with changed values.
+
+    Args:
+        kinds: The minerals.
+        values: By ``MINERAL.KEY``.
+        elastic_set: Name of the set that elastic keys belong to.
+
+    Raises:
+        InputError: for an unknown mineral, or a key that a mineral cannot have.
+    """
+    found = {kind.name: kind for kind in kinds}
+    for name, value in values.items():
+        mineral, _, key = name.rpartition(".")
+        if not found:
+            raise InputError(f"set {name} = {value!r}, needs a material with [[mineral]] tables")
+        check_name("set mineral", mineral, list(found))
+        check_name(f"set {mineral} key", key, [*_KEYS, *ELASTIC_KEYS])
+        changes = dict(found[mineral].changes)
+        if key in ELASTIC_KEYS:
+            sets = dict(changes.get("elastic", {}))
+            sets[elastic_set] = {**sets.get(elastic_set, {}), key: value}
+            changes["elastic"] = sets
+        else:
+            changes[key] = value
+        found[mineral] = dataclasses.replace(found[mineral], changes=changes)
+    return tuple(found.values())
+
+
 def mineral_materials(rock: Material) -> list[Material]:
     """The material of each mineral; the rock itself if it has none."""
     return [_changed(rock, mineral) for mineral in rock.minerals] or [rock]

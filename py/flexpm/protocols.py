@@ -78,6 +78,17 @@ class Settings:
             )
 
 
+@dataclass(frozen=True)
+class Plan:
+    """A run that can be done."""
+
+    material: Material
+    settings: Settings
+    options: dict[str, Any]  #: of the model, as ``models.build`` takes them
+    folder: Path | None
+    checkpoint: Checkpoint  #: of an earlier start of the same run, if there was one
+
+
 @dataclass
 class Schedule:
     """How fast and how far a test is driven."""
@@ -147,22 +158,31 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    quickly = test == "tension" and model == "flexible" and not dynamic
-    settings = Settings(confinement, rate, max_strain, start or ("static" if quickly else "rest"))
-    folder = None if out is None else output_folder(out)
-    chosen = materials.load(material or materials.default_name(model), model)
-    options = {"points": points, "mesh": mesh, "dynamic": dynamic}
-    inputs = check(test, specimen, chosen, model, settings, options)
-    checkpoint = Checkpoint(folder, inputs, checkpoint_interval)
+    todo = plan_run(
+        test,
+        specimen,
+        material,
+        model,
+        confinement=confinement,
+        points=points,
+        mesh=mesh,
+        rate=rate,
+        max_strain=max_strain,
+        dynamic=dynamic,
+        start=start,
+        out=out,
+        checkpoint_interval=checkpoint_interval,
+    )
+    folder, checkpoint = todo.folder, todo.checkpoint
     yade.O.reset()
-    built = models.build(specimen, chosen, model, threads=threads, **options)
+    built = models.build(specimen, todo.material, model, threads=threads, **todo.options)
     if checkpoint.found:
         checkpoint.restore()
         built.rebind()
         built.solver.ompThreads = threads
     elif folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = tests_of(model)[test](built, settings, Course(checkpoint, progress))
+    result = tests_of(model)[test](built, todo.settings, Course(checkpoint, progress))
     result.resumed_at = checkpoint.resumed_at
     result.measure_fragments(built.snapshot())
     if folder is not None:
@@ -170,31 +190,26 @@ def run(
     return result
 
 
-def check(
+def plan_run(
     test: str,
     specimen: Specimen,
-    chosen: Material,
-    model: str,
-    settings: Settings,
-    options: dict[str, Any],
-) -> dict[str, Any]:
-    """Refuse what a run could not do, before YADE's scene is touched.
-
-    Args:
-        test: Name of the test.
-        specimen: The grains.
-        chosen: Their material.
-        model: Name of the model.
-        settings: Of the test.
-        options: ``points``, ``mesh`` and ``dynamic`` of the model.
-
-    Returns:
-        All that determines the run; the number of threads does not.
-
-    Raises:
-        InputError: for what `model` or `test` cannot have.
-    """
-    models.check(model, points=options["points"], mesh=options["mesh"])
+    material: Material | str | None = None,
+    model: str = "flexible",
+    *,
+    confinement: float = 0.0,
+    points: int = 3,
+    mesh: str = "refined",
+    rate: float = 1.0,
+    max_strain: float | None = None,
+    dynamic: bool = False,
+    start: str | None = None,
+    out: Path | str | None = None,
+    checkpoint_interval: float = INTERVAL,
+) -> Plan:
+    """Refuse what a run could not do, before YADE's scene is touched; arguments as for ``run``."""
+    quickly = test == "tension" and model == "flexible" and not dynamic
+    settings = Settings(confinement, rate, max_strain, start or ("static" if quickly else "rest"))
+    models.check(model, points=points, mesh=mesh)
     tests = tests_of(model)
     if test not in tests:
         raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
@@ -208,7 +223,10 @@ def check(
         raise InputError(f"run: specimen = {specimen.kind}, must be a {shape} for {test}")
     if test != "biaxial":
         settings.refuse_confinement(test)
-    return inputs_of(
+    folder = None if out is None else output_folder(out)
+    chosen = materials.load(material or materials.default_name(model), model)
+    options = {"points": points, "mesh": mesh, "dynamic": dynamic}
+    inputs = inputs_of(
         specimen,
         chosen.description(model),
         flexpm=__version__,
@@ -218,6 +236,7 @@ def check(
         **asdict(settings),
         **options,
     )
+    return Plan(chosen, settings, options, folder, Checkpoint(folder, inputs, checkpoint_interval))
 
 
 def run_uniaxial(built: Model, settings: Settings, course: Course) -> Result:

@@ -2,6 +2,7 @@
 /// @file  Invariants of the packed assembly: layout, padding, gathered forces, spin. SI units.
 #include "specimens.hpp"
 
+#include <flexpm/kernel/axial_test.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/stepping.hpp>
@@ -283,6 +284,9 @@ TEST_CASE("materials belong to grains and pairs of grains", "[assembly]")
         const int j = o.grain_material[a.contact_grains[2 * c + 1]];
         CHECK(a.laws[a.contact_law[c]].normal_stiffness == 1e14 * (1 + 2 * i + j));
     }
+    // half of the grains have 1e14 and 25.8e9, half 4e14 and 51.6e9
+    const double contacts = 2.5e14 * 2.0 * a.radius[0];
+    CHECK(flexpm::series_modulus(a) == Approx(1.0 / (1.0 / 38.7e9 + 1.0 / contacts)));
 }
 
 TEST_CASE("wrong options are refused", "[assembly]")

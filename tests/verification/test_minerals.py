@@ -177,6 +177,24 @@ def test_the_solver_has_the_law_of_each_pair_and_grains_their_material():
     assert seen == {(0,), (1,), (0, 1)}
 
 
+def test_values_of_the_rock_and_of_a_mineral_can_be_set():
+    sets = ["cohesion=40e6", "hard.cohesion=60e6", "hard.young=90e9", "soft.friction=0.1"]
+    soft, hard = minerals.mineral_materials(rock().with_set(sets))
+    assert (soft.cohesion, soft.friction, soft.elastic["flexible"].young) == (40e6, 0.1, SOFT)
+    assert (hard.cohesion, hard.friction, hard.elastic["flexible"].young) == (60e6, 0.4, 90e9)
+    assert hard.elastic["rigid"].normal_stiffness == K_HARD
+    for text, message in (
+        ("hrad.cohesion=1", "did you mean hard"),
+        ("hard.cohesoin=1", "did you mean cohesion"),
+        ("hard.plane=strain", "hard key = 'plane'"),
+        ("hard.cohesion=much", "set hard.cohesion = 'much' Pa, must be a number"),
+    ):
+        with pytest.raises(flexpm.InputError, match=message):
+            rock().with_set([text])
+    with pytest.raises(flexpm.InputError, match="needs a material with"):
+        Material.from_dict(BASE).with_set(["hard.cohesion=1e6"])
+
+
 def changed(**changes):
     data = {**BASE, "mineral": [{"name": "a", "fraction": 0.4}, {"name": "b", "fraction": 0.6}]}
     data["mineral"][1] |= changes
