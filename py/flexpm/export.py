@@ -46,8 +46,9 @@ def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
             (M,), `triangle_stress` (M, 3) [Pa] as xx, yy, xy, `contact_grains` (C, 2),
             `contact_ends` (C, 2, 2) [m], `point_opening`, `point_slip` (C, P) [m], `point_damage`
             (C, P) [-], `point_traction` (C, P, 2) [Pa] as normal, shear, `crack_step` and
-            `crack_mode` (C, P). `triangle_stress_zz` (M,) [Pa] may be added in plane strain,
-            `grain_mineral` for each grain if there are minerals.
+            `crack_mode` (C, P). `triangle_particle` (M,) may be added where grains have inner
+            particles, `triangle_stress_zz` (M,) [Pa] in plane strain, `grain_mineral` for each
+            grain if there are minerals.
     """
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
@@ -106,6 +107,7 @@ def _grain_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, 
     return {
         "kind": (np.full(len(stress), GRAIN), ()),
         "grain": (grain, ()),
+        "particle": (np.asarray(snapshot.get("triangle_particle", grain)), ()),
         "mineral": (_minerals(snapshot)[grain], ()),
         "fragment": (fragments.of_snapshot(snapshot).labels[grain], ()),
         "stress": (tensor, _TENSOR),

@@ -122,6 +122,8 @@ def loading_of(built: Model) -> Loading:
 def squeeze_disc(built: Model, velocity: float) -> Any:
     """Lay a disc between two plates, hold the lower one and move the upper one down.
 
+    The points that touch first are kept from sliding: a disc that stands on them would roll.
+
     Args:
         built: A disc.
         velocity: Of the upper plate downwards [m/s, or m per step].
@@ -130,7 +132,7 @@ def squeeze_disc(built: Model, velocity: float) -> Any:
         The engine that moves the upper plate.
     """
     for normal in ((0.0, 1.0, 0.0), (0.0, -1.0, 0.0)):
-        built.solver.addTouchingPlate(normal)
+        built.solver.holdSideways(built.solver.addTouchingPlate(normal))
     built.set_masses()
     engine = wrapper.PlateEngine(plates=[1], velocity=(0.0, -velocity, 0.0))
     built.add_engines(before=(engine,))

@@ -37,12 +37,16 @@ _PRESETS = Path(__file__).with_name("presets")
 
 @dataclass(frozen=True)
 class ElasticSet:
-    """Elastic properties of one model; triangles need `young` and `poisson`, discs do not."""
+    """Elastic properties of one model.
+
+    The set ``flexible`` needs `young` and `poisson` for its triangles. In the set ``inner`` they
+    are the rock's: the stiffness of the contacts is fitted to them if they are given.
+    """
 
     normal_stiffness: float  #: K_n of the contacts [Pa/m]
     shear_ratio: float  #: eta = k_s / k_n of the contacts [-]
-    young: float | None = None  #: Young's modulus of the triangles [Pa]
-    poisson: float | None = None  #: Poisson's ratio of the triangles [-]
+    young: float | None = None  #: Young's modulus of the triangles, or of the rock [Pa]
+    poisson: float | None = None  #: Poisson's ratio of the triangles, or of the rock [-]
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,8 @@ class Material:
         stays as it is.
 
         Choosing brittle softening drops fracture energies that came with the material, since
-        brittle means that they equal the elastic energies.
+        brittle means that they equal the elastic energies. A stiffness or shear ratio given for
+        inner particles drops the constants that these would be fitted to.
 
         Raises:
             InputError: for a malformed assignment, an unknown key or a value out of range.
@@ -122,6 +127,8 @@ class Material:
         kinds = minerals.with_values(self.minerals, of_minerals, name)
         elastic = dict(self.elastic)
         own = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
+        if name == "inner" and own.keys() & {"normal_stiffness", "shear_ratio"}:
+            own = dict.fromkeys(("young", "poisson")) | own
         if own:
             elastic[name] = dataclasses.replace(self._elastic(model), **own)
         if changes.get("softening") == "brittle":

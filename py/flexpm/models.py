@@ -14,13 +14,13 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from . import materials, mineral_map, minerals, yade_models
+from . import inner, materials, mineral_map, minerals, yade_models
 from .errors import InputError
 from .materials import Material
 from .specimen import Specimen
 
 #: Models of this module's own solver.
-SOLVER_MODELS = ("flexible", "rigid")
+SOLVER_MODELS = ("flexible", "rigid", *inner.NAMES)
 #: All models that this version has.
 MODELS = (*SOLVER_MODELS, *yade_models.NAMES)
 MESHES = ("refined", "fan")
@@ -90,6 +90,10 @@ class Model:
         """The engine of a class."""
         return next(engine for engine in self.engines if type(engine).__name__ == kind)
 
+    def set_threads(self, threads: int) -> None:
+        """Threads of a step; results do not depend on it."""
+        self.solver.ompThreads = threads
+
     def rebind(self) -> None:
         """Take over the engines of a scene that has been loaded."""
         self.engines = list(yade.O.engines)
@@ -131,8 +135,9 @@ def build(
     Args:
         specimen: The grains.
         material: Preset, file, or material; None for the default of the model.
-        model: ``flexible``, ``rigid``, or YADE's own ``jcfpm`` or ``cohfrict``.
-        points: Contact points per contact, 1, 2 or 3 (Lobatto).
+        model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
+            ``cohfrict``.
+        points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have one.
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
         damping: Local damping alpha [-], 0 <= alpha < 1.
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
@@ -152,15 +157,16 @@ def build(
         )
     if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
-    chosen = materials.load(material, model)
-    solver = _assembled(specimen, chosen, model, points, mesh)
+    grains = _grains(specimen, model, points, mesh)
+    chosen = _fitted(specimen, grains, materials.load(material, model), model)
+    solver = _assembled(grains, chosen, model)
     solver.damping = damping
-    solver.ompThreads = threads
     solver.addToScene(_grain_materials(chosen, model))
-    engines = [_collider(specimen), solver, _idle_newton()]
+    engines = [_collider(grains), solver, _idle_newton()]
     yade.O.engines = engines
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = Model(specimen, chosen, model, solver, engines, dynamic, kinds)
+    built.set_threads(threads)
     built.set_masses()
     return built
 
@@ -189,8 +195,8 @@ def elastic(
     Args:
         specimen: A rectangle.
         material: Preset, file, or material.
-        model: ``flexible`` or ``rigid``.
-        points: Contact points per contact.
+        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``.
+        points: Contact points per contact; inner particles have one.
         mesh: ``refined`` or ``fan``.
 
     Returns:
@@ -200,35 +206,67 @@ def elastic(
         InputError: for an argument out of range or a specimen that is no rectangle.
     """
     _require_one_of("model", model, SOLVER_MODELS)
-    solver = _assembled(specimen, materials.load(material, model), model, points, mesh)
-    try:
-        modulus, ratio = solver.elasticConstants()
-    except (ValueError, RuntimeError) as error:
-        raise InputError(f"elastic: {error}") from error
+    grains = _grains(specimen, model, points, mesh)
+    chosen = _fitted(specimen, grains, materials.load(material, model), model)
+    solver = _assembled(grains, chosen, model)
+    modulus, ratio = _constants(solver)
     return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
 
 
-def _assembled(specimen: Specimen, chosen: Material, model: str, points: int, mesh: str) -> Any:
-    """Make the solver with the packed arrays of the bonded, unloaded grains."""
+@dataclass
+class _Grains:
+    """What the solver assembles: cells, their discs (rows x, y, radius [m]) and its options."""
+
+    specimen: Specimen
+    tessellation: Any
+    discs: np.ndarray
+    options: dict[str, Any]
+
+
+def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
+    """The grains of a specimen, or the inner particles of all of them."""
     _require_one_of("points", points, POINTS)
     _require_one_of("mesh", mesh, MESHES)
+    options = {"rigid": model != "flexible", "mesh": mesh, "points": points, "centre_line": False}
+    if model not in inner.NAMES:
+        discs = np.asarray(specimen.discs, dtype=float)
+        return _Grains(specimen, specimen.tessellation, discs, options)
+    cells = inner.cells(specimen)
+    options |= {"points": 1, **inner.edge_options(cells, model)}
+    return _Grains(specimen, cells.tessellation, cells.discs, options)
+
+
+def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -> Material:
+    """The material, with the stiffness of inner particles fitted to the rock's."""
+    if model not in inner.NAMES:
+        return chosen
+    chosen.description(model)  # refuses a material without the set
+    if specimen.kind == "disc":  # no test of it gives a modulus
+        like = inner.rectangle_like(specimen)
+        grains = _grains(like, model, POINTS[0], MESHES[0])
+    return inner.fitted(chosen, lambda tried: _constants(_assembled(grains, tried, model)))
+
+
+def _constants(solver: Any) -> tuple[float, float]:
+    """Young's modulus [Pa] and Poisson's ratio [-] of an assembled rectangle."""
+    try:
+        return solver.elasticConstants()
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"elastic: {error}") from error
+
+
+def _assembled(grains: _Grains, chosen: Material, model: str) -> Any:
+    """Make the solver with the packed arrays of the bonded, unloaded grains."""
     chosen.description(model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
-    discs = np.ascontiguousarray(specimen.discs, dtype=float)
     try:
         solver.assemble(
-            tessellation=specimen.tessellation,
-            centres=np.ascontiguousarray(discs[:, :2]),
-            radii=np.ascontiguousarray(discs[:, 2]),
-            thickness=float(specimen.thickness),
+            tessellation=grains.tessellation,
+            centres=np.ascontiguousarray(grains.discs[:, :2]),
+            radii=np.ascontiguousarray(grains.discs[:, 2]),
+            thickness=float(grains.specimen.thickness),
             materials=_grain_materials(chosen, model),
-            options={
-                "rigid": model != "flexible",
-                "mesh": mesh,
-                "points": points,
-                "centre_line": False,
-                **_mineral_options(specimen, chosen, model),
-            },
+            options=grains.options | _mineral_options(grains.specimen, chosen, model),
         )
     except (ValueError, RuntimeError) as error:
         raise InputError(f"build: {error}") from error
@@ -267,10 +305,9 @@ def _grain_material(chosen: Material, model: str) -> Any:
     )
 
 
-def _collider(specimen: Specimen) -> Any:
-    return wrapper.InsertionSortCollider(
-        [wrapper.Bo1_LaguerreCell_Aabb()], verletDist=_SWEEP * specimen.mean_diameter
-    )
+def _collider(grains: _Grains) -> Any:
+    sweep = _SWEEP * 2.0 * float(np.mean(grains.discs[:, 2]))
+    return wrapper.InsertionSortCollider([wrapper.Bo1_LaguerreCell_Aabb()], verletDist=sweep)
 
 
 def _idle_newton() -> Any:

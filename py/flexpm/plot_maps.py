@@ -7,7 +7,7 @@ Input in SI units; labels in mm.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -88,12 +88,10 @@ def crack_picture(
 
 def draw_cracks(axes: Axes, snapshot: Mapping[str, np.ndarray]) -> list[Line2D]:
     """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
-    outlines = grain_corners(snapshot["triangles"])
     tints = None
     if "grain_mineral" in snapshot:
-        minerals = np.asarray(snapshot["grain_mineral"])[_grains_of(snapshot, outlines)]
-        tints = np.array(_MINERALS)[minerals % len(_MINERALS)]
-    _draw_grains(axes, [snapshot["positions"][corners] for corners in outlines], tints)
+        tints = np.array(_MINERALS)[np.asarray(snapshot["grain_mineral"]) % len(_MINERALS)]
+    _draw_rock(axes, snapshot, tints)
     segments, handles = crack_segments(snapshot), []
     for mode in (TENSILE, SHEAR):
         lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
@@ -121,11 +119,9 @@ def fragment_picture(
     colours = [_FRAGMENTS[rank % len(_FRAGMENTS)] for rank in range(len(found))]
     colours = np.where(found.grains > 1, colours, _LOOSE)
     colours[0] = _GRAIN_TINTS[0]
-    outlines = grain_corners(snapshot["triangles"])
-    polygons = [snapshot["positions"][corners] for corners in outlines]
     with rc_context(STYLE):
-        figure, axes = _map_figure(polygons)
-        _draw_grains(axes, polygons, colours[found.labels[_grains_of(snapshot, outlines)]])
+        figure, axes = _map_figure([snapshot["positions"]])
+        _draw_rock(axes, snapshot, colours[found.labels])
         _draw_scale_bar(axes)
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
@@ -199,13 +195,43 @@ def _map_figure(polygons: Sequence[np.ndarray]) -> tuple[Figure, Axes]:
     return figure, axes
 
 
+def _draw_rock(
+    axes: Axes, snapshot: Mapping[str, np.ndarray], tints: np.ndarray | None = None
+) -> None:
+    """Draw the deformed grains, those of inner particles without lines between these.
+
+    Args:
+        axes: Where to draw.
+        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
+        tints: Colour of each grain.
+    """
+    outlines = grain_corners(snapshot["triangles"])
+    polygons = [snapshot["positions"][corners] for corners in outlines]
+    grains = _grains_of(snapshot, outlines)
+    chosen = _tints(grains) if tints is None else tints[grains]
+    if len(np.unique(grains)) == len(grains):
+        _draw_grains(axes, polygons, chosen)
+        return
+    _draw_grains(axes, polygons, chosen, edges="face")
+    pairs = np.asarray(snapshot["contact_grains"])
+    between = 1e3 * np.asarray(snapshot["contact_ends"])[pairs[:, 0] != pairs[:, 1]]
+    axes.add_collection(LineCollection(between, colors=_EDGE, linewidths=0.25))
+
+
+def _tints(numbers: Iterable[int]) -> list[str]:
+    return [_GRAIN_TINTS[number * 7 % len(_GRAIN_TINTS)] for number in numbers]
+
+
 def _draw_grains(
-    axes: Axes, polygons: Sequence[np.ndarray], tints: Sequence[str] | None = None
+    axes: Axes,
+    polygons: Sequence[np.ndarray],
+    tints: Sequence[str] | np.ndarray | None = None,
+    edges: str = _EDGE,
 ) -> None:
     if tints is None:
-        tints = [_GRAIN_TINTS[number * 7 % len(_GRAIN_TINTS)] for number in range(len(polygons))]
+        tints = _tints(range(len(polygons)))
     scaled = [1e3 * np.asarray(polygon) for polygon in polygons]
-    grains = PolyCollection(scaled, facecolors=tints, edgecolors=_EDGE, linewidths=0.25)
+    grains = PolyCollection(scaled, facecolors=tints, edgecolors=edges, linewidths=0.25)
     axes.add_collection(grains)
 
 

@@ -13,7 +13,17 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from . import __version__, curve, export, materials, models, plot, plot_maps, yade_models
+from . import (
+    __version__,
+    curve,
+    export,
+    inner,
+    materials,
+    models,
+    plot,
+    plot_maps,
+    yade_models,
+)
 from .checkpoint import INTERVAL, Checkpoint, inputs_of
 from .course import Course, Progress
 from .curve import Curve
@@ -31,6 +41,8 @@ RATE_CONSTANT = {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01, "brazilian"
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-].
 DEFAULT_STRAINS = 4.0
+#: The same for inner particles: their rough edges interlock and carry far more than the reference.
+INNER_STRAINS = 8.0
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
 #: Steps by which the recorder may be late [-].
@@ -137,12 +149,14 @@ def run(
             strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
         material: Preset, file, or material; None for the default of the model.
-        model: ``flexible`` or ``rigid``, or YADE's own ``jcfpm`` or ``cohfrict``.
+        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
+            ``cohfrict``.
         confinement: Lateral pressure [Pa], for ``biaxial`` only.
         points: Contact points per contact, 1, 2 or 3.
         mesh: ``refined`` or ``fan``.
         rate: Factor on the default loading rate [-], > 0.
-        max_strain: Largest axial strain [-]; None for 4 times that of the reference strength.
+        max_strain: Largest axial strain [-]; None for 4 times that of the reference strength, 8
+            times with inner particles.
         dynamic: Real masses and time instead of scaled masses and unit steps.
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
             for uniaxial compression and tension of the flexible model. None: ``static`` for its
@@ -179,7 +193,7 @@ def run(
     if checkpoint.found:
         checkpoint.restore()
         built.rebind()
-        built.solver.ompThreads = threads
+        built.set_threads(threads)
     elif folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
     result = tests_of(model)[test](built, todo.settings, Course(checkpoint, progress))
@@ -272,7 +286,7 @@ def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:
     def prepare() -> None:
         recorder = wrapper.AxialRecorder(diameter=diameter)
         built.add_engines(after=(recorder,))
-        plan = _limit(recorder, "brazilian", settings)
+        plan = _limit(recorder, "brazilian", built, settings)
         squeeze_disc(built, plan.velocity)
 
     result = _finish("brazilian", built, settings, course, prepare)
@@ -314,7 +328,7 @@ def _run_axial(
         before()
         recorder = wrapper.AxialRecorder(tension=tension, **options)
         built.add_engines(after=(recorder,))
-        plan = _limit(recorder, test, settings)
+        plan = _limit(recorder, test, built, settings)
         loading_of(built).drive(built, plan.velocity if tension else -plan.velocity)
 
     if settings.start == "static":
@@ -342,10 +356,10 @@ def _go_on(built: Model) -> None:
     built.engine("PlatenEngine").goOn()
 
 
-def _limit(recorder: Any, test: str, settings: Settings) -> Schedule:
+def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedule:
     """Tell the recorder when the test is over."""
     scales = recorder.scales()
-    plan = schedule(scales, test, settings)
+    plan = schedule(scales, test, settings, _strains(built))
     recorder.maxStrain = plan.max_strain
     recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
     return plan
@@ -360,7 +374,8 @@ def _finish(
     def advance() -> None:
         nonlocal diverged
         recorder = built.engine("AxialRecorder")
-        diverged = _drive(schedule(recorder.scales(), test, settings), recorder, course)
+        plan = schedule(recorder.scales(), test, settings, _strains(built))
+        diverged = _drive(plan, recorder, course)
 
     course.stage(prepare, advance)
     if not diverged:
@@ -385,7 +400,14 @@ def _settle(built: Model, course: Course, ramp: int) -> None:
     )
 
 
-def schedule(scales: dict[str, float], test: str, settings: Settings) -> Schedule:
+def _strains(built: Model) -> float:
+    """Multiple of the reference strain at which a test ends unless told otherwise."""
+    return INNER_STRAINS if built.name in inner.NAMES else DEFAULT_STRAINS
+
+
+def schedule(
+    scales: dict[str, float], test: str, settings: Settings, strains: float = DEFAULT_STRAINS
+) -> Schedule:
     """Loading rate and end of a test from the scales that the recorder names.
 
     v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
@@ -395,6 +417,7 @@ def schedule(scales: dict[str, float], test: str, settings: Settings) -> Schedul
         scales: ``AxialRecorder.scales()``.
         test: Name of the test.
         settings: Rate factor, confinement and largest strain.
+        strains: Multiple of the reference strain at which the test ends if `settings` have none.
 
     Returns:
         Velocity and end.
@@ -404,7 +427,7 @@ def schedule(scales: dict[str, float], test: str, settings: Settings) -> Schedul
     crossing = scales["crossing_steps"]
     dt = yade.O.dt
     velocity = settings.rate * RATE_CONSTANT[test] * reference * scales["height"] / (crossing * dt)
-    largest = settings.max_strain or DEFAULT_STRAINS * reference
+    largest = settings.max_strain or strains * reference
     return Schedule(velocity, reference, largest, scales["height"], dt)
 
 
@@ -450,6 +473,8 @@ def _result(test: str, built: Model, diverged: bool, step_time: float | None) ->
         contacts=counts["contacts"],
         nodes=counts["nodes"],
         triangles=counts["triangles"],
+        particles=counts["particles"],
+        inner_contacts=counts["inner_contacts"],
         step_time=step_time,
     )
     names = recorder.names

@@ -55,6 +55,8 @@ class Result:
     contacts: int
     nodes: int | None
     triangles: int | None
+    particles: int | None = None  #: what moves: grains, or inner particles
+    inner_contacts: int | None = None  #: between particles of the same grain
     youngs_modulus: float | None = None  #: [Pa]
     poissons_ratio: float | None = None  #: [-]
     peak_stress: float | None = None  #: [Pa]
@@ -65,6 +67,7 @@ class Result:
     tensile_cracks: int = 0  #: cracked points
     shear_cracks: int = 0  #: cracked points
     unbalanced_ratio: float | None = None  #: largest up to the peak [-]
+    end_mismatch: float | None = None  #: of both ends' reactions, largest up to the peak [-]
     energy_error: float | None = None  #: relative to the largest work [-]
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
     softening_slope: float | None = None  #: of stress over strain after the peak, negative [Pa]
@@ -107,6 +110,7 @@ class Result:
         self.youngs_modulus = measures.youngs_modulus(record)
         self.poissons_ratio = measures.poissons_ratio(record)
         self.unbalanced_ratio = measures.unbalanced_ratio(record)
+        self.end_mismatch = measures.end_mismatch(record)
         self.energy_error = measures.energy_error(record, initial_energy)
         self.softening_slope = measures.softening_slope(record)
         self._measure_onset()

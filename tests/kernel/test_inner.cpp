@@ -5,6 +5,7 @@
 #include <flexpm/kernel/inner_cells.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
+#include <flexpm/kernel/snapshot.hpp>
 #include <flexpm/kernel/stepping.hpp>
 
 #include <catch2/catch.hpp>
@@ -158,6 +159,63 @@ TEST_CASE("contacts across an edge of a grain may take its normal", "[inner]")
         CHECK(std::fabs(flexpm::point_state(a, c, 0).opening) < 1e-12);
         CHECK(std::fabs(flexpm::point_state(a, c, 0).slip) < 1e-12);
     }
+}
+
+TEST_CASE("two grains out of line: opening and slip along the chosen normal", "[inner]")
+{
+    const double size = 3e-3, rise = 0.3 * size, way = 1e-9;
+    const bool of_edge = GENERATE(false, true);
+    auto s = specimens::grid(2, 1, size);
+    s.discs[1].centre.y += rise;
+    auto o = specimens::options(specimens::strong_contact());
+    o.rigid = true;
+    o.points = 1;
+    o.edge_normal = { static_cast<std::uint8_t>(of_edge) };
+    Assembly a = specimens::assemble(s, o);
+    flexpm::scale_masses(a, 0.7);
+    a.held[a.centre(0)] = a.held[a.centre(0) + lanes] = 1;
+    flexpm::drive_spin(a, 0, 0.0, 1.0);
+    a.held[a.centre(1)] = a.held[a.centre(1) + lanes] = 1;
+    flexpm::drive_spin(a, 1, 0.0, 1.0);
+    flexpm::set_motion(a, 1, { way, 0.0 }, 0.0, 1.0);
+    flexpm::step(a, flexpm::StepOptions());
+
+    const double k = o.laws[0].normal_stiffness, ratio = o.laws[0].shear_ratio;
+    const double area = size * specimens::thickness, far = std::hypot(size, rise);
+    const Point n = of_edge ? Point { 1.0, 0.0 } : Point { size / far, rise / far };
+    const auto point = flexpm::point_state(a, 0, 0);
+    CHECK(point.opening == Approx(way * n.x).epsilon(1e-5));
+    CHECK(std::fabs(point.slip) == Approx(way * n.y).epsilon(1e-5).margin(1e-15));
+    // K_n along the normal and eta K_n across it pull the grain back
+    const Point force = flexpm::resultant_on(a, 1).force;
+    CHECK(force.x == Approx(-k * area * way * (n.x * n.x + ratio * n.y * n.y)).epsilon(1e-5));
+    CHECK(
+        force.y == Approx(-k * area * way * (1.0 - ratio) * n.x * n.y).epsilon(1e-5).margin(1e-7));
+}
+
+TEST_CASE("particles know the grain of the rock that they are part of", "[inner]")
+{
+    const auto s = specimens::random_grains(9e-3, 9e-3, 3e-3, 2);
+    const auto inner = flexpm::make_inner_cells(s.cells, 9.0);
+    auto o = specimens::options();
+    o.rigid = true;
+    o.points = 1;
+    o.aggregate = inner.grain;
+    const Assembly a = flexpm::make_assembly(inner.cells, inner.discs, o);
+    const auto bonded = flexpm::bonded_contacts(a);
+    const auto outer = std::count(inner.outer.begin(), inner.outer.end(), 1);
+    CHECK(bonded.between == outer);
+    CHECK(bonded.between + bonded.within == a.contacts);
+    const auto shown = flexpm::take_snapshot(a);
+    for (std::size_t t = 0; t < shown.triangle_grain.size(); ++t)
+        CHECK(shown.triangle_grain[t] == inner.grain[shown.triangle_particle[t]]);
+    for (int c = 0; c < a.contacts; ++c) {
+        const bool between = shown.contact_grains[2 * c] != shown.contact_grains[2 * c + 1];
+        CHECK(between == (inner.outer[c] != 0));
+    }
+    o.aggregate.pop_back();
+    CHECK_THROWS_WITH(flexpm::make_assembly(inner.cells, inner.discs, o),
+        Catch::Contains("must be one for each cell"));
 }
 
 TEST_CASE("inner cells do not depend on anything but the grains", "[inner]")

@@ -197,6 +197,13 @@ TEST_CASE("a plate touches a polygon at its outermost point", "[plate]")
     CHECK(p.normal.y == -1.0);
     CHECK(*std::min_element(p.gap.begin(), p.gap.end()) == 0.0);
     CHECK(p.position.y == Approx(o.rigid ? 2.55e-3 : 2.8e-3));
+    flexpm::hold_sideways(a, plate);
+    int held = 0;
+    for (int n = 0; n < a.nodes_of(0); ++n) {
+        CHECK(a.held[a.node(0, n) + lanes] == 0);
+        held += a.held[a.node(0, n)];
+    }
+    CHECK(held == 1);
 }
 
 TEST_CASE("plates are checked", "[plate]")

@@ -81,6 +81,33 @@ TEST_CASE("a rigid grain keeps its shape to round-off when it turns", "[rigid]")
     }
 }
 
+TEST_CASE("half the turn of a rigid grain is a unit quaternion", "[rigid]")
+{
+    Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());
+    flexpm::scale_masses(a, 0.7);
+    const double turn = GENERATE(1e-9, 0.4, -2.0, 3.1415926, 3.2, -4.0);
+    flexpm::set_motion(a, 0, { 0.0, 0.0 }, turn / 20, 1.0);
+    run(a, 20, 0.0);
+    const auto half = flexpm::half_turn(a, 0);
+    CHECK(std::hypot(half.cosine, half.sine) == Approx(1.0).epsilon(1e-12));
+    // a quaternion and its negative are the same turn
+    const double sign = half.cosine * std::cos(turn / 2) + half.sine * std::sin(turn / 2);
+    CHECK(std::fabs(sign) == Approx(1.0).epsilon(1e-12));
+    CHECK(half.cosine * std::sin(turn / 2) == Approx(half.sine * std::cos(turn / 2)).margin(1e-12));
+}
+
+TEST_CASE("a rigid grain that nothing holds has finite masses and keeps its motion", "[rigid]")
+{
+    Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());
+    flexpm::scale_masses(a, 0.7);
+    CHECK(a.inverse_mass[flexpm::scalar_index(a.centre(0))] > 0.0);
+    CHECK(a.inverse_inertia[flexpm::rigid_index(a, 0)] > 0.0);
+    flexpm::set_motion(a, 0, { 1e-6, 0.0 }, 1e-4, 1.0);
+    run(a, 10, 0.7);
+    CHECK(a.displacement[a.centre(0)] == Approx(1e-5).epsilon(1e-12));
+    CHECK(flexpm::energies(a).kinetic > 0.0);
+}
+
 TEST_CASE("nodes move in a step as far as their velocities say", "[rigid]")
 {
     Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());

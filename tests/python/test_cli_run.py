@@ -87,7 +87,7 @@ def test_elastic_prints_the_constants(capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["run", "uniaxial", "--model", "inner"], "model = 'inner', is not available"),
+        (["elastic", "--model", "inner", "--set", "poisson=0.48"], "poisson = 0.48, cannot be met"),
         (["elastic", "--model", "jcfpm"], "model = 'jcfpm', is not available"),
     ],
 )

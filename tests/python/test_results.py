@@ -28,6 +28,8 @@ KEYS = [
     "contacts",
     "nodes",
     "triangles",
+    "particles",
+    "inner_contacts",
     "youngs_modulus",
     "poissons_ratio",
     "peak_stress",
@@ -38,6 +40,7 @@ KEYS = [
     "tensile_cracks",
     "shear_cracks",
     "unbalanced_ratio",
+    "end_mismatch",
     "energy_error",
     "contact_width",
     "softening_slope",
@@ -76,6 +79,7 @@ def triangular_record(confinement=0.0, last_stress=0.4 * PEAK):
                 axial_stress=stress + confinement,
                 confinement=confinement,
                 unbalanced_ratio=0.5 if past or strain < 1e-6 else 1e-3,
+                end_mismatch=0.3 if past or strain < 1e-6 else 0.02,
                 boundary_work=strain,
                 elastic_energy=0.25 * strain + 7.0,
                 damping_energy=0.75 * strain,
@@ -111,7 +115,8 @@ def test_measures_of_a_triangular_record(confinement):
     assert result.peak_stress == pytest.approx(PEAK + confinement, rel=1e-12)
     assert result.peak_strain == pytest.approx(PEAK / YOUNG, rel=1e-12)
     assert result.softening_slope == pytest.approx(SOFTENING, rel=1e-9)
-    assert result.unbalanced_ratio == 1e-3  # neither the first rows nor those after the peak
+    # neither the first rows nor those after the peak
+    assert (result.unbalanced_ratio, result.end_mismatch) == (1e-3, 0.02)
     assert result.energy_error == pytest.approx(0.0, abs=1e-12)
     assert (result.steps, result.confinement) == (5000, confinement)
 
@@ -184,7 +189,7 @@ def test_energy_that_was_lost_before_the_first_row_counts_if_the_start_is_known(
 
 def test_columns_are_taken_by_name():
     record = triangular_record()
-    names = ["end_mismatch", *reversed(COLUMNS)]
+    names = ["another", *reversed(COLUMNS)]
     rows = np.column_stack([np.ones(len(record)), record.array[:, ::-1]])
     assert np.array_equal(Curve.from_columns(names, rows).array, record.array)
 

@@ -56,6 +56,7 @@ struct Assembly {
     std::vector<int> grain_slot;       ///< block * lanes + lane of each grain
     std::vector<int> slot_grain;       ///< grain of each slot, -1 where padded
     std::vector<double> radius;        ///< disc radius of each grain [m]
+    std::vector<int> aggregate;        ///< grain of the rock that each is, or is a particle of
     std::vector<int> grain_material;   ///< index into `elastic`
     std::vector<ElasticMaterial> elastic;
 

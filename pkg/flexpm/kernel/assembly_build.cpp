@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace flexpm {
@@ -290,6 +291,10 @@ void check(const Tessellation& t, const AssemblyOptions& o)
         refuse("grain materials", static_cast<double>(o.grain_material.size()), "",
             "must be one for each grain");
     }
+    if (!o.aggregate.empty() && static_cast<int>(o.aggregate.size()) != t.cells()) {
+        refuse("grains of particles", static_cast<double>(o.aggregate.size()), "",
+            "must be one for each cell");
+    }
     for (int m : o.grain_material) {
         if (m < 0 || m >= static_cast<int>(materials)) {
             refuse("grain material", m, "", "must be the index of a material");
@@ -339,6 +344,11 @@ Assembly make_assembly(
     a.elastic = options.elastic;
     a.grain_material = options.grain_material;
     a.grain_material.resize(a.grains, 0);
+    a.aggregate = options.aggregate;
+    if (a.aggregate.empty()) {
+        a.aggregate.resize(a.grains);
+        std::iota(a.aggregate.begin(), a.aggregate.end(), 0);
+    }
     for (const auto& law : options.laws)
         a.laws.push_back(make_law(law));
     std::vector<MeshedGrain> grains;

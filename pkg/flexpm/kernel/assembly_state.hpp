@@ -65,6 +65,7 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("grain_slot", a.grain_slot);
     visit("slot_grain", a.slot_grain);
     visit("radius", a.radius);
+    visit("aggregate", a.aggregate);
     visit("grain_material", a.grain_material);
     visit("elastic", a.elastic);
     visit("reference", a.reference);

@@ -72,9 +72,20 @@ inline PointState point_state(const Assembly& a, int contact, int point)
 }
 
 /// Contacts of the bonded specimen, those that have ended included.
-inline int bonded_contacts(const Assembly& a)
+struct BondedContacts {
+    int between = 0;  ///< grains of the rock
+    int within = 0;   ///< one, between its inner particles
+};
+
+inline BondedContacts bonded_contacts(const Assembly& a)
 {
-    return static_cast<int>(std::count(a.contact_bonded.begin(), a.contact_bonded.end(), 1));
+    BondedContacts count;
+    for (int c = 0; c < a.contacts; ++c) {
+        if (!a.contact_bonded[c]) continue;
+        const int* pair = &a.contact_grains[2 * c];
+        ++(a.aggregate[pair[0]] == a.aggregate[pair[1]] ? count.within : count.between);
+    }
+    return count;
 }
 
 inline double damage_of(const Assembly& a, int contact, int point)

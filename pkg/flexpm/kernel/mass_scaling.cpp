@@ -126,6 +126,19 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
     return own;
 }
 
+/// A rigid grain that nothing touches, or that no force turns, gets what one contact of half its size
+/// would ask for, so that its masses are finite.
+void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
+{
+    if (!a.is_rigid(grain)) return;
+    const double r = a.radius[grain];
+    const double least = a.laws.front().normal_stiffness * r * a.thickness;
+    double& node = bound.node[scalar_index(a.centre(grain))];
+    if (node == 0.0) node = least;
+    double& rotation = bound.rotation[rigid_index(a, grain)];
+    rotation = std::max(rotation, 0.01 * r * r * node);
+}
+
 void check_damping(double damping)
 {
     if (!(damping >= 0.0 && damping < 1.0)) {
@@ -144,9 +157,6 @@ template <class Visit> void for_each_node(const Assembly& a, Visit visit)
             visit(scalar_index(a.node(g, n)));
     }
 }
-
-/// Of what nothing stiff touches: no force can act on it, its velocity stays.
-double inverse(double mass) { return mass > 0.0 ? 1.0 / mass : 0.0; }
 
 /// The mass that the bound asks for at a time step.
 double mass_for(double bound, double damping, double dt)
@@ -174,6 +184,8 @@ StiffnessBound stiffness_bound(const Assembly& a)
         add_contact(a, c, bound);
     for (const Plate& p : a.plates)
         add_plate(a, p, bound);
+    for (int g = 0; g < a.grains; ++g)
+        complete_rigid(a, g, bound);
     return bound;
 }
 
@@ -183,11 +195,11 @@ void scale_masses(Assembly& a, double damping, double dt)
     check_positive("time step", dt, "s");
     const StiffnessBound bound = stiffness_bound(a);
     for_each_node(
-        a, [&](int i) { a.inverse_mass[i] = inverse(mass_for(bound.node[i], damping, dt)); });
+        a, [&](int i) { a.inverse_mass[i] = 1.0 / mass_for(bound.node[i], damping, dt); });
     for (int g = 0; g < a.grains; ++g) {
         const int i = rigid_index(a, g);
         if (!a.is_rigid(g)) continue;
-        a.inverse_inertia[i] = inverse(mass_for(bound.rotation[i], damping, dt));
+        a.inverse_inertia[i] = 1.0 / mass_for(bound.rotation[i], damping, dt);
     }
     scale_plates(a, damping, dt);
 }
@@ -229,8 +241,7 @@ double set_real_masses(Assembly& a, double damping)
         const int i = rigid_index(a, g);
         if (!a.is_rigid(g)) continue;
         a.inverse_inertia[i] = 1.0 / inertia[i];
-        // without moments at all a grain turns freely
-        if (bound.rotation[i] > 0.0) least = std::min(least, inertia[i] / bound.rotation[i]);
+        least = std::min(least, inertia[i] / bound.rotation[i]);
     }
     const double dt = 2.0 * std::sqrt(least / (mass_margin * (1.0 + damping)));
     scale_plates(a, damping, dt);

@@ -150,6 +150,21 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
     return static_cast<int>(a.plates.size()) - 1;
 }
 
+void hold_sideways(Assembly& a, int plate)
+{
+    check_index(a, plate);
+    const Plate& p = a.plates[plate];
+    const auto first =
+        static_cast<int>(std::min_element(p.gap.begin(), p.gap.end()) - p.gap.begin());
+    const int edge = p.edges[first / p.points], grain = a.edge_grain[edge];
+    const int node = a.is_rigid(grain)
+        ? a.centre(grain)
+        : edge_nodes(a, edge)[plate_weight(p, first % p.points) > 0.5];
+    const int component = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
+    a.held[node + component * lanes] = 1;
+    a.velocity[node + component * lanes] = 0.0;
+}
+
 void press(Assembly& a, int plate, double pressure)
 {
     check_index(a, plate);

@@ -29,6 +29,10 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
 /// outermost point; edges that face it may come into contact. Returns its number.
 int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact);
 
+/// Keep the first point that the plate touches from sliding along it: the node of a deformable grain, or
+/// the centre of a rigid one. A disc that stands on single points would roll.
+void hold_sideways(Assembly& a, int plate);
+
 /// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity.
 void press(Assembly& a, int plate, double pressure);
 

@@ -5,6 +5,9 @@
 #include <flexpm/kernel/checks.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace flexpm {
 
 namespace {
@@ -56,6 +59,18 @@ void drive_spin(Assembly& a, int grain, double spin, double dt)
 }
 
 double rotation_of(const Assembly& a, int grain) { return a.rotation[rigid_index(a, grain, 2, 3)]; }
+
+HalfTurn half_turn(const Assembly& a, int grain)
+{
+    const double along = a.rotation[rigid_index(a, grain, 0, 3)];  // cos - 1
+    const double cosine = std::sqrt(std::max(1.0 + 0.5 * along, 0.0));
+    // near half a turn the quotient would lose its digits
+    if (cosine < 0.5) {
+        const double half = 0.5 * rotation_of(a, grain);
+        return { std::cos(half), std::sin(half) };
+    }
+    return { cosine, 0.5 * a.rotation[rigid_index(a, grain, 1, 3)] / cosine };
+}
 
 CellSection cell_section(const Assembly& a, int grain)
 {

@@ -22,6 +22,12 @@ void drive_spin(Assembly& a, int grain, double spin, double dt);
 /// Angle from the reference [rad].
 double rotation_of(const Assembly& a, int grain);
 
+/// Cosine and sine of half the angle from the reference, a quaternion's components.
+struct HalfTurn {
+    double cosine, sine;
+};
+HalfTurn half_turn(const Assembly& a, int grain);
+
 /// Reference area of the cell [m^2] and its polar second moment about its centroid [m^4].
 struct CellSection {
     double area;

@@ -19,7 +19,8 @@ void add_fan(const Assembly& a, int grain, int first, Snapshot& s)
     for (int k = 0; k < corners; ++k) {
         s.triangles.insert(
             s.triangles.end(), { first + k, first + (k + 1) % corners, first + corners });
-        s.triangle_grain.push_back(grain);
+        s.triangle_grain.push_back(a.aggregate[grain]);
+        s.triangle_particle.push_back(grain);
         s.triangle_stress.insert(s.triangle_stress.end(), { 0.0, 0.0, 0.0 });
     }
 }
@@ -40,7 +41,8 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
         const auto n = triangle_nodes(a, grain, t);
         for (int i : n)
             s.triangles.push_back(first + i);
-        s.triangle_grain.push_back(grain);
+        s.triangle_grain.push_back(a.aggregate[grain]);
+        s.triangle_particle.push_back(grain);
         const Tensor stress =
             cauchy_stress(shape_of(a, grain, t), c, displacement_of(a, a.node(grain, n[0])),
                 displacement_of(a, a.node(grain, n[1])), displacement_of(a, a.node(grain, n[2])));
@@ -51,7 +53,7 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
 void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
     for (int side = 0; side < 2; ++side)
-        s.contact_grains.push_back(a.contact_grains[2 * contact + side]);
+        s.contact_grains.push_back(a.aggregate[a.contact_grains[2 * contact + side]]);
     for (int end = 0; end < 2; ++end)
         push(s.contact_ends, contact_end(a, contact, end));
     for (int p = 0; p < a.points; ++p) {

@@ -17,10 +17,12 @@ struct Snapshot {
     std::vector<double> forces;      ///< [node][x, y] [N]
 
     std::vector<std::int32_t> triangles;       ///< [triangle][3] nodes
-    std::vector<std::int32_t> triangle_grain;  ///< [triangle]
-    std::vector<double> triangle_stress;       ///< [triangle][xx, yy, xy] Cauchy [Pa]
+    std::vector<std::int32_t> triangle_grain;  ///< [triangle] grain of the rock
+    std::vector<std::int32_t>
+        triangle_particle;                ///< [triangle] what moves: grain or inner particle
+    std::vector<double> triangle_stress;  ///< [triangle][xx, yy, xy] Cauchy [Pa]
 
-    std::vector<std::int32_t> contact_grains;  ///< [contact][2]
+    std::vector<std::int32_t> contact_grains;  ///< [contact][2] grains of the rock
     std::vector<double> contact_ends;          ///< [contact][start, end][x, y] [m]
     std::vector<double> point_opening;         ///< [contact][point] [m]
     std::vector<double> point_slip;            ///< [contact][point] [m]

@@ -3,6 +3,7 @@
 #include <flexpm/yade/GrainSolver.hpp>
 
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/rigid_grain.hpp>
 #include <flexpm/kernel/stepping.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
@@ -86,6 +87,13 @@ namespace {
 
 	State* stateOf(const Body* body) { return body ? body->state.get() : nullptr; }
 
+	void publishTurn(const flexpm::Assembly& a, int grain, State& state)
+	{
+		const auto half = flexpm::half_turn(a, grain);
+		state.ori       = Quaternionr(half.cosine, 0, 0, half.sine);
+		state.angVel    = Vector3r(0, 0, a.spin[flexpm::rigid_index(a, grain)]);
+	}
+
 } // namespace
 
 void GrainSolver::publishBodies()
@@ -105,6 +113,7 @@ void GrainSolver::publishBodies()
 		const auto p      = assembly.position(centre);
 		state->pos        = Vector3r(p.x, p.y, 0);
 		state->vel        = Vector3r(assembly.velocity[centre], assembly.velocity[centre + flexpm::lanes], 0);
+		if (assembly.is_rigid(grain)) publishTurn(assembly, grain, *state);
 	}
 }
 

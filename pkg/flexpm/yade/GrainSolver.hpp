@@ -29,6 +29,7 @@ public:
 	void       openBooks();
 	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
 	int        addTouchingPlate(Vector3r normal, Real friction);
+	void       holdSideways(int plate);
 	py::list   plates() const;
 	py::tuple  elasticConstants() const;
 	py::dict   energies() const;
@@ -62,13 +63,14 @@ public:
 			"Lay rigid plates on a side of the outline, side by side, and return their numbers. Scale the masses afterwards.")
 		.def("addTouchingPlate", &GrainSolver::addTouchingPlate, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
+		.def("holdSideways", &GrainSolver::holdSideways, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
 		.def("plates", &GrainSolver::plates, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("openBooks", &GrainSolver::openBooks, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", &GrainSolver::elasticConstants, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
 		.def("energies", &GrainSolver::energies, "Energies of the last step [J], by name.")
 		.def("snapshot", &GrainSolver::snapshot, "The state as plain arrays, by name (see the documentation's list of arrays).")
 		.def("cracks", &GrainSolver::cracks, "Numbers of cracked points: (tensile, shear).")
-		.def("counts", &GrainSolver::counts, "Numbers of grains, contacts, nodes, triangles, mesh groups and boundary edges.")
+		.def("counts", &GrainSolver::counts, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges.")
 		.def("unbalanced", &GrainSolver::unbalanced, "Largest unbalanced over mean contact force [-], at the last measured step.")
 		.def("clearPressure", &GrainSolver::clearPressure, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", &GrainSolver::sideNodes, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")

@@ -31,6 +31,20 @@ namespace {
 		return all;
 	}
 
+	/// Inner particles: contacts inside a grain are elastic, those between grains may take the normal of the edge.
+	void chooseInner(const py::dict& options, flexpm::AssemblyOptions& o)
+	{
+		const flexpm_bindings::InputArray<int> outer(options["outer"], 1, "outer"), grains(options["aggregate"], 1, "aggregate");
+		o.aggregate.assign(grains.data(), grains.data() + grains.size(0));
+		const bool edgeNormals = py::extract<bool>(options["edge_normals"]);
+		const int  inside      = static_cast<int>(o.laws.size());
+		o.laws.push_back(flexpm::unbreakable(o.laws.front()));
+		for (std::size_t i = 0; i < outer.size(0); ++i) {
+			o.edge_law.push_back(outer.data()[i] != 0 ? 0 : inside);
+			o.edge_normal.push_back(outer.data()[i] != 0 && edgeNormals);
+		}
+	}
+
 } // namespace
 
 void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options)
@@ -50,6 +64,7 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 		const flexpm_bindings::InputArray<int> minerals(options["minerals"], 1, "minerals");
 		o.grain_material.assign(minerals.data(), minerals.data() + minerals.size(0));
 	}
+	if (options.has_key("outer")) chooseInner(options, o);
 	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
 	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
 }

@@ -9,6 +9,8 @@
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/snapshot.hpp>
 
+#include <algorithm>
+
 namespace yade {
 
 using flexpm_bindings::copied;
@@ -27,6 +29,8 @@ int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 {
 	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
 }
+
+void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(assembly, plate); }
 
 py::list GrainSolver::plates() const
 {
@@ -79,14 +83,17 @@ py::dict GrainSolver::counts() const
 		nodes += assembly.nodes_of(g);
 		triangles += flexpm::triangles_of(assembly, g);
 	}
-	py::dict d;
-	d["grains"]    = assembly.grains;
-	d["contacts"]  = flexpm::bonded_contacts(assembly); // as in the specimen; others have touched since
-	d["touching"]  = assembly.contacts - flexpm::bonded_contacts(assembly);
-	d["nodes"]     = nodes;
-	d["triangles"] = triangles;
-	d["groups"]    = assembly.groups.size();
-	d["edges"]     = assembly.edges;
+	const auto bonded = flexpm::bonded_contacts(assembly);
+	py::dict   d;
+	d["grains"]         = *std::max_element(assembly.aggregate.begin(), assembly.aggregate.end()) + 1;
+	d["particles"]      = assembly.grains;
+	d["contacts"]       = bonded.between; // as in the specimen; others have touched since
+	d["inner_contacts"] = bonded.within;
+	d["touching"]       = assembly.contacts - bonded.between - bonded.within;
+	d["nodes"]          = nodes;
+	d["triangles"]      = triangles;
+	d["groups"]         = assembly.groups.size();
+	d["edges"]          = assembly.edges;
 	return d;
 }
 
@@ -112,22 +119,23 @@ py::dict GrainSolver::snapshot() const
 	const auto s = flexpm::take_snapshot(assembly);
 	const int  p = assembly.points;
 	py::dict   d;
-	d["positions"]       = copied(s.positions, 2);
-	d["reference"]       = copied(s.reference, 2);
-	d["velocities"]      = copied(s.velocities, 2);
-	d["forces"]          = copied(s.forces, 2);
-	d["triangles"]       = copied(s.triangles, 3);
-	d["triangle_grain"]  = copied(s.triangle_grain, 0);
-	d["triangle_stress"] = copied(s.triangle_stress, 3);
-	d["contact_grains"]  = copied(s.contact_grains, 2);
-	d["contact_ends"]    = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
-	d["point_opening"]   = copied(s.point_opening, p);
-	d["point_slip"]      = copied(s.point_slip, p);
-	d["point_damage"]    = copied(s.point_damage, p);
-	d["point_traction"]  = copied(s.point_traction, 2).attr("reshape")(-1, p, 2);
-	d["crack_step"]      = copied(s.crack_step, p);
-	d["crack_mode"]      = copied(s.crack_mode, p);
-	d["crack_position"]  = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
+	d["positions"]         = copied(s.positions, 2);
+	d["reference"]         = copied(s.reference, 2);
+	d["velocities"]        = copied(s.velocities, 2);
+	d["forces"]            = copied(s.forces, 2);
+	d["triangles"]         = copied(s.triangles, 3);
+	d["triangle_grain"]    = copied(s.triangle_grain, 0);
+	d["triangle_particle"] = copied(s.triangle_particle, 0);
+	d["triangle_stress"]   = copied(s.triangle_stress, 3);
+	d["contact_grains"]    = copied(s.contact_grains, 2);
+	d["contact_ends"]      = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
+	d["point_opening"]     = copied(s.point_opening, p);
+	d["point_slip"]        = copied(s.point_slip, p);
+	d["point_damage"]      = copied(s.point_damage, p);
+	d["point_traction"]    = copied(s.point_traction, 2).attr("reshape")(-1, p, 2);
+	d["crack_step"]        = copied(s.crack_step, p);
+	d["crack_mode"]        = copied(s.crack_mode, p);
+	d["crack_position"]    = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
 	return d;
 }
 

@@ -3,6 +3,7 @@
 #include <flexpm/yade/LaguerreCell.hpp>
 
 #include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/rigid_grain.hpp>
 #include <flexpm/kernel/stepping.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
@@ -68,6 +69,16 @@ py::list LaguerreCell::triangles() const
 		all.append(py::make_tuple(n[0], n[1], n[2]));
 	}
 	return all;
+}
+
+bool LaguerreCell::rigid() const { return GrainSolver::ofGrain(grain)->assembly.is_rigid(grain); }
+
+int LaguerreCell::aggregate() const { return GrainSolver::ofGrain(grain)->assembly.aggregate[grain]; }
+
+void LaguerreCell::setMotion(Vector3r velocity, Real spin) const
+{
+	const auto solver = GrainSolver::ofGrain(grain);
+	flexpm::set_motion(solver->assembly, grain, { velocity[0], velocity[1] }, spin, Omega::instance().getScene()->dt);
 }
 
 int LaguerreCell::vertices() const

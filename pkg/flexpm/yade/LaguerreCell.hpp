@@ -17,6 +17,9 @@ public:
 	boost::python::object held() const;
 	boost::python::list   triangles() const;
 	int                   vertices() const;
+	bool                  rigid() const;
+	int                   aggregate() const;
+	void                  setMotion(Vector3r velocity, Real spin) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LaguerreCell, Shape,
@@ -32,6 +35,11 @@ public:
 		.add_property("held", &LaguerreCell::held, "1 where the velocity component is prescribed, (n, 2) [-].")
 		.add_property("triangles", &LaguerreCell::triangles, "Node numbers of each triangle, counter-clockwise.")
 		.add_property("vertices", &LaguerreCell::vertices, "Number of corners; also the number of the centre node [-].")
+		.add_property("rigid", &LaguerreCell::rigid, "The grain moves as one body; its nodes follow the centre.")
+		.add_property("aggregate", &LaguerreCell::aggregate, "Number of the grain of the rock that this is, or is an inner particle of [-].")
+		.def("setMotion", &LaguerreCell::setMotion, (boost::python::arg("velocity"), boost::python::arg("spin")),
+			"Velocity of the centre [m/s, or m per step with scaled masses] and angular velocity [rad/s, or rad per step] of a rigid grain; "
+			"its nodes' velocities follow.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(LaguerreCell, Shape);

@@ -7,4 +7,7 @@ namespace flexpm_bindings {
 /// Outline, Tessellation, GrainMeshes; disc_count, disc_radii, insert_discs, tessellate, grain_meshes.
 void register_geometry_bindings();
 
+/// InnerCells; inner_cells.
+void register_inner_bindings();
+
 } // namespace flexpm_bindings
