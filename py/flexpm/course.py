@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from statistics import median
+from typing import Any
 
 import yade
 
@@ -14,6 +15,8 @@ from .checkpoint import Checkpoint
 #: Called with (steps done, steps expected, text).
 Progress = Callable[[float, float, str], None]
 
+#: Name of YADE's scene in memory.
+_MARK = "flexpm"
 #: Wall time after which progress is shown [s].
 _LOOK_UP = 0.1
 
@@ -49,21 +52,46 @@ class Course:
         """Median wall time of a step [s], of the earlier run if this one did none."""
         return median(self._spans) if self._spans else self._checkpoint.step_time
 
-    def stage(self, prepare: Callable[[], None], advance: Callable[[], None]) -> None:
+    def stage(self, prepare: Callable[[], None], advance: Callable[[], Any]) -> Any:
         """Do the next stage of the test.
 
         Args:
             prepare: Sets the scene up for the stage; done once, not when the stage is resumed.
             advance: Runs to the end of the stage from any step of it.
+
+        Returns:
+            What `advance` has returned, None for a stage that is over.
         """
         self._stages += 1
         if self._checkpoint.stage > self._stages:
-            return
+            return None
         if self._checkpoint.stage < self._stages:
             prepare()
             self._checkpoint.stage = self._stages
             self._checkpoint.stage_start = yade.O.iter
-        advance()
+        return advance()
+
+    def step(self, count: int) -> None:
+        """Step `count` times."""
+        begin = time.perf_counter()
+        for _ in range(count):
+            yade.O.step()
+        self._spans.append((time.perf_counter() - begin) / count)
+
+    def renew(self, rebind: Callable[[], None]) -> None:
+        """Save the scene and go on from it as a file would give it back.
+
+        YADE does not save the order of its interactions and what its collider has found. A run
+        that depends on these has the same bits whether it is killed or not only if it loads its
+        scene at each checkpoint, and has its checkpoints at fixed steps.
+
+        Args:
+            rebind: Takes over the objects of the scene that has been loaded.
+        """
+        self._save()
+        yade.O.saveTmp(_MARK, quiet=True)
+        yade.O.loadTmp(_MARK, quiet=True)
+        rebind()
 
     def finish(self) -> None:
         """Save the last state, so that a run into the same folder finds it done."""

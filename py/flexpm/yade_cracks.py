@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,8 @@ import yade
 from .curve import Curve
 from .results import SHEAR, TENSILE, Crack
 from .yade_bonds import Bonds
+
+_FOUND = ("steps", "modes", "places")
 
 
 class CrackWatch:
@@ -33,14 +35,28 @@ class CrackWatch:
             bonds: Their properties.
             bodies: Body of each grain.
         """
-        self._law, self._interactions, self._bonds, self._bodies = law, interactions, bonds, bodies
-        # YADE drops this when the bond is lost; kept here, it still tells how that came
-        self.contacts = [interaction.phys for interaction in interactions]
-        self._counts_itself = hasattr(law, "nbTensCracks")
+        self._bonds, self._bodies = bonds, bodies
+        self.rebind(law, interactions)
         self.steps = np.full(len(bonds), -1)
         self.modes = np.zeros(len(bonds), dtype=int)
         self.places = bonds.ends.mean(axis=1)
         self._start = np.array([self._centre(grain) for grain in range(len(bodies))])
+
+    def rebind(self, law: Any, interactions: Sequence[Any]) -> None:
+        """Watch the same bonds in a scene that has been loaded; None stands for a lost one."""
+        self._law, self._interactions = law, interactions
+        # YADE drops this when the bond is lost; kept here, it still tells how that came
+        self.contacts = [None if one is None else one.phys for one in interactions]
+        self._counts_itself = hasattr(law, "nbTensCracks")
+
+    def memory(self) -> dict[str, list]:
+        """What has been found, as plain values."""
+        found = (self.steps, self.modes, self.places)
+        return dict(zip(_FOUND, (array.tolist() for array in found), strict=True))
+
+    def recall(self, memory: Mapping[str, list]) -> None:
+        """Take over what :meth:`memory` gave."""
+        self.steps, self.modes, self.places = (np.array(memory[name]) for name in _FOUND)
 
     @property
     def counts(self) -> tuple[int, int]:
@@ -52,19 +68,18 @@ class CrackWatch:
         if self._counts_itself:
             if self._law.nbTensCracks + self._law.nbShearCracks == np.sum(self.steps >= 0):
                 return
-            broken = [row for row, bond in enumerate(self.contacts) if bond.isBroken]
+            broken = [row for row in self._whole() if self.contacts[row].isBroken]
         else:
             # an interaction that is not real or has another phys is not the bond any more
             broken = [
                 row
-                for row, interaction in enumerate(self._interactions)
-                if not interaction.isReal or interaction.phys.cohesionBroken
+                for row in self._whole()
+                if not self._interactions[row].isReal or self._interactions[row].phys.cohesionBroken
             ]
         for row in broken:
-            if self.steps[row] < 0:
-                self.steps[row] = yade.O.iter
-                self.modes[row] = self._mode(row)
-                self.places[row] += self._moved(row)
+            self.steps[row] = yade.O.iter
+            self.modes[row] = self._mode(row)
+            self.places[row] += self._moved(row)
 
     def cracks(self, curve: Curve) -> list[Crack]:
         """All cracks in the order of their steps; strains are interpolated in `curve`."""
@@ -80,6 +95,10 @@ class CrackWatch:
             Crack(int(step), float(strain), *map(float, self.places[row]), int(mode), int(row), 0)
             for row, step, strain, mode in zip(rows, steps, strains, self.modes[rows], strict=True)
         ]
+
+    def _whole(self) -> list[int]:
+        """Bonds that were whole at the last look."""
+        return np.flatnonzero(self.steps < 0).tolist()
 
     def _mode(self, row: int) -> int:
         bond, strength = self.contacts[row], self._bonds.tensile_strength[row]

@@ -7,6 +7,7 @@ Forces are those on the spheres; tension and extension are positive.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import yade
@@ -17,29 +18,49 @@ from .yade_models import SphereModel
 BOTTOM, RIGHT, TOP, LEFT = range(4)
 
 
-class Plates:
-    """Two frictionless horizontal plates; the lower one stands still."""
+@dataclass(frozen=True)
+class Pulls:
+    """What pulls at both ends of a specimen [N]."""
 
-    def __init__(self, built: SphereModel, bottom: float, top: float) -> None:
+    bottom: float
+    top: float
+
+    @property
+    def mean(self) -> float:
+        """Of both ends [N]."""
+        return 0.5 * (self.bottom + self.top)
+
+    @property
+    def mismatch(self) -> float:
+        """Difference of both over the larger [-], 0 without a pull."""
+        larger = max(abs(self.bottom), abs(self.top))
+        return abs(self.bottom - self.top) / larger if larger > 0.0 else 0.0
+
+
+class Plates:
+    """The two frictionless horizontal plates; the lower one stands still."""
+
+    def __init__(self, built: SphereModel) -> None:
+        self.bottom, self.top = built.plates
+
+    @classmethod
+    def lay(cls, built: SphereModel, bottom: float, top: float) -> Plates:
         """Put plates with their faces at two heights [m]."""
-        self.bottom = built.add_plate(bottom, -1)
-        self.top = built.add_plate(top, 1)
-        self._start = self._height()
+        built.add_plate(bottom, -1)
+        built.add_plate(top, 1)
+        return cls(built)
 
     def move(self, velocity: float) -> None:
         """Move the upper plate, positive away from the lower [m/s, or m per step]."""
         yade.O.bodies[self.top].state.vel = (0.0, velocity, 0.0)
 
-    def force(self) -> float:
-        """Mean pull of both plates [N]."""
-        return 0.5 * (yade.O.forces.f(self.bottom)[1] - yade.O.forces.f(self.top)[1])
+    def pulls(self) -> Pulls:
+        """What the specimen is pulled by."""
+        return Pulls(yade.O.forces.f(self.bottom)[1], -yade.O.forces.f(self.top)[1])
 
     def travel(self) -> float:
         """Of the upper plate, positive away from the lower [m]."""
-        return self._height() - self._start
-
-    def _height(self) -> float:
-        return yade.O.bodies[self.top].state.pos[1]
+        return yade.O.bodies[self.top].state.displ()[1]
 
 
 class Grips:
@@ -50,12 +71,13 @@ class Grips:
             [built.ids[grain] for grain in tributary_lengths(built.specimen, side)]
             for side in (BOTTOM, TOP)
         )
-        built.gripped |= {*self.bottom, *self.top}
-        for body in built.gripped:
+
+    def close(self) -> None:
+        """Hold the spheres axially."""
+        for body in {*self.bottom, *self.top}:
             state = yade.O.bodies[body].state
             state.blockedDOFs = "yzXY"
             state.isDamped = False  # else YADE books a part of the grips' work as damped
-        self._start = self._height()
 
     def move(self, velocity: float) -> None:
         """Move the upper layer, positive away from the lower [m/s, or m per step]."""
@@ -64,17 +86,16 @@ class Grips:
                 state = yade.O.bodies[body].state
                 state.vel = (state.vel[0], speed, 0.0)
 
-    def force(self) -> float:
-        """Mean pull of both grips [N]."""
-        pull = [sum(yade.O.forces.f(body)[1] for body in side) for side in (self.bottom, self.top)]
-        return 0.5 * (pull[0] - pull[1])
+    def pulls(self) -> Pulls:
+        """What the specimen is pulled by."""
+        low, high = (
+            sum(yade.O.forces.f(body)[1] for body in side) for side in (self.bottom, self.top)
+        )
+        return Pulls(low, -high)
 
     def travel(self) -> float:
         """Of the upper layer, positive away from the lower [m]."""
-        return self._height() - self._start
-
-    def _height(self) -> float:
-        return yade.O.bodies[self.top[0]].state.pos[1]
+        return yade.O.bodies[self.top[0]].state.displ()[1]
 
 
 class Pressure:
@@ -93,7 +114,6 @@ class Pressure:
         # the outline runs counter-clockwise, so that inwards is to the left of its edges
         self._inward = np.column_stack((-along[:, 1], along[:, 0])) * built.specimen.thickness
         self._arms = ends.mean(axis=1) - built.specimen.centres[self._edges[:, 0]]
-        self._start = {grain: self._place(grain) for grain in self._edges[:, 0].tolist()}
 
     def update(self, pressure: float) -> None:
         """Apply a pressure [Pa] to the sides where they are now."""
@@ -107,9 +127,7 @@ class Pressure:
             load = np.array((*force, moment))
             total[grain] = total[grain] + load if grain in total else load
         for grain, (x, y, moment) in total.items():
-            body = self._built.ids[grain]
-            yade.O.forces.setPermF(body, (x, y, 0.0))
-            yade.O.forces.setPermT(body, (0.0, 0.0, moment))
+            self._built.load(self._built.ids[grain], float(x), float(y), float(moment))
 
     def remove(self) -> None:
         """Take the pressure away."""

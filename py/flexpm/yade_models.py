@@ -9,6 +9,7 @@ is dynamic.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -32,6 +33,8 @@ NAMES = ("jcfpm", "cohfrict")
 _SWEEP = 0.05
 #: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
 _PLATE_STIFFNESS = 1e3
+#: Tag of the scene that holds what YADE does not save.
+_MEMORY = "flexpm"
 
 
 @dataclass
@@ -50,7 +53,8 @@ class SphereModel:
         interactions: One for each bond; not real any more once it is lost.
         cracks: Bonds that have broken.
         plates: Bodies of the plates.
-        gripped: Bodies of grains whose axial motion is given.
+        loads: Lasting force and moment on bodies, see :meth:`load`.
+        memory: Plain values of a test that go with the scene.
     """
 
     specimen: Specimen
@@ -64,7 +68,8 @@ class SphereModel:
     interactions: list[Any] = field(init=False)
     cracks: CrackWatch = field(init=False)
     plates: list[int] = field(default_factory=list)
-    gripped: set[int] = field(default_factory=set)
+    loads: dict[int, tuple[float, float, float]] = field(default_factory=dict)
+    memory: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.interactions = _make_bonds(self)
@@ -73,6 +78,36 @@ class SphereModel:
     def run(self, steps: int) -> None:
         """Advance by `steps` and wait for the end."""
         yade.O.run(steps, True)
+
+    def load(self, body: int, x: float, y: float, moment: float) -> None:
+        """Let a force [N] and a moment [N m] act on a body until they are set anew."""
+        self.loads[body] = (x, y, moment)
+        yade.O.forces.setPermF(body, (x, y, 0.0))
+        yade.O.forces.setPermT(body, (0.0, 0.0, moment))
+
+    def remember(self) -> None:
+        """Put all that YADE does not save into the scene, as one of its tags."""
+        self.memory["loads"] = list(self.loads.items())
+        self.memory["cracks"] = self.cracks.memory()
+        yade.O.tags[_MEMORY] = json.dumps(self.memory)
+
+    def rebind(self) -> None:
+        """Take over a scene that has been loaded, which :meth:`remember` has prepared."""
+        self.engines = list(yade.O.engines)
+        self.law = self.engines[2].lawDispatcher.functors[0]
+        bodies = yade.O.bodies
+        self.plates = [body.id for body in bodies if isinstance(body.shape, wrapper.Box)]
+        self.memory = json.loads(yade.O.tags[_MEMORY])
+        for body, load in self.memory["loads"]:
+            self.load(body, *load)
+        self.interactions = _find_bonds(self)
+        self.cracks.rebind(self.law, self.interactions)
+        self.cracks.recall(self.memory["cracks"])
+
+    def set_threads(self, threads: int) -> None:
+        """Threads of a step."""
+        for engine in self.engines:
+            engine.ompThreads = threads
 
     def counts(self) -> dict[str, int | None]:
         """Numbers of grains and contacts; there are no nodes and triangles."""
@@ -178,9 +213,11 @@ def build(
         for (x, y), radius in zip(specimen.centres.tolist(), radii.tolist(), strict=True)
     ]
     yade.O.dt = _set_masses(specimen, radii, bonds, ids, law, (model, damping, dynamic))
-    functor, engines = _engines(specimen, model, damping, threads)
+    functor, engines = _engines(specimen, model, damping)
     yade.O.engines = engines
-    return SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
+    built = SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
+    built.set_threads(threads)
+    return built
 
 
 def _materials(model: str, law: dict[str, Any], bonds: Bonds, radii: np.ndarray) -> tuple[Any, Any]:
@@ -233,7 +270,7 @@ def _set_masses(
     return dt
 
 
-def _engines(specimen: Specimen, model: str, damping: float, threads: int) -> tuple[Any, list[Any]]:
+def _engines(specimen: Specimen, model: str, damping: float) -> tuple[Any, list[Any]]:
     if model == "jcfpm":
         law = wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()
         spheres = wrapper.Ig2_Sphere_Sphere_ScGeom()
@@ -252,10 +289,7 @@ def _engines(specimen: Specimen, model: str, damping: float, threads: int) -> tu
     newton = wrapper.NewtonIntegrator(damping=damping)
     reach = _SWEEP * specimen.mean_diameter
     collider = wrapper.InsertionSortCollider(bounds, verletDist=reach)
-    engines = [wrapper.ForceResetter(), collider, loop, newton]
-    for engine in engines:
-        engine.ompThreads = threads
-    return law, engines
+    return law, [wrapper.ForceResetter(), collider, loop, newton]
 
 
 def _make_bonds(built: SphereModel) -> list[Any]:
@@ -280,6 +314,13 @@ def _make_bonds(built: SphereModel) -> list[Any]:
         made.append(contact)
     _bonding(physics, False)
     return made
+
+
+def _find_bonds(built: SphereModel) -> list[Any]:
+    """The interaction of each bond in a scene that has been loaded, None where there is none."""
+    found = {(one.id1, one.id2): one for one in yade.O.interactions}
+    pairs = np.array(built.ids)[built.bonds.grains].tolist()
+    return [found.get((a, b), found.get((b, a))) for a, b in pairs]
 
 
 def _bonding(physics: Any, on: bool) -> None:

@@ -9,15 +9,15 @@ between steps.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
-from statistics import median
+from dataclasses import dataclass
 
 import numpy as np
 import yade
 
 from . import __version__
-from .protocols import DEFAULT_STRAINS, Progress, Schedule, Settings
+from .course import Course
+from .protocols import DEFAULT_STRAINS, Schedule, Settings
 from .results import Result
 from .yade_bonds import tributary_lengths
 from .yade_loading import (
@@ -45,6 +45,8 @@ QUASISTATIC_MEDIAN = 0.02
 _LEAST_PEAK = 0.2
 #: Rows of the record up to the reference strain.
 _ROWS = 200
+#: Rows from one checkpoint to the next; loading the scene there is a part of the run.
+_ROWS_KEPT = 50
 #: The isotropic stress is reached in this many crossings of a wave, and then held until at rest.
 _RAMP_CROSSINGS = 20
 _REST = 1e-3  #: at rest: largest resultant over mean contact force [-]
@@ -53,80 +55,111 @@ _MOST_HOLDING = 200  #: crossings
 _DIAMETRAL = 5.0
 
 
-def run_uniaxial(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
+def run_uniaxial(built: SphereModel, settings: Settings, course: Course) -> Result:
     """Compress a built rectangle axially without lateral pressure."""
     plan = _schedule(built, "uniaxial", settings)
-    plates = _squeeze(built)
-    plates.move(-plan.velocity)
-    start_evenly(built, -plan.velocity, 0.0, plan.height)
-    gauge, area = Gauge(built), _area(built)
+    area = _area(built)
 
-    def sample() -> Sample:
-        axial, lateral = gauge.strains()
-        return Sample(-plates.force() / area, -plates.travel(), -axial, lateral)
+    def prepare() -> None:
+        _squeeze(built).move(-plan.velocity)
+        start_evenly(built, -plan.velocity, 0.0, plan.height)
 
-    return _run("uniaxial", built, plan, area, sample, progress)
+    def sampler() -> Callable[[], Sample]:
+        plates, gauge = Plates(built), Gauge(built)
+
+        def sample() -> Sample:
+            axial, lateral = gauge.strains()
+            pulls = plates.pulls()
+            return Sample(-pulls.mean / area, pulls.mismatch, -plates.travel(), -axial, lateral)
+
+        return sample
+
+    return _run("uniaxial", built, plan, area, Steps(prepare, sampler), course)
 
 
-def run_tension(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
+def run_tension(built: SphereModel, settings: Settings, course: Course) -> Result:
     """Pull the outermost layers of spheres of a built rectangle apart."""
     plan = _schedule(built, "tension", settings)
-    grips = Grips(built)
-    hold_sideways(built, middle_of_bottom(built))
-    start_evenly(built, plan.velocity, 0.0, plan.height)
-    grips.move(plan.velocity)
-    gauge, area = Gauge(built), _area(built)
+    grips, area = Grips(built), _area(built)
 
-    def sample() -> Sample:
-        axial, lateral = gauge.strains()
-        return Sample(grips.force() / area, grips.travel(), axial, -lateral)
+    def prepare() -> None:
+        grips.close()
+        hold_sideways(built, middle_of_bottom(built))
+        start_evenly(built, plan.velocity, 0.0, plan.height)
+        grips.move(plan.velocity)
 
-    return _run("tension", built, plan, area, sample, progress)
+    def sampler() -> Callable[[], Sample]:
+        gauge = Gauge(built)
+
+        def sample() -> Sample:
+            axial, lateral = gauge.strains()
+            pulls = grips.pulls()
+            return Sample(pulls.mean / area, pulls.mismatch, grips.travel(), axial, -lateral)
+
+        return sample
+
+    return _run("tension", built, plan, area, Steps(prepare, sampler), course)
 
 
-def run_biaxial(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
+def run_biaxial(built: SphereModel, settings: Settings, course: Course) -> Result:
     """Press a built rectangle isotropically, then compress it axially at constant pressure.
 
     Strains count from the isotropic state.
     """
     confinement = settings.confinement
     plan = _schedule(built, "biaxial", settings)
-    hold_sideways(built, middle_of_bottom(built))
-    sides = Pressure(built, (LEFT, RIGHT))
-    if confinement > 0.0:
-        _press_evenly(built, confinement, plan, progress)
-    plates = _squeeze(built, confinement)
-    plates.move(-plan.velocity)
-    start_evenly(built, -plan.velocity, 0.0, plan.height)
-    gauge, area = Gauge(built), _area(built)
+    sides, area = Pressure(built, (LEFT, RIGHT)), _area(built)
 
-    def sample() -> Sample:
-        axial, lateral = gauge.strains()
-        height = plan.height + plates.travel()
-        applied = sides.lateral_stress(height)
+    def prepare() -> None:
+        hold_sideways(built, middle_of_bottom(built))
+        if confinement > 0.0:
+            _press_evenly(built, confinement, plan, course)
+        _squeeze(built, confinement).move(-plan.velocity)
+        start_evenly(built, -plan.velocity, 0.0, plan.height)
         sides.update(confinement)
-        return Sample(-plates.force() / area, -plates.travel(), -axial, lateral, applied, math.nan)
 
-    sides.update(confinement)
-    return _run("biaxial", built, plan, area, sample, progress)
+    def sampler() -> Callable[[], Sample]:
+        plates, gauge = Plates(built), Gauge(built)
+
+        def sample() -> Sample:
+            axial, lateral = gauge.strains()
+            height = plan.height + plates.travel()
+            applied = sides.lateral_stress(height)
+            sides.update(confinement)
+            pulls, travel = plates.pulls(), -plates.travel()
+            stress = -pulls.mean / area
+            return Sample(stress, pulls.mismatch, travel, -axial, lateral, applied, math.nan)
+
+        return sample
+
+    return _run("biaxial", built, plan, area, Steps(prepare, sampler), course)
 
 
-def run_brazilian(built: SphereModel, settings: Settings, progress: Progress | None) -> Result:
+def run_brazilian(built: SphereModel, settings: Settings, course: Course) -> Result:
     """Squeeze a built disc between two plates; stress is 2P / (pi D t), strain travel / D."""
     plan = _schedule(built, "brazilian", settings)
-    reach = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
-    lowest, highest = built.specimen.centres[:, 1] - reach, built.specimen.centres[:, 1] + reach
-    plates = Plates(built, float(lowest.min()), float(highest.max()))
-    # a disc that stands on one sphere would roll
-    hold_sideways(built, int(np.argmin(lowest)))
-    hold_sideways(built, int(np.argmax(highest)))
-    plates.move(-plan.velocity)
     area = 0.5 * math.pi * plan.height * built.specimen.thickness
 
-    def sample() -> Sample:
-        return Sample(-plates.force() / area, -plates.travel(), -plates.travel() / plan.height)
+    def prepare() -> None:
+        reach = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
+        heights = built.specimen.centres[:, 1]
+        lowest, highest = heights - reach, heights + reach
+        plates = Plates.lay(built, float(lowest.min()), float(highest.max()))
+        # a disc that stands on one sphere would roll
+        hold_sideways(built, int(np.argmin(lowest)))
+        hold_sideways(built, int(np.argmax(highest)))
+        plates.move(-plan.velocity)
 
-    result = _run("brazilian", built, plan, area, sample, progress)
+    def sampler() -> Callable[[], Sample]:
+        plates = Plates(built)
+
+        def sample() -> Sample:
+            pulls, travel = plates.pulls(), -plates.travel()
+            return Sample(-pulls.mean / area, pulls.mismatch, travel, travel / plan.height)
+
+        return sample
+
+    result = _run("brazilian", built, plan, area, Steps(prepare, sampler), course)
     result.youngs_modulus = None  # the slope of the plates' travel is no modulus of the rock
     return result
 
@@ -148,7 +181,7 @@ def _squeeze(built: SphereModel, pressure: float = 0.0) -> Plates:
         - np.mean(built.specimen.centres[list(ends), 1])
         for ends in (tributary_lengths(built.specimen, side) for side in (BOTTOM, TOP))
     ]
-    plates = Plates(built, float(low + moved[0]), float(high + moved[1]))
+    plates = Plates.lay(built, float(low + moved[0]), float(high + moved[1]))
     for plate, side in ((plates.bottom, BOTTOM), (plates.top, TOP)):
         built.touch(plate, tributary_lengths(built.specimen, side))
     if pressure > 0.0:
@@ -161,9 +194,7 @@ def _squeeze(built: SphereModel, pressure: float = 0.0) -> Plates:
     return plates
 
 
-def _press_evenly(
-    built: SphereModel, confinement: float, plan: Schedule, progress: Progress | None
-) -> None:
+def _press_evenly(built: SphereModel, confinement: float, plan: Schedule, course: Course) -> None:
     """Raise the same pressure on all sides and wait until the specimen is at rest."""
     sides = Pressure(built, (BOTTOM, RIGHT, TOP, LEFT))
     crossing = math.ceil(_crossing_steps(built))
@@ -171,8 +202,7 @@ def _press_evenly(
         sides.update(confinement * min(1.0, (turn + 1) / _RAMP_CROSSINGS))
         for _ in range(crossing):
             yade.O.step()
-        if progress is not None:
-            progress(yade.O.iter, max(plan.steps, yade.O.iter), "isotropic pressure")
+        course(yade.O.iter, max(plan.steps, yade.O.iter), "isotropic pressure")
         if turn >= _RAMP_CROSSINGS and yade.utils.unbalancedForce(useMaxForce=True) < _REST:
             return
 
@@ -218,34 +248,46 @@ def _area(built: SphereModel) -> float:
     return built.specimen.dimensions["width"] * built.specimen.thickness
 
 
+@dataclass
+class Steps:
+    """What makes a test: it is prepared once; sampling begins anew when it is resumed."""
+
+    prepare: Callable[[], None]
+    sampler: Callable[[], Callable[[], Sample]]
+
+
 def _run(
-    test: str,
-    built: SphereModel,
-    plan: Schedule,
-    area: float,
-    sample: Callable[[], Sample],
-    progress: Progress | None,
+    test: str, built: SphereModel, plan: Schedule, area: float, steps: Steps, course: Course
 ) -> Result:
     ending = Ending(_LEAST_PEAK * _strength(built, test), plan.max_strain)
-    recorder = Recorder(built, area, plan.height, ending, sample)
-    steps_to_reference = plan.reference_strain * plan.height / (plan.velocity * plan.dt)
-    period = max(1, round(steps_to_reference / _ROWS))
-    yade.O.trackEnergy = True
-    spans = []
-    while not recorder.over:
-        start = time.perf_counter()
-        for _ in range(period):
-            yade.O.step()
-        spans.append((time.perf_counter() - start) / period)
-        recorder.record()
-        if progress is not None:
+    to_reference = plan.reference_strain * plan.height / (plan.velocity * plan.dt)
+    period = max(1, round(to_reference / _ROWS))
+
+    def prepare() -> None:
+        steps.prepare()
+        yade.O.trackEnergy = True
+
+    def record() -> Recorder:
+        recorder = Recorder(built, area, plan.height, ending, steps.sampler())
+        while not recorder.over:
+            course.step(period)
+            recorder.record()
             done = yade.O.iter
-            expected = max(min(plan.steps, 2.0 * steps_to_reference), 1.05 * done)
-            progress(done, expected, f"peak {recorder.peak * 1e-6:5.1f} MPa")
-    return _result(test, built, recorder, median(spans))
+            expected = max(min(plan.steps, 2.0 * to_reference), 1.05 * done)
+            course(done, expected, f"peak {recorder.peak * 1e-6:5.1f} MPa")
+            if len(recorder.curve) % _ROWS_KEPT == 0 and not recorder.over:
+                recorder.remember()
+                course.renew(built.rebind)
+        return recorder
+
+    recorder = course.stage(prepare, record)
+    if not recorder.diverged:
+        recorder.remember()
+        course.finish()
+    return _result(test, built, recorder, course.step_time)
 
 
-def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float) -> Result:
+def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float | None) -> Result:
     result = Result(
         flexpm=__version__,
         yade=yade.config.version,

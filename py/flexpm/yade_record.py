@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,9 @@ from .curve import Curve
 from .errors import InputError
 from .yade_bonds import tributary_lengths
 from .yade_models import SphereModel
+
+#: Of a recorder, what the next row depends on besides the last sample.
+_KEPT = ("peak", "over", "diverged", "work")
 
 
 class Gauge:
@@ -46,11 +49,8 @@ class Gauge:
                 )
             self._axial.append(dict.fromkeys(np.flatnonzero(near).tolist(), 1.0))
         self._lateral = [tributary_lengths(specimen, side) for side in (3, 1)]
-        self.reset()
-
-    def reset(self) -> None:
-        """Count strains from the present state."""
-        self._lengths = self._spans()
+        # strains count from the state in which the first gauge was laid
+        self._lengths = built.memory.setdefault("gauge", self._spans())
 
     def strains(self) -> tuple[float, float]:
         """Axial and lateral strain [-]."""
@@ -87,6 +87,7 @@ class Sample:
     """What only the loading of a test knows."""
 
     stress: float  #: axial, positive in the sense of the loading [Pa]
+    mismatch: float  #: of both ends' reactions [-]
     travel: float  #: of the moving end, positive in the sense of the loading [m]
     axial_strain: float  #: [-]
     lateral_strain: float = math.nan  #: [-]
@@ -108,7 +109,22 @@ class Recorder:
     over: bool = False
     diverged: bool = False
     work: float = 0.0
-    _last: Sample = field(default_factory=lambda: Sample(0.0, 0.0, 0.0))
+    _last: Sample = field(default_factory=lambda: Sample(0.0, 0.0, 0.0, 0.0))
+
+    def __post_init__(self) -> None:
+        known = self.built.memory.get("record")
+        if known is not None:
+            self.curve = Curve.from_array(known["rows"])
+            self._last = Sample(*known["last"])
+            for name in _KEPT:
+                setattr(self, name, known[name])
+
+    def remember(self) -> None:
+        """Leave the record with the model, for one that goes on from its scene."""
+        kept = {name: getattr(self, name) for name in _KEPT}
+        rows, last = self.curve.array.tolist(), list(astuple(self._last))
+        self.built.memory["record"] = {"rows": rows, "last": last, **kept}
+        self.built.remember()
 
     def record(self) -> None:
         """Add a row for the present state."""
@@ -136,6 +152,7 @@ class Recorder:
             friction_energy=math.nan,
             damping_energy=_damping_energy(),
             boundary_work=self.work + now.other_work,
+            end_mismatch=now.mismatch,
         )
         above = now.stress - now.confinement
         self.peak = max(self.peak, above)
@@ -150,7 +167,7 @@ def elastic_energy(built: SphereModel) -> float:
     if built.name == "cohfrict":
         return float(built.law.elasticEnergy())
     touching = [contact for plate in built.plates for contact in _contacts_of(plate)]
-    bonds = [bond for bond in built.cracks.contacts if bond.isCohesive]
+    bonds = [bond for bond in built.cracks.contacts if bond is not None and bond.isCohesive]
     return sum(bond.strainEnergy for bond in (*bonds, *(contact.phys for contact in touching)))
 
 

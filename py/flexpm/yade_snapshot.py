@@ -94,14 +94,14 @@ def bond_forces(built: SphereModel) -> np.ndarray:
     """Force of each bond on its second grain [N], (C, 2); of what is left of it once broken."""
     forces = np.zeros((len(built.bonds), 2))
     for row, interaction in enumerate(built.interactions):
-        if interaction.isReal:
+        if interaction is not None and interaction.isReal:
             phys = interaction.phys
             force = phys.normalForce + phys.shearForce
             forces[row] = force[0], force[1]
     # the collider may have named the other sphere first
-    swapped = np.array([interaction.id1 for interaction in built.interactions])
     first = np.array(built.ids)[built.bonds.grains[:, 0]]
-    forces[swapped != first] *= -1.0
+    named = [one.id1 if one is not None else -1 for one in built.interactions]
+    forces[np.array(named) != first] *= -1.0
     return forces
 
 

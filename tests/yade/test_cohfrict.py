@@ -7,6 +7,8 @@ import pytest
 
 from flexpm import models, protocols, yade_bonds, yade_protocols
 from flexpm.bench import yade
+from flexpm.checkpoint import Checkpoint
+from flexpm.course import Course
 from flexpm.specimen import Specimen
 
 MODEL = "cohfrict"
@@ -86,7 +88,8 @@ def test_a_fast_test_says_that_it_is_not_quasistatic(rectangle):
 def test_grains_carry_the_stresses_of_the_specimen(rectangle):
     built = models.build(rectangle, None, MODEL)
     settings = protocols.Settings(confinement=4e6, rate=4.0, max_strain=5e-4)
-    record = yade_protocols.run_biaxial(built, settings, None).curve
+    course = Course(Checkpoint(None, {}), None)
+    record = yade_protocols.run_biaxial(built, settings, course).curve
     state = built.snapshot()
     first = np.unique(state["triangle_grain"], return_index=True)[1]
     stress, areas = state["triangle_stress"][first], np.array(rectangle.tessellation.cell_areas)

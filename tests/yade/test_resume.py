@@ -14,19 +14,26 @@ import pytest
 
 import flexpm
 from flexpm.checkpoint import Checkpoint
+from flexpm.yade_models import NAMES as YADE_MODELS
 
 PYTHON = "/usr/bin/python3"
 SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
+DISC = {"diameter": 0.016, "thickness": 0.01, "seed": 1}
 TESTS = {
     "uniaxial": {"rate": 4.0},
     "tension": {"rate": 1.0},
     "biaxial": {"rate": 4.0, "confinement": 5e6},
+    "brazilian": {"rate": 2.0},
 }
+#: Stages of flexpm's own models in which a test is killed, one after the other.
+STAGES = {"biaxial": (1, 2)}
 SCRIPT = """
 import json, sys, flexpm
 job = json.loads(sys.argv[1])
-specimen = flexpm.Specimen.rectangle(**job["size"])
-flexpm.run(job["test"], specimen, out="out", checkpoint_interval=1e-3, **job["settings"])
+make = flexpm.Specimen.disc if job["test"] == "brazilian" else flexpm.Specimen.rectangle
+specimen = make(**job["size"])
+settings = dict(job["settings"], model=job["model"], out="out", checkpoint_interval=1e-3)
+flexpm.run(job["test"], specimen, **settings)
 """
 
 
@@ -35,8 +42,11 @@ def small() -> flexpm.Specimen:
     return flexpm.Specimen.rectangle(**SIZE)
 
 
-def start(test: str, folder: Path, package_parent: Path) -> subprocess.Popen[str]:
-    job = json.dumps({"size": SIZE, "test": test, "settings": TESTS[test]})
+def start(
+    test: str, folder: Path, package_parent: Path, model: str = "flexible"
+) -> subprocess.Popen[str]:
+    size = DISC if test == "brazilian" else SIZE
+    job = json.dumps({"size": size, "test": test, "model": model, "settings": TESTS[test]})
     environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
     command = [PYTHON, "-c", SCRIPT, job]
     return subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE, text=True)
@@ -68,23 +78,48 @@ def cpu_time(process: subprocess.Popen[str]) -> float:
     return int(fields[11]) / os.sysconf("SC_CLK_TCK")
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("test", TESTS)
-def test_a_killed_run_ends_with_the_same_bits(small, package_parent, tmp_path, test):
-    # a biaxial test is killed first in its isotropic stage, then in the axial one
-    stages = (1, 2) if test == "biaxial" else (1,)
+def kill_and_resume(test: str, model: str, package_parent: Path, folder: Path) -> None:
+    stages = (1,) if model in YADE_MODELS else STAGES.get(test, (1,))
     for stage in stages:
-        left = kill_after(start(test, tmp_path, package_parent), tmp_path, stage)
+        left = kill_after(start(test, folder, package_parent, model), folder, stage)
         assert left["stage"] == stage
-        assert (tmp_path / "out" / left["scene"]).exists()
-        assert not (tmp_path / "out" / "result.json").exists()
-    resumed = flexpm.run(test, small, out=tmp_path / "out", **TESTS[test])
+        assert (folder / "out" / left["scene"]).exists()
+        assert not (folder / "out" / "result.json").exists()
+    made = (
+        flexpm.Specimen.disc(**DISC) if test == "brazilian" else flexpm.Specimen.rectangle(**SIZE)
+    )
+    resumed = flexpm.run(test, made, model=model, out=folder / "out", **TESTS[test])
     assert 0 < resumed.resumed_at < resumed.steps
-    flexpm.run(test, small, out=tmp_path / "whole", **TESTS[test])
+    flexpm.run(test, made, model=model, out=folder / "whole", **TESTS[test])
     for name in ("curve.csv", "cracks.csv", "final.vtu"):
-        assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
-    names = {file.name for file in (tmp_path / "out").iterdir()}
+        assert (folder / "out" / name).read_bytes() == (folder / "whole" / name).read_bytes()
+    names = {file.name for file in (folder / "out").iterdir()}
     assert len([name for name in names if "checkpoint" in name]) == 2, names
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("model", "test"),
+    [
+        *(("flexible", test) for test in TESTS),
+        ("rigid", "biaxial"),
+        ("rigid", "brazilian"),
+        ("inner", "tension"),
+        ("jcfpm", "uniaxial"),
+        ("jcfpm", "brazilian"),
+        ("cohfrict", "biaxial"),
+        ("cohfrict", "tension"),
+    ],
+)
+def test_a_killed_run_ends_with_the_same_bits(package_parent, tmp_path, model, test):
+    kill_and_resume(test, model, package_parent, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("test", TESTS)
+@pytest.mark.parametrize("model", ["rigid", "inner", "inner-un", *YADE_MODELS])
+def test_every_killed_run_ends_with_the_same_bits(package_parent, tmp_path, model, test):
+    kill_and_resume(test, model, package_parent, tmp_path)
 
 
 @pytest.mark.long
