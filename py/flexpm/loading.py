@@ -122,7 +122,7 @@ def loading_of(built: Model) -> Loading:
 def squeeze_disc(built: Model, velocity: float) -> Any:
     """Lay a disc between two plates, hold the lower one and move the upper one down.
 
-    The points that touch first are kept from sliding: a disc that stands on them would roll.
+    Deviation D28: the points that touch first are kept from sliding, else the disc would roll.
 
     Args:
         built: A disc.

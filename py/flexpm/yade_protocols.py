@@ -145,7 +145,7 @@ def run_brazilian(built: SphereModel, settings: Settings, course: Course) -> Res
         heights = built.specimen.centres[:, 1]
         lowest, highest = heights - reach, heights + reach
         plates = Plates.lay(built, float(lowest.min()), float(highest.max()))
-        # a disc that stands on one sphere would roll
+        # Deviation D28: a disc that stands on one sphere would roll
         hold_sideways(built, int(np.argmin(lowest)))
         hold_sideways(built, int(np.argmax(highest)))
         plates.move(-plan.velocity)
