@@ -53,9 +53,12 @@ BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], dict[str, int | None]]]
         lambda specimen, threads: build_own(specimen, threads, mesh="fan", points=3),
     ),
     **{
-        name: (f"{name}, 3 points", partial(build_own, model=name))
-        for name in ("rigid", "inner", "inner-un")
-        if name in models.SOLVER_MODELS
+        name: (f"{name}, {points}", partial(build_own, model=name))
+        for name, points in (
+            ("rigid", "3 points"),
+            ("inner", "1 point"),
+            ("inner-un", "1 point"),
+        )
     },
     "jcfpm": (
         "YADE JCFpm",
