@@ -65,6 +65,14 @@ def command() -> None:
 )
 @cli_options.pace_options
 @click.option(
+    "--gravity",
+    type=Quantity("m/s2", at_least=0.0),
+    default=0.0,
+    metavar="G",
+    show_default=True,
+    help="Acceleration downwards, with --dynamic only [m/s2].",
+)
+@click.option(
     "--start",
     type=Name("rest", "static"),
     metavar="rest|static",
@@ -87,7 +95,7 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     flexpm = cli_library.library()
     cli_library.require("model", model, flexpm.models.MODELS)
     cli_library.require("test", test, flexpm.protocols.tests_of(model))
-    settings = ("confinement", "rate", "max_strain", "dynamic", "start", "threads")
+    settings = ("confinement", "rate", "max_strain", "dynamic", "gravity", "start", "threads")
     with console.Progress(quiet) as progress:
         specimen = cli_library.specimen_for(test, options, progress)
         result = flexpm.protocols.run(

@@ -28,6 +28,7 @@ COLUMNS = (
     "damage_energy",
     "friction_energy",
     "damping_energy",
+    "potential_energy",
     "boundary_work",
     "end_mismatch",
 )
@@ -38,6 +39,7 @@ ENERGIES = (
     "damage_energy",
     "friction_energy",
     "damping_energy",
+    "potential_energy",
 )
 
 #: E and nu are fitted between these fractions of the peak.

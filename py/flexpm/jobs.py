@@ -35,6 +35,7 @@ _ONLY = {
     "rate": ("uniaxial", "tension", "biaxial", "brazilian"),
     "max_strain": ("uniaxial", "tension", "biaxial", "brazilian"),
     "dynamic": ("uniaxial", "tension", "biaxial", "brazilian"),
+    "gravity": ("uniaxial", "tension", "biaxial", "brazilian"),
 }
 #: Options of the command that do not change what a job computes.
 _INERT = ("out", "quiet", "threads")

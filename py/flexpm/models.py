@@ -7,6 +7,7 @@ per step, and only slow loading means anything.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,6 +46,7 @@ class Model:
         engines: All engines of the model; ``solver`` is one of them.
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
         minerals: Index of each grain's mineral, or None if all grains are alike.
+        gravity: Acceleration downwards [m/s2], with real masses only.
     """
 
     specimen: Specimen
@@ -54,6 +56,7 @@ class Model:
     engines: list[Any]
     dynamic: bool = False
     minerals: np.ndarray | None = None
+    gravity: float = 0.0
 
     def set_masses(self) -> None:
         """Scale the masses, or set the real ones and their stable time step, before the first step.
@@ -62,6 +65,7 @@ class Model:
         """
         if self.dynamic:
             yade.O.dt = self.solver.useRealMasses()
+            self.solver.gravity = (0.0, -self.gravity, 0.0)
         else:
             yade.O.dt = 1.0
             self.solver.scaleMasses()
@@ -126,6 +130,7 @@ def build(
     mesh: str = "refined",
     damping: float = DAMPING,
     dynamic: bool = False,
+    gravity: float = 0.0,
     threads: int = 1,
 ) -> Model | yade_models.SphereModel:
     """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
@@ -141,6 +146,7 @@ def build(
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
         damping: Local damping alpha [-], 0 <= alpha < 1.
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         threads: Threads of a step; results do not depend on it.
 
     Returns:
@@ -149,7 +155,7 @@ def build(
     Raises:
         InputError: for an argument or a material property out of range.
     """
-    check(model, points=points, mesh=mesh)
+    check(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
     _require_damping(damping)
     if model in yade_models.NAMES:
         return yade_models.build(
@@ -165,21 +171,25 @@ def build(
     engines = [_collider(grains), solver, _idle_newton()]
     yade.O.engines = engines
     kinds = mineral_map.minerals_of(specimen, chosen)
-    built = Model(specimen, chosen, model, solver, engines, dynamic, kinds)
+    built = Model(specimen, chosen, model, solver, engines, dynamic, kinds, gravity)
     built.set_threads(threads)
     built.set_masses()
     return built
 
 
-def check(model: str, *, points: int, mesh: str) -> None:
-    """Raise InputError for an unknown model, or for points or a mesh that it cannot have."""
+def check(
+    model: str, *, points: int, mesh: str, dynamic: bool = False, gravity: float = 0.0
+) -> None:
+    """Raise InputError for an unknown model, or for an option that it cannot have."""
     _require_one_of("model", model, MODELS)
     if model in yade_models.NAMES:
         _require_one_of(f"points of model {model}", points, (POINTS[-1],))
         _require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
+        _require_one_of(f"gravity of model {model}", gravity, (0.0,))
     else:
         _require_one_of("points", points, POINTS)
         _require_one_of("mesh", mesh, MESHES)
+        _require_gravity(gravity, dynamic)
 
 
 def elastic(
@@ -325,3 +335,12 @@ def _require_one_of(name: str, value: Any, known: tuple[Any, ...]) -> None:
 def _require_damping(damping: float) -> None:
     if not 0.0 <= damping < 1.0:
         raise InputError(f"build: damping = {damping}, must be at least 0 and below 1")
+
+
+def _require_gravity(gravity: float, dynamic: bool) -> None:
+    if not (math.isfinite(gravity) and gravity >= 0.0):
+        raise InputError(f"build: gravity = {gravity} m/s2, must not be below 0")
+    if gravity != 0.0 and not dynamic:
+        raise InputError(
+            f"build: gravity = {gravity} m/s2, must be 0 with scaled masses; use dynamic"
+        )

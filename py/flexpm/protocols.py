@@ -32,12 +32,9 @@ from .files import output_folder
 from .loading import loading_of, squeeze_disc
 from .materials import Material
 from .models import Model
+from .rates import rate_constant
 from .results import Result, cracks_from_snapshot
 from .specimen import Specimen
-
-#: k of the loading rate: the mean strain grows by k times the reference strain while a wave crosses
-#: the specimen once. Fixed by halving the rate.
-RATE_CONSTANT = {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01, "brazilian": 0.01}
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-].
 DEFAULT_STRAINS = 4.0
@@ -129,6 +126,7 @@ def run(
     rate: float = 1.0,
     max_strain: float | None = None,
     dynamic: bool = False,
+    gravity: float = 0.0,
     start: str | None = None,
     threads: int = 1,
     out: Path | str | None = None,
@@ -158,6 +156,7 @@ def run(
         max_strain: Largest axial strain [-]; None for 4 times that of the reference strength, 8
             times with inner particles.
         dynamic: Real masses and time instead of scaled masses and unit steps.
+        gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
             for uniaxial compression and tension of the flexible model. None: ``static`` for its
             tension with scaled masses, else ``rest``.
@@ -183,6 +182,7 @@ def run(
         rate=rate,
         max_strain=max_strain,
         dynamic=dynamic,
+        gravity=gravity,
         start=start,
         out=out,
         checkpoint_interval=checkpoint_interval,
@@ -216,6 +216,7 @@ def plan_run(
     rate: float = 1.0,
     max_strain: float | None = None,
     dynamic: bool = False,
+    gravity: float = 0.0,
     start: str | None = None,
     out: Path | str | None = None,
     checkpoint_interval: float = INTERVAL,
@@ -223,7 +224,8 @@ def plan_run(
     """Refuse what a run could not do, before YADE's scene is touched; arguments as for ``run``."""
     quickly = test == "tension" and model == "flexible" and not dynamic
     settings = Settings(confinement, rate, max_strain, start or ("static" if quickly else "rest"))
-    models.check(model, points=points, mesh=mesh)
+    options = {"points": points, "mesh": mesh, "dynamic": dynamic, "gravity": gravity}
+    models.check(model, **options)
     tests = tests_of(model)
     if test not in tests:
         raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
@@ -239,7 +241,6 @@ def plan_run(
         settings.refuse_confinement(test)
     folder = None if out is None else output_folder(out)
     chosen = materials.load(material or materials.default_name(model), model)
-    options = {"points": points, "mesh": mesh, "dynamic": dynamic}
     inputs = inputs_of(
         specimen,
         chosen.description(model),
@@ -359,7 +360,7 @@ def _go_on(built: Model) -> None:
 def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedule:
     """Tell the recorder when the test is over."""
     scales = recorder.scales()
-    plan = schedule(scales, test, settings, _strains(built))
+    plan = schedule(scales, test, settings, built.name)
     recorder.maxStrain = plan.max_strain
     recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
     return plan
@@ -374,7 +375,7 @@ def _finish(
     def advance() -> None:
         nonlocal diverged
         recorder = built.engine("AxialRecorder")
-        plan = schedule(recorder.scales(), test, settings, _strains(built))
+        plan = schedule(recorder.scales(), test, settings, built.name)
         diverged = _drive(plan, recorder, course)
 
     course.stage(prepare, advance)
@@ -400,13 +401,13 @@ def _settle(built: Model, course: Course, ramp: int) -> None:
     )
 
 
-def _strains(built: Model) -> float:
+def _strains(model: str) -> float:
     """Multiple of the reference strain at which a test ends unless told otherwise."""
-    return INNER_STRAINS if built.name in inner.NAMES else DEFAULT_STRAINS
+    return INNER_STRAINS if model in inner.NAMES else DEFAULT_STRAINS
 
 
 def schedule(
-    scales: dict[str, float], test: str, settings: Settings, strains: float = DEFAULT_STRAINS
+    scales: dict[str, float], test: str, settings: Settings, model: str = "flexible"
 ) -> Schedule:
     """Loading rate and end of a test from the scales that the recorder names.
 
@@ -417,7 +418,7 @@ def schedule(
         scales: ``AxialRecorder.scales()``.
         test: Name of the test.
         settings: Rate factor, confinement and largest strain.
-        strains: Multiple of the reference strain at which the test ends if `settings` have none.
+        model: Name of the model, which has constants of its own.
 
     Returns:
         Velocity and end.
@@ -426,8 +427,9 @@ def schedule(
     reference = (scales["strength"] + settings.confinement) / scales["modulus"]
     crossing = scales["crossing_steps"]
     dt = yade.O.dt
-    velocity = settings.rate * RATE_CONSTANT[test] * reference * scales["height"] / (crossing * dt)
-    largest = settings.max_strain or strains * reference
+    strain_rate = settings.rate * rate_constant(test, model) * reference / (crossing * dt)
+    velocity = strain_rate * scales["height"]
+    largest = settings.max_strain or _strains(model) * reference
     return Schedule(velocity, reference, largest, scales["height"], dt)
 
 

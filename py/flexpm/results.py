@@ -15,10 +15,8 @@ from . import curve as measures
 from . import fragments
 from .curve import Curve
 from .files import json_text, output_folder, write_text
+from .rates import quasistatic_ratio
 
-#: A test whose median unbalanced-force ratio up to its peak exceeds this is not quasi-static [-];
-#: twice what the default rate of the flexible model gives.
-QUASISTATIC_RATIO = 0.005
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
 
@@ -97,14 +95,15 @@ class Result:
         *,
         initial_energy: float | None = None,
         diverged: bool = False,
-        max_unbalanced: float = QUASISTATIC_RATIO,
+        max_unbalanced: float | None = None,
     ) -> None:
         """Fill the measured quantities and the status from `curve`.
 
         Args:
             initial_energy: Energy when the work began to count [J]; if None, from the first row.
             diverged: The simulation met a number that is not finite.
-            max_unbalanced: Largest median unbalanced-force ratio taken as quasi-static [-].
+            max_unbalanced: Largest median unbalanced-force ratio taken as quasi-static [-]; None
+                for that of the test and the model.
         """
         record = self.curve
         self.youngs_modulus = measures.youngs_modulus(record)
@@ -123,6 +122,8 @@ class Result:
         if peak is not None:
             self.peak_stress = float(record["axial_stress"][peak])
             self.peak_strain = float(record["axial_strain"][peak])
+        if max_unbalanced is None:
+            max_unbalanced = quasistatic_ratio(self.test, self.model)
         self.status = self._status(diverged, peak, max_unbalanced)
 
     def measure_fragments(self, snapshot: Mapping[str, np.ndarray]) -> None:

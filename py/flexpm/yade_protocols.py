@@ -18,6 +18,7 @@ import yade
 from . import __version__
 from .course import Course
 from .protocols import DEFAULT_STRAINS, Schedule, Settings
+from .rates import rate_constant
 from .results import Result
 from .yade_bonds import tributary_lengths
 from .yade_loading import (
@@ -35,12 +36,6 @@ from .yade_loading import (
 from .yade_models import SphereModel
 from .yade_record import Ending, Gauge, Recorder, Sample
 
-#: Growth of the mean strain over the reference strain while a wave crosses the specimen once [-].
-#: Fixed by halving the rate.
-RATE_CONSTANT = {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025}
-#: A bond that breaks at once leaves its whole force unbalanced, however slow the test is. A test
-#: is quasi-static if the median of the unbalanced-force ratio up to the peak is below this [-].
-QUASISTATIC_MEDIAN = 0.02
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
 #: Rows of the record up to the reference strain.
@@ -214,7 +209,7 @@ def _schedule(built: SphereModel, test: str, settings: Settings) -> Schedule:
     factor = _DIAMETRAL if test == "brazilian" else 1.0
     reference = factor * (_strength(built, test) + settings.confinement) / modulus
     crossing = _crossing_steps(built) * yade.O.dt
-    velocity = settings.rate * RATE_CONSTANT[test] * reference * height / crossing
+    velocity = settings.rate * rate_constant(test, built.name) * reference * height / crossing
     largest = settings.max_strain or DEFAULT_STRAINS * reference
     return Schedule(velocity, reference, largest, height, yade.O.dt)
 
@@ -300,5 +295,5 @@ def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float 
     )
     result.curve = recorder.curve
     result.cracks = built.cracks.cracks(recorder.curve)
-    result.measure(diverged=recorder.diverged, max_unbalanced=QUASISTATIC_MEDIAN)
+    result.measure(diverged=recorder.diverged)
     return result

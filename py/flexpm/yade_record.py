@@ -151,6 +151,7 @@ class Recorder:
             damage_energy=math.nan,
             friction_energy=math.nan,
             damping_energy=_damping_energy(),
+            potential_energy=0.0,
             boundary_work=self.work + now.other_work,
             end_mismatch=now.mismatch,
         )

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Halve the loading rate of a test until its peak stands still: the study that fixed RATE_CONSTANT.
+"""Halve the loading rate of tests until their peaks stand still: the study behind RATE_CONSTANT.
 
-Runs TEST with MODEL on packings of half the paper's size at falling rates and writes one CSV row a
-run: seed, rate factor, peak stress [Pa], strain at peak [-], Young's modulus [Pa], unbalanced-force
-ratio [-], steps. Start it from a checkout with scripts/flexpm set up:
+Runs each test on packings of half the paper's size (the same grains) at falling constants k of the
+loading rate and adds one CSV row a run. SI units; the confinement counts for biaxial tests only.
+Start it from a checkout that scripts/setup has built:
 
-    PYTHONPATH=build/python /usr/bin/python3 scripts/studies/loading_rate.py uniaxial rates.csv
+    PYTHONPATH=build/python /usr/bin/python3 scripts/studies/loading_rate.py rates.csv tension
 """
 
 from __future__ import annotations
@@ -13,17 +13,23 @@ from __future__ import annotations
 import argparse
 import csv
 from pathlib import Path
+from typing import Any
 
 import flexpm
+from flexpm import curve, rates
 
 FIELDS = (
+    "model",
+    "test",
     "seed",
-    "rate",
+    "k",
     "peak_stress",
     "peak_strain",
     "youngs_modulus",
-    "unbalanced_ratio",
+    "unbalanced_median",
+    "energy_error",
     "steps",
+    "status",
 )
 
 
@@ -34,26 +40,46 @@ def specimen_for(test: str, scale: float, seed: int) -> flexpm.Specimen:
     return flexpm.Specimen.rectangle(0.08 * scale, 0.16 * scale, thickness=0.08, seed=seed)
 
 
+def run_at(k: float, specimen: flexpm.Specimen, test: str, model: str, confinement: float) -> Any:
+    """Run a test with the constant `k` of its loading rate [-]."""
+    factor = k / rates.rate_constant(test, model)
+    pressure = confinement if test == "biaxial" else 0.0
+    return flexpm.run(test, specimen, model=model, rate=factor, confinement=pressure)
+
+
+def row_of(result: Any, seed: int, k: float) -> list[Any]:
+    """One row of the table."""
+    found = {
+        "k": k,
+        "seed": seed,
+        "unbalanced_median": curve.median_unbalanced_ratio(result.curve),
+    }
+    return [found.get(name, getattr(result, name, None)) for name in FIELDS]
+
+
 def main() -> None:
     """Run the study."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("test")
-    parser.add_argument("table", type=Path, help="CSV file to write")
+    parser.add_argument("table", type=Path, help="CSV file that gets the rows")
+    parser.add_argument("tests", nargs="+")
     parser.add_argument("--model", default="flexible")
     parser.add_argument("--scale", type=float, default=0.5, help="lengths over the paper's [-]")
+    parser.add_argument("--confinement", type=float, default=4e6, help="of biaxial tests [Pa]")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
-    parser.add_argument("--rates", type=float, nargs="+", default=[2.0, 1.0, 0.5, 0.25])
+    parser.add_argument("--k", type=float, nargs="+", default=[0.04, 0.02, 0.01, 0.005])
     options = parser.parse_args()
-    with options.table.open("w", newline="") as file:
+    new = not options.table.exists()
+    with options.table.open("a", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(FIELDS)
-        for seed in options.seeds:
-            specimen = specimen_for(options.test, options.scale, seed)
-            for rate in options.rates:
-                result = flexpm.run(options.test, specimen, model=options.model, rate=rate)
-                row = [getattr(result, name, None) for name in FIELDS[2:]]
-                writer.writerow([seed, rate, *row])
-                file.flush()
+        if new:
+            writer.writerow(FIELDS)
+        for test in options.tests:
+            for seed in options.seeds:
+                specimen = specimen_for(test, options.scale, seed)
+                for k in options.k:
+                    result = run_at(k, specimen, test, options.model, options.confinement)
+                    writer.writerow(row_of(result, seed, k))
+                    file.flush()
 
 
 if __name__ == "__main__":

@@ -87,6 +87,32 @@ TEST_CASE("A new contact starts without force or energy, presses with K_n and ne
     CHECK(booked(flexpm::energies(a)) == Approx(before).margin(1.1 * late));
 }
 
+TEST_CASE("A new contact follows the place where the discs touch, without energy")
+{
+    Assembly a = row_of_three();
+    move_last(a, 1e-5, 2000);
+    flexpm::change_contacts(a, { 1 }, {}, 0.7, 1.0);
+    move_last(a, -1e-5, 2000);
+    flexpm::change_contacts(a, {}, { GrainPair { 1, 2 } }, 0.7, 1.0);
+    move_last(a, -1e-7, 50);
+    CHECK_FALSE(flexpm::follow_touches(a, 0.7, 1.0));  // still in the middle of the edges
+    set_velocity(a, 2, flexpm::Point { 0.0, 1e-6 });
+    run(a, 600);  // 0.6 mm up: the place climbs by 0.3 mm on one grain and sinks on the other
+    const double stored = flexpm::energies(a).elastic;
+    REQUIRE(flexpm::follow_touches(a, 0.7, 1.0));
+    CHECK(flexpm::energies(a).elastic == stored);
+    const double up[] = { 0.5 + 0.1, 0.5 - 0.1 };
+    for (int side : { 0, 1 }) {
+        const int n0 = a.contact_nodes[flexpm::row_index(2, 2 * side, 6)];
+        const int n1 = a.contact_nodes[flexpm::row_index(2, 2 * side + 1, 6)];
+        const double w = a.weight[flexpm::row_index(2, side, 2 * a.points)];
+        const double y =
+            (1.0 - w) * a.reference[n0 + flexpm::lanes] + w * a.reference[n1 + flexpm::lanes];
+        CHECK(y / size == Approx(up[side]).margin(2e-3));
+    }
+    CHECK_FALSE(flexpm::follow_touches(a, 0.7, 1.0));
+}
+
 TEST_CASE("Other contacts keep their bits when contacts change")
 {
     Assembly a = row_of_three();

@@ -6,7 +6,7 @@ import pytest
 import yade
 
 import flexpm
-from flexpm import protocols
+from flexpm import protocols, rates
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]
@@ -73,6 +73,6 @@ def test_the_rate_scales_with_its_factor_and_the_wave():
     yade.O.dt = 1.0  # scaled masses
     one = protocols.schedule(scales, "uniaxial", protocols.Settings())
     two = protocols.schedule(scales, "uniaxial", protocols.Settings(rate=2.0))
-    k = protocols.RATE_CONSTANT["uniaxial"]
+    k = rates.rate_constant("uniaxial", "flexible")
     assert one.velocity == pytest.approx(k * (1e8 / 2e10) * 0.1 / 500.0)
     assert two.velocity == pytest.approx(2.0 * one.velocity)

@@ -27,6 +27,25 @@ def test_table_7_compression():
     assert secant == pytest.approx(result.youngs_modulus, rel=0.03)  # one slope
 
 
+@pytest.mark.parametrize(
+    ("model", "material", "young", "poisson"),
+    [
+        ("rigid", "augig-table2-bilinear", 25.4e9, 0.238),
+        ("flexible", "augig-table7-quartz", 25.2e9, 0.236),
+    ],
+)
+def test_table_1_by_stepping(model, material, young, poisson):
+    """The start of a compression test gives what the elastic solve gives."""
+    unbroken = flexpm.materials.load(material, model).with_set(
+        ["tensile_strength=1e10", "cohesion=1e10", "softening=brittle"], model
+    )
+    # the loading rate follows the strengths: this makes it that of the granite's
+    slow = flexpm.materials.load(material, model).cohesion / 1e10
+    result = flexpm.run("uniaxial", paper_specimen(1), unbroken, model, max_strain=1e-3, rate=slow)
+    assert result.youngs_modulus == pytest.approx(young, rel=0.02)
+    assert result.poissons_ratio == pytest.approx(poisson, abs=0.015)
+
+
 def test_halving_the_rate_moves_the_mean_peak_by_less_than_2_percent():
     peaks = {
         rate: mean(

@@ -47,6 +47,7 @@ struct Assembly {
     int edges = 0;           ///< boundary edges
     int points = 3;          ///< contact points per contact: 1, 2 or 3
     double thickness = 0.0;  ///< out of plane [m]
+    Point gravity;           ///< acceleration of all masses [m/s^2], by set_gravity()
 
     // grains
     std::vector<MeshGroup> groups;

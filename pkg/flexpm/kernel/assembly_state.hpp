@@ -58,6 +58,8 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("edges", a.edges);
     visit("points", a.points);
     visit("thickness", a.thickness);
+    visit("gravity_x", a.gravity.x);
+    visit("gravity_y", a.gravity.y);
     visit("groups", a.groups);
     visit("block_group", a.block_group);
     visit("block_nodes", a.block_nodes);

@@ -42,30 +42,63 @@ Place nearest_place(const Assembly& a, int grain, Point x, Point tangent)
     return best;
 }
 
-/// Fill the rows of contact `c` for a pair whose discs touch.
-void fill_touch(Assembly& a, int c, GrainPair pair)
+/// Where the two discs of a pair touch, on both grains.
+struct Seat {
+    Point normal;  ///< from the first grain to the second
+    Place places[2];
+};
+
+Seat seat_of(const Assembly& a, GrainPair pair)
 {
-    const int centres[] = { a.centre(pair[0]), a.centre(pair[1]) };
-    const Point pa = a.position(centres[0]), pb = a.position(centres[1]);
+    const Point pa = a.position(a.centre(pair[0])), pb = a.position(a.centre(pair[1]));
     const double dx = pb.x - pa.x, dy = pb.y - pa.y, d = std::hypot(dx, dy);
     const Point normal { dx / d, dy / d }, tangent { -dy / d, dx / d };
     // Eq. 7 with d_v = 0
     const double reach = 0.5 * (d + a.radius[pair[0]] - a.radius[pair[1]]);
     const Point x { pa.x + reach * normal.x, pa.y + reach * normal.y };
-    const Place places[] = { nearest_place(a, pair[0], x, tangent),
-        nearest_place(a, pair[1], x, tangent) };
-    const double area = std::min(places[0].length, places[1].length) * a.thickness;
+    return { normal,
+        { nearest_place(a, pair[0], x, tangent), nearest_place(a, pair[1], x, tangent) } };
+}
+
+/// Let contact `c` act where a seat says.
+void sit(Assembly& a, int c, const Seat& seat)
+{
     for (int side = 0; side < 2; ++side) {
-        const Place& place = places[side];
+        const Place& place = seat.places[side];
         a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)] = place.node_0;
         a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)] = place.node_1;
-        a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] = a.centre_slot(pair[side]);
         // an edge across the tangent cannot carry the gap's couple
         const bool facing = std::fabs(place.along) > 0.5 * place.length;
         a.edge_reach[row_index(c, side, 2)] = facing ? 1.0 / place.along : 0.0;
         for (int p = 0; p < a.points; ++p) {
             a.weight[row_index(c, 2 * p + side, 2 * a.points)] = place.weight;
         }
+    }
+}
+
+/// Contact `c` acts elsewhere than a seat says, by more than a small part of an edge.
+bool has_left(const Assembly& a, int c, const Seat& seat)
+{
+    for (int side = 0; side < 2; ++side) {
+        const Place& place = seat.places[side];
+        const double weight = a.weight[row_index(c, side, 2 * a.points)];
+        if (a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)] != place.node_0
+            || std::fabs(weight - place.weight) > 0.05) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Fill the rows of contact `c` for a pair whose discs touch.
+void fill_touch(Assembly& a, int c, GrainPair pair)
+{
+    const Seat seat = seat_of(a, pair);
+    const int centres[] = { a.centre(pair[0]), a.centre(pair[1]) };
+    sit(a, c, seat);
+    const double area = std::min(seat.places[0].length, seat.places[1].length) * a.thickness;
+    for (int side = 0; side < 2; ++side) {
+        a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] = a.centre_slot(pair[side]);
     }
     for (int p = 0; p < a.points; ++p) {
         a.area[row_index(c, p, a.points)] = area / a.points;
@@ -75,8 +108,8 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
     }
     a.span[row_index(c, 0, 2)] = a.reference[centres[1]] - a.reference[centres[0]];
     a.span[row_index(c, 1, 2)] = a.reference[centres[1] + lanes] - a.reference[centres[0] + lanes];
-    a.normal[row_index(c, 0, 2)] = normal.x;
-    a.normal[row_index(c, 1, 2)] = normal.y;
+    a.normal[row_index(c, 0, 2)] = seat.normal.x;
+    a.normal[row_index(c, 1, 2)] = seat.normal.y;
 }
 
 /// Where each contact of the new order comes from: an old contact, or -1 - index of a touching pair.
@@ -262,6 +295,23 @@ bool is_over(const Assembly& a, int contact)
             limit, std::hypot(a.span[row_index(contact, 0, 2)], a.span[row_index(contact, 1, 2)]));
     }
     return centre_distance(a, ga, gb) > limit;
+}
+
+bool follow_touches(Assembly& a, double damping, double dt)
+{
+    bool moved = false;
+    for (int c = 0; c < a.contacts; ++c) {
+        if (a.contact_bonded[c] || !carries(a, c)) continue;
+        const Seat seat = seat_of(a, { a.contact_grains[2 * c], a.contact_grains[2 * c + 1] });
+        if (!has_left(a, c, seat)) continue;
+        sit(a, c, seat);
+        moved = true;
+    }
+    if (!moved) return false;
+    pad_contacts(a);
+    list_forces(a);
+    if (dt > 0.0) book_kinetic_change(a, [&] { raise_masses(a, damping, dt); });
+    return true;
 }
 
 void change_contacts(Assembly& a, const std::vector<int>& over,

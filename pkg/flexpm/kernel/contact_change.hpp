@@ -34,6 +34,11 @@ std::vector<GrainPair> near_pairs(const Assembly& a, double margin);
 /// The contact is over: only a new touch can bring the pair together again.
 bool is_over(const Assembly& a, int contact);
 
+/// Let new contacts follow the places where their discs touch now (Eq. 7) as grains roll; traction and
+/// area stay, so no energy appears. Otherwise a grain would turn about a point of its outline into the
+/// other. Arguments as of change_contacts(). Returns whether any contact has moved.
+bool follow_touches(Assembly& a, double damping, double dt);
+
 /// Take contacts out and put frictional ones in, in the order of pairs. Bonded contacts keep their
 /// rows, retired, for the record of cracks. Masses rise where the new contacts need it; the kinetic
 /// energy that this adds is booked as initial energy.

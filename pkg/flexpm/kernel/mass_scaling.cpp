@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace flexpm {
@@ -225,25 +224,31 @@ void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>&
 
 }  // namespace
 
+double stable_step(const Assembly& a, double damping)
+{
+    check_damping(damping);
+    const StiffnessBound bound = stiffness_bound(a);
+    double most = 0.0;  // of stiffness / mass
+    for_each_node(a, [&](int i) { most = std::max(most, bound.node[i] * a.inverse_mass[i]); });
+    for (int g = 0; g < a.grains; ++g) {
+        const int i = rigid_index(a, g);
+        if (a.is_rigid(g)) most = std::max(most, bound.rotation[i] * a.inverse_inertia[i]);
+    }
+    return 2.0 / std::sqrt(mass_margin * (1.0 + damping) * most);
+}
+
 double set_real_masses(Assembly& a, double damping)
 {
     check_damping(damping);
     Array<double> mass(a.inverse_mass.size(), 0.0), inertia(a.inverse_inertia.size(), 0.0);
     for (int g = 0; g < a.grains; ++g)
         add_real_mass(a, g, mass, inertia);
-    const StiffnessBound bound = stiffness_bound(a);
-    double least = std::numeric_limits<double>::infinity();  // of mass / stiffness
-    for_each_node(a, [&](int i) {
-        a.inverse_mass[i] = 1.0 / mass[i];
-        least = std::min(least, mass[i] / bound.node[i]);
-    });
+    for_each_node(a, [&](int i) { a.inverse_mass[i] = 1.0 / mass[i]; });
     for (int g = 0; g < a.grains; ++g) {
         const int i = rigid_index(a, g);
-        if (!a.is_rigid(g)) continue;
-        a.inverse_inertia[i] = 1.0 / inertia[i];
-        least = std::min(least, inertia[i] / bound.rotation[i]);
+        if (a.is_rigid(g)) a.inverse_inertia[i] = 1.0 / inertia[i];
     }
-    const double dt = 2.0 * std::sqrt(least / (mass_margin * (1.0 + damping)));
+    const double dt = stable_step(a, damping);
     scale_plates(a, damping, dt);
     return dt;
 }

@@ -27,8 +27,11 @@ StiffnessBound stiffness_bound(const Assembly& a);
 /// @throws std::invalid_argument  if not 0 <= damping < 1 or dt <= 0
 void scale_masses(Assembly& a, double damping, double dt = 1.0);
 
+/// Time step that keeps the present masses stable with the present contacts and plates [s].
+double stable_step(const Assembly& a, double damping);
+
 /// Real masses: a third of each triangle's to its nodes; of a rigid grain those of the lamina of its
-/// cell, as if its mass centre were the disc's. Plates' are scaled. Returns the stable time step [s].
+/// cell, as if its mass centre were the disc's. Plates' are scaled. Returns stable_step().
 double set_real_masses(Assembly& a, double damping);
 
 }  // namespace flexpm

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/measures.hpp>
 
 #include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
 
@@ -76,6 +77,7 @@ Energies energies(const Assembly& a)
     e.damage += a.past_damage;
     e.friction += a.past_friction;
     e.damping = first_of_pairs(a.damping_work);
+    e.potential = potential_energy(a);
     e.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
     for (const Plate& p : a.plates) {
         e.kinetic += p.kinetic;
@@ -108,7 +110,7 @@ void open_books(Assembly& a)
         p.boundary_work = p.damping_work = p.friction_energy = 0.0;
     if (a.step == 0) a.kinetic[0] = kinetic_of_velocities(a);
     const Energies now = energies(a);
-    a.initial_energy = now.kinetic + now.elastic;
+    a.initial_energy = now.kinetic + now.elastic + now.potential;
 }
 
 double unbalanced_ratio(const Assembly& a)

@@ -17,13 +17,14 @@ struct Energies {
     double damage = 0.0;
     double friction = 0.0;
     double damping = 0.0;
+    double potential = 0.0;      ///< in the field of gravity, 0 at the reference
     double boundary_work = 0.0;  ///< of held nodes and of edge pressure
     double initial = 0.0;
 };
 
 Energies energies(const Assembly& a);
 
-/// Open the energy books: the present elastic and kinetic energy become the initial energy, works and
+/// Open the energy books: the present energy becomes the initial energy, works and
 /// dissipation count from zero. Before the first step the kinetic energy is that of the velocities
 /// set; later it is that of the last step, which must have been measured.
 void open_books(Assembly& a);

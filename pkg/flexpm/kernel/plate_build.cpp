@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Laying plates against a specimen.
+#include <flexpm/kernel/assembly_build.hpp>
 #include <flexpm/kernel/checks.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace flexpm {
 
@@ -49,11 +51,15 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
     return p;
 }
 
-/// Gaps and tributary areas of the plate's points; the state at the reference. Grains of either
-/// kind are touched, all of one kind.
+/// Points that touch a plate on each edge: grains of either kind, all of one kind.
+int points_on_edge(const Assembly& a, const Plate& p)
+{
+    return a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
+}
+
+/// Gaps and tributary areas of the plate's points; the state at the reference.
 void lay(const Assembly& a, Plate& p)
 {
-    p.points = a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
     for (int e : p.edges) {
         const Edge edge = edge_of(a, e);
         for (int i = 0; i < p.points; ++i) {
@@ -69,6 +75,36 @@ void lay(const Assembly& a, Plate& p)
     }
     p.opening = p.gap;
     p.shear_force.assign(p.gap.size(), 0.0);
+}
+
+Point unit(Point normal)
+{
+    const double size = std::hypot(normal.x, normal.y);
+    check_positive("length of the plate's normal", size, "");
+    return { normal.x / size, normal.y / size };
+}
+
+/// Make boundary edges of those that grains share, too; they lie on no side.
+void list_inner_edges(Assembly& a)
+{
+    std::set<int> known;  // first nodes
+    for (int e = 0; e < a.edges; ++e)
+        known.insert(edge_nodes(a, e)[0]);
+    for (int g = 0; g < a.grains; ++g) {
+        const int corners = a.group(a.grain_slot[g] / lanes).vertices;
+        for (int k = 0; k < corners; ++k) {
+            if (known.count(a.node(g, k)) != 0) continue;
+            const int e = a.edges++;
+            a.edge_grain.push_back(g);
+            a.edge_side.push_back(-1);
+            a.edge_pressure.push_back(0.0);
+            a.edge_nodes.resize(a.edge_blocks() * lanes * 2, 0);
+            a.edge_force.resize(a.edge_blocks() * lanes * ContactRows::forces, 0.0);
+            a.edge_nodes[row_index(e, 0, 2)] = a.node(g, k);
+            a.edge_nodes[row_index(e, 1, 2)] = a.node(g, (k + 1) % corners);
+        }
+    }
+    list_forces(a);
 }
 
 void check_index(const Assembly& a, int plate)
@@ -115,6 +151,7 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
         if (p.edges.empty()) {
             refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
         }
+        p.points = points_on_edge(a, p);
         lay(a, p);
         numbers.push_back(static_cast<int>(a.plates.size()));
         a.plates.push_back(p);
@@ -124,17 +161,16 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
 
 int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
 {
-    const double size = std::hypot(normal.x, normal.y);
-    check_positive("length of the plate's normal", size, "");
-    Plate p = plate_of(a, { normal.x / size, normal.y / size }, contact);
+    Plate p = plate_of(a, unit(normal), contact);
     double nearest = std::numeric_limits<double>::infinity();
     for (int e = 0; e < a.edges; ++e) {
         const Edge edge = edge_of(a, e);
-        if (along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
+        const bool outer = a.edge_side[e] >= 0;
+        if (outer && along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
     }
     if (p.edges.empty())
         refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
-    p.points = a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
+    p.points = points_on_edge(a, p);
     for (int e : p.edges) {
         const Edge edge = edge_of(a, e);
         for (int i = 0; i < p.points; ++i) {
@@ -163,6 +199,21 @@ void hold_sideways(Assembly& a, int plate)
     const int component = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
     a.held[node + component * lanes] = 1;
     a.velocity[node + component * lanes] = 0.0;
+}
+
+int add_wall(Assembly& a, Point position, Point normal, const PlateContact& contact)
+{
+    Plate p = plate_of(a, unit(normal), contact);
+    p.position = position;
+    list_inner_edges(a);
+    for (int e = 0; e < a.edges; ++e)
+        p.edges.push_back(e);
+    p.points = 2;  // rigid grains, too, rest on their corners
+    lay(a, p);
+    const double least = *std::min_element(p.gap.begin(), p.gap.end());
+    if (!(least >= 0.0)) refuse("gap between wall and grains", least, "m", "must not be below 0");
+    a.plates.push_back(p);
+    return static_cast<int>(a.plates.size()) - 1;
 }
 
 void press(Assembly& a, int plate, double pressure)

@@ -33,6 +33,11 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact);
 /// the centre of a rigid one. A disc that stands on single points would roll.
 void hold_sideways(Assembly& a, int plate);
 
+/// Lay a plate through `position`, apart from the specimen, that any grain may come to touch: its
+/// corners do. All edges of all grains become boundary edges for it. Returns its number.
+/// @throws std::invalid_argument  if it cuts a grain
+int add_wall(Assembly& a, Point position, Point normal, const PlateContact& contact);
+
 /// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity.
 void press(Assembly& a, int plate, double pressure);
 

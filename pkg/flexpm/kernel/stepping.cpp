@@ -3,6 +3,7 @@
 #include <flexpm/kernel/stepping.hpp>
 
 #include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/integrate.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
@@ -173,6 +174,7 @@ void update_grain_block(Assembly& a, int block, const StepOptions& options)
     const int first = a.block_nodes[block];
     const MeshGroup& group = a.group(block);
     gather_forces(a, block, a.force.data() + first);
+    if (a.gravity.x != 0.0 || a.gravity.y != 0.0) add_weight(a, block);
     StepSums sums;
     (group.rigid ? update_rigid : update_deformable)(a, block, options, sums);
 

@@ -30,6 +30,9 @@ public:
 	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
 	int        addTouchingPlate(Vector3r normal, Real friction);
 	void       holdSideways(int plate);
+	int        addWall(Vector3r position, Vector3r normal, Real friction);
+	Vector3r   gravity() const;
+	void       setGravity(Vector3r acceleration);
 	py::list   plates() const;
 	py::tuple  elasticConstants() const;
 	py::dict   energies() const;
@@ -64,6 +67,9 @@ public:
 		.def("addTouchingPlate", &GrainSolver::addTouchingPlate, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
 		.def("holdSideways", &GrainSolver::holdSideways, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
+		.def("addWall", &GrainSolver::addWall, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
+			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
+		.add_property("gravity", &GrainSolver::gravity, &GrainSolver::setGravity, "Acceleration of all masses, which must be real ones [m/s^2].")
 		.def("plates", &GrainSolver::plates, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("openBooks", &GrainSolver::openBooks, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", &GrainSolver::elasticConstants, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
@@ -87,6 +93,7 @@ private:
 	void                      retireErased();
 	void                      listCandidates();
 	void                      changeContacts();
+	void                      limitStep();
 	void                      renumberContacts();
 	void                      check();
 };

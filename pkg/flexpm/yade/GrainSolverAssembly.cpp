@@ -3,6 +3,7 @@
 #include <flexpm/yade/GrainSolver.hpp>
 
 #include <flexpm/kernel/assembly_build.hpp>
+#include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/yade/GrainMat.hpp>
 #include <flexpm/yade/LaguerreCell.hpp>
@@ -127,6 +128,17 @@ Real GrainSolver::useRealMasses()
 {
 	scaled = false;
 	return flexpm::set_real_masses(assembly, damping);
+}
+
+Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
+
+void GrainSolver::setGravity(Vector3r acceleration)
+{
+	if (scaled && acceleration != Vector3r::Zero()) {
+		throw std::invalid_argument(
+		        "GrainSolver.gravity = " + std::to_string(acceleration.norm()) + " m/s^2, must be 0 with scaled masses; call useRealMasses() first");
+	}
+	flexpm::set_gravity(assembly, { acceleration[0], acceleration[1] });
 }
 
 } // namespace yade

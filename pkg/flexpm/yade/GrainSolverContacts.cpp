@@ -2,6 +2,7 @@
 /// @file  Contacts that come and go: the kernel's contacts to interactions.
 #include <flexpm/yade/GrainSolver.hpp>
 
+#include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/retire.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
@@ -39,6 +40,7 @@ void GrainSolver::changeContacts()
 		for (int c = 0; c < assembly.contacts; ++c) {
 			if (flexpm::is_over(assembly, c)) over.push_back(c);
 		}
+		if (flexpm::follow_touches(assembly, damping, scaled ? scene->dt : 0.)) limitStep();
 	}
 	vector<flexpm::GrainPair> touching;
 	for (const auto& pair : candidates) {
@@ -48,8 +50,15 @@ void GrainSolver::changeContacts()
 	for (int c : over)
 		scene->interactions->requestErase(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
 	flexpm::change_contacts(assembly, over, touching, damping, scaled ? scene->dt : 0.);
+	if (!touching.empty()) limitStep();
 	renumberContacts();
 	listCandidates();
+}
+
+void GrainSolver::limitStep()
+{
+	// scaled masses rise with new contacts; real ones do not, so the step falls
+	if (!scaled) scene->dt = std::min(scene->dt, Real(flexpm::stable_step(assembly, damping)));
 }
 
 void GrainSolver::renumberContacts()

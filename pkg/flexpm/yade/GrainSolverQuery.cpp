@@ -32,6 +32,11 @@ int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 
 void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(assembly, plate); }
 
+int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
+{
+	return flexpm::add_wall(assembly, { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
+}
+
 py::list GrainSolver::plates() const
 {
 	py::list all;
@@ -60,13 +65,14 @@ py::dict GrainSolver::energies() const
 {
 	const auto e = flexpm::energies(assembly);
 	py::dict   d;
-	d["kinetic_energy"]  = e.kinetic;
-	d["elastic_energy"]  = e.elastic;
-	d["damage_energy"]   = e.damage;
-	d["friction_energy"] = e.friction;
-	d["damping_energy"]  = e.damping;
-	d["boundary_work"]   = e.boundary_work;
-	d["initial_energy"]  = e.initial;
+	d["kinetic_energy"]   = e.kinetic;
+	d["elastic_energy"]   = e.elastic;
+	d["damage_energy"]    = e.damage;
+	d["friction_energy"]  = e.friction;
+	d["damping_energy"]   = e.damping;
+	d["boundary_work"]    = e.boundary_work;
+	d["potential_energy"] = e.potential;
+	d["initial_energy"]   = e.initial;
 	return d;
 }
 

@@ -22,7 +22,7 @@ namespace {
 		Real (*value)(const flexpm::AxialObservation&);
 	};
 
-	constexpr std::array<Column, 16> recorded { {
+	constexpr std::array<Column, 17> recorded { {
 		{ "step", [](const auto& o) { return Real(o.step); } },
 		{ "axial_strain", [](const auto& o) { return o.axial_strain; } },
 		{ "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
@@ -37,6 +37,7 @@ namespace {
 		{ "damage_energy", [](const auto& o) { return o.energies.damage; } },
 		{ "friction_energy", [](const auto& o) { return o.energies.friction; } },
 		{ "damping_energy", [](const auto& o) { return o.energies.damping; } },
+		{ "potential_energy", [](const auto& o) { return o.energies.potential; } },
 		{ "boundary_work", [](const auto& o) { return o.energies.boundary_work; } },
 		{ "initial_energy", [](const auto& o) { return o.energies.initial; } },
 	} };

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rubble under gravity: loose grains fall into a box, touch, rub, and come to rest."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import yade
+
+import flexpm
+from flexpm.errors import InputError
+
+SIZE, DROP, ASIDE = 0.016, 1e-3, 1e-3  # of the specimen; under it and beside it [m]
+GRAVITY = 9.81
+#: Bonds that break at a touch; soft, so that steps are long.
+LOOSE = ("tensile_strength=1", "cohesion=1", "softening=brittle", "normal_stiffness=1e11")
+
+
+class Box:
+    """A specimen without strength in a box of three walls."""
+
+    def __init__(self, model: str) -> None:
+        yade.O.reset()
+        material = flexpm.materials.load("augig-table2-bilinear", model)
+        material = material.with_set(LOOSE, model)
+        if model == "flexible":
+            material = material.with_set(["young=1e8"], model)
+        self.specimen = flexpm.Specimen.rectangle(SIZE, SIZE, thickness=0.08, seed=5)
+        self.built = flexpm.build(
+            self.specimen, material, model, mesh="fan", damping=0.1, dynamic=True, gravity=GRAVITY
+        )
+        self.solver = self.built.solver
+        for place, normal in (
+            ((0.0, -DROP, 0.0), (0.0, 1.0, 0.0)),
+            ((-ASIDE, 0.0, 0.0), (1.0, 0.0, 0.0)),
+            ((SIZE + ASIDE, 0.0, 0.0), (-1.0, 0.0, 0.0)),
+        ):
+            self.solver.addWall(place, normal, friction=0.5)
+        self.built.set_masses()
+        self.allowed = np.minimum(self.distances(), self.reaches())
+        self.worst_overlap = self.worst_error = 0.0
+
+    def centres(self) -> np.ndarray:
+        return np.array([list(yade.O.bodies[i].state.pos)[:2] for i in self.solver.bodyIds])
+
+    def distances(self) -> np.ndarray:
+        x = self.centres()
+        first, second = np.triu_indices(len(x), 1)
+        return np.hypot(*(x[first] - x[second]).T)
+
+    def reaches(self) -> np.ndarray:
+        radii = self.specimen.discs[:, 2]
+        first, second = np.triu_indices(len(radii), 1)
+        return radii[first] + radii[second]
+
+    def weight(self) -> float:
+        return 2650.0 * SIZE * SIZE * 0.08 * GRAVITY
+
+    def run(self, steps: int) -> dict[str, float]:
+        """Step on, watch overlap and energy balance, and return the energies."""
+        for _ in range(steps // 500):
+            self.built.run(500)
+            overlap = float(np.max(self.allowed - self.distances()))
+            self.worst_overlap = max(self.worst_overlap, overlap)
+            now = self.solver.energies()
+            into = now.pop("boundary_work") + now.pop("initial_energy")
+            self.worst_error = max(self.worst_error, abs(into - sum(now.values())))
+        return now
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_rubble_falls_and_comes_to_rest(model):
+    box = Box(model)
+    fallen, quiet = 0.0, 0
+    for _ in range(80):
+        energies = box.run(2000)
+        fallen = max(fallen, -energies["potential_energy"])
+        quiet = quiet + 1 if energies["kinetic_energy"] < 1e-5 * fallen else 0
+        if quiet == 4:  # at the end of a bounce it is low, too
+            break
+    assert quiet == 4
+    assert fallen > 0.9 * DROP * box.weight()
+    assert box.solver.counts()["touching"] > 0
+    assert box.worst_overlap < 0.02 * 0.5 * box.specimen.mean_diameter
+    assert box.worst_error < 0.01 * fallen
+    floor, left, right = (plate["force"] for plate in box.solver.plates())
+    assert floor[1] + left[1] + right[1] == pytest.approx(box.weight(), rel=0.02)
+    collider = next(e for e in yade.O.engines if type(e).__name__ == "InsertionSortCollider")
+    runs = collider.numAction
+    box.run(2000)
+    assert collider.numAction <= runs + 1  # of 20 looks; hundreds while the grains fell
+    assert runs > 100
+
+
+@pytest.mark.parametrize(
+    ("options", "rule"),
+    [
+        ({"gravity": 9.81}, "must be 0 with scaled masses"),
+        ({"gravity": -1.0, "dynamic": True}, "must not be below 0"),
+        ({"gravity": 9.81, "dynamic": True, "model": "jcfpm"}, "must be one of 0.0"),
+    ],
+)
+def test_gravity_is_refused_where_it_makes_no_sense(options, rule):
+    specimen = flexpm.Specimen.rectangle(0.012, 0.012, thickness=0.08, seed=1)
+    yade.O.reset()
+    with pytest.raises(InputError, match=rule):
+        flexpm.build(specimen, **options)
+
+
+def test_the_solver_refuses_gravity_on_scaled_masses():
+    yade.O.reset()
+    built = flexpm.build(flexpm.Specimen.rectangle(0.012, 0.012, thickness=0.08, seed=1))
+    with pytest.raises(ValueError, match="scaled masses"):
+        built.solver.gravity = (0.0, -9.81, 0.0)
