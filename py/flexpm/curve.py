@@ -46,6 +46,7 @@ ENERGIES = (
 ELASTIC_WINDOW = (0.05, 0.25)
 #: The largest stress counts as a peak once the stress has fallen by this fraction of it.
 PEAK_DROP = 0.10
+_SEATED = 0.2
 #: Cracking has set in once this share of all cracked points of a mode have cracked.
 ONSET_SHARE = 0.05
 
@@ -121,6 +122,22 @@ def peak_row(curve: Curve) -> int | None:
     if not stress[row] > 0.0 or not np.nanmin(stress[row:]) <= (1.0 - PEAK_DROP) * stress[row]:
         return None
     return row
+
+
+def until_regained(curve: Curve) -> Curve:
+    """The record until the stress regains a peak from which it had fallen by 10 %.
+
+    A disc that has split may carry more than before: its strength is the peak at which it split.
+    Falls below a fifth of the largest stress, while plates find their place, do not count.
+    """
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.all(np.isfinite(stress)):
+        return curve
+    largest = np.maximum.accumulate(stress)
+    fallen = (stress <= (1.0 - PEAK_DROP) * largest) & (largest >= _SEATED * largest[-1])
+    first = int(np.argmax(fallen))
+    regained = np.flatnonzero(fallen[first] & (stress[first:] > largest[first]))
+    return Curve.from_array(curve.array[: first + regained[0]]) if len(regained) else curve
 
 
 def elastic_rows(curve: Curve) -> slice:

@@ -156,6 +156,42 @@ def test_no_peak_while_the_stress_has_not_fallen():
     assert result.failed
 
 
+def of_stresses(stresses):
+    record = Curve()
+    for step, stress in enumerate(stresses):
+        record.append(**row(step=step, axial_strain=1e-4 * step, axial_stress=stress))
+    return record
+
+
+@given(
+    st.floats(0.25, 0.9),
+    st.floats(0.2, 0.85),
+    st.floats(1.1, 3.0),
+    st.sampled_from(["brazilian", "uniaxial"]),
+)
+def test_a_disc_is_as_strong_as_when_it_split(first, valley, last, test):
+    """Rise to a peak, fall, and rise to `last` times it, which a disc's halves may carry."""
+    peak = last * first * 1e7
+    up, down, again = np.linspace(0.0, first * 1e7, 40), valley * first * 1e7, peak
+    record = of_stresses(
+        [*up, *np.linspace(up[-1], down, 9)[1:], *np.linspace(down, again, 30)[1:]]
+    )
+    result = result_of(record, test=test)
+    result.measure()
+    if test == "brazilian":
+        assert (result.peak_stress, result.peak_strain) == (up[-1], pytest.approx(39e-4))
+        assert result.steps == len(record) - 1  # counted to the end
+    else:
+        assert result.status == "no_peak"
+
+
+def test_falls_while_the_plates_find_their_place_are_no_splitting():
+    record = of_stresses([0.0, 1e6, 0.5e6, 4e6, 8e6, 2e6])
+    result = result_of(record, test="brazilian")
+    result.measure()
+    assert result.peak_stress == 8e6
+
+
 def test_not_quasistatic_above_the_threshold():
     result = result_of(triangular_record())
     result.measure(max_unbalanced=0.9e-3)
