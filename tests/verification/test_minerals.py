@@ -249,7 +249,7 @@ def test_a_mineral_that_the_rock_does_not_have():
 @pytest.mark.long
 def test_an_interrupted_run_goes_on_with_its_minerals_to_the_same_bits(tmp_path):
     specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
-    job = {"test": "tension", "specimen": specimen, "material": rock(), "rate": 2.0}
+    job = {"test": "tension", "specimen": specimen, "material": rock(), "rate": 0.1}
 
     def interrupt(done, expected, text):
         if done > 100:

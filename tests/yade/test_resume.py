@@ -23,7 +23,7 @@ TESTS = {
     "uniaxial": {"rate": 4.0},
     "tension": {"rate": 1.0},
     "biaxial": {"rate": 4.0, "confinement": 5e6},
-    "brazilian": {"rate": 2.0},
+    "brazilian": {"rate": 0.25},
 }
 #: Stages of flexpm's own models in which a test is killed, one after the other.
 STAGES = {"biaxial": (1, 2)}
