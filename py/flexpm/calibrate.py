@@ -134,6 +134,8 @@ class _Search:
     def __init__(self, plan: Calibration, pool: Pool, progress: Progress) -> None:
         self._plan, self._pool, self._progress = plan, pool, progress
         self._round = 1
+        # before the first run: a search that could not go on would have cost minutes
+        self._optimiser = _optimiser() if plan.of_kind(elastic=False)[1] else None
         self.history: list[Evaluation] = []
 
     def elastic(self, values: Values) -> Values:
@@ -183,7 +185,6 @@ class _Search:
 
     def _screen(self, values: Values, keys: list[str], aims: list[Target]) -> list[Evaluation]:
         """Search on the small specimen; what was tried, best first."""
-        dfols = _optimiser()
         # its restarts draw from here, and a second start must try the same sets
         np.random.seed(0)  # noqa: NPY002
         first = len(self.history)
@@ -201,7 +202,7 @@ class _Search:
         with warnings.catch_warnings():
             # a start that breaks a ratio is moved, which is what is wanted
             warnings.filterwarnings("ignore", "x0 not feasible", RuntimeWarning)
-            dfols.solve(
+            self._optimiser.solve(
                 residuals,
                 np.clip(start, step, 1.0 - step),
                 bounds=(np.zeros(len(keys)), np.ones(len(keys))),
@@ -263,7 +264,7 @@ class _Search:
         options, seeds = (
             (plan.verify, plan.verify_seeds) if full else (plan.screen, plan.screen_seeds)
         )
-        measures = self._measures({**options}, seeds, values, targets)
+        measures = self._measures(options, seeds, values, targets)
         evaluation = Evaluation(
             self._round, stage, dict(values), measures, {t.name: t.value for t in targets}, 0.0
         )

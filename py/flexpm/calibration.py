@@ -15,8 +15,9 @@ from typing import Any
 
 from . import strength
 from .errors import InputError
+from .files import load_toml
 from .material_keys import ELASTIC_KEYS, UNITS, check_name
-from .study import flat, load_toml
+from .study import flat
 
 #: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each
 #: confinement.

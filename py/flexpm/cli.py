@@ -219,15 +219,7 @@ def bench(quiet: bool, **options: Any) -> None:
 
 
 @command.command(short_help="Many runs from one file.")
-@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder of the study.  [default: the file's name without .toml, in the working folder]",
-)
-@cli_options.pool_options
-@cli_options.quiet_option
+@cli_options.many_runs_options
 def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     """Do the runs of FILE that are not done yet; table and pictures are made from all."""
     studies = importlib.import_module("flexpm.study")
@@ -246,15 +238,7 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
 
 
 @command.command(short_help="Fit a material to a rock.")
-@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder.  [default: the file's name without .toml, in the working folder]",
-)
-@cli_options.pool_options
-@cli_options.quiet_option
+@cli_options.many_runs_options
 def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
     plan = importlib.import_module("flexpm.calibration").read(file)

@@ -273,7 +273,14 @@ out_option = click.option(
     help="Folder for the files.",
 )
 quiet_option = click.option("--quiet", is_flag=True, help="Show no progress bar.")
-pool_options = combined(
+many_runs_options = combined(
+    click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
+    click.option(
+        "--out",
+        type=click.Path(path_type=Path),
+        metavar="DIR",
+        help="Folder.  [default: the file's name without .toml, in the working folder]",
+    ),
     click.option(
         "--workers",
         type=Count(1),
@@ -290,4 +297,5 @@ pool_options = combined(
         metavar="KIND",
         help="Ask this batch system for workers: slurm, pbs, oar, ... (needs dask-jobqueue).",
     ),
+    quiet_option,
 )

@@ -24,6 +24,7 @@ from .results import Result
 from .specimen import Specimen
 from .strength import HoekBrown, MohrCoulomb
 
+_CRITERIA = (strength.mohr_coulomb, strength.hoek_brown)
 #: Columns of compare.csv before the numbers of the result.
 _FIRST = ("model", "material", "confinement", "folder")
 
@@ -66,6 +67,12 @@ class Envelope:
     peaks: list[float]  #: sigma_1 [Pa]
     mohr_coulomb: MohrCoulomb | None
     hoek_brown: HoekBrown | None
+
+    @classmethod
+    def of(cls, model: str, confinements: list[float], peaks: list[float]) -> Envelope:
+        """Fit both criteria to peaks [Pa] at confinements [Pa]; None for one that fails."""
+        fits = (_fit(one, confinements, peaks) for one in _CRITERIA)
+        return cls(model, confinements, peaks, *fits)
 
     def as_dict(self) -> dict[str, Any]:
         """A row of envelope.csv."""
@@ -204,9 +211,7 @@ def _envelopes(cases: Sequence[Case]) -> list[Envelope]:
             if case.model == model and case.result and case.result.peak_stress is not None
         }
         if len(peaks) > 1:
-            points = list(peaks), list(peaks.values())
-            fits = (_fit(strength.mohr_coulomb, *points), _fit(strength.hoek_brown, *points))
-            found.append(Envelope(model, *points, *fits))
+            found.append(Envelope.of(model, list(peaks), list(peaks.values())))
     return found
 
 

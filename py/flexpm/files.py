@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Output files that are whole or absent: written under a temporary name, then renamed."""
+"""Files: output is whole or absent, written under a temporary name, then renamed; TOML input."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import tempfile
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,27 @@ def write_text(path: Path | str, text: str) -> None:
 def json_text(content: Any) -> str:
     """`content` as readable JSON that ends with a new line; only finite numbers are allowed."""
     return json.dumps(content, indent=2, allow_nan=False) + "\n"
+
+
+def load_toml(path: Path, what: str) -> dict[str, Any]:
+    """Read a TOML file.
+
+    Args:
+        path: The file.
+        what: What it is, for messages.
+
+    Raises:
+        InputError: if it cannot be read or is no valid TOML.
+    """
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except OSError as error:
+        raise InputError(
+            f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a TOML file"
+        ) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{what} = {str(path)!r}, is no valid TOML file: {error}") from None
 
 
 def output_folder(path: Path | str) -> Path:

@@ -7,7 +7,6 @@ Inside the contact law tension and opening are positive; all strengths here are 
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any
 
 from . import minerals
 from .errors import InputError
+from .files import load_toml
 from .material_keys import (
     CHOICES,
     COMMON_KEYS,
@@ -259,16 +259,7 @@ def load(
 
 
 def _load_file(path: Path) -> Material:
-    try:
-        with path.open("rb") as file:
-            data = tomllib.load(file)
-    except OSError as error:
-        raise InputError(
-            f"material = {str(path)!r}, cannot be read ({error.strerror}); give a TOML file"
-        ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"material = {str(path)!r}, is no valid TOML file: {error}") from None
-    return Material.from_dict(data, name=path.stem)
+    return Material.from_dict(load_toml(path, "material"), name=path.stem)
 
 
 def _elastic_from(name: str, values: Any) -> ElasticSet:

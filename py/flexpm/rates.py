@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How fast tests are driven and when they count as quasi-static, paper Sec. 4.1 (D5). SI units.
 
-Both come from halving the rate on three packings until the mean peak stood still: of the paper's
-size for the flexible model in compression, else of half of it. The tables and the command are in
-the documentation.
+They come from halving the rate on three packings until the mean peak stood still: of the paper's
+size for uniaxial tests of the flexible model, else of half of it. Its biaxial tests take the
+constant of the uniaxial ones. The tables and the command are in the documentation.
 """
 
 from __future__ import annotations
 
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
-#: strain while a wave crosses the specimen once. Halving it moves the mean peak by less than 2 %.
+#: strain while a wave crosses the specimen once. Where it was halved, that moved the mean peak by
+#: less than 2 %.
 RATE_CONSTANT = {
     "flexible": {"uniaxial": 0.005, "tension": 0.02, "biaxial": 0.005, "brazilian": 0.02},
     "rigid": {"uniaxial": 0.01, "tension": 0.04, "biaxial": 0.01, "brazilian": 0.02},

@@ -10,7 +10,6 @@ from __future__ import annotations
 import itertools
 import os
 import subprocess
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,7 +19,7 @@ import pandas
 
 from . import jobs
 from .errors import InputError
-from .files import output_folder, whole_file
+from .files import load_toml, output_folder, whole_file
 from .jobs import Job
 from .material_keys import check_name
 
@@ -67,19 +66,6 @@ def read(path: Path | str) -> Study:
     made = [jobs.make(inputs, path.parent) for inputs in combinations(content)]
     distinct = {job.name: job for job in made}
     return Study(about.get("name", path.stem), [*distinct.values()], content.get("picture", []))
-
-
-def load_toml(path: Path, what: str) -> dict[str, Any]:
-    """Read a TOML file, or raise InputError."""
-    try:
-        with path.open("rb") as file:
-            return tomllib.load(file)
-    except OSError as error:
-        raise InputError(
-            f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a TOML file"
-        ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{what} = {str(path)!r}, is no valid TOML file: {error}") from None
 
 
 def run(

@@ -129,10 +129,7 @@ def envelope_of(label: str, rows: pandas.DataFrame) -> Envelope:
     found = rows[rows["test"].isin(["uniaxial", "biaxial"])].dropna(subset="peak_stress")
     confinements = found["confinement"].fillna(0.0).astype(float).tolist()
     peaks = found["peak_stress"].astype(float).tolist()
-    line = flexpm.strength.mohr_coulomb(confinements, peaks)
-    return Envelope(
-        label, confinements, peaks, line, flexpm.strength.hoek_brown(confinements, peaks)
-    )
+    return Envelope.of(label, confinements, peaks)
 
 
 def curves_of(rows: pandas.DataFrame, folder: Path) -> list[tuple[str, Result]]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run of cohesion.toml as a job of yade-batch; its parameters are a line of cohesion.table.
 
-yade-batch --job-threads=1 cohesion.table cohesion_batch.py
+PYTHONPATH=../../build/python yade-batch --job-threads=1 cohesion.table cohesion_batch.py
 
 yade-batch ends with exit code 0 also when jobs have failed: look at its summary.
 """

@@ -63,6 +63,15 @@ def test_wrong_files_are_refused(tmp_path, old, new, says):
     assert says in str(error.value)
 
 
+def test_the_papers_granite_can_be_calibrated():
+    plan = calibration.read(ROOT / "scripts/studies/augig_flexible.toml")
+    law = materials.load(plan.material_file, plan.model).law(plan.model)
+    assert all(low <= law[key] <= high for key, (low, high) in plan.free.items())
+    for ratio in plan.ratios:
+        assert ratio.bounds[0] <= law[ratio.of] / law[ratio.to] <= ratio.bounds[1]
+    assert len(plan.tests(plan.targets)) == 5
+
+
 def test_the_start_must_lie_within_the_bounds(tmp_path):
     with pytest.raises(InputError, match="cohesion = 1000000000.0"):
         calibrate.run(plan_of(tmp_path), tmp_path, start={"tensile_strength": 5e6, "cohesion": 1e9})
