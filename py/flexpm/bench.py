@@ -20,7 +20,7 @@ from statistics import median
 
 import yade
 
-from . import bench_size
+from . import bench_lammps, bench_size
 from .bench_cases import BUILDERS
 from .bench_report import (
     Case,
@@ -61,6 +61,7 @@ def run(
     threads: int = 1,
     json_file: Path | str | None = None,
     scaling: bool = False,
+    lammps: str | None = None,
 ) -> list[tuple[str, str]]:
     """Time all models and describe the outcome.
 
@@ -74,13 +75,17 @@ def run(
         json_file: Also written there.
         scaling: Time the flexible model also with 10 and 40 times the grains, and draw it beside
             `json_file`.
+        lammps: Python that has LAMMPS; None: the present one, if it has.
 
     Returns:
         Rows (name, value) for a table.
     """
+    python = bench_lammps.interpreter(lammps)
     specimen, setup = bench_size.timed_set_up(_PAPER, width, height, seed, progress)
-    timing = compare(specimen, steps=steps, threads=threads, progress=progress)
+    timing = compare(specimen, steps=steps, threads=threads, lammps=python, progress=progress)
     data, rows = timing.as_dict(), table_rows(timing)
+    if python is None:
+        rows.append(("LAMMPS", f"not timed: this Python has none; {bench_lammps.REMEDY}"))
     data["set_up"] = setup
     rows += size_rows(setup)
     disc = compare(_disc(width, seed), steps=steps, threads=threads, names=_OWN, progress=progress)
@@ -132,6 +137,7 @@ def compare(
     steps: int,
     threads: int = 1,
     names: tuple[str, ...] | None = None,
+    lammps: str | None = None,
     progress: Progress | None = None,
 ) -> Timing:
     """Time the models on one specimen in turns; the scenes are removed afterwards.
@@ -141,11 +147,12 @@ def compare(
         steps: Steps of each model.
         threads: Threads of a step.
         names: Models to time; None for all.
+        lammps: Python that runs LAMMPS' models, on one thread; None: without them.
         progress: Called with (steps done, steps expected, text).
     """
     chunk = math.ceil(steps / TURNS)
     turns = math.ceil(steps / chunk)
-    with _threads(threads):
+    with _threads(threads), bench_lammps.workers(lammps, specimen) as workers:
         yade.O.reset()
         try:
             cases = [
@@ -153,6 +160,7 @@ def compare(
                 for name in BUILDERS
                 if names is None or name in names
             ]
+            cases += [_lammps_case(name, worker) for name, worker in workers.items()]
             for turn in range(turns):
                 for number, case in enumerate(cases):
                     _take_turn(case, chunk)
@@ -162,7 +170,10 @@ def compare(
         finally:
             yade.O.reset()
     described = {**specimen.dimensions, "seed": specimen.seed, **cases[0].counts}
-    return Timing(machine(), described, threads, turns * chunk, cases)
+    host = machine()
+    for worker in workers.values():
+        host["lammps"] = worker.version
+    return Timing(host, described, threads, turns * chunk, cases)
 
 
 def grow(
@@ -198,8 +209,18 @@ def _case(name: str, specimen: Specimen, threads: int) -> Case:
     return case
 
 
+def _lammps_case(name: str, worker: bench_lammps.Worker) -> Case:
+    worker.step(_WARM_UP)
+    return Case(name, bench_lammps.MODELS[name], None, worker.counts, worker=worker)
+
+
 def _take_turn(case: Case, steps: int) -> None:
     """Do and time the next steps of a model."""
+    if case.worker is not None:
+        wall, own = case.worker.step(steps)
+        case.times.append(wall)
+        case.cpu_times.append(own)
+        return
     omega = yade.O
     omega.switchToScene(case.scene)
     wall, own = time.perf_counter(), time.thread_time()

