@@ -3,6 +3,7 @@
 #include <flexpm/kernel/contact_change.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/near_pairs.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -117,6 +117,12 @@ struct Assembly {
     std::vector<int> gather_first;
     std::vector<int> gather;
 
+    // the same sorted by nodes, not saved: -1 or offset of the first and of the second contact force,
+    // [block][node][first, second][lane], then [source, local offset of the node] per block
+    std::vector<int> source_pairs;
+    std::vector<int> more_first;
+    std::vector<int> more_sources;
+
     /// Current positions [m]; empty until a script asks for them, then kept up to date by each step.
     Array<double> shown_position;
 

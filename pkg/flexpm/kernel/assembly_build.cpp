@@ -3,6 +3,7 @@
 #include <flexpm/kernel/assembly_build.hpp>
 
 #include <flexpm/kernel/checks.hpp>
+#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 
 #include <algorithm>
@@ -303,35 +304,6 @@ void check(const Tessellation& t, const AssemblyOptions& o)
 }
 
 }  // namespace
-
-void list_forces(Assembly& a)
-{
-    std::vector<std::vector<int>> lists(a.blocks());
-    const auto add = [&](int grain, int force, int n0, int n1) {
-        const int block = a.grain_slot[grain] / lanes;
-        lists[block].insert(
-            lists[block].end(), { force, n0 - a.block_nodes[block], n1 - a.block_nodes[block] });
-    };
-    for (int c = 0; c < a.contacts; ++c) {
-        for (int side = 0; side < 2; ++side) {
-            add(a.contact_grains[2 * c + side], row_index(c, 4 * side, ContactRows::forces),
-                a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)],
-                a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)]);
-        }
-    }
-    for (int e = 0; e < a.edges; ++e) {
-        for (int row : { 0, ContactRows::plate }) {
-            add(a.edge_grain[e], ~row_index(e, row, ContactRows::forces),
-                a.edge_nodes[row_index(e, 0, 2)], a.edge_nodes[row_index(e, 1, 2)]);
-        }
-    }
-    a.gather_first.assign(1, 0);
-    a.gather.clear();
-    for (const auto& list : lists) {
-        a.gather.insert(a.gather.end(), list.begin(), list.end());
-        a.gather_first.push_back(static_cast<int>(a.gather.size()));
-    }
-}
 
 Assembly make_assembly(
     const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options)

@@ -30,8 +30,4 @@ struct AssemblyOptions {
 Assembly make_assembly(
     const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options);
 
-/// Make the gather list: per block of grains, in the order of contacts and then of edges, which forces
-/// act on which nodes.
-void list_forces(Assembly& a);
-
 }  // namespace flexpm

@@ -2,7 +2,7 @@
 /// @file  Contacts that come and go.
 #include <flexpm/kernel/contact_change.hpp>
 
-#include <flexpm/kernel/assembly_build.hpp>
+#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/measures.hpp>
@@ -198,7 +198,8 @@ void raise_masses(Assembly& a, double damping, double dt)
     }
 }
 
-/// A contact that has not been retired.
+}  // namespace
+
 bool carries(const Assembly& a, int contact)
 {
     double area = 0.0;
@@ -212,35 +213,6 @@ double square_distance(const Assembly& a, GrainPair pair)
     const Point pa = a.position(a.centre(pair[0])), pb = a.position(a.centre(pair[1]));
     return (pb.x - pa.x) * (pb.x - pa.x) + (pb.y - pa.y) * (pb.y - pa.y);
 }
-
-/// Calls visit(pair) for all pairs of grains that lie in the same cell, or in two that touch, of a
-/// lattice of squares of side `size`.
-template <class Visit> void for_each_neighbour(const Assembly& a, double size, Visit visit)
-{
-    using Place = std::pair<double, double>;  // row and column, whole numbers of any size
-    std::vector<std::pair<Place, int>> places;
-    for (int g = 0; g < a.grains; ++g) {
-        const Point p = a.position(a.centre(g));
-        places.push_back({ { std::floor(p.y / size), std::floor(p.x / size) }, g });
-    }
-    std::sort(places.begin(), places.end());
-    const auto visit_row = [&](std::size_t from, const std::pair<Place, int>& one, Place last) {
-        for (std::size_t i = from; i < places.size() && places[i].first <= last; ++i) {
-            const int g = one.second, h = places[i].second;
-            visit(GrainPair { std::min(g, h), std::max(g, h) });
-        }
-    };
-    std::size_t above = 0;  // first place in the next row that is not left of the neighbours
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto [row, column] = places[i].first;
-        visit_row(i + 1, places[i], { row, column + 1.0 });
-        while (above < places.size() && places[above].first < Place { row + 1.0, column - 1.0 })
-            ++above;
-        visit_row(above, places[i], { row + 1.0, column + 1.0 });
-    }
-}
-
-}  // namespace
 
 double centre_distance(const Assembly& a, int grain_a, int grain_b)
 {
@@ -260,26 +232,6 @@ bool is_touching(const Assembly& a, GrainPair pair)
     const double radii = a.radius[pair[0]] + a.radius[pair[1]];
     if (square_distance(a, pair) >= radii * radii) return false;  // most pairs, at little cost
     return centre_distance(a, pair[0], pair[1]) < touching_distance(a, pair);
-}
-
-std::vector<GrainPair> near_pairs(const Assembly& a, double margin)
-{
-    std::vector<std::pair<int, int>> held;
-    for (int c = 0; c < a.contacts; ++c) {
-        if (carries(a, c)) held.push_back({ a.contact_grains[2 * c], a.contact_grains[2 * c + 1] });
-    }
-    if (!std::is_sorted(held.begin(), held.end())) std::sort(held.begin(), held.end());
-    const double largest = *std::max_element(a.radius.begin(), a.radius.end());
-    std::vector<GrainPair> near;
-    // a little more, so that round-off does not choose
-    for_each_neighbour(a, 1.001 * (2.0 * largest + margin), [&](GrainPair pair) {
-        const double reach = a.radius[pair[0]] + a.radius[pair[1]] + margin;
-        if (square_distance(a, pair) >= reach * reach) return;
-        const std::pair<int, int> key { pair[0], pair[1] };
-        if (!std::binary_search(held.begin(), held.end(), key)) near.push_back(pair);
-    });
-    std::sort(near.begin(), near.end());
-    return near;
 }
 
 bool is_over(const Assembly& a, int contact)

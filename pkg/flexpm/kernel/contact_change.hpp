@@ -19,6 +19,10 @@ using GrainPair = std::array<int, 2>;  ///< the smaller first
 
 /// Current distance of the centres of two grains [m].
 double centre_distance(const Assembly& a, int grain_a, int grain_b);
+double square_distance(const Assembly& a, GrainPair pair);
+
+/// The contact has not been retired.
+bool carries(const Assembly& a, int contact);
 
 /// Distance at which two grains without a contact touch [m]: the sum of the radii, or what it was when
 /// the specimen was bonded if their discs overlapped then without sharing an edge.
@@ -26,10 +30,6 @@ double touching_distance(const Assembly& a, GrainPair pair);
 
 /// The discs of two grains without a contact touch.
 bool is_touching(const Assembly& a, GrainPair pair);
-
-/// Pairs whose discs are less than `margin` apart and that no contact holds, ascending. They follow
-/// from the positions alone, so a loaded state finds the same pairs.
-std::vector<GrainPair> near_pairs(const Assembly& a, double margin);
 
 /// The contact is over: only a new touch can bring the pair together again.
 bool is_over(const Assembly& a, int contact);

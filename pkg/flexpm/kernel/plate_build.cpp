@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Laying plates against a specimen.
-#include <flexpm/kernel/assembly_build.hpp>
 #include <flexpm/kernel/checks.hpp>
+#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
 

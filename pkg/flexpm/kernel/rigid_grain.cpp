@@ -62,14 +62,11 @@ double rotation_of(const Assembly& a, int grain) { return a.rotation[rigid_index
 
 HalfTurn half_turn(const Assembly& a, int grain)
 {
-    const double along = a.rotation[rigid_index(a, grain, 0, 3)];  // cos - 1
-    const double cosine = std::sqrt(std::max(1.0 + 0.5 * along, 0.0));
-    // near half a turn the quotient would lose its digits
-    if (cosine < 0.5) {
-        const double half = 0.5 * rotation_of(a, grain);
-        return { std::cos(half), std::sin(half) };
-    }
-    return { cosine, 0.5 * a.rotation[rigid_index(a, grain, 1, 3)] / cosine };
+    const HalfTurn half = half_turn_of(
+        a.rotation[rigid_index(a, grain, 0, 3)], a.rotation[rigid_index(a, grain, 1, 3)]);
+    if (half.cosine >= least_half_cosine) return half;
+    const double angle = 0.5 * rotation_of(a, grain);
+    return { std::cos(angle), std::sin(angle) };
 }
 
 CellSection cell_section(const Assembly& a, int grain)

@@ -5,6 +5,9 @@
 #include <flexpm/kernel/assembly.hpp>
 #include <flexpm/kernel/rigid_block.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace flexpm {
 
 RigidRows rigid_rows(Assembly& a, int block);
@@ -27,6 +30,15 @@ struct HalfTurn {
     double cosine, sine;
 };
 HalfTurn half_turn(const Assembly& a, int grain);
+
+/// The same from cos - 1 and sin of the whole angle, up to a cosine of half of it of
+/// `least_half_cosine`: near half a turn the quotient would lose its digits.
+constexpr double least_half_cosine = 0.5;
+__attribute__((always_inline)) inline HalfTurn half_turn_of(double along, double across)
+{
+    const double cosine = std::sqrt(std::max(1.0 + 0.5 * along, 0.0));
+    return { cosine, 0.5 * across / cosine };
+}
 
 /// Reference area of the cell [m^2] and its polar second moment about its centroid [m^4].
 struct CellSection {

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/stepping.hpp>
 
 #include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/integrate.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
@@ -114,25 +115,6 @@ FLEXPM_MULTIVERSION void integrate_measured(
     integrate_block<true>(b, dt, damping, sums);
 }
 
-/// Forces of contacts and boundary pressure, in the fixed order of the gather list. The force array
-/// of the block is cleared first.
-void gather_forces(const Assembly& a, int block, double* force)
-{
-    std::fill(force, force + 2 * lanes * a.group(block).nodes, 0.0);
-    const double* contact = a.contact_force.data();
-    const double* edge = a.edge_force.data();
-    const int* entry = a.gather.data() + a.gather_first[block];
-    const int* end = a.gather.data() + a.gather_first[block + 1];
-    for (; entry != end; entry += 3) {
-        // entries below zero name a boundary edge
-        const double* f = entry[0] >= 0 ? contact + entry[0] : edge + ~entry[0];
-        force[entry[1]] += f[0];
-        force[entry[1] + lanes] += f[lanes];
-        force[entry[2]] += f[2 * lanes];
-        force[entry[2] + lanes] += f[3 * lanes];
-    }
-}
-
 double sum(const double* values)
 {
     double total = 0.0;
@@ -173,7 +155,7 @@ void update_grain_block(Assembly& a, int block, const StepOptions& options)
 {
     const int first = a.block_nodes[block];
     const MeshGroup& group = a.group(block);
-    gather_forces(a, block, a.force.data() + first);
+    gather_forces(a, block);
     if (a.gravity.x != 0.0 || a.gravity.y != 0.0) add_weight(a, block);
     StepSums sums;
     (group.rigid ? update_rigid : update_deformable)(a, block, options, sums);
@@ -204,6 +186,7 @@ void step(Assembly& a, const StepOptions& options)
 {
     const int contact_blocks = a.contact_blocks(), blocks = a.blocks();
     a.next_centre.resize(static_cast<std::size_t>(2 * lanes * blocks));
+    if (a.source_pairs.empty()) sort_sources(a);  // loaded
 #pragma omp parallel num_threads(options.threads) if (options.threads > 1)
     {
         LawRows law;

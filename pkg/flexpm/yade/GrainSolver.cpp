@@ -2,8 +2,8 @@
 /// @file  One step, and what YADE's objects see of it.
 #include <flexpm/yade/GrainSolver.hpp>
 
+#include <flexpm/kernel/centre_motion.hpp>
 #include <flexpm/kernel/measures.hpp>
-#include <flexpm/kernel/rigid_grain.hpp>
 #include <flexpm/kernel/stepping.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
@@ -76,6 +76,7 @@ void GrainSolver::check()
 	const std::string bad = flexpm::find_bad_number(assembly);
 	if (!bad.empty()) throw std::runtime_error("GrainSolver: " + bad);
 	retireErased(); // a script that keeps a handle delays its destruction
+	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
 	for (int grain = 0; grain < assembly.grains; ++grain) {
 		const auto& b = (*scene->bodies)[bodyIds[grain]];
@@ -83,37 +84,53 @@ void GrainSolver::check()
 	}
 }
 
+void GrainSolver::findStates()
+{
+	const auto slots = assembly.slot_grain.size();
+	states.assign(slots, nullptr);
+	for (std::size_t slot = 0; slot < slots; ++slot) {
+		const int grain = assembly.slot_grain[slot];
+		if (grain < 0) continue;
+		const auto& body = (*scene->bodies)[bodyIds[grain]];
+		if (body) states[slot] = body->state;
+	}
+}
+
 namespace {
 
-	State* stateOf(const Body* body) { return body ? body->state.get() : nullptr; }
-
-	void publishTurn(const flexpm::Assembly& a, int grain, State& state)
+	/// States lie scattered in memory: fetch them some blocks ahead, or each would be waited for.
+	constexpr int statesAhead = 2;
+	void          prefetch(const State& state)
 	{
-		const auto half = flexpm::half_turn(a, grain);
-		state.ori       = Quaternionr(half.cosine, 0, 0, half.sine);
-		state.angVel    = Vector3r(0, 0, a.spin[flexpm::rigid_index(a, grain)]);
+		__builtin_prefetch(&state.se3, 1);
+		__builtin_prefetch(&state.angVel, 1);
+	}
+
+	void publish(const flexpm::CentreMotion& motion, int lane, bool rigid, State& state)
+	{
+		// through se3: State::pos and State::ori are references, which would have to be fetched first
+		state.se3.position = Vector3r(motion.x[lane], motion.y[lane], 0);
+		state.vel          = Vector3r(motion.vx[lane], motion.vy[lane], 0);
+		if (!rigid) return;
+		state.se3.orientation = Quaternionr(motion.half_cosine[lane], 0, 0, motion.half_sine[lane]);
+		state.angVel          = Vector3r(0, 0, motion.spin[lane]);
 	}
 
 } // namespace
 
 void GrainSolver::publishBodies()
 {
-	// bodies and states lie scattered in memory: fetch them some grains ahead, or each would be waited for
-	constexpr int bodiesAhead = 24, statesAhead = 12;
-	const auto    bodyOf = [&](int grain) { return (*scene->bodies)[bodyIds[std::min(grain, assembly.grains - 1)]].get(); };
-	for (int grain = 0; grain < assembly.grains; ++grain) {
-		if (const Body* later = bodyOf(grain + bodiesAhead)) __builtin_prefetch(&later->state);
-		if (const State* soon = stateOf(bodyOf(grain + statesAhead))) {
-			__builtin_prefetch(&soon->pos, 1);
-			__builtin_prefetch(&soon->vel, 1);
+	if (states.size() != assembly.slot_grain.size()) findStates();
+	flexpm::CentreMotion motion;
+	for (int block = 0; block < assembly.blocks(); ++block) {
+		const auto* later = states.data() + std::min(flexpm::lanes * (block + statesAhead), int(states.size()) - flexpm::lanes);
+		const auto* now   = states.data() + flexpm::lanes * block;
+		const bool  rigid = assembly.group(block).rigid;
+		flexpm::find_centre_motion(assembly, block, motion);
+		for (int lane = 0; lane < flexpm::lanes; ++lane) {
+			if (later[lane]) prefetch(*later[lane]);
+			if (now[lane]) publish(motion, lane, rigid, *now[lane]);
 		}
-		State* state = stateOf(bodyOf(grain));
-		if (!state) continue;
-		const int  centre = assembly.centre(grain);
-		const auto p      = assembly.position(centre);
-		state->pos        = Vector3r(p.x, p.y, 0);
-		state->vel        = Vector3r(assembly.velocity[centre], assembly.velocity[centre + flexpm::lanes], 0);
-		if (assembly.is_rigid(grain)) publishTurn(assembly, grain, *state);
 	}
 }
 

@@ -2,7 +2,7 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
-#include <flexpm/kernel/contact_change.hpp>
+#include <flexpm/kernel/near_pairs.hpp>
 #include <flexpm/yade/array_view.hpp>
 #include <flexpm/yade/assembly_archive.hpp>
 #include <flexpm/yade/yade_lite.hpp>
@@ -85,10 +85,13 @@ public:
 	DECLARE_LOGGER;
 
 private:
+	flexpm::NearPairs         nearPairs;
 	vector<flexpm::GrainPair> candidates;     // near pairs without a contact
 	bool                      listed = false; // the candidates are up to date
+	vector<shared_ptr<State>> states;         // of the bodies, by slot; kept alive, so that a body may go at any time
 	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
 	void                      insertContacts();
+	void                      findStates();
 	void                      publishBodies();
 	void                      retireErased();
 	void                      listCandidates();

@@ -13,10 +13,12 @@ namespace yade {
 void GrainSolver::retireErased()
 {
 	seenDestroyed = destroyedContacts();
-	listed        = false; // what was erased may touch again
+	listed        = false;
 	for (int c = 0; c < assembly.contacts; ++c) {
 		const auto bond = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
-		if (!bond || !bond->isReal()) flexpm::retire_contact(assembly, c);
+		if (bond && bond->isReal()) continue;
+		if (flexpm::carries(assembly, c)) nearPairs.forget(); // what was erased may touch again
+		flexpm::retire_contact(assembly, c);
 	}
 	for (int grain = 0; grain < assembly.grains; ++grain) {
 		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::retire_grain(assembly, grain);
@@ -25,7 +27,7 @@ void GrainSolver::retireErased()
 
 void GrainSolver::listCandidates()
 {
-	candidates          = flexpm::near_pairs(assembly, touchMargin * 2 * assembly.radius[0]);
+	candidates          = nearPairs.find(assembly, touchMargin * 2 * assembly.radius[0]);
 	const auto isErased = [&](const flexpm::GrainPair& pair) { return !(*scene->bodies)[bodyIds[pair[0]]] || !(*scene->bodies)[bodyIds[pair[1]]]; };
 	candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isErased), candidates.end());
 	listed = true;
@@ -52,6 +54,7 @@ void GrainSolver::changeContacts()
 	flexpm::change_contacts(assembly, over, touching, damping, scaled ? scene->dt : 0.);
 	if (!touching.empty()) limitStep();
 	renumberContacts();
+	nearPairs.forget();
 	listCandidates();
 }
 

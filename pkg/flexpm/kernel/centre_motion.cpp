@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Motion of the centres, `lanes` at a time.
+#include <flexpm/kernel/centre_motion.hpp>
+
+#include <flexpm/kernel/rigid_grain.hpp>
+#include <flexpm/kernel/simd.hpp>
+
+namespace flexpm {
+
+namespace {
+
+FLEXPM_MULTIVERSION void half_turns(const double* rotation, double* cosine, double* sine)
+{
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        const HalfTurn half = half_turn_of(rotation[l], rotation[lanes + l]);
+        cosine[l] = half.cosine;
+        sine[l] = half.sine;
+    }
+}
+
+void find_turns(const Assembly& a, int block, CentreMotion& motion)
+{
+    half_turns(a.rotation.data() + 3 * lanes * block, motion.half_cosine, motion.half_sine);
+    for (int l = 0; l < lanes; ++l) {
+        motion.spin[l] = a.spin[lanes * block + l];
+        const int grain = a.slot_grain[lanes * block + l];
+        if (motion.half_cosine[l] >= least_half_cosine || grain < 0) continue;
+        const HalfTurn half = half_turn(a, grain);
+        motion.half_cosine[l] = half.cosine;
+        motion.half_sine[l] = half.sine;
+    }
+}
+
+}  // namespace
+
+void find_centre_motion(const Assembly& a, int block, CentreMotion& motion)
+{
+    const MeshGroup& group = a.group(block);
+    const int first = a.block_nodes[block] + 2 * lanes * group.vertices;
+    const double *reference = a.reference.data() + first, *u = a.displacement.data() + first;
+    const double* v = a.velocity.data() + first;
+    for (int l = 0; l < lanes; ++l) {
+        motion.x[l] = reference[l] + u[l];
+        motion.y[l] = reference[lanes + l] + u[lanes + l];
+        motion.vx[l] = v[l];
+        motion.vy[l] = v[lanes + l];
+    }
+    if (group.rigid) find_turns(a, block, motion);
+}
+
+}  // namespace flexpm
