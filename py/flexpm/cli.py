@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from . import __version__, cli_compare, cli_library, cli_options, console
-from .cli_options import Count, Name, Quantity
+from .cli_options import Count, Quantity
 from .errors import InputError, SimulationError
 from .files import json_text, output_folder, write_text
 from .material_keys import check_name, nearest
@@ -63,22 +63,7 @@ def command() -> None:
     show_default=True,
     help="Lateral pressure [Pa].",
 )
-@cli_options.pace_options
-@click.option(
-    "--gravity",
-    type=Quantity("m/s2", at_least=0.0),
-    default=0.0,
-    metavar="G",
-    show_default=True,
-    help="Acceleration downwards, with --dynamic only [m/s2].",
-)
-@click.option(
-    "--start",
-    type=Name("rest", "static"),
-    metavar="rest|static",
-    help="static: from the elastic solution below the first crack, for the flexible model in "
-    "uniaxial and tension; it is the default of tension.",
-)
+@cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -95,7 +80,6 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     flexpm = cli_library.library()
     cli_library.require("model", model, flexpm.models.MODELS)
     cli_library.require("test", test, flexpm.protocols.tests_of(model))
-    settings = ("confinement", "rate", "max_strain", "dynamic", "gravity", "start", "threads")
     with console.Progress(quiet) as progress:
         specimen = cli_library.specimen_for(test, options, progress)
         result = flexpm.protocols.run(
@@ -107,7 +91,9 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
             mesh=options["mesh"],
             out=folder,
             progress=progress,
-            **{name: options[name] for name in settings},
+            confinement=options["confinement"],
+            threads=options["threads"],
+            **{name: options[name] for name in cli_options.LOADING},
         )
     click.echo(console.result_table(result))
     click.echo(f"  files                   {folder}/")

@@ -38,7 +38,7 @@ from .material_keys import ELASTIC_SET, check_name
 @cli_options.rectangle_options
 @cli_options.disc_options
 @cli_options.packing_options
-@cli_options.pace_options
+@cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -72,9 +72,9 @@ def compare(
             points=int(options["points"]),
             out=folder,
             progress=progress,
-            **{
-                name: options[name] for name in ("mesh", "rate", "max_strain", "dynamic", "threads")
-            },
+            mesh=options["mesh"],
+            threads=options["threads"],
+            **{name: options[name] for name in cli_options.LOADING},
         )
     click.echo(console.comparison_table(found.cases))
     if found.envelopes:

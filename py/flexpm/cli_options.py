@@ -241,7 +241,9 @@ model_options = combined(
     ),
     material_options,
 )
-pace_options = combined(
+#: Names of these options, as ``flexpm.run`` has them.
+LOADING = ("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "pace")
+loading_options = combined(
     click.option(
         "--rate",
         type=Quantity("", above=0.0),
@@ -256,7 +258,37 @@ pace_options = combined(
         metavar="E",
         help="Axial strain at which the test ends [-].",
     ),
+    click.option(
+        "--stop-ratio",
+        type=Quantity("", above=0.0),
+        default=0.5,
+        metavar="F",
+        show_default=True,
+        help="The test ends once the stress has fallen to this part of its peak [-].",
+    ),
     click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
+    click.option(
+        "--gravity",
+        type=Quantity("m/s2", at_least=0.0),
+        default=0.0,
+        metavar="G",
+        show_default=True,
+        help="Acceleration downwards, with --dynamic only [m/s2].",
+    ),
+    click.option(
+        "--start",
+        type=Name("rest", "static"),
+        metavar="rest|static",
+        help="static: from the elastic solution below the first crack, for the flexible model in "
+        "uniaxial and tension; it is the default of tension.",
+    ),
+    click.option(
+        "--pace",
+        type=Name("steady", "adaptive"),
+        metavar="steady|adaptive",
+        help="adaptive: load faster while the specimen is elastic; the default of the grain models "
+        "with scaled masses.",
+    ),
 )
 drawn_mesh_option = click.option(
     "--mesh",

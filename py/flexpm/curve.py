@@ -31,6 +31,7 @@ COLUMNS = (
     "potential_energy",
     "boundary_work",
     "end_mismatch",
+    "pace",
 )
 INTEGERS = ("step", "tensile_cracks", "shear_cracks")
 ENERGIES = (
@@ -223,27 +224,33 @@ def unbalanced_ratio(curve: Curve) -> float | None:
     crack unbalances its two grains for a moment at any loading rate, so this says how violently
     bonds break; `median_unbalanced_ratio` follows the rate.
     """
-    return _while_loaded(curve, "unbalanced_ratio", np.nanmax)
+    return _while_loaded(curve, curve["unbalanced_ratio"], np.nanmax)
 
 
 def median_unbalanced_ratio(curve: Curve) -> float | None:
-    """Median of the unbalanced-force ratio over the same rows [-]; proportional to the rate."""
-    return _while_loaded(curve, "unbalanced_ratio", np.nanmedian)
+    """Median of the unbalanced-force ratio over the same rows [-]; proportional to the rate.
+
+    Rows at a faster pace count with the ratio that the slowest would have given: they are driven so
+    where the rate does not matter.
+    """
+    return _while_loaded(curve, curve["unbalanced_ratio"] / curve["pace"], np.nanmedian)
 
 
 def end_mismatch(curve: Curve) -> float | None:
     """Largest difference of both ends' reactions over the larger one, over the same rows [-]."""
-    return _while_loaded(curve, "end_mismatch", np.nanmax)
+    return _while_loaded(curve, curve["end_mismatch"], np.nanmax)
 
 
-def _while_loaded(curve: Curve, column: str, of: Callable[[np.ndarray], float]) -> float | None:
+def _while_loaded(
+    curve: Curve, column: np.ndarray, of: Callable[[np.ndarray], float]
+) -> float | None:
     """A number from the rows of a column from 5 % of the peak up to the peak."""
     stress = differential_stress(curve)
     if len(stress) == 0 or not np.nanmax(stress, initial=0.0) > 0.0:
         return None
     peak = int(np.nanargmax(stress))
     start = int(np.argmax(stress >= ELASTIC_WINDOW[0] * stress[peak]))
-    values = curve[column][start : peak + 1]
+    values = column[start : peak + 1]
     return float(of(values)) if np.any(np.isfinite(values)) else None
 
 

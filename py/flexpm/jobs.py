@@ -34,6 +34,9 @@ _ONLY = {
     "confinement": ("biaxial",),
     "rate": ("uniaxial", "tension", "biaxial", "brazilian"),
     "max_strain": ("uniaxial", "tension", "biaxial", "brazilian"),
+    "stop_ratio": ("uniaxial", "tension", "biaxial", "brazilian"),
+    "start": ("uniaxial", "tension"),
+    "pace": ("uniaxial", "tension", "biaxial", "brazilian"),
     "dynamic": ("uniaxial", "tension", "biaxial", "brazilian"),
     "gravity": ("uniaxial", "tension", "biaxial", "brazilian"),
 }

@@ -78,7 +78,7 @@ class PlateLoading:
         """Hold the lower plate and move the upper one; in tension both are bonded."""
         if not built.solver.plates():
             self._lay_ends(built, bonded=velocity > 0.0)
-        upper = wrapper.PlateEngine(plates=[1], velocity=(0.0, velocity, 0.0), evenStart=True)
+        upper = wrapper.PlateEngine(plates=[1], velocity=(0.0, velocity, 0.0), elasticStart=True)
         built.add_engines(before=(upper,))
 
     def confine(self, built: Model, pressure: float, ramp: int) -> None:

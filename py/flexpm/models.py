@@ -79,10 +79,17 @@ class Model:
         for _ in range(steps):
             yade.O.step()
 
-    def add_engines(self, *, before: tuple[Any, ...] = (), after: tuple[Any, ...] = ()) -> None:
-        """Put engines of a protocol just before and after the solver's step."""
+    def add_engines(
+        self,
+        *,
+        before: tuple[Any, ...] = (),
+        after: tuple[Any, ...] = (),
+        last: tuple[Any, ...] = (),
+    ) -> None:
+        """Put engines of a protocol just before or after the solver's step, or last."""
         place = self.engines.index(self.solver)
         self.engines[place : place + 1] = [*before, self.solver, *after]
+        self.engines += last
         yade.O.engines = self.engines
 
     def remove_engines(self, *engines: Any) -> None:

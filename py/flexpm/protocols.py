@@ -17,7 +17,6 @@ from . import (
     __version__,
     curve,
     export,
-    inner,
     materials,
     models,
     plot,
@@ -32,16 +31,17 @@ from .files import output_folder
 from .loading import loading_of, squeeze_disc
 from .materials import Material
 from .models import Model
-from .rates import rate_constant
 from .results import Result, cracks_from_snapshot
+from .schedule import Schedule, Settings, schedule
 from .specimen import Specimen
 
-#: A test ends at this multiple of the reference strain unless told otherwise [-].
-DEFAULT_STRAINS = 4.0
-#: The same for inner particles: their rough edges interlock and carry far more than the reference.
-INNER_STRAINS = 8.0
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
+#: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
+#: the rate constant's part of the reference strain meanwhile.
+_ROWS_A_CROSSING = 8
+#: Most steps from one row to the next: so often numbers are checked.
+_LONGEST_PERIOD = 100
 #: Steps by which the recorder may be late [-].
 _LATEST_LOOK = 1000
 #: Wave crossings over which an isotropic pressure rises.
@@ -50,41 +50,10 @@ _RAMP_CROSSINGS = 10
 _AT_REST = 0.01
 #: Most wave crossings to wait for that.
 _LONGEST_REST = 100
-
-
-#: ``rest``: unloaded, with an even strain rate; ``static``: at the elastic solution, which needs no
-#: slow steps, where the first contact point is about to leave its elastic branch.
-STARTS = ("rest", "static")
 #: Share of the elastic limit up to which ``static`` goes [-].
 _STATIC_SHARE = 0.9
 #: Steps, all of them recorded, that lead there.
 _STATIC_STEPS = 20
-
-
-@dataclass(frozen=True)
-class Settings:
-    """What a user may set of a test."""
-
-    confinement: float = 0.0  #: lateral pressure [Pa]
-    rate: float = 1.0  #: factor on the default loading rate [-]
-    max_strain: float | None = None  #: axial strain at which the test ends [-]
-    start: str = "rest"  #: how the loading begins, one of `STARTS`
-
-    def __post_init__(self) -> None:
-        _require_positive("rate", self.rate)
-        if self.max_strain is not None:
-            _require_positive("max_strain", self.max_strain)
-        if self.start not in STARTS:
-            raise InputError(f"run: start = {self.start!r}, must be one of {', '.join(STARTS)}")
-        if not (math.isfinite(self.confinement) and self.confinement >= 0.0):
-            raise InputError(f"run: confinement = {self.confinement} Pa, must not be below 0")
-
-    def refuse_confinement(self, test: str) -> None:
-        """Raise InputError if there is a lateral pressure, which `test` has no use for."""
-        if self.confinement != 0.0:
-            raise InputError(
-                f"run: confinement = {self.confinement} Pa, must be 0 for {test}; use biaxial"
-            )
 
 
 @dataclass(frozen=True)
@@ -98,22 +67,6 @@ class Plan:
     checkpoint: Checkpoint  #: of an earlier start of the same run, if there was one
 
 
-@dataclass
-class Schedule:
-    """How fast and how far a test is driven."""
-
-    velocity: float  #: of the moving end, magnitude [m/step, or m/s with real masses]
-    reference_strain: float  #: strain of the reference strength [-]
-    max_strain: float  #: at which the test ends [-]
-    height: float  #: [m]
-    dt: float  #: [s], or 1 with scaled masses
-
-    @property
-    def steps(self) -> int:
-        """Steps up to the largest strain."""
-        return math.ceil(self.max_strain * self.height / (self.velocity * self.dt))
-
-
 def run(
     test: str,
     specimen: Specimen,
@@ -125,9 +78,11 @@ def run(
     mesh: str = "refined",
     rate: float = 1.0,
     max_strain: float | None = None,
+    stop_ratio: float = 0.5,
     dynamic: bool = False,
     gravity: float = 0.0,
     start: str | None = None,
+    pace: str | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -143,8 +98,8 @@ def run(
         test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
             ``brazilian``: a disc between two plates.
-            A test is over when the stress above the confinement has fallen to half its peak or the
-            strain reaches `max_strain`.
+            A test is over when the stress above the confinement has fallen to `stop_ratio` of its
+            peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
@@ -155,11 +110,16 @@ def run(
         rate: Factor on the default loading rate [-], > 0.
         max_strain: Largest axial strain [-]; None for 4 times that of the reference strength, 8
             times with inner particles.
+        stop_ratio: Part of its peak to which the stress falls before the test ends [-]: above 0, at
+            most 0.9. What comes after a peak takes most of a confined test.
         dynamic: Real masses and time instead of scaled masses and unit steps.
         gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
             for uniaxial compression and tension of the flexible model. None: ``static`` for its
             tension with scaled masses, else ``rest``.
+        pace: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate as
+            damage and friction take the work; ``steady``: at the rate. None: ``adaptive`` for the
+            grain models with scaled masses, else ``steady``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -181,9 +141,11 @@ def run(
         mesh=mesh,
         rate=rate,
         max_strain=max_strain,
+        stop_ratio=stop_ratio,
         dynamic=dynamic,
         gravity=gravity,
         start=start,
+        pace=pace,
         out=out,
         checkpoint_interval=checkpoint_interval,
     )
@@ -215,15 +177,25 @@ def plan_run(
     mesh: str = "refined",
     rate: float = 1.0,
     max_strain: float | None = None,
+    stop_ratio: float = 0.5,
     dynamic: bool = False,
     gravity: float = 0.0,
     start: str | None = None,
+    pace: str | None = None,
     out: Path | str | None = None,
     checkpoint_interval: float = INTERVAL,
 ) -> Plan:
     """Refuse what a run could not do, before YADE's scene is touched; arguments as for ``run``."""
     quickly = test == "tension" and model == "flexible" and not dynamic
-    settings = Settings(confinement, rate, max_strain, start or ("static" if quickly else "rest"))
+    adapts = model in models.SOLVER_MODELS and not dynamic
+    settings = Settings(
+        confinement,
+        rate,
+        max_strain,
+        stop_ratio,
+        start or ("static" if quickly else "rest"),
+        pace or ("adaptive" if adapts else "steady"),
+    )
     options = {"points": points, "mesh": mesh, "dynamic": dynamic, "gravity": gravity}
     models.check(model, **options)
     tests = tests_of(model)
@@ -233,6 +205,11 @@ def plan_run(
         raise InputError(
             f"run: start = static, must be rest for {test} of model {model}; static needs the "
             "flexible model and uniaxial or tension"
+        )
+    if settings.pace == "adaptive" and not adapts:
+        raise InputError(
+            f"run: pace = adaptive, must be steady for model {model}"
+            f"{' with real masses' if dynamic else ''}; adaptive needs grains and scaled masses"
         )
     shape = "disc" if test == "brazilian" else "rectangle"
     if specimen.kind != shape:
@@ -289,6 +266,7 @@ def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:
         built.add_engines(after=(recorder,))
         plan = _limit(recorder, "brazilian", built, settings)
         squeeze_disc(built, plan.velocity)
+        _adapt(built, plan, 1.0)
 
     result = _finish("brazilian", built, settings, course, prepare)
     result.youngs_modulus = None  # the slope of the plates' closure is no modulus of the rock
@@ -330,7 +308,10 @@ def _run_axial(
         recorder = wrapper.AxialRecorder(tension=tension, **options)
         built.add_engines(after=(recorder,))
         plan = _limit(recorder, test, built, settings)
-        loading_of(built).drive(built, plan.velocity if tension else -plan.velocity)
+        # the elastic velocities raise no wave, so the test may begin at the fastest pace
+        velocity = plan.fastest_pace * plan.velocity
+        loading_of(built).drive(built, velocity if tension else -velocity)
+        _adapt(built, plan, plan.fastest_pace)
 
     if settings.start == "static":
         course.stage(
@@ -353,17 +334,32 @@ def _lead(built: Model, prepare: Callable[[], None]) -> None:
 
 
 def _go_on(built: Model) -> None:
-    built.solver.measurePeriod = wrapper.GrainSolver().measurePeriod
+    built.solver.measurePeriod = _row_period(built.engine("AxialRecorder").scales())
     built.engine("PlatenEngine").goOn()
+
+
+def _row_period(scales: dict[str, float]) -> int:
+    """Steps from one row of the record to the next."""
+    return min(math.ceil(scales["crossing_steps"] / _ROWS_A_CROSSING), _LONGEST_PERIOD)
 
 
 def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedule:
     """Tell the recorder when the test is over."""
     scales = recorder.scales()
     plan = schedule(scales, test, settings, built.name)
+    built.solver.measurePeriod = _row_period(scales)
     recorder.maxStrain = plan.max_strain
+    recorder.stopRatio = plan.stop_ratio
     recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
     return plan
+
+
+def _adapt(built: Model, plan: Schedule, pace: float) -> None:
+    """Let the pace of the loading, now `pace`, follow what the specimen dissipates."""
+    if plan.fastest_pace > 1.0:
+        crossing = built.engine("AxialRecorder").scales()["crossing_steps"]
+        engine = wrapper.PaceEngine(fastest=plan.fastest_pace, crossingSteps=crossing, pace=pace)
+        built.add_engines(last=(engine,))
 
 
 def _finish(
@@ -399,38 +395,6 @@ def _settle(built: Model, course: Course, ramp: int) -> None:
         f"run: unbalanced-force ratio = {built.solver.unbalanced():.2g} after the isotropic stage, "
         f"must fall below {_AT_REST}; lower the confinement"
     )
-
-
-def _strains(model: str) -> float:
-    """Multiple of the reference strain at which a test ends unless told otherwise."""
-    return INNER_STRAINS if model in inner.NAMES else DEFAULT_STRAINS
-
-
-def schedule(
-    scales: dict[str, float], test: str, settings: Settings, model: str = "flexible"
-) -> Schedule:
-    """Loading rate and end of a test from the scales that the recorder names.
-
-    v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
-    and eps_ref the strain of the reference strength.
-
-    Args:
-        scales: ``AxialRecorder.scales()``.
-        test: Name of the test.
-        settings: Rate factor, confinement and largest strain.
-        model: Name of the model, which has constants of its own.
-
-    Returns:
-        Velocity and end.
-    """
-    # each pascal of confinement adds at least one to the strength of a frictional contact
-    reference = (scales["strength"] + settings.confinement) / scales["modulus"]
-    crossing = scales["crossing_steps"]
-    dt = yade.O.dt
-    strain_rate = settings.rate * rate_constant(test, model) * reference / (crossing * dt)
-    velocity = strain_rate * scales["height"]
-    largest = settings.max_strain or _strains(model) * reference
-    return Schedule(velocity, reference, largest, scales["height"], dt)
 
 
 def write_files(folder: Path, result: Result) -> None:
@@ -485,8 +449,3 @@ def _result(test: str, built: Model, diverged: bool, step_time: float | None) ->
     result.cracks = cracks_from_snapshot(built.snapshot(), result.curve)
     result.measure(diverged=diverged, initial_energy=built.solver.energies()["initial_energy"])
     return result
-
-
-def _require_positive(name: str, value: float) -> None:
-    if not (math.isfinite(value) and value > 0.0):
-        raise InputError(f"run: {name} = {value}, must be above 0")

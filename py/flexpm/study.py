@@ -177,7 +177,8 @@ class Pool:
             n_workers=self._workers or len(os.sched_getaffinity(0)),
             threads_per_worker=1,
             processes=False,
-            dashboard_address=None,
+            # any free port: another study may run on this machine
+            dashboard_address="127.0.0.1:0",
         )
         return self._cluster
 

@@ -17,9 +17,9 @@ import yade
 
 from . import __version__
 from .course import Course
-from .protocols import DEFAULT_STRAINS, Schedule, Settings
 from .rates import rate_constant
 from .results import Result
+from .schedule import DEFAULT_STRAINS, Schedule, Settings
 from .yade_bonds import tributary_lengths
 from .yade_loading import (
     BOTTOM,
@@ -211,7 +211,7 @@ def _schedule(built: SphereModel, test: str, settings: Settings) -> Schedule:
     crossing = _crossing_steps(built) * yade.O.dt
     velocity = settings.rate * rate_constant(test, built.name) * reference * height / crossing
     largest = settings.max_strain or DEFAULT_STRAINS * reference
-    return Schedule(velocity, reference, largest, height, yade.O.dt)
+    return Schedule(velocity, reference, largest, height, yade.O.dt, settings.stop_ratio)
 
 
 def _modulus(built: SphereModel) -> float:
@@ -254,7 +254,7 @@ class Steps:
 def _run(
     test: str, built: SphereModel, plan: Schedule, area: float, steps: Steps, course: Course
 ) -> Result:
-    ending = Ending(_LEAST_PEAK * _strength(built, test), plan.max_strain)
+    ending = Ending(_LEAST_PEAK * _strength(built, test), plan.max_strain, plan.stop_ratio)
     to_reference = plan.reference_strain * plan.height / (plan.velocity * plan.dt)
     period = max(1, round(to_reference / _ROWS))
 

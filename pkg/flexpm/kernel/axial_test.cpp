@@ -147,31 +147,6 @@ void grip_bottom(Assembly& a)
 
 void move_top(Assembly& a, double velocity) { drive(a, side_nodes(a, top_side), axial, velocity); }
 
-void start_evenly(Assembly& a, double velocity)
-{
-    const std::vector<int> bottom = side_nodes(a, bottom_side);
-    const double height = side_length(a, left_side);
-    double middle = 0.0;
-    for (int n : bottom)
-        middle += a.reference[n] / static_cast<double>(bottom.size());
-    const double base = a.reference[bottom.front() + lanes];
-    for (int g = 0; g < a.grains; ++g) {
-        const double widening = -a.elastic[a.grain_material[g]].poisson * velocity / height;
-        if (a.is_rigid(g)) {
-            const int c = a.centre(g);
-            const Point v = { a.velocity[c] + widening * (a.reference[c] - middle),
-                a.velocity[c + lanes] + velocity * (a.reference[c + lanes] - base) / height };
-            set_motion(a, g, v, 0.0, 1.0);
-            continue;
-        }
-        for (int k = 0; k < a.nodes_of(g); ++k) {
-            const int x = a.node(g, k), y = x + lanes;
-            if (!a.held[x]) a.velocity[x] += widening * (a.reference[x] - middle);
-            if (!a.held[y]) a.velocity[y] += velocity * (a.reference[y] - base) / height;
-        }
-    }
-}
-
 double series_modulus(const Assembly& a)
 {
     double diameter = 0.0;

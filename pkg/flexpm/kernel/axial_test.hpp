@@ -31,6 +31,7 @@ struct AxialObservation {
     double confinement = 0.0;     ///< pressure on the right side [Pa]
     double end_mismatch = 0.0;    ///< |sum of both ends' reactions| / the larger [-]
     double unbalanced_ratio = 0.0;
+    double pace = 1.0;  ///< of the loading, over its slowest [-]
     CrackCount cracks;
     Energies energies;
 };
@@ -61,10 +62,6 @@ void grip_bottom(Assembly& a);
 
 /// Move the top at `velocity` [m/s], positive away from the bottom.
 void move_top(Assembly& a, double velocity);
-
-/// Add to all free nodes the velocities of a uniform uniaxial strain rate that fits the top's
-/// velocity, so that loading starts without a wave.
-void start_evenly(Assembly& a, double velocity);
 
 /// Series modulus of grains and contacts: 1/E = 1/E_grain + 1/(K_n d), d the mean disc diameter; of
 /// rigid grains K_n d [Pa].

@@ -57,6 +57,18 @@ void drive(Assembly& a, const std::vector<int>& nodes, int component, double vel
     }
 }
 
+void rebook_driven(Assembly& a, double dt)
+{
+    for (int block = 0; block < a.blocks(); ++block) {
+        const int first = a.block_nodes[block];
+        double work = 0.0;
+        for (int i = first; i < first + 2 * lanes * a.group(block).nodes; ++i) {
+            work -= a.held[i] ? 0.5 * dt * a.force[i] * a.velocity[i] : 0.0;
+        }
+        a.driven_work[2 * block + 1] = work;
+    }
+}
+
 void release(Assembly& a, const std::vector<int>& nodes, int component)
 {
     for (int n : nodes)

@@ -15,6 +15,10 @@ std::vector<int> side_nodes(const Assembly& a, int side);
 /// Prescribe one velocity component of the nodes [m/s].
 void drive(Assembly& a, const std::vector<int>& nodes, int component, double velocity);
 
+/// After velocities were prescribed between two steps: what the present forces work in the half step
+/// that follows goes with the new velocities, see integrate_one().
+void rebook_driven(Assembly& a, double dt);
+
 /// Integrate the component again, from the velocity it has.
 void release(Assembly& a, const std::vector<int>& nodes, int component);
 

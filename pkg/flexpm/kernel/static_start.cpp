@@ -8,6 +8,8 @@
 #include <flexpm/kernel/elastic_solve.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/rigid_grain.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -56,18 +58,50 @@ double time_to_strength(const LawParameters& law, double opening_rate, double sl
     return std::min(opening, towards > 0.0 ? law.cohesion / towards : infinite);
 }
 
-/// The work of the holders in the second half of the last step goes with the velocities of the next:
-/// see integrate_one().
-void rebook_driven(Assembly& a, double dt)
+/// Lateral component of the centre of the grain in the middle of a side.
+int middle_of(const Assembly& a, int side)
 {
-    for (int block = 0; block < a.blocks(); ++block) {
-        const int first = a.block_nodes[block];
-        double work = 0.0;
-        for (int i = first; i < first + 2 * lanes * a.group(block).nodes; ++i) {
-            work -= a.held[i] ? 0.5 * dt * a.force[i] * a.velocity[i] : 0.0;
-        }
-        a.driven_work[2 * block + 1] = work;
+    const std::vector<int> nodes = side_nodes(a, side);
+    double middle = 0.0;
+    for (int n : nodes)
+        middle += a.reference[n] / static_cast<double>(nodes.size());
+    int nearest = a.centre(0);
+    double least = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < a.edges; ++e) {
+        const int c = a.centre(a.edge_grain[e]);
+        if (a.edge_side[e] != side || !(std::fabs(a.reference[c] - middle) < least)) continue;
+        least = std::fabs(a.reference[c] - middle);
+        nearest = c;
     }
+    return nearest;
+}
+
+/// Mean velocity along its normal of what lies before a plate [m/s].
+Point velocity_before(const Assembly& a, const Plate& plate, const Array<double>& velocity)
+{
+    double sum = 0.0;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const auto n = edge_nodes(a, p.edge);
+        for (int end = 0; end < 2; ++end) {
+            const double part = end == 0 ? 1.0 - p.weight : p.weight;
+            sum += part
+                * (plate.normal.x * velocity[n[end]] + plate.normal.y * velocity[n[end] + lanes]);
+        }
+    }
+    const double mean = sum / plate_points(plate);
+    return { mean * plate.normal.x, mean * plate.normal.y };
+}
+
+/// Spin of a rigid grain whose nodes have these velocities [rad/s].
+double spin_in(const Assembly& a, int grain, const Array<double>& velocity)
+{
+    const int c = a.centre(grain), n = a.node(grain, 0);
+    const double x = a.reference[n] - a.reference[c];
+    const double y = a.reference[n + lanes] - a.reference[c + lanes];
+    const double vx = velocity[n] - velocity[c];
+    const double vy = velocity[n + lanes] - velocity[c + lanes];
+    return (x * vy - y * vx) / (x * x + y * y);
 }
 
 }  // namespace
@@ -78,7 +112,40 @@ Array<double> elastic_velocities(const Assembly& a)
     for_each_component(a, [&](int i) {
         if (a.held[i]) prescribed.push_back({ i, a.velocity[i] });
     });
-    return solve_static(a, prescribed).displacement;
+    if (a.plates.empty()) return solve_static(a, prescribed).displacement;
+
+    Assembly moved = a;
+    moved.plates.clear();
+    for (const Plate& p : a.plates) {
+        if (p.loaded) continue;
+        moved.plates.push_back(p);
+        moved.plates.back().displacement = p.velocity;
+    }
+    // smooth plates leave the specimen free to slide
+    prescribed.push_back({ middle_of(a, bottom_side), 0.0 });
+    return solve_static(moved, prescribed).displacement;
+}
+
+void start_elastically(Assembly& a)
+{
+    const Array<double> velocity = elastic_velocities(a);
+    for (Plate& p : a.plates) {
+        if (p.loaded) p.velocity = velocity_before(a, p, velocity);
+    }
+    for (int g = 0; g < a.grains; ++g) {
+        if (a.is_rigid(g)) {
+            const int c = a.centre(g);
+            const Point v = { a.velocity[c] + velocity[c],
+                a.velocity[c + lanes] + velocity[c + lanes] };
+            set_motion(a, g, v, a.spin[rigid_index(a, g)] + spin_in(a, g, velocity), 1.0);
+            continue;
+        }
+        for (int n = 0; n < a.nodes_of(g); ++n) {
+            for (int i : { a.node(g, n), a.node(g, n) + lanes }) {
+                if (!a.held[i]) a.velocity[i] += velocity[i];
+            }
+        }
+    }
 }
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)

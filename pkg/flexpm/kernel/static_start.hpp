@@ -11,11 +11,17 @@
 
 namespace flexpm {
 
-/// Velocities of all nodes at which the unloaded assembly deforms in elastic equilibrium with the
-/// velocities of its held nodes [m/s].
+/// Velocities of all nodes at which the bonded assembly deforms in elastic equilibrium with the
+/// velocities of its held nodes and of its plates; plates under a load give way to it [m/s].
 ///
 /// @throws std::runtime_error  as solve_static()
 Array<double> elastic_velocities(const Assembly& a);
+
+/// Add these velocities to all nodes that are free, and give them to plates under a load, so that
+/// loading starts without a wave. Held nodes and driven plates have theirs already.
+///
+/// @throws std::runtime_error  as solve_static()
+void start_elastically(Assembly& a);
 
 /// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
 /// elastic branch, at small displacements [s]; infinite if none does.

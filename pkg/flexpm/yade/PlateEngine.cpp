@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/axial_test.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/static_start.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 
 namespace yade {
@@ -21,7 +22,7 @@ void PlateEngine::action()
 		else
 			flexpm::set_velocity(assembly, plate, { velocity[0], velocity[1] });
 	}
-	if (evenStart && !started) flexpm::start_evenly(assembly, velocity[1]);
+	if (elasticStart && !started) flexpm::start_elastically(assembly);
 	started = true;
 }
 

@@ -20,8 +20,8 @@ public:
 		((Vector3r, velocity, Vector3r::Zero(),, "Velocity of the plates [m/s, or m per step with scaled masses]."))
 		((Real, pressure, 0.,, "Pressure on the width of each plate, compressive positive [Pa]."))
 		((int, rampSteps, 0,, "Steps over which the pressure rises evenly to its value [-]."))
-		((bool, evenStart, false,, "Start all grains with the velocities of a uniform strain rate that fits the plates' velocity along y."))
-		((bool, started, false, Attr::readonly, "The even start is done."))
+		((bool, elasticStart, false,, "Start all grains with the velocities of the elastic solution for the plates' velocity, so that no wave runs through the specimen."))
+		((bool, started, false, Attr::readonly, "The elastic velocities are set."))
 	);
 	// clang-format on
 };

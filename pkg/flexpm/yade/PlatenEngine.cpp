@@ -6,6 +6,7 @@
 #include <flexpm/kernel/boundary.hpp>
 #include <flexpm/kernel/static_start.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
+#include <flexpm/yade/PaceEngine.hpp>
 
 #include <array>
 
@@ -22,7 +23,7 @@ namespace {
 		Real (*value)(const flexpm::AxialObservation&);
 	};
 
-	constexpr std::array<Column, 17> recorded { {
+	constexpr std::array<Column, 18> recorded { {
 		{ "step", [](const auto& o) { return Real(o.step); } },
 		{ "axial_strain", [](const auto& o) { return o.axial_strain; } },
 		{ "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
@@ -31,6 +32,7 @@ namespace {
 		{ "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
 		{ "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
 		{ "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
+		{ "pace", [](const auto& o) { return o.pace; } },
 		{ "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
 		{ "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
 		{ "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
@@ -52,7 +54,8 @@ void PlatenEngine::action()
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop || (gripped && velocity == drivenAt)) return;
 	flexpm::move_top(assembly, velocity);
-	if (!gripped && evenStart) flexpm::start_evenly(assembly, velocity);
+	flexpm::rebook_driven(assembly, scene->dt);
+	if (!gripped && elasticStart) flexpm::start_elastically(assembly);
 	gripped  = true;
 	drivenAt = velocity;
 }
@@ -87,13 +90,17 @@ AxialRecorder::~AxialRecorder() = default;
 
 void AxialRecorder::action()
 {
-	const auto solver = GrainSolver::ofScene(*scene);
-	if (solver->assembly.step % solver->measurePeriod != 0) return;
+	const auto solver   = GrainSolver::ofScene(*scene);
+	const bool measured = solver->assembly.step % solver->measurePeriod == 0;
+	if (!measured && !fromNow) return;
 	auto now = diameter > 0 ? flexpm::observe_disc(solver->assembly, diameter)
 	                        : flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
-	if (fromNow && values.empty()) zero = Vector2r(now.axial_strain, now.lateral_strain);
+	if (fromNow) zero = Vector2r(now.axial_strain, now.lateral_strain);
+	fromNow = false;
+	if (!measured) return;
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
+	now.pace = PaceEngine::ofScene(*scene);
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
 	peak  = std::max(peak, now.axial_stress);

@@ -19,7 +19,7 @@ public:
 		"no friction on either. Place it before :yref:`GrainSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top, positive away from the bottom [m/s, or m per step with scaled masses]."))
 		((bool, holdTop, true,, "Drive the top; if not, only the bottom is held and the top is free."))
-		((bool, evenStart, true,, "Start all nodes with the velocities of a uniform strain rate, so that no wave runs through the specimen."))
+		((bool, elasticStart, true,, "Start all nodes with the velocities of the elastic solution, so that no wave runs through the specimen."))
 		((bool, gripped, false, Attr::readonly, "The top has been taken hold of."))
 		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top's nodes have."))
 		, /* ctor */
@@ -65,7 +65,7 @@ public:
 		((Real, stopRatio, .5,, "The test is over once the stress has fallen below this part of its peak [-]."))
 		((Real, leastPeak, 0.,, "No fall counts before the stress has reached this [Pa]."))
 		((Real, maxStrain, 1e300,, "The test is over at this axial strain [-]."))
-		((bool, fromNow, false,, "Count strains from the first recorded state instead of from the bonded one."))
+		((bool, fromNow, false,, "Count strains from the next step on instead of from the bonded state; false after that step."))
 		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-]."))
 		((Real, peak, 0., Attr::readonly, "Largest axial stress so far [Pa]."))
 		((int, state, 0, Attr::readonly, "0 running, 1 past the peak, 2 largest strain reached."))

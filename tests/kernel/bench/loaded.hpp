@@ -6,6 +6,7 @@
 #include <flexpm/kernel/axial_test.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/static_start.hpp>
 #include <flexpm/kernel/stepping.hpp>
 
 #include "specimens.hpp"
@@ -28,7 +29,7 @@ inline flexpm::AssemblyOptions options(const std::string& kind, int points = 3)
     return o;
 }
 
-/// Scaled masses, a top that moves at `velocity`, and a uniform strain rate to start with. Rigid
+/// Scaled masses, a top that moves at `velocity`, and the elastic velocities to start with. Rigid
 /// grains are squeezed between plates.
 inline void load(flexpm::Assembly& a, double velocity)
 {
@@ -43,7 +44,7 @@ inline void load(flexpm::Assembly& a, double velocity)
         flexpm::grip_bottom(a);
         flexpm::move_top(a, velocity);
     }
-    flexpm::start_evenly(a, velocity);
+    flexpm::start_elastically(a);
 }
 
 inline void run(flexpm::Assembly& a, int steps)

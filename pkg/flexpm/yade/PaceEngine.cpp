@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Pace of a test's loading.
+#include <flexpm/yade/PaceEngine.hpp>
+
+#include <flexpm/kernel/pace.hpp>
+#include <flexpm/yade/GrainSolver.hpp>
+#include <flexpm/yade/PlateEngine.hpp>
+#include <flexpm/yade/PlatenEngine.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PaceEngine));
+
+PaceEngine::~PaceEngine() = default;
+
+Real PaceEngine::ofScene(const Scene& scene)
+{
+	for (const auto& engine : scene.engines) {
+		if (const auto found = YADE_PTR_DYN_CAST<PaceEngine>(engine)) return found->pace;
+	}
+	return 1;
+}
+
+void PaceEngine::action()
+{
+	const auto solver = GrainSolver::ofScene(*scene);
+	if (solver->assembly.step % solver->measurePeriod != 0) return;
+	const flexpm::Energies now    = flexpm::energies(solver->assembly);
+	flexpm::Energies       before = now;
+	if (seen.size() == 3) {
+		before.damage        = seen[0];
+		before.friction      = seen[1];
+		before.boundary_work = seen[2];
+	}
+	seen = { now.damage, now.friction, now.boundary_work };
+
+	const Real next   = flexpm::next_pace(pace, flexpm::dissipated_share(before, now), solver->measurePeriod, { fastest, slowShare, crossingSteps });
+	const Real factor = next / pace;
+	for (const auto& engine : scene->engines) {
+		if (const auto platens = YADE_PTR_DYN_CAST<PlatenEngine>(engine)) platens->velocity *= factor;
+		if (const auto plates = YADE_PTR_DYN_CAST<PlateEngine>(engine)) plates->velocity *= factor;
+	}
+	pace = next;
+}
+
+} // namespace yade
