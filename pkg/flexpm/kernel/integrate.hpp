@@ -11,10 +11,31 @@
 namespace flexpm {
 
 /// Sums over the degrees of freedom of a block, [lane] [J]; `next` belongs to the half step after.
+/// Cleared and copied by loops over lanes: of a whole struct the compiler makes slow string instructions.
 struct StepSums {
-    alignas(64) double damped[lanes] = {}, damped_next[lanes] = {};
-    alignas(64) double driven[lanes] = {}, driven_next[lanes] = {};
-    alignas(64) double kinetic[lanes] = {}, largest[lanes] = {};
+    alignas(64) double damped[lanes], damped_next[lanes];
+    alignas(64) double driven[lanes], driven_next[lanes];
+    alignas(64) double kinetic[lanes], largest[lanes];
+
+    __attribute__((always_inline)) StepSums()
+    {
+        for (int l = 0; l < lanes; ++l) {
+            damped[l] = damped_next[l] = driven[l] = driven_next[l] = 0.0;
+            kinetic[l] = largest[l] = 0.0;
+        }
+    }
+
+    __attribute__((always_inline)) void copy_to(StepSums& to) const
+    {
+        for (int l = 0; l < lanes; ++l) {
+            to.damped[l] = damped[l];
+            to.damped_next[l] = damped_next[l];
+            to.driven[l] = driven[l];
+            to.driven_next[l] = driven_next[l];
+            to.kinetic[l] = kinetic[l];
+            to.largest[l] = largest[l];
+        }
+    }
 };
 
 /// New velocity of a degree of freedom of lane `l`, and the work of damping and of its holder: a force

@@ -93,7 +93,7 @@ __attribute__((always_inline)) inline void integrate_lanes(
         integrate_one<Measure>(moment[l], held[2 * lanes + l], b.inverse_inertia[l],
             std::sqrt(reach[l]), dt, damping, b.spin[l], sums, l);
     }
-    total = sums;
+    sums.copy_to(total);
     spread_lanes(b, dt);
 }
 

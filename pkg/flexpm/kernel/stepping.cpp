@@ -91,7 +91,7 @@ __attribute__((always_inline)) inline void integrate_lanes(
                 f[y], held[y], inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
         }
     }
-    total = sums;
+    sums.copy_to(total);
 }
 
 template <bool Measure>
