@@ -136,7 +136,7 @@ def _relax(
     scene = wrapper.Omega()
     with _one_thread(), _private_scene(scene):
         law = _fill_scene(scene, wrapper, frame, centres, radii)
-        _calm_start(scene, len(radii))
+        _calm_start(scene)
         while True:
             _advance(scene, _BATCH)
             if progress is not None:
@@ -280,13 +280,14 @@ def _advance(scene: Any, steps: int) -> None:
         scene.step()  # O.run(..., wait=True) polls: 40 ms each time
 
 
-def _calm_start(scene: Any, discs: int) -> None:
+def _calm_start(scene: Any) -> None:
     """Stop the discs every other step at first: large overlaps would fling them through walls."""
+    from yade import utils
+
     scene.dt = _START_TIME_STEP
     for _ in range(30):
         _advance(scene, 2)
-        for k in range(discs):
-            scene.bodies[k].state.vel = (0.0, 0.0, 0.0)
+        utils.calm()
     scene.dt = _TIME_STEP
 
 
