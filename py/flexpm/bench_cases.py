@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 import yade
-from yade import wrapper
 
-from . import loading, models, protocols, yade_models
+from . import models, protocols, yade_models
 from .specimen import Specimen
+
+#: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.
+_RATE = 0.1
 
 
 def build_own(
@@ -20,15 +22,8 @@ def build_own(
 ) -> dict[str, int | None]:
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
     built = models.build(specimen, None, model, threads=threads, **options)
-    disc = specimen.kind == "disc"
-    recorder = wrapper.AxialRecorder(diameter=specimen.dimensions["diameter"] if disc else 0.0)
-    built.add_engines(after=(recorder,))
-    test = "brazilian" if disc else "uniaxial"
-    plan = protocols.schedule(recorder.scales(), test, protocols.Settings())
-    if disc:
-        loading.squeeze_disc(built, plan.velocity)
-    else:
-        loading.loading_of(built).drive(built, -plan.velocity)
+    test = "brazilian" if specimen.kind == "disc" else "uniaxial"
+    protocols.load(test, built, protocols.Settings(rate=_RATE, pace="adaptive"))
     return built.solver.counts()
 
 

@@ -259,20 +259,40 @@ def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
 
 def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:
     """Press a built disc between two plates; stress 2 P / (pi D t), strain closure / D."""
-    diameter = built.specimen.dimensions["diameter"]
-
-    def prepare() -> None:
-        recorder = wrapper.AxialRecorder(diameter=diameter)
-        built.add_engines(after=(recorder,))
-        plan = _limit(recorder, "brazilian", built, settings)
-        squeeze_disc(built, plan.velocity)
-        _adapt(built, plan, 1.0)
-
-    result = _finish("brazilian", built, settings, course, prepare)
+    result = _finish(
+        "brazilian", built, settings, course, lambda: load("brazilian", built, settings)
+    )
     result.youngs_modulus = None  # the slope of the plates' closure is no modulus of the rock
     result.poissons_ratio = None
     result.contact_width = float(np.mean([p["contact_width"] for p in built.solver.plates()]))
     return result
+
+
+def load(test: str, built: Model, settings: Settings, **options: Any) -> None:
+    """Put the engines that load and record a test into the scene.
+
+    Args:
+        test: Name of the test.
+        built: The specimen; for ``biaxial`` already under its lateral pressure.
+        settings: Rate, pace and end.
+        options: Attributes of the ``AxialRecorder``.
+    """
+    disc, tension = test == "brazilian", test == "tension"
+    diameter = built.specimen.dimensions["diameter"] if disc else 0.0
+    recorder = wrapper.AxialRecorder(diameter=diameter, tension=tension, **options)
+    built.add_engines(after=(recorder,))
+    plan = _limit(recorder, test, built, settings)
+    # the elastic velocities raise no wave, so a test that has them may begin at the fastest pace
+    pace = 1.0 if disc else plan.fastest_pace
+    velocity = pace * plan.velocity
+    if disc:
+        squeeze_disc(built, velocity)
+    else:
+        loading_of(built).drive(built, velocity if tension else -velocity)
+    if plan.fastest_pace > 1.0:
+        crossing = recorder.scales()["crossing_steps"]
+        engine = wrapper.PaceEngine(fastest=plan.fastest_pace, crossingSteps=crossing, pace=pace)
+        built.add_engines(last=(engine,))
 
 
 TESTS: dict[str, Callable[..., Result]] = {
@@ -301,17 +321,10 @@ def _run_axial(
     **options: Any,
 ) -> Result:
     """Drive the top of a built specimen until the test is over."""
-    tension = test == "tension"
 
     def prepare() -> None:
         before()
-        recorder = wrapper.AxialRecorder(tension=tension, **options)
-        built.add_engines(after=(recorder,))
-        plan = _limit(recorder, test, built, settings)
-        # the elastic velocities raise no wave, so the test may begin at the fastest pace
-        velocity = plan.fastest_pace * plan.velocity
-        loading_of(built).drive(built, velocity if tension else -velocity)
-        _adapt(built, plan, plan.fastest_pace)
+        load(test, built, settings, **options)
 
     if settings.start == "static":
         course.stage(
@@ -352,14 +365,6 @@ def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedu
     recorder.stopRatio = plan.stop_ratio
     recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
     return plan
-
-
-def _adapt(built: Model, plan: Schedule, pace: float) -> None:
-    """Let the pace of the loading, now `pace`, follow what the specimen dissipates."""
-    if plan.fastest_pace > 1.0:
-        crossing = built.engine("AxialRecorder").scales()["crossing_steps"]
-        engine = wrapper.PaceEngine(fastest=plan.fastest_pace, crossingSteps=crossing, pace=pace)
-        built.add_engines(last=(engine,))
 
 
 def _finish(

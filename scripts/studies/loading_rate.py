@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Halve the loading rate of tests until their peaks stand still: the study behind RATE_CONSTANT.
 
-Runs each test on packings of half the paper's size (the same grains) at falling constants k of the
+Runs each test on packings of the paper's size at falling constants k of the
 loading rate and adds one CSV row a run. SI units; the confinement counts for biaxial tests only.
 Start it from a checkout that scripts/setup has built:
 
@@ -19,6 +19,7 @@ import flexpm
 from flexpm import curve, rates
 
 FIELDS = (
+    "scale",
     "model",
     "test",
     "seed",
@@ -41,16 +42,19 @@ def specimen_for(test: str, scale: float, seed: int) -> flexpm.Specimen:
 
 
 def run_at(k: float, specimen: flexpm.Specimen, test: str, model: str, confinement: float) -> Any:
-    """Run a test with the constant `k` of its loading rate [-]."""
+    """Run a test with the constant `k` of its loading rate [-] until its peak is well passed."""
     factor = k / rates.rate_constant(test, model)
     pressure = confinement if test == "biaxial" else 0.0
-    return flexpm.run(test, specimen, model=model, rate=factor, confinement=pressure)
+    return flexpm.run(
+        test, specimen, model=model, rate=factor, confinement=pressure, stop_ratio=0.8
+    )
 
 
-def row_of(result: Any, seed: int, k: float) -> list[Any]:
+def row_of(result: Any, seed: int, k: float, scale: float) -> list[Any]:
     """One row of the table."""
     found = {
         "k": k,
+        "scale": scale,
         "seed": seed,
         "unbalanced_median": curve.median_unbalanced_ratio(result.curve),
     }
@@ -63,10 +67,10 @@ def main() -> None:
     parser.add_argument("table", type=Path, help="CSV file that gets the rows")
     parser.add_argument("tests", nargs="+")
     parser.add_argument("--model", default="flexible")
-    parser.add_argument("--scale", type=float, default=0.5, help="lengths over the paper's [-]")
+    parser.add_argument("--scale", type=float, default=1.0, help="lengths over the paper's [-]")
     parser.add_argument("--confinement", type=float, default=4e6, help="of biaxial tests [Pa]")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
-    parser.add_argument("--k", type=float, nargs="+", default=[0.04, 0.02, 0.01, 0.005])
+    parser.add_argument("--k", type=float, nargs="+", default=[0.02, 0.01, 0.005])
     options = parser.parse_args()
     new = not options.table.exists()
     with options.table.open("a", newline="") as file:
@@ -78,7 +82,7 @@ def main() -> None:
                 specimen = specimen_for(test, options.scale, seed)
                 for k in options.k:
                     result = run_at(k, specimen, test, options.model, options.confinement)
-                    writer.writerow(row_of(result, seed, k))
+                    writer.writerow(row_of(result, seed, k, options.scale))
                     file.flush()
 
 
