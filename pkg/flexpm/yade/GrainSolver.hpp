@@ -88,11 +88,13 @@ private:
 	flexpm::NearPairs         nearPairs;
 	vector<flexpm::GrainPair> candidates;     // near pairs without a contact
 	bool                      listed = false; // the candidates are up to date
+	vector<std::size_t>       places;         // of the contacts among the interactions, when last seen
 	vector<shared_ptr<State>> states;         // of the bodies, by slot; kept alive, so that a body may go at any time
 	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
 	void                      insertContacts();
 	void                      findStates();
 	void                      publishBodies();
+	bool                      hasInteraction(int contact);
 	void                      retireErased();
 	void                      listCandidates();
 	void                      changeContacts();

@@ -10,13 +10,27 @@
 
 namespace yade {
 
+bool GrainSolver::hasInteraction(int contact)
+{
+	const Body::id_t id1 = bodyIds[assembly.contact_grains[2 * contact]], id2 = bodyIds[assembly.contact_grains[2 * contact + 1]];
+	auto&            all   = *scene->interactions;
+	auto&            place = places[contact];
+	if (place < all.size()) { // most are where they were: finding costs more
+		const auto& there = all[place];
+		if (there && there->getId1() == id1 && there->getId2() == id2) return there->isReal();
+	}
+	const auto& bond = all.find(id1, id2);
+	if (bond) place = bond->linIx;
+	return bond && bond->isReal();
+}
+
 void GrainSolver::retireErased()
 {
 	seenDestroyed = destroyedContacts();
 	listed        = false;
+	places.resize(assembly.contacts);
 	for (int c = 0; c < assembly.contacts; ++c) {
-		const auto bond = scene->interactions->find(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
-		if (bond && bond->isReal()) continue;
+		if (hasInteraction(c)) continue;
 		if (flexpm::carries(assembly, c)) nearPairs.forget(); // what was erased may touch again
 		flexpm::retire_contact(assembly, c);
 	}
