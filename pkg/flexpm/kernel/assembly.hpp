@@ -102,7 +102,7 @@ struct Assembly {
     Array<int> crack_step;           ///< [point]: step of the crack, -1 while intact
     Array<std::uint8_t> crack_mode;  ///< [point]: CrackMode
     Array<double> crack_position;    ///< [point][x, y] where it cracked [m]
-    Array<double> contact_force;     ///< ContactRows::forces [N]
+    Array<double> contact_force;     ///< ContactRows::forces [N]; zeros follow the last block
 
     // boundary edges: [block][row][lane]
     std::vector<int> edge_grain;
@@ -117,8 +117,9 @@ struct Assembly {
     std::vector<int> gather_first;
     std::vector<int> gather;
 
-    // the same sorted by nodes, not saved: -1 or offset of the first and of the second contact force,
-    // [block][node][first, second][lane], then [source, local offset of the node] per block
+    // the same sorted by nodes, not saved: offset of the first and of the second contact force, or of the
+    // zeros behind all, [block][node][first, second][lane], then [source, local offset of the node] per
+    // block
     std::vector<int> source_pairs;
     std::vector<int> more_first;
     std::vector<int> more_sources;

@@ -2,29 +2,28 @@
 /// @file  Lists of forces, and their sums per node.
 #include <flexpm/kernel/gather.hpp>
 
+#include <flexpm/kernel/simd.hpp>
+
 #include <algorithm>
 
 namespace flexpm {
 
 namespace {
 
-constexpr int none = -1;
-/// What a node without a source reads, x and y.
-constexpr double zeros[lanes + 1] = {};
-
 /// Sources of a block: the first two contacts of each outer node, and what else there is.
 struct Sources {
     int* pairs;
     std::vector<int>& rest;
+    int none;  ///< stands for no contact
 };
 
 /// Sources come in the order of the gather list, edges after contacts, and are summed in it.
 void add_source(Sources s, int source, int node)
 {
     int* first = s.pairs + node / (2 * lanes) * 2 * lanes + node % lanes;
-    if (source >= 0 && first[0] == none) {
+    if (source >= 0 && first[0] == s.none) {
         first[0] = source;
-    } else if (source >= 0 && first[lanes] == none) {
+    } else if (source >= 0 && first[lanes] == s.none) {
         first[lanes] = source;
     } else {
         s.rest.insert(s.rest.end(), { source, node });
@@ -33,6 +32,27 @@ void add_source(Sources s, int source, int node)
 
 /// Offsets of the forces on the second node of an edge follow those on the first.
 int second_force(int source) { return source >= 0 ? source + 2 * lanes : ~(~source + 2 * lanes); }
+
+/// Sums of the two contacts of each outer node; one after the other, or the compiler runs out of
+/// registers for the addresses.
+FLEXPM_MULTIVERSION void sum_pairs(
+    const double* contact, const int* pairs, double* force, int vertices)
+{
+    for (int i = 0; i < 2 * lanes * vertices; i += 2 * lanes) {
+        const int *first = pairs + i, *second = first + lanes;
+        double* f = force + i;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            f[l] = 0.0 + contact[first[l]];
+            f[lanes + l] = 0.0 + contact[first[l] + lanes];
+        }
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            f[l] += contact[second[l]];
+            f[lanes + l] += contact[second[l] + lanes];
+        }
+    }
+}
 
 }  // namespace
 
@@ -68,11 +88,13 @@ void list_forces(Assembly& a)
 
 void sort_sources(Assembly& a)
 {
+    const int none = a.contact_blocks() * lanes * ContactRows::forces;
+    a.contact_force.resize(static_cast<std::size_t>(none) + 2 * lanes);  // x and y are zero
     a.source_pairs.assign(a.reference.size(), none);
     a.more_sources.clear();
     a.more_first.assign(1, 0);
     for (int block = 0; block < a.blocks(); ++block) {
-        const Sources s = { a.source_pairs.data() + a.block_nodes[block], a.more_sources };
+        const Sources s = { a.source_pairs.data() + a.block_nodes[block], a.more_sources, none };
         for (int i = a.gather_first[block]; i < a.gather_first[block + 1]; i += 3) {
             add_source(s, a.gather[i], a.gather[i + 1]);
             add_source(s, second_force(a.gather[i]), a.gather[i + 2]);
@@ -87,16 +109,7 @@ void gather_forces(Assembly& a, int block)
     const MeshGroup& group = a.group(block);
     const double *contact = a.contact_force.data(), *edge = a.edge_force.data();
     double* force = a.force.data() + first;
-    for (int n = 0; n < group.vertices; ++n) {
-        const int* pair = a.source_pairs.data() + first + 2 * lanes * n;
-        double* f = force + 2 * lanes * n;
-        for (int l = 0; l < lanes; ++l) {
-            const double* p = pair[l] != none ? contact + pair[l] : zeros;
-            const double* q = pair[lanes + l] != none ? contact + pair[lanes + l] : zeros;
-            f[l] = (0.0 + p[0]) + q[0];
-            f[lanes + l] = (0.0 + p[lanes]) + q[lanes];
-        }
-    }
+    sum_pairs(contact, a.source_pairs.data() + first, force, group.vertices);
     std::fill(force + 2 * lanes * group.vertices, force + 2 * lanes * group.nodes, 0.0);
     const int *entry = a.more_sources.data() + a.more_first[block],
               *end = a.more_sources.data() + a.more_first[block + 1];

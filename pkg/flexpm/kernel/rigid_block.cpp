@@ -30,79 +30,16 @@ __attribute__((always_inline)) inline Turn turn_by(double angle)
     return { -t * scale, scale };
 }
 
-/// Moments need the arms at the end of the step; nodes are there when forces are known.
-__attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, double dt)
-{
-    const int centre = 2 * (b.nodes - 1) * lanes;
-    alignas(64) double along[lanes], across[lanes];
-    for (int l = 0; l < lanes; ++l) {
-        const Turn turn = turn_by(dt * b.spin[l]);
-        along[l] = turn.along / dt;
-        across[l] = turn.across / dt;
-    }
-    for (int n = 0; n + 1 < b.nodes; ++n) {
-        const int i = 2 * n * lanes;
-#pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            const double rx = (b.reference[i + l] - b.reference[centre + l])
-                + (b.displacement[i + l] - b.displacement[centre + l]);
-            const double ry = (b.reference[i + lanes + l] - b.reference[centre + lanes + l])
-                + (b.displacement[i + lanes + l] - b.displacement[centre + lanes + l]);
-            b.velocity[i + l] = b.velocity[centre + l] + (along[l] * rx - across[l] * ry);
-            b.velocity[i + lanes + l] =
-                b.velocity[centre + lanes + l] + (across[l] * rx + along[l] * ry);
-        }
-    }
-}
+/// Forces and moments of a block's grains about their centres, and for the unbalanced ratio the
+/// squares of the longest arms.
+struct Resultants {
+    alignas(64) double x[lanes], y[lanes], moment[lanes], reach[lanes];
+};
 
-template <bool Measure>
-__attribute__((always_inline)) inline void integrate_lanes(
-    const RigidRows& b, double dt, double damping, StepSums& total)
+__attribute__((always_inline)) inline void move_centres(const RigidRows& b, int centre, double dt)
 {
-    const int centre = 2 * (b.nodes - 1) * lanes;
-    StepSums sums;                       // a local, which no row aliases
-    alignas(64) double held[3 * lanes];  // bytes and doubles in one loop are not vectorised
-    std::copy_n(b.held, 2 * lanes, held);
-    std::copy_n(b.spin_held, lanes, held + 2 * lanes);
-    alignas(64) double fx[lanes], fy[lanes], moment[lanes] = {}, reach[lanes] = {};
-    for (int l = 0; l < lanes; ++l) {
-        fx[l] = b.force[centre + l];
-        fy[l] = b.force[centre + lanes + l];
-    }
-    for (int n = 0; n + 1 < b.nodes; ++n) {
-        const int i = 2 * n * lanes;
-#pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            const double rx = (b.reference[i + l] - b.reference[centre + l])
-                + (b.displacement[i + l] - b.displacement[centre + l]);
-            const double ry = (b.reference[i + lanes + l] - b.reference[centre + lanes + l])
-                + (b.displacement[i + lanes + l] - b.displacement[centre + lanes + l]);
-            const double x = b.force[i + l], y = b.force[i + lanes + l];
-            fx[l] += x;
-            fy[l] += y;
-            moment[l] += rx * y - ry * x;
-            reach[l] = std::max(reach[l], rx * rx + ry * ry);
-        }
-    }
-#pragma GCC ivdep
-    for (int l = 0; l < lanes; ++l) {
-        integrate_one<Measure>(
-            fx[l], held[l], b.inverse_mass[l], 1.0, dt, damping, b.velocity[centre + l], sums, l);
-        integrate_one<Measure>(fy[l], held[lanes + l], b.inverse_mass[l], 1.0, dt, damping,
-            b.velocity[centre + lanes + l], sums, l);
-        integrate_one<Measure>(moment[l], held[2 * lanes + l], b.inverse_inertia[l],
-            std::sqrt(reach[l]), dt, damping, b.spin[l], sums, l);
-    }
-    sums.copy_to(total);
-    spread_lanes(b, dt);
-}
-
-}  // namespace
-
-FLEXPM_MULTIVERSION void move_rigid(const RigidRows& b, double dt)
-{
-    const int centre = 2 * (b.nodes - 1) * lanes;
     double *along = b.rotation, *across = b.rotation + lanes, *angle = b.rotation + 2 * lanes;
+#pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         const Turn turn = turn_by(dt * b.spin[l]);
         const double k = along[l] + turn.along * (1.0 + along[l]) - turn.across * across[l];
@@ -115,31 +52,132 @@ FLEXPM_MULTIVERSION void move_rigid(const RigidRows& b, double dt)
         b.displacement[centre + l] += dt * b.velocity[centre + l];
         b.displacement[centre + lanes + l] += dt * b.velocity[centre + lanes + l];
     }
-    for (int n = 0; n + 1 < b.nodes; ++n) {
-        const int i = 2 * n * lanes;
+}
+
+/// Move the outer nodes with the grains and sum the forces there. With `Move` false nodes stay where
+/// they are. Arms about the centres are left in the place of the nodes' velocities.
+template <bool Move, bool Measure>
+__attribute__((always_inline)) inline void find_arms(
+    const RigidRows& b, int centre, Resultants& sum)
+{
+    const double *along = b.rotation, *across = b.rotation + lanes;
+    const double *origin = b.reference + centre, *way = b.displacement + centre;
+    for (int i = 0; i < centre; i += 2 * lanes) {
+        const double *reference = b.reference + i, *force = b.force + i;
+        double *u = b.displacement + i, *arm = b.velocity + i;
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
-            const double rx = b.reference[i + l] - b.reference[centre + l];
-            const double ry = b.reference[i + lanes + l] - b.reference[centre + lanes + l];
-            b.displacement[i + l] = b.displacement[centre + l] + (along[l] * rx - across[l] * ry);
-            b.displacement[i + lanes + l] =
-                b.displacement[centre + lanes + l] + (across[l] * rx + along[l] * ry);
+            const int y = lanes + l;
+            const double x0 = reference[l] - origin[l], y0 = reference[y] - origin[y];
+            if (Move) {
+                u[l] = way[l] + (along[l] * x0 - across[l] * y0);
+                u[y] = way[y] + (across[l] * x0 + along[l] * y0);
+            }
+            const double rx = x0 + (u[l] - way[l]), ry = y0 + (u[y] - way[y]);
+            arm[l] = rx;
+            arm[y] = ry;
+            sum.x[l] += force[l];
+            sum.y[l] += force[y];
+            sum.moment[l] += rx * force[y] - ry * force[l];
+            if (Measure) sum.reach[l] = std::max(sum.reach[l], rx * rx + ry * ry);
         }
     }
 }
 
-FLEXPM_MULTIVERSION void integrate_rigid(
-    const RigidRows& b, double dt, double damping, StepSums& sums)
+/// Velocities of the outer nodes, of the arms that are in their place.
+__attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, int centre, double dt)
 {
-    integrate_lanes<false>(b, dt, damping, sums);
+    alignas(64) double along[lanes], across[lanes];
+    for (int l = 0; l < lanes; ++l) {
+        const Turn turn = turn_by(dt * b.spin[l]);
+        along[l] = turn.along / dt;
+        across[l] = turn.across / dt;
+    }
+    const double* of_centre = b.velocity + centre;
+    for (int i = 0; i < centre; i += 2 * lanes) {
+        double* v = b.velocity + i;
+#pragma GCC ivdep
+#pragma GCC unroll 1  // unrolled, the compiler takes the nodes for lanes
+        for (int l = 0; l < lanes; ++l) {
+            const double rx = v[l], ry = v[lanes + l];
+            v[l] = of_centre[l] + (along[l] * rx - across[l] * ry);
+            v[lanes + l] = of_centre[lanes + l] + (across[l] * rx + along[l] * ry);
+        }
+    }
 }
 
-FLEXPM_MULTIVERSION void integrate_rigid_measured(
-    const RigidRows& b, double dt, double damping, StepSums& sums)
+bool holds_any(const RigidRows& b)
 {
-    integrate_lanes<true>(b, dt, damping, sums);
+    std::uint8_t any = 0;
+    for (int l = 0; l < lanes; ++l)
+        any |= b.held[l] | b.held[lanes + l] | b.spin_held[l];
+    return any != 0;
 }
 
-void spread_velocities(const RigidRows& b, double dt) { spread_lanes(b, dt); }
+template <bool Measure, bool Held>
+__attribute__((always_inline)) inline void integrate_lanes(
+    const RigidRows& b, int centre, const Resultants& f, double dt, double damping, StepSums& total)
+{
+    StepSums sums;                            // a local, which no row aliases
+    alignas(64) double held[3 * lanes] = {};  // bytes and doubles in one loop are not vectorised
+    if (Held) {
+        std::copy_n(b.held, 2 * lanes, held);
+        std::copy_n(b.spin_held, lanes, held + 2 * lanes);
+    }
+    double* v = b.velocity + centre;
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        const int y = lanes + l;
+        integrate_one<Measure, Held>(
+            f.x[l], held[l], b.inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
+        integrate_one<Measure, Held>(
+            f.y[l], held[y], b.inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
+        integrate_one<Measure, Held>(f.moment[l], held[2 * lanes + l], b.inverse_inertia[l],
+            Measure ? std::sqrt(f.reach[l]) : 1.0, dt, damping, b.spin[l], sums, l);
+    }
+    sums.copy_to(total);
+}
+
+template <bool Measure>
+__attribute__((always_inline)) inline void step_lanes(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
+{
+    const int centre = 2 * (b.nodes - 1) * lanes;
+    move_centres(b, centre, dt);
+    Resultants f;
+    for (int l = 0; l < lanes; ++l) {
+        f.x[l] = b.force[centre + l];
+        f.y[l] = b.force[centre + lanes + l];
+        f.moment[l] = f.reach[l] = 0.0;
+    }
+    find_arms<true, Measure>(b, centre, f);
+    if (holds_any(b)) {
+        integrate_lanes<Measure, true>(b, centre, f, dt, damping, sums);
+    } else {
+        integrate_lanes<Measure, false>(b, centre, f, dt, damping, sums);
+    }
+    spread_lanes(b, centre, dt);
+}
+
+}  // namespace
+
+FLEXPM_MULTIVERSION void step_rigid(const RigidRows& b, double dt, double damping, StepSums& sums)
+{
+    step_lanes<false>(b, dt, damping, sums);
+}
+
+FLEXPM_MULTIVERSION void step_rigid_measured(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
+{
+    step_lanes<true>(b, dt, damping, sums);
+}
+
+void spread_velocities(const RigidRows& b, double dt)
+{
+    const int centre = 2 * (b.nodes - 1) * lanes;
+    Resultants unused = {};
+    find_arms<false, false>(b, centre, unused);
+    spread_lanes(b, centre, dt);
+}
 
 }  // namespace flexpm

@@ -24,13 +24,11 @@ struct RigidRows {
     const double* inverse_inertia;
 };
 
-/// Move the grains to the end of the step.
-void move_rigid(const RigidRows& b, double dt);
-
-/// New velocities and spins from the nodal forces and their moments about the centres; velocities of
-/// all nodes so that dt times them is the exact way of the coming step.
-void integrate_rigid(const RigidRows& b, double dt, double damping, StepSums& sums);
-void integrate_rigid_measured(const RigidRows& b, double dt, double damping, StepSums& sums);
+/// Move the grains to the end of the step; then new velocities and spins from the nodal forces and
+/// their moments about the centres, and velocities of all nodes so that dt times them is the exact way
+/// of the coming step.
+void step_rigid(const RigidRows& b, double dt, double damping, StepSums& sums);
+void step_rigid_measured(const RigidRows& b, double dt, double damping, StepSums& sums);
 
 /// Velocities of all nodes from those of the centre and the spin.
 void spread_velocities(const RigidRows& b, double dt);

@@ -145,10 +145,8 @@ void update_deformable(Assembly& a, int block, const StepOptions& options, StepS
 
 void update_rigid(Assembly& a, int block, const StepOptions& options, StepSums& sums)
 {
-    const RigidRows rows = rigid_rows(a, block);
-    move_rigid(rows, options.dt);
-    (options.measure ? integrate_rigid_measured : integrate_rigid)(
-        rows, options.dt, options.damping, sums);
+    (options.measure ? step_rigid_measured : step_rigid)(
+        rigid_rows(a, block), options.dt, options.damping, sums);
 }
 
 void update_grain_block(Assembly& a, int block, const StepOptions& options)
