@@ -45,7 +45,7 @@ void grain_blocks(benchmark::State& state, const char* kind)
     specimens::Specimen s = paper_size();
     s.cells.shared_edges.clear();
     flexpm::Assembly a = specimens::assemble(s, loaded::options(kind));
-    loaded::load(a, -1e-8);
+    loaded::drive(a, -1e-8);
     for (auto _ : state)
         flexpm::step(a, flexpm::StepOptions());
     count(state, a.grains, "grain");

@@ -29,9 +29,8 @@ inline flexpm::AssemblyOptions options(const std::string& kind, int points = 3)
     return o;
 }
 
-/// Scaled masses, a top that moves at `velocity`, and the elastic velocities to start with. Rigid
-/// grains are squeezed between plates.
-inline void load(flexpm::Assembly& a, double velocity)
+/// Scaled masses and a top that moves at `velocity`. Rigid grains are squeezed between plates.
+inline void drive(flexpm::Assembly& a, double velocity)
 {
     if (a.is_rigid(0)) {
         for (int side : { flexpm::bottom_side, flexpm::top_side }) {
@@ -44,6 +43,12 @@ inline void load(flexpm::Assembly& a, double velocity)
         flexpm::grip_bottom(a);
         flexpm::move_top(a, velocity);
     }
+}
+
+/// The same with the elastic velocities to start with, which grains without contacts do not have.
+inline void load(flexpm::Assembly& a, double velocity)
+{
+    drive(a, velocity);
     flexpm::start_elastically(a);
 }
 
