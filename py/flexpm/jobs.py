@@ -120,7 +120,10 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
     outcome = {
         "inputs": dict(job.inputs),
         "exit_code": done.returncode,
-        "message": lines[-1].removeprefix("flexpm: ") if lines else "",
+        # a table must not depend on where its runs lie
+        "message": lines[-1].removeprefix("flexpm: ").replace(str(folder), job.name)
+        if lines
+        else "",
         "result": _measures(folder / "result.json"),
     }
     if done.returncode in _FINAL:

@@ -68,7 +68,7 @@ class Schedule:
     max_strain: float  #: at which the test ends [-]
     height: float  #: [m]
     dt: float  #: [s], or 1 with scaled masses
-    stop_ratio: float = 0.5  #: part of its peak to which the stress falls in the end [-]
+    stop_ratio: float  #: part of its peak to which the stress falls in the end [-]
     fastest_pace: float = 1.0  #: largest velocity over `velocity` [-]
 
     @property

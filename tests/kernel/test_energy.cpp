@@ -7,6 +7,7 @@
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/measures.hpp>
 
+#include "balance.hpp"
 #include "driven.hpp"
 #include "law_path.hpp"
 
@@ -28,12 +29,6 @@ void shake(Assembly& a, double speed, std::uint64_t seed)
     }
 }
 
-double miss(const flexpm::Energies& e)
-{
-    return e.boundary_work + e.initial
-        - (e.kinetic + e.elastic + e.damage + e.friction + e.damping);
-}
-
 /// Largest miss of the books in `steps` measured steps, over the largest energy put in.
 template <class Each>
 double largest_miss(Assembly& a, double damping, int steps, int every, Each each)
@@ -47,7 +42,7 @@ double largest_miss(Assembly& a, double damping, int steps, int every, Each each
         flexpm::step(a, o);
         if (!o.measure) continue;
         const flexpm::Energies e = flexpm::energies(a);
-        worst = std::max(worst, std::fabs(miss(e)));
+        worst = std::max(worst, std::fabs(balance::miss(e)));
         most = std::max(most, std::max(std::fabs(e.boundary_work), e.initial));
     }
     return worst / most;

@@ -12,6 +12,7 @@
 #include <flexpm/kernel/static_start.hpp>
 #include <flexpm/kernel/stepping.hpp>
 
+#include "balance.hpp"
 #include "specimens.hpp"
 
 #include <cmath>
@@ -39,12 +40,6 @@ double pace_after(double pace, double share, int steps)
     for (int done = 0; done < steps; done += 100)
         pace = next_pace(pace, share, 100.0, rule);
     return pace;
-}
-
-double miss(const Energies& e)
-{
-    return e.boundary_work + e.initial
-        - (e.kinetic + e.elastic + e.damage + e.friction + e.damping);
 }
 
 }  // namespace
@@ -95,7 +90,7 @@ TEST_CASE("Changes of the driven velocity leave the books closed")
     }
     const Energies e = energies(a);
     CHECK(e.damage == 0.0);
-    const double part = std::fabs(miss(e)) / e.boundary_work;
+    const double part = std::fabs(balance::miss(e)) / e.boundary_work;
     // a hundredth of the steps have another velocity before than after: the books see that
     if (rebooked) {
         CHECK(part < 1e-5);

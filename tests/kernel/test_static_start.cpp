@@ -11,6 +11,7 @@
 #include <flexpm/kernel/static_start.hpp>
 #include <flexpm/kernel/stepping.hpp>
 
+#include "balance.hpp"
 #include "specimens.hpp"
 
 #include <cmath>
@@ -65,12 +66,6 @@ double utilisation(const Assembly& a)
     return largest;
 }
 
-double miss(const Energies& e)
-{
-    return e.boundary_work + e.initial
-        - (e.kinetic + e.elastic + e.damage + e.friction + e.damping);
-}
-
 }  // namespace
 
 TEST_CASE("A specimen led along its elastic solution is in equilibrium at the share asked for")
@@ -88,7 +83,7 @@ TEST_CASE("A specimen led along its elastic solution is in equilibrium at the sh
     CHECK(o.lateral_strain / o.axial_strain == Approx(solved.poissons_ratio).epsilon(2e-3));
     const Energies e = energies(a);
     CHECK(e.damage == 0.0);
-    CHECK(std::fabs(miss(e)) < 1e-5 * e.elastic);
+    CHECK(std::fabs(balance::miss(e)) < 1e-5 * e.elastic);
 }
 
 TEST_CASE("After the elastic solution the test goes on without a jolt")
@@ -114,7 +109,7 @@ TEST_CASE("After the elastic solution the test goes on without a jolt")
     CHECK(after.axial_stress - before.axial_stress
         == Approx(strain * before.axial_stress / before.axial_strain).epsilon(0.02));
     const Energies e = energies(a);
-    CHECK(std::fabs(miss(e)) < 1e-5 * e.elastic);
+    CHECK(std::fabs(balance::miss(e)) < 1e-5 * e.elastic);
 }
 
 TEST_CASE("The elastic limit follows from the strengths of the point that reaches one first")

@@ -144,8 +144,10 @@ def test_the_outcome_of_an_interrupted_run_is_not_kept(tmp_path):
         folder = tmp_path / str(code)
         folder.mkdir()
         (folder / "checkpoint-7.bin").write_bytes(b"scene")
-        done = subprocess.CompletedProcess([], code, "", "warning\nflexpm: status = no_peak\n")
-        assert jobs.conclude(job, folder, done)["message"] == "status = no_peak"
+        said = f"warning\nflexpm: status = no_peak; see {folder}\n"
+        done = subprocess.CompletedProcess([], code, "", said)
+        # a path would tell tables of the same runs apart
+        assert jobs.conclude(job, folder, done)["message"] == f"status = no_peak; see {job.name}"
         assert (jobs.known(folder) is not None) == kept
         assert (folder / "checkpoint-7.bin").exists() == (not kept)
     assert jobs.conclude(job, tmp_path, OSError("lost"))["exit_code"] is None
