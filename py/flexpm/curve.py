@@ -48,6 +48,8 @@ ELASTIC_WINDOW = (0.05, 0.25)
 #: The largest stress counts as a peak once the stress has fallen by this fraction of it.
 PEAK_DROP = 0.10
 _SEATED = 0.2
+#: Shares of the peak between which the early and the late modulus are taken.
+_EARLY, _LATE = (0.15, 0.25), (0.75, 0.85)
 #: Cracking has set in once this share of all cracked points of a mode have cracked.
 ONSET_SHARE = 0.05
 
@@ -173,6 +175,23 @@ def softening_slope(curve: Curve) -> float | None:
     fallen = np.flatnonzero(stress[peak:] <= 0.5 * stress[peak])
     rows = slice(peak, peak + int(fallen[0]) + 1 if len(fallen) else len(stress))
     return _slope(curve["axial_strain"][rows], stress[rows], fewest=2)
+
+
+def late_modulus(curve: Curve) -> float | None:
+    """Tangent modulus around 80 % of the peak over that around 20 % [-], by least squares.
+
+    1 is a straight line up to there; the paper's two slopes (Fig. 9) give less.
+    """
+    peak = peak_row(curve)
+    if peak is None:
+        return None
+    strain, stress = curve["axial_strain"][: peak + 1], differential_stress(curve)[: peak + 1]
+    moduli = []
+    for low, high in (_EARLY, _LATE):
+        rows = (stress >= low * stress[-1]) & (stress <= high * stress[-1])
+        moduli.append(_slope(strain[rows], stress[rows]))
+    early, late = moduli
+    return late / early if early and late is not None else None
 
 
 def crack_onset(

@@ -69,6 +69,7 @@ class Result:
     energy_error: float | None = None  #: relative to the largest work [-]
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
     softening_slope: float | None = None  #: of stress over strain after the peak, negative [Pa]
+    late_modulus: float | None = None  #: at 80 % of the peak over that at 20 % [-]
     first_tensile_crack_strain: float | None = None  #: [-]
     first_tensile_crack_stress: float | None = None  #: [Pa]
     first_shear_crack_strain: float | None = None  #: [-]
@@ -113,6 +114,7 @@ class Result:
         self.end_mismatch = measures.end_mismatch(record)
         self.energy_error = measures.energy_error(whole, initial_energy)
         self.softening_slope = measures.softening_slope(record)
+        self.late_modulus = measures.late_modulus(record)
         self._measure_onset()
         if len(whole):
             self.steps = int(whole["step"][-1])

@@ -17,8 +17,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 import flexpm
 
 MODELS = ("flexible", "rigid")
@@ -27,8 +25,6 @@ SEEDS = (1, 2, 3)
 #: Test and confinement [Pa]; compression is asked of the bilinear material only.
 TENSION = (("tension", 0.0), ("brazilian", 0.0))
 COMPRESSION = (("uniaxial", 0.0), ("biaxial", 4e6), ("biaxial", 12e6))
-#: Shares of the peak between which the late and the early modulus are taken.
-EARLY, LATE = (0.15, 0.25), (0.75, 0.85)
 
 
 class Run(NamedTuple):
@@ -46,19 +42,6 @@ class Run(NamedTuple):
     shear_cracks: int
     steps: int
     status: str
-
-
-def late_modulus(result: flexpm.Result) -> float:
-    """Tangent modulus around 80 % of the peak over that around 20 %, by least squares [-]."""
-    curve = result.curve
-    stress = curve["axial_stress"] - curve["confinement"]
-    rising = slice(0, int(np.argmax(stress)) + 1)
-    stress, strain = stress[rising], curve["axial_strain"][rising]
-    moduli = []
-    for low, high in (EARLY, LATE):
-        rows = (stress >= low * stress[-1]) & (stress <= high * stress[-1])
-        moduli.append(np.polyfit(strain[rows], stress[rows], 1)[0] if rows.sum() > 2 else np.nan)
-    return float(moduli[1] / moduli[0])
 
 
 def specimen_for(test: str, seed: int) -> flexpm.Specimen:
@@ -89,7 +72,7 @@ def run(
         seed,
         result.peak_stress or float("nan"),
         result.peak_strain or float("nan"),
-        late_modulus(result),
+        result.late_modulus if result.late_modulus is not None else float("nan"),
         result.tensile_cracks,
         result.shear_cracks,
         result.steps,

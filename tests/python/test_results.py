@@ -44,6 +44,7 @@ KEYS = [
     "energy_error",
     "contact_width",
     "softening_slope",
+    "late_modulus",
     "first_tensile_crack_strain",
     "first_tensile_crack_stress",
     "first_shear_crack_strain",
@@ -116,6 +117,7 @@ def test_measures_of_a_triangular_record(confinement):
     assert result.peak_stress == pytest.approx(PEAK + confinement, rel=1e-12)
     assert result.peak_strain == pytest.approx(PEAK / YOUNG, rel=1e-12)
     assert result.softening_slope == pytest.approx(SOFTENING, rel=1e-9)
+    assert result.late_modulus == pytest.approx(1.0, rel=1e-9)
     # neither the first rows nor those after the peak
     assert (result.unbalanced_ratio, result.end_mismatch) == (1e-3, 0.02)
     assert result.energy_error == pytest.approx(0.0, abs=1e-12)
@@ -137,6 +139,12 @@ def test_kinks_outside_5_to_25_percent_of_the_peak_do_not_count():
     assert measures.youngs_modulus(outside) == pytest.approx(100.0, rel=1e-9)
     inside = record_through((0, 0), (0.02, 4), (0.18, 20), (0.5, 100), (0.9, 10))
     assert measures.youngs_modulus(inside) > 105.0
+
+
+def test_two_slopes_give_their_quotient():
+    kinked = record_through((0, 0), (0.4, 40), (1.6, 100), (2.0, 10))
+    assert measures.late_modulus(kinked) == pytest.approx(0.5, rel=1e-9)
+    assert measures.late_modulus(triangular_record(last_stress=0.95 * PEAK)) is None
 
 
 @given(noise=st.integers(0, 2**31), factor=st.floats(1e-6, 1e6))
@@ -239,6 +247,7 @@ def test_short_records_give_none_and_not_zero(rows):
     for key in ("youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"):
         assert found[key] is None
     assert result.softening_slope is None
+    assert result.late_modulus is None
 
 
 def test_append_wants_every_column():
