@@ -4,7 +4,7 @@
 import json
 
 import pandas
-from common import options
+from common import RESULTS, options
 
 from flexpm import bench
 
@@ -24,5 +24,6 @@ hours = pandas.DataFrame(
         for test, models in tests.items()
     }
 )
-hours.to_csv(folder / "table4.csv", index_label="model")
+for place in (folder, RESULTS) if chosen.keep else (folder,):
+    hours.to_csv(place / "table4.csv", index_label="model")
 print(hours.round(3))

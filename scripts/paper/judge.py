@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How statements of the paper are judged: relative differences on the same packings.
+
+The relative difference of two models, or of the ends of a sweep, has a mean and a standard error
+over the seeds at each point of a study. It holds where the mean is above the error and is against
+where it is below minus the error; a statement is reproduced if it holds at all points. All judges
+take a table with a row for each point and seed, and give a verdict with its numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import pandas
+
+NOT_RUN = "not run"
+#: Largest relative change that is called negligible, and largest bend of a straight line [-].
+LITTLE, STRAIGHT = 0.05, 0.10
+#: Factor and unit in which a measure is shown.
+SHOWN = {
+    **dict.fromkeys(("compressive_strength", "cohesion", "direct", "indirect"), (1e-6, "MPa")),
+    **dict.fromkeys(("peak_stress", "tensile_onset_stress"), (1e-6, "MPa")),
+    "softening_slope": (1e-9, "GPa"),
+    "friction_angle": (1.0, "degrees"),
+}
+Where = Mapping[str, Any]
+Judge = Callable[..., str]
+
+
+class Points(NamedTuple):
+    """Relative differences at the points of a study: mean and standard error over the seeds."""
+
+    mean: pandas.Series
+    error: pandas.Series
+
+    @classmethod
+    def of(cls, differences: pandas.Series) -> Points:
+        """Take the statistics of one value for each (point, seed)."""
+        levels = [name for name in differences.index.names if name != "seed"]
+        groups = differences.groupby(level=levels) if levels else differences.groupby(lambda _: 0)
+        return cls(groups.mean(), groups.sem())
+
+    def verdict(self) -> str:
+        """Whether the differences are positive."""
+        count = len(self.mean)
+        holds = int((self.mean > self.error).sum())
+        against = int((self.mean < -self.error).sum())
+        if holds == count:
+            return "reproduced"
+        if against == count:
+            return "not reproduced"
+        if holds == against == 0:
+            return "within scatter"
+        return f"in part: holds at {holds} and is against at {against} of {count} points"
+
+    def __str__(self) -> str:
+        low, high, error = (
+            100.0 * value for value in (self.mean.min(), self.mean.max(), self.error.mean())
+        )
+        if len(self.mean) == 1:
+            return f"{low:+.1f} ± {error:.1f} %"
+        return f"{low:+.0f} to {high:+.0f} % at {len(self.mean)} points, ± {error:.1f} %"
+
+
+def values(table: pandas.DataFrame, measure: str, where: Where, at: Sequence[str]) -> pandas.Series:
+    """A measure of the rows in which the columns of `where` have its values, by (point, seed)."""
+    for column, value in where.items():
+        table = table[table[column] == value]
+    return table.set_index([*at, "seed"])[measure].dropna().astype(float)
+
+
+def shown(measure: str, value: float) -> str:
+    """A measure with its unit."""
+    factor, unit = SHOWN.get(measure, (1.0, ""))
+    return f"{factor * value:.3g} {unit}".strip()
+
+
+def each(table: pandas.DataFrame, judge: Judge, cases: Mapping[str, Where], **given: Any) -> str:
+    """Judge some named cases one by one."""
+    found = {name: judge(table, where=where, **given) for name, where in cases.items()}
+    if set(found.values()) == {NOT_RUN}:
+        return NOT_RUN
+    return ". ".join(f"{name}: {verdict}" for name, verdict in found.items())
+
+
+def above(
+    table: pandas.DataFrame,
+    measure: str,
+    more: Where,
+    less: Where,
+    at: Sequence[str] = (),
+    where: Where | None = None,
+) -> str:
+    """Judge that a measure is higher in the rows `more` than in the rows `less`."""
+    points, means = _difference(table, measure, more, less, at, where)
+    return NOT_RUN if points is None else f"{points.verdict()}; {means}, {points}"
+
+
+def alike(
+    table: pandas.DataFrame, measure: str, one: Where, other: Where, where: Where | None = None
+) -> str:
+    """Judge that a measure differs by no more than `LITTLE`, or than the scatter."""
+    points, means = _difference(table, measure, one, other, (), where)
+    return NOT_RUN if points is None else f"{_little(points)}; {means}, {points}"
+
+
+def grows(table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where) -> str:
+    """Judge that a measure grows with `x`."""
+    points = Points.of(_change(table, measure, x, where, at))
+    return f"{points.verdict()}; {points}" if len(points.mean) else NOT_RUN
+
+
+def falls(table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where) -> str:
+    """Judge that a measure falls with `x`."""
+    change = _change(table, measure, x, where, at)
+    if change.empty:
+        return NOT_RUN
+    return f"{Points.of(-change).verdict()}; {Points.of(change)}"
+
+
+def negligible(
+    table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where
+) -> str:
+    """Judge that `x` changes a measure by no more than `LITTLE`, or than the scatter."""
+    points = Points.of(_change(table, measure, x, where, at))
+    return f"{_little(points)}; {points}" if len(points.mean) else NOT_RUN
+
+
+def stronger(
+    table: pandas.DataFrame, measure: str, x: str, more: Where, less: Where, at: Sequence[str]
+) -> str:
+    """Judge that `x` changes a measure more in the rows `more` than in the rows `less`."""
+    high, low = (_change(table, measure, x, where, at).abs() for where in (more, less))
+    both = high.index.intersection(low.index)
+    if both.empty:
+        return NOT_RUN
+    means = " against ".join(f"{100.0 * change[both].mean():.0f} %" for change in (high, low))
+    return f"{Points.of(high[both] - low[both]).verdict()}; changes by {means}"
+
+
+def straight(table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where) -> str:
+    """Judge that a measure is linear in `x`, by how far middle values are off the chord."""
+    found = values(table, measure, where, [x, *at])
+    if found.empty:
+        return NOT_RUN
+    means = found.groupby(level=[x, *at]).mean().unstack(x)
+    first, last = min(means.columns), max(means.columns)
+    rise = means[last] - means[first]
+    bends = [
+        (means[middle] - means[first]) / rise - (middle - first) / (last - first)
+        for middle in means.columns
+    ]
+    bend = max(abs(one).max() for one in bends)
+    word = "reproduced" if bend <= STRAIGHT else "not reproduced"
+    return f"{word}; off the chord by up to {100.0 * bend:.0f} % of the rise"
+
+
+def below_one(table: pandas.DataFrame, measure: str, where: Where, at: Sequence[str] = ()) -> str:
+    """Judge that a quotient is below 1."""
+    return _beside_one(table, measure, where, at, -1)
+
+
+def above_one(table: pandas.DataFrame, measure: str, where: Where, at: Sequence[str] = ()) -> str:
+    """Judge that a quotient is above 1."""
+    return _beside_one(table, measure, where, at, 1)
+
+
+def between(
+    table: pandas.DataFrame, measure: str, ends: Sequence[Where], middle: Where, where: Where
+) -> str:
+    """Judge that the mean of a measure lies between those of two others."""
+    means = [
+        values(table, measure, {**rows, **where}, ()).mean() for rows in (ends[0], middle, ends[1])
+    ]
+    if pandas.isna(sum(means)):
+        return NOT_RUN
+    word = "reproduced" if sorted(means)[1] == means[1] else "not reproduced"
+    low, inside, high = (shown(measure, mean) for mean in means)
+    return f"{word}; {inside} and the ends {low}, {high}"
+
+
+def closer(table: pandas.DataFrame, measure: str, to: Where, than_to: Where, middle: Where) -> str:
+    """Judge that the mean of a measure is closer to one other mean than to another."""
+    near, mean, far = (values(table, measure, rows, ()).mean() for rows in (to, middle, than_to))
+    if pandas.isna(near + mean + far):
+        return NOT_RUN
+    word = "reproduced" if abs(mean - near) < abs(mean - far) else "not reproduced"
+    return f"{word}; {shown(measure, mean)} against {shown(measure, near)}, {shown(measure, far)}"
+
+
+def meets(table: pandas.DataFrame, measure: str, value: float, where: Where) -> str:
+    """Judge that a measure differs from a value by no more than `LITTLE`."""
+    points = Points.of(values(table, measure, where, ()) / value - 1.0)
+    if not len(points.mean):
+        return NOT_RUN
+    word = "reproduced" if abs(points.mean.iloc[0]) <= LITTLE else "not reproduced"
+    return f"{word}; {shown(measure, value * (1.0 + points.mean.iloc[0]))}, {points}"
+
+
+def _difference(
+    table: pandas.DataFrame,
+    measure: str,
+    more: Where,
+    less: Where,
+    at: Sequence[str],
+    where: Where | None,
+) -> tuple[Points | None, str]:
+    high, low = (values(table, measure, {**rows, **(where or {})}, at) for rows in (more, less))
+    both = high.index.intersection(low.index)
+    if both.empty:
+        return None, ""
+    means = " against ".join(shown(measure, found[both].mean()) for found in (high, low))
+    return Points.of(high[both] / low[both] - 1.0), means
+
+
+def _change(
+    table: pandas.DataFrame, measure: str, x: str, where: Where, at: Sequence[str]
+) -> pandas.Series:
+    """Relative change of a measure from the first to the last `x`, by (point, seed)."""
+    found = values(table, measure, where, [x, *at]).unstack(x)
+    if found.empty:
+        return pandas.Series(dtype=float)
+    return (found[max(found.columns)] / found[min(found.columns)] - 1.0).dropna()
+
+
+def _little(points: Points) -> str:
+    small = (points.mean.abs() <= LITTLE) | (points.mean.abs() <= points.error)
+    if small.all():
+        return "reproduced"
+    return f"in part: at {small.sum()} of {len(small)} points" if small.any() else "not reproduced"
+
+
+def _beside_one(
+    table: pandas.DataFrame, measure: str, where: Where, at: Sequence[str], sign: int
+) -> str:
+    found = values(table, measure, where, at)
+    if found.empty:
+        return NOT_RUN
+    means = Points.of(found).mean
+    extent = f"{means.min():.2f}" + (f" to {means.max():.2f}" if len(means) > 1 else "")
+    return f"{Points.of(sign * (found - 1.0)).verdict()}; {extent}"
