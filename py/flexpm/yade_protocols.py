@@ -19,7 +19,7 @@ from . import __version__
 from .course import Course
 from .rates import rate_constant
 from .results import Result
-from .schedule import DEFAULT_STRAINS, Schedule, Settings
+from .schedule import Schedule, Settings, end_strains
 from .yade_bonds import tributary_lengths
 from .yade_loading import (
     BOTTOM,
@@ -210,7 +210,7 @@ def _schedule(built: SphereModel, test: str, settings: Settings) -> Schedule:
     reference = factor * (_strength(built, test) + settings.confinement) / modulus
     crossing = _crossing_steps(built) * yade.O.dt
     velocity = settings.rate * rate_constant(test, built.name) * reference * height / crossing
-    largest = settings.max_strain or DEFAULT_STRAINS * reference
+    largest = settings.max_strain or end_strains(test, built.name) * reference
     return Schedule(velocity, reference, largest, height, yade.O.dt, settings.stop_ratio)
 
 

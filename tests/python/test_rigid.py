@@ -98,6 +98,15 @@ def test_brazilian_disc_splits(disc: flexpm.Specimen, model: str) -> None:
     assert upper["force"][1] == pytest.approx(-force, rel=0.2)
 
 
+def test_a_disc_whose_bonds_soften_far_is_loaded_past_its_peak() -> None:
+    """Its strength follows the fracture energy; the strain of its bonds' strength is a tenth."""
+    disc = flexpm.Specimen.disc(diameter=0.02, thickness=0.08, seed=1)
+    ductile = flexpm.materials.load(None, "rigid").with_set(["tensile_strength=4e6"], "rigid")
+    result = flexpm.run("brazilian", disc, model="rigid", material=ductile, stop_ratio=0.8)
+    assert result.status != "no_peak"
+    assert result.peak_stress > 12e6
+
+
 def test_a_disc_is_needed_for_the_brazilian_test(rectangle: flexpm.Specimen) -> None:
     with pytest.raises(InputError, match="must be a disc"):
         flexpm.run("brazilian", rectangle, model="rigid")
