@@ -107,8 +107,11 @@ def alike(
 
 def grows(table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where) -> str:
     """Judge that a measure grows with `x`."""
-    points = Points.of(_change(table, measure, x, where, at))
-    return f"{points.verdict()}; {points}" if len(points.mean) else NOT_RUN
+    change = _change(table, measure, x, where, at)
+    if change.empty:
+        return NOT_RUN
+    points = Points.of(change)
+    return f"{points.verdict()}; {points}"
 
 
 def falls(table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where) -> str:
@@ -123,8 +126,11 @@ def negligible(
     table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], where: Where
 ) -> str:
     """Judge that `x` changes a measure by no more than `LITTLE`, or than the scatter."""
-    points = Points.of(_change(table, measure, x, where, at))
-    return f"{_little(points)}; {points}" if len(points.mean) else NOT_RUN
+    change = _change(table, measure, x, where, at)
+    if change.empty:
+        return NOT_RUN
+    points = Points.of(change)
+    return f"{_little(points)}; {points}"
 
 
 def stronger(
@@ -144,14 +150,12 @@ def straight(table: pandas.DataFrame, measure: str, x: str, at: Sequence[str], w
     found = values(table, measure, where, [x, *at])
     if found.empty:
         return NOT_RUN
-    means = found.groupby(level=[x, *at]).mean().unstack(x)
+    found = found.unstack(x)
+    means = found.groupby(level=list(at)).mean() if at else found.mean().to_frame().T
     first, last = min(means.columns), max(means.columns)
+    chord = (means.columns - first) / (last - first)
     rise = means[last] - means[first]
-    bends = [
-        (means[middle] - means[first]) / rise - (middle - first) / (last - first)
-        for middle in means.columns
-    ]
-    bend = max(abs(one).max() for one in bends)
+    bend = (means.sub(means[first], axis=0).div(rise, axis=0) - chord).abs().to_numpy().max()
     word = "reproduced" if bend <= STRAIGHT else "not reproduced"
     return f"{word}; off the chord by up to {100.0 * bend:.0f} % of the rise"
 
@@ -191,9 +195,10 @@ def closer(table: pandas.DataFrame, measure: str, to: Where, than_to: Where, mid
 
 def meets(table: pandas.DataFrame, measure: str, value: float, where: Where) -> str:
     """Judge that a measure differs from a value by no more than `LITTLE`."""
-    points = Points.of(values(table, measure, where, ()) / value - 1.0)
-    if not len(points.mean):
+    found = values(table, measure, where, ())
+    if found.empty:
         return NOT_RUN
+    points = Points.of(found / value - 1.0)
     word = "reproduced" if abs(points.mean.iloc[0]) <= LITTLE else "not reproduced"
     return f"{word}; {shown(measure, value * (1.0 + points.mean.iloc[0]))}, {points}"
 
