@@ -84,7 +84,7 @@ def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:
         one["ratio"] = flexpm.strength.tensile_ratio(one["direct"], one["indirect"])
         if one["compressive_strength"] and one["direct"]:
             one["compression_over_direct"] = one["compressive_strength"] / one["direct"]
-        if len(set(confinements)) > 2:
+        if len(set(confinements)) > 1:
             strengths = compressed["peak_stress"].astype(float).tolist()
             line = flexpm.strength.mohr_coulomb(confinements, strengths)
             curve = flexpm.strength.hoek_brown(confinements, strengths)

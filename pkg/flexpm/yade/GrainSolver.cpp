@@ -52,7 +52,7 @@ void GrainSolver::action()
 	flexpm::step(assembly, options);
 	publishBodies();
 	if (assembly.step % touchPeriod == 0) changeContacts();
-	if (options.measure) check();
+	if (assembly.step % checkPeriod == 0) check();
 }
 
 namespace {

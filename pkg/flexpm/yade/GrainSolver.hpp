@@ -50,9 +50,10 @@ public:
 		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed.",
 		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
-		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force, and between two checks for numbers that are not finite [-]."))
+		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
+		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
-		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next measured step [-]."))
+		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))

@@ -51,7 +51,7 @@ void GrainSolver::changeContacts()
 {
 	vector<int> over;
 	if (!listed) listCandidates(); // also in a scene that was loaded
-	if (assembly.step % measurePeriod == 0) {
+	if (assembly.step % checkPeriod == 0) {
 		listCandidates();
 		for (int c = 0; c < assembly.contacts; ++c) {
 			if (flexpm::is_over(assembly, c)) over.push_back(c);
