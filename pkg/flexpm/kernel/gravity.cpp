@@ -41,7 +41,8 @@ void add_weight(Assembly& a, int block)
 double potential_energy(const Assembly& a)
 {
     double total = 0.0;
-    if (a.gravity.x == 0.0 && a.gravity.y == 0.0) return total;  // most tests, at each measured step
+    if (a.gravity.x == 0.0 && a.gravity.y == 0.0)
+        return total;  // most tests, at each measured step
     for (int g = 0; g < a.grains; ++g) {
         for (int n = 0; n < a.nodes_of(g); ++n) {
             const int i = a.node(g, n);
