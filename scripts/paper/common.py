@@ -9,6 +9,7 @@ its new results to that table.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from flexpm import study, study_plot
 from flexpm.comparison import Envelope
 from flexpm.console import Progress
 from flexpm.curve import Curve
+from flexpm.errors import InputError
 from flexpm.results import Result
 
 HERE = Path(__file__).parent
@@ -86,10 +88,11 @@ def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:
             one["compression_over_direct"] = one["compressive_strength"] / one["direct"]
         if len(set(confinements)) > 1:
             strengths = compressed["peak_stress"].astype(float).tolist()
-            line = flexpm.strength.mohr_coulomb(confinements, strengths)
-            curve = flexpm.strength.hoek_brown(confinements, strengths)
-            one |= {"cohesion": line.cohesion, "friction_angle": line.friction_angle}
-            one |= {"hoek_brown_strength": curve.sigma_ci, "hoek_brown_m": curve.m_i}
+            with contextlib.suppress(InputError):  # peaks that follow no criterion
+                line = flexpm.strength.mohr_coulomb(confinements, strengths)
+                one |= {"cohesion": line.cohesion, "friction_angle": line.friction_angle}
+                curve = flexpm.strength.hoek_brown(confinements, strengths)
+                one |= {"hoek_brown_strength": curve.sigma_ci, "hoek_brown_m": curve.m_i}
         made.append(one)
     return pandas.DataFrame(made)
 
