@@ -16,7 +16,7 @@ from pathlib import Path
 import pandas
 
 import flexpm
-from flexpm import study, study_plot
+from flexpm import plot_compare, study, study_plot
 from flexpm.comparison import Envelope
 from flexpm.console import Progress
 from flexpm.curve import Curve
@@ -148,3 +148,18 @@ def curves_of(rows: pandas.DataFrame, folder: Path) -> list[tuple[str, Result]]:
         pressure = f", {1e-6 * result.confinement:g} MPa" if result.confinement else ""
         found.append((f"{result.model}{pressure}", result))
     return found
+
+
+def panels_of_laws(name: str, rows: pandas.DataFrame, folder: Path) -> list[Path]:
+    """Draw the curves of the packing with seed 1: panel a with brittle contacts, b with bilinear.
+
+    Runs whose folders are not there any more are left out.
+    """
+    pictures = []
+    for letter, law in (("a", "brittle"), ("b", "bilinear")):
+        chosen = rows[rows["material"].str.endswith(law) & (rows["seed"] == 1)]
+        runs = curves_of(chosen, folder)
+        if runs:
+            plot_compare.curves_picture(folder / f"{name}{letter}.png", runs)
+            pictures.append(folder / f"{name}{letter}.png")
+    return pictures

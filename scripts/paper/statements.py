@@ -151,38 +151,38 @@ STATEMENTS = [
     Statement(
         "4.3.1",
         "Deformable grains do not change the brittle fall after the peak (9): slope",
-        "fig08",
+        "fig09",
         both_laws(judge.alike, measure="softening_slope", one=FLEXIBLE, other=RIGID),
     ),
     Statement(
         "4.3.1",
         "Brittle: deformable grains do not change the compressive strength (9a)",
-        "fig08",
+        "fig09",
         partial(judge.alike, measure="peak_stress", one=FLEXIBLE, other=RIGID, where=BRITTLE),
     ),
     Statement(
         "4.3.1",
         "Bilinear: deformable grains raise the compressive strength (9b)",
-        "fig08",
+        "fig09",
         flexible_above("peak_stress", where=BILINEAR),
     ),
     Statement(
         "4.3.1",
         "The rigid model has two slopes, the flexible one (9): modulus at 80 % of the peak over "
         "that at 20 %, flexible above rigid",
-        "fig08",
+        "fig09",
         both_laws(judge.above, measure="late_modulus", more=FLEXIBLE, less=RIGID),
     ),
     Statement(
         "4.3.1",
         "The two slopes are less distinct when bilinear (9): the same, bilinear above brittle",
-        "fig08",
+        "fig09",
         partial(judge.above, measure="late_modulus", more=BILINEAR, less=BRITTLE, where=RIGID),
     ),
     Statement(
         "4.3.1",
         "Damage begins at higher stress in the flexible model (9): at 5 % of the tensile cracks",
-        "fig08",
+        "fig09",
         both_laws(judge.above, measure="tensile_onset_stress", more=FLEXIBLE, less=RIGID),
     ),
     Statement(
