@@ -40,6 +40,18 @@ def test_table_1_gives_the_modulus_of_the_granite(paper_specimen, model, materia
     assert found["poissons_ratio"] == pytest.approx(poisson, abs=0.015)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("model", "material"),
+    [("flexible", "augig-calibrated"), ("rigid", "augig-calibrated-rigid")],
+)
+def test_calibrated_presets_are_as_stiff_as_the_granite(paper_specimen, model, material):
+    """Table 3, on a packing that the calibration has not used."""
+    found = flexpm.elastic(paper_specimen, material, model)
+    assert found["youngs_modulus"] == pytest.approx(25.8e9, rel=0.02)
+    assert found["poissons_ratio"] == pytest.approx(0.23, abs=0.01)
+
+
 def squares(nx: int, ny: int, size: float) -> flexpm.Specimen:
     centres = [((i + 0.5) * size, (j + 0.5) * size) for j in range(ny) for i in range(nx)]
     corners = [(0, 0), (nx * size, 0), (nx * size, ny * size), (0, ny * size)]
