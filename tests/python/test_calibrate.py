@@ -63,13 +63,16 @@ def test_wrong_files_are_refused(tmp_path, old, new, says):
     assert says in str(error.value)
 
 
-def test_the_papers_granite_can_be_calibrated():
-    plan = calibration.read(ROOT / "scripts/studies/augig_flexible.toml")
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_the_papers_granite_can_be_calibrated(model):
+    plan = calibration.read(ROOT / f"scripts/studies/augig_{model}.toml")
+    assert plan.model == model
     law = materials.load(plan.material_file, plan.model).law(plan.model)
     assert all(low <= law[key] <= high for key, (low, high) in plan.free.items())
     for ratio in plan.ratios:
         assert ratio.bounds[0] <= law[ratio.of] / law[ratio.to] <= ratio.bounds[1]
-    assert len(plan.tests(plan.targets)) == 5
+    # the elastic solve, the disc, and each confinement of the envelope
+    assert len(plan.tests(plan.targets)) == 2 + len(plan.confinements)
 
 
 def test_the_start_must_lie_within_the_bounds(tmp_path):

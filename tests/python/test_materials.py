@@ -16,8 +16,10 @@ from flexpm.materials import Material
 NUMBERS = [key for key, unit in UNITS.items() if unit is not None]
 
 
-def test_table_1_is_complete_in_every_preset():
-    for name in materials.preset_names():
+def test_table_1_is_complete_in_every_preset_of_the_paper():
+    names = [name for name in materials.preset_names() if "calibrated" not in name]
+    assert len(names) == 6
+    for name in names:
         material = materials.load(name)
         quartz = name.endswith("-quartz")
         flexible = material.law("flexible")
