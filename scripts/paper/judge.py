@@ -36,14 +36,17 @@ class Points(NamedTuple):
 
     @classmethod
     def of(cls, differences: pandas.Series) -> Points:
-        """Take the statistics of one value for each (point, seed)."""
+        """Take the statistics of one value for each (point, seed); one packing tells nothing."""
         levels = [name for name in differences.index.names if name != "seed"]
         groups = differences.groupby(level=levels) if levels else differences.groupby(lambda _: 0)
-        return cls(groups.mean(), groups.sem())
+        several = groups.count() > 1
+        return cls(groups.mean()[several], groups.sem()[several])
 
     def verdict(self) -> str:
         """Whether the differences are positive."""
         count = len(self.mean)
+        if count == 0:
+            return "too few packings"
         holds = int((self.mean > self.error).sum())
         against = int((self.mean < -self.error).sum())
         if holds == count:
@@ -55,6 +58,8 @@ class Points(NamedTuple):
         return f"in part: holds at {holds} and is against at {against} of {count} points"
 
     def __str__(self) -> str:
+        if self.mean.empty:
+            return "no point with two packings"
         low, high, error = (
             100.0 * value for value in (self.mean.min(), self.mean.max(), self.error.mean())
         )

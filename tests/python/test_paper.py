@@ -53,6 +53,14 @@ def test_a_difference_below_its_error_is_scatter(judge):
     assert judge.alike(found, "strength", A, B, {"x": 1.0}).startswith("reproduced; ")
 
 
+def test_a_single_packing_tells_nothing(judge):
+    told = judge.above(table(scattered, seeds=(1,)), "strength", A, B, ["x"])
+    assert told.startswith("too few packings; ")
+    alone = table(scattered, seeds=(1,)).query("x == 1").assign(x=8.0)
+    most = pandas.concat([table(scattered), alone])
+    assert "at 3 points" in judge.above(most, "strength", A, B, ["x"])
+
+
 def test_a_statement_that_holds_here_and_there_is_counted(judge):
     found = table(
         lambda model, x, seed: (2.0 if (model == "a") == (x > 1.0) else 1.0) + 0.01 * seed
