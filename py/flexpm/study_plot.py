@@ -93,10 +93,11 @@ def _picture(entries: dict[str, Any], rows: pandas.DataFrame, folder: Path, name
 
 def _lines(axes: Any, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]) -> None:
     drawn = rows.dropna(subset=[x, y])
-    lines = [tuple(values) for values in drawn[list(by)].drop_duplicates().to_numpy()]
-    for number, values in enumerate(lines):
-        group = drawn[(drawn[list(by)].to_numpy() == values).all(axis=1)]
-        label = ", ".join(_value(key, value) for key, value in zip(by, values, strict=True))
+    numbers = pandas.Series(0, index=drawn.index)
+    if by:
+        numbers = drawn.groupby(list(by), sort=False, dropna=False).ngroup()
+    for number, group in drawn.groupby(numbers):
+        label = ", ".join(_value(key, group[key].iloc[0]) for key in by)
         found = group.groupby(x)[y].agg(["mean", "std", "count"])
         places = found.index
         if pandas.api.types.is_numeric_dtype(group[x]):

@@ -72,6 +72,8 @@ def values(table: pandas.DataFrame, measure: str, where: Where, at: Sequence[str
     """A measure of the rows in which the columns of `where` have its values, by (point, seed)."""
     for column, value in where.items():
         table = table[table[column] == value]
+    if measure not in table:  # none of the runs that tell it has been done
+        table = table.iloc[:0].assign(**{measure: 0.0})
     return table.set_index([*at, "seed"])[measure].dropna().astype(float)
 
 

@@ -111,5 +111,6 @@ def test_what_was_not_run_is_said_so(judge):
     assert judge.grows(found, "strength", "x", [], nowhere) == judge.NOT_RUN
     assert judge.below_one(found, "strength", nowhere) == judge.NOT_RUN
     assert judge.between(found, "strength", [A, nowhere], B, {}) == judge.NOT_RUN
+    assert judge.straight(found, "friction_angle", "x", [], A) == judge.NOT_RUN
     missing = judge.each(found, judge.grows, {"one": nowhere}, measure="strength", x="x", at=[])
     assert missing == judge.NOT_RUN

@@ -16,6 +16,7 @@ import pandas
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.axes import Axes
 from matplotlib.image import imread
 
 from flexpm import jobs, study, study_plot
@@ -175,6 +176,23 @@ def test_pictures_show_means_over_packings(tmp_path):
     assert study_plot.draw(study.Study("s", made, asked), rows, tmp_path) == [tmp_path / "x.png"]
     with pytest.raises(InputError, match="did you mean peak_stress"):
         study_plot.draw(study.Study("s", made, [{"x": "seed", "y": "peak_stres"}]), rows, tmp_path)
+
+
+def test_lines_are_told_apart_by_text_and_numbers_together(tmp_path, monkeypatch):
+    lines = []
+    monkeypatch.setattr(
+        Axes, "errorbar", lambda *a, **given: lines.append((given["label"], a[1:3]))
+    )
+    monkeypatch.setattr(Axes, "legend", lambda *a, **given: None)
+    rows = pandas.DataFrame(
+        {"model": model, "set.friction": friction, "x": x, "y": x + friction}
+        for model, friction, x in itertools.product(("a", "b"), (0.2, 0.5), (1.0, 2.0))
+    )
+    asked = [{"x": "x", "y": "y", "by": ["model", "set.friction"]}]
+    study_plot.draw(study.Study("s", [], asked), rows, tmp_path)
+    names = [label for label, _ in lines]
+    assert names == [f"{m}, friction {f}" for m in ("a", "b") for f in (0.2, 0.5)]
+    assert [list(drawn[1]) for _, drawn in lines] == 2 * [[1.2, 2.2], [1.5, 2.5]]
 
 
 @pytest.mark.long
