@@ -78,7 +78,7 @@ def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:
     made = []
     for values, group in rows.groupby([*by, "seed"], dropna=False, sort=False):
         peaks = group.set_index("test")["peak_stress"]
-        compressed = group[group["test"].isin(["uniaxial", "biaxial"])].dropna(subset="peak_stress")
+        compressed = group[group["test"].isin(["uniaxial", "biaxial"])]
         confinements = compressed["confinement"].fillna(0.0).astype(float).tolist()
         one = dict(zip([*by, "seed"], values, strict=True))
         one["compressive_strength"] = peaks.get("uniaxial")
@@ -86,7 +86,8 @@ def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:
         one["ratio"] = flexpm.strength.tensile_ratio(one["direct"], one["indirect"])
         if one["compressive_strength"] and one["direct"]:
             one["compression_over_direct"] = one["compressive_strength"] / one["direct"]
-        if len(set(confinements)) > 1:
+        # a part of the confinements would be another envelope than that of the other packings
+        if len(set(confinements)) > 1 and compressed["peak_stress"].notna().all():
             strengths = compressed["peak_stress"].astype(float).tolist()
             with contextlib.suppress(InputError):  # peaks that follow no criterion
                 line = flexpm.strength.mohr_coulomb(confinements, strengths)

@@ -229,11 +229,13 @@ def _difference(
 def _change(
     table: pandas.DataFrame, measure: str, x: str, where: Where, at: Sequence[str]
 ) -> pandas.Series:
-    """Relative change of a measure from the first to the last `x`, by (point, seed)."""
+    """Relative change of a measure from the table's first to its last `x`, by (point, seed)."""
     found = values(table, measure, where, [x, *at]).unstack(x)
     if found.empty:
         return pandas.Series(dtype=float)
-    return (found[max(found.columns)] / found[min(found.columns)] - 1.0).dropna()
+    # a value of x without any strength does not move the ends
+    ends = found.reindex(columns=[table[x].min(), table[x].max()])
+    return (ends.iloc[:, 1] / ends.iloc[:, 0] - 1.0).dropna()
 
 
 def _little(points: Points) -> str:

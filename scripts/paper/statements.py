@@ -125,7 +125,7 @@ STATEMENTS = [
         "fig07",
         partial(
             elastic,
-            reading="for ν; K_n counts more for E",
+            reading="in part: η counts for ν, K_n for E",
             model="flexible",
             young=51.6e9,
         ),

@@ -81,6 +81,12 @@ def test_a_sweep_is_judged_by_its_ends(judge):
     assert judge.stronger(steep, "strength", "x", A, B, []).startswith("reproduced; ")
 
 
+def test_a_sweep_without_one_of_its_ends_is_not_judged(judge):
+    found = table(lambda model, x, seed: x if model == "b" or x > 1.0 else float("nan"))
+    assert judge.grows(found, "strength", "x", [], A) == judge.NOT_RUN
+    assert judge.grows(found, "strength", "x", [], B).startswith("reproduced; +300.0")
+
+
 def test_a_line_is_straight_and_a_square_is_not(judge):
     line, square = table(scattered), table(lambda model, x, seed: x * x)
     assert judge.straight(line, "strength", "x", [], A).startswith("reproduced; ")
