@@ -108,8 +108,8 @@ def run(
         points: Contact points per contact, 1, 2 or 3.
         mesh: ``refined`` or ``fan``.
         rate: Factor on the default loading rate [-], > 0.
-        max_strain: Largest axial strain [-]; None for 4 times that of the reference strength, 8
-            times for inner particles, 16 times for discs.
+        max_strain: Largest axial strain [-]; None for 8 times that of the reference strength, 16
+            times for discs.
         stop_ratio: Part of its peak to which the stress falls before the test ends [-]: above 0, at
             most 0.9. What comes after a peak takes most of a confined test.
         dynamic: Real masses and time instead of scaled masses and unit steps.

@@ -8,17 +8,15 @@ from dataclasses import dataclass
 
 import yade
 
-from . import inner
 from .curve import PEAK_DROP
 from .errors import InputError
 from .rates import fastest_pace, rate_constant
 
-#: A test ends at this multiple of the reference strain unless told otherwise [-].
-DEFAULT_STRAINS = 4.0
+#: A test ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
+#: slowly, and the interlocking edges of inner particles, carry more than the reference.
+DEFAULT_STRAINS = 8.0
 #: The same for discs: plates press into them, and softening lets them carry more.
 DISC_STRAINS = 16.0
-#: The same for inner particles: their rough edges interlock and carry far more than the reference.
-INNER_STRAINS = 8.0
 #: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
 #: where the first contact point is about to leave its elastic branch.
 STARTS = ("rest", "static")
@@ -79,11 +77,9 @@ class Schedule:
         return math.ceil(self.max_strain * self.height / (self.velocity * self.dt))
 
 
-def end_strains(test: str, model: str) -> float:
+def end_strains(test: str) -> float:
     """Multiple of the reference strain at which a test ends unless told otherwise."""
-    if test == "brazilian":
-        return DISC_STRAINS
-    return INNER_STRAINS if model in inner.NAMES else DEFAULT_STRAINS
+    return DISC_STRAINS if test == "brazilian" else DEFAULT_STRAINS
 
 
 def schedule(
@@ -109,7 +105,7 @@ def schedule(
     dt = yade.O.dt
     strain_rate = settings.rate * rate_constant(test, model) * reference / (crossing * dt)
     velocity = strain_rate * scales["height"]
-    largest = settings.max_strain or end_strains(test, model) * reference
+    largest = settings.max_strain or end_strains(test) * reference
     fastest = fastest_pace(test, model, settings.rate) if settings.pace == "adaptive" else 1.0
     return Schedule(
         velocity, reference, largest, scales["height"], dt, settings.stop_ratio, fastest

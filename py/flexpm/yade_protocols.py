@@ -210,7 +210,7 @@ def _schedule(built: SphereModel, test: str, settings: Settings) -> Schedule:
     reference = factor * (_strength(built, test) + settings.confinement) / modulus
     crossing = _crossing_steps(built) * yade.O.dt
     velocity = settings.rate * rate_constant(test, built.name) * reference * height / crossing
-    largest = settings.max_strain or end_strains(test, built.name) * reference
+    largest = settings.max_strain or end_strains(test) * reference
     return Schedule(velocity, reference, largest, height, yade.O.dt, settings.stop_ratio)
 
 
