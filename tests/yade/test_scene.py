@@ -148,6 +148,14 @@ def test_a_number_that_is_not_finite_stops_the_run(make, grain):
     assert not (np.isfinite(named.forces).all() and np.isfinite(named.velocities).all())
 
 
+@pytest.mark.parametrize("name", ["measurePeriod", "touchPeriod", "checkPeriod"])
+def test_a_period_of_no_steps_is_refused(make, name):
+    model = make()
+    setattr(model.solver, name, 0)
+    with pytest.raises(RuntimeError, match=rf"GrainSolver\.{name} = 0, must be at least 1 step"):
+        model.run(1)
+
+
 def test_a_scene_has_room_for_one_solver(make, specimen):
     make()
     with pytest.raises(flexpm.InputError, match=r"GrainSolver.*O\.reset"):

@@ -40,8 +40,20 @@ shared_ptr<GrainSolver> GrainSolver::ofContact(int contact)
 	throw std::runtime_error("contact = " + std::to_string(contact) + ", is no contact of the solver; build the specimen first (flexpm.build)");
 }
 
+namespace {
+
+	void requirePeriod(const char* name, int steps)
+	{
+		if (steps < 1) throw std::runtime_error("GrainSolver." + std::string(name) + " = " + std::to_string(steps) + ", must be at least 1 step");
+	}
+
+} // namespace
+
 void GrainSolver::action()
 {
+	requirePeriod("measurePeriod", measurePeriod);
+	requirePeriod("touchPeriod", touchPeriod);
+	requirePeriod("checkPeriod", checkPeriod);
 	if (destroyedContacts() != seenDestroyed) retireErased();
 	if (assembly.step == 0) flexpm::open_books(assembly);
 	flexpm::StepOptions options;
