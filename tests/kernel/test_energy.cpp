@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <flexpm/kernel/boundary.hpp>
+#include <flexpm/kernel/energy_block.hpp>
+#include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/measures.hpp>
 
@@ -220,4 +222,41 @@ TEST_CASE("A coarse rate does not close the books, halving it halves the miss")
     CHECK(miss_at(0.9, brittle) > 0.1);
     CHECK(miss_at(1.0 / 1000.3, brittle) < 0.01);
     CHECK(miss_at(1.0 / 2000.3, brittle) < 0.6 * miss_at(1.0 / 1000.3, brittle));
+}
+
+TEST_CASE("energies of blocks are those of their grains and points")
+{
+    AxialTest test(specimens::granite_contact());
+    Assembly& a = test.a;
+    REQUIRE(a.grains % flexpm::lanes != 0);  // some lanes are empty
+    REQUIRE(a.contacts % flexpm::lanes != 0);
+    test.drive(2e-8);
+    for (int i = 0; i < 400; ++i)
+        flexpm::step(a, flexpm::StepOptions());
+
+    double strain = 0.0;
+    for (int g = 0; g < a.grains; ++g) {
+        for (int t = 0; t < flexpm::triangles_of(a, g); ++t) {
+            const auto n = flexpm::triangle_nodes(a, g, t);
+            const auto u = [&](int k) { return flexpm::displacement_of(a, a.node(g, n[k])); };
+            strain += flexpm::triangle_energy(
+                flexpm::shape_of(a, g, t), flexpm::stiffness_of(a, g), u(0), u(1), u(2));
+        }
+    }
+    flexpm::ContactEnergy sum;
+    for (int c = 0; c < a.contacts; ++c) {
+        for (int p = 0; p < a.points; ++p) {
+            const flexpm::PointState s = flexpm::point_state(a, c, p);
+            const double area = a.area[flexpm::row_index(c, p, a.points)];
+            sum.elastic += area * flexpm::law::elastic_energy(a.laws[a.contact_law[c]], s);
+            sum.damage += area * s.damage_energy;
+            sum.friction += area * s.friction_energy;
+        }
+    }
+    const flexpm::ContactEnergy found = flexpm::contact_energy(a);
+    REQUIRE(sum.damage > 0.0);
+    CHECK(flexpm::strain_energy(a) == Approx(strain).epsilon(1e-12));
+    CHECK(found.elastic == Approx(sum.elastic).epsilon(1e-12));
+    CHECK(found.damage == Approx(sum.damage).epsilon(1e-12));
+    CHECK(found.friction == Approx(sum.friction).epsilon(1e-12));
 }

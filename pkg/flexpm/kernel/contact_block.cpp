@@ -2,6 +2,7 @@
 /// @file  Contacts, `lanes` at a time.
 #include <flexpm/kernel/contact_block.hpp>
 
+#include <flexpm/kernel/contact_rows.hpp>
 #include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
@@ -37,19 +38,6 @@ struct Motion {
     alignas(64) double slip[most_points * lanes];
 };
 
-__attribute__((always_inline)) inline LawParameters law_of(const double* rows, int lane)
-{
-    const double* r = rows + lane;
-    return { r[0 * lanes], r[1 * lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes],
-        r[6 * lanes], r[7 * lanes], r[8 * lanes], r[9 * lanes] };
-}
-
-__attribute__((always_inline)) inline PointState load_state(const double* rows, int lane)
-{
-    const double* r = rows + lane;
-    return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes], r[6 * lanes] };
-}
-
 __attribute__((always_inline)) inline bool any_of(const std::int64_t* flags)
 {
     std::int64_t any = 0;
@@ -77,6 +65,17 @@ __attribute__((always_inline)) inline bool any_normal_of_edge(const Rows& b)
     for (int l = 0; l < lanes; ++l)
         of_edge[l] = (b.span[l] == 0.0) & (b.span[lanes + l] == 0.0);
     return any_of(of_edge);
+}
+
+/// x and y of the nodes of a row, one node after the other, or the compiler runs out of registers for
+/// the addresses.
+__attribute__((always_inline)) inline void gather(const double* from, const int* nodes, double* to)
+{
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        to[l] = from[nodes[l]];
+        to[lanes + l] = from[nodes[l] + lanes];
+    }
 }
 
 /// A vector along the normal at the end of the step: between the centres, or, where a contact has no
@@ -110,20 +109,21 @@ __attribute__((always_inline)) inline Point direction(const Rows& b, double dt, 
 template <int Points, bool OfEdges>
 __attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
 {
-    const double* v = b.velocity;
+    alignas(64) double ends[8 * lanes];
+    for (int n = 0; n < 4; ++n)
+        gather(b.velocity, b.nodes + n * lanes, ends + 2 * n * lanes);
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
-        const int a0 = b.nodes[l], a1 = b.nodes[lanes + l];
-        const int b0 = b.nodes[2 * lanes + l], b1 = b.nodes[3 * lanes + l];
+        const double* v = ends + l;
         const Point along_normal = direction<OfEdges>(b, dt, l);
         const double dx = along_normal.x, dy = along_normal.y;
-        const double distance = std::sqrt(dx * dx + dy * dy);
-        const double nx = dx / distance, ny = dy / distance;
+        const double per_length = 1.0 / std::sqrt(dx * dx + dy * dy);
+        const double nx = per_length * dx, ny = per_length * dy;
         const double mx = 0.5 * (b.normal[l] + nx), my = 0.5 * (b.normal[lanes + l] + ny);
         b.normal[l] = nx;
         b.normal[lanes + l] = ny;
-        const double a0x = v[a0], a0y = v[a0 + lanes], a1x = v[a1], a1y = v[a1 + lanes];
-        const double b0x = v[b0], b0y = v[b0 + lanes], b1x = v[b1], b1y = v[b1 + lanes];
+        const double a0x = v[0], a0y = v[lanes], a1x = v[2 * lanes], a1y = v[3 * lanes];
+        const double b0x = v[4 * lanes], b0y = v[5 * lanes], b1x = v[6 * lanes], b1y = v[7 * lanes];
         const double turn = -0.5 * dt
             * (b.reach[l] * ((a1x - a0x) * mx + (a1y - a0y) * my)
                 + b.reach[lanes + l] * ((b1x - b0x) * mx + (b1y - b0y) * my));
@@ -283,23 +283,6 @@ FLEXPM_MULTIVERSION int update_3(const Rows& b, double dt, std::uint8_t* cracked
     return update_lanes<3>(b, dt, cracked);
 }
 
-/// Few blocks differ from the one before: most find their rows filled.
-void fill_law(const Assembly& a, int block, LawRows& rows)
-{
-    if (rows.filled == 0 && a.laws.size() == 1) return;
-    const int first = block * lanes, last = std::min(first + lanes, a.contacts) - 1;
-    const int* kinds = a.contact_law.data();
-    const bool one =
-        std::all_of(kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
-    if (one && kinds[last] == rows.filled) return;
-    rows.filled = one ? kinds[last] : LawRows::none;
-    for (int l = 0; l < lanes; ++l) {
-        const double* law = &a.laws[kinds[std::min(first + l, last)]].normal_stiffness;
-        for (int r = 0; r < LawRows::count; ++r)
-            rows.values[r * lanes + l] = law[r];
-    }
-}
-
 /// Where a point is now: the middle of its places on the two edges.
 Point point_position(const Assembly& a, int contact, int point, double dt)
 {
@@ -349,7 +332,7 @@ void predict_centres(Assembly& a, int block, double dt)
 
 void update_contact_block(Assembly& a, int block, double dt, LawRows& law)
 {
-    fill_law(a, block, law);
+    law.fill(a, block);
     const int first = block * lanes;
     const Rows rows = { a.reference.data(), a.displacement.data(), a.velocity.data(),
         a.next_centre.data(), a.contact_nodes.data() + first * ContactRows::nodes,

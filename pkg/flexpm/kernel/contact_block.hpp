@@ -2,17 +2,9 @@
 /// @file  One block of contacts: relative motion, bilinear law, nodal forces, paper Eqs. 5-19.
 #pragma once
 
-#include <flexpm/kernel/assembly.hpp>
+#include <flexpm/kernel/contact_rows.hpp>
 
 namespace flexpm {
-
-/// Parameters of a block's contacts as rows. One for all blocks of a pass: it keeps what it holds for
-/// blocks of the same law.
-struct LawRows {
-    static constexpr int count = sizeof(LawParameters) / sizeof(double), none = -1;
-    int filled = none;  ///< index of the law in all lanes
-    alignas(64) double values[count * lanes];
-};
 
 /// Fill `next_centre` of a block of grains, which contacts read.
 void predict_centres(Assembly& a, int block, double dt);

@@ -2,6 +2,7 @@
 /// @file  Sums over an assembly.
 #include <flexpm/kernel/measures.hpp>
 
+#include <flexpm/kernel/energy_block.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
@@ -14,18 +15,6 @@
 namespace flexpm {
 
 namespace {
-
-double grain_energy(const Assembly& a, int grain)
-{
-    double total = 0.0;
-    const PlaneStiffness c = stiffness_of(a, grain);
-    for (int t = 0; t < triangles_of(a, grain); ++t) {
-        const auto n = triangle_nodes(a, grain, t);
-        total += triangle_energy(shape_of(a, grain, t), c, displacement_of(a, a.node(grain, n[0])),
-            displacement_of(a, a.node(grain, n[1])), displacement_of(a, a.node(grain, n[2])));
-    }
-    return total;
-}
 
 double first_of_pairs(const Array<double>& values)
 {
@@ -62,20 +51,10 @@ Energies energies(const Assembly& a)
     Energies e;
     for (double k : a.kinetic)
         e.kinetic += k;
-    for (int g = 0; g < a.grains; ++g)
-        e.elastic += grain_energy(a, g);
-    for (int c = 0; c < a.contacts; ++c) {
-        const LawParameters& law = a.laws[a.contact_law[c]];
-        for (int p = 0; p < a.points; ++p) {
-            const PointState s = point_state(a, c, p);
-            const double area = a.area[row_index(c, p, a.points)];
-            e.elastic += area * law::elastic_energy(law, s);
-            e.damage += area * s.damage_energy;
-            e.friction += area * s.friction_energy;
-        }
-    }
-    e.damage += a.past_damage;
-    e.friction += a.past_friction;
+    const ContactEnergy contact = contact_energy(a);
+    e.elastic = strain_energy(a) + contact.elastic;
+    e.damage = contact.damage + a.past_damage;
+    e.friction = contact.friction + a.past_friction;
     e.damping = first_of_pairs(a.damping_work);
     e.potential = potential_energy(a);
     e.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;

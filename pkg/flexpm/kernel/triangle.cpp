@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Constant-strain triangle: set-up, energy, stress, linear stiffness.
+/// @file  Constant-strain triangle: set-up, stress, linear stiffness.
 #include <flexpm/kernel/triangle.hpp>
 
 #include <flexpm/kernel/checks.hpp>
@@ -34,14 +34,6 @@ TriangleShape triangle_shape(Point p0, Point p1, Point p2, double thickness)
     }
     return { by / twice_area, -bx / twice_area, -ay / twice_area, ax / twice_area,
         0.5 * twice_area * thickness };
-}
-
-double triangle_energy(
-    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
-{
-    const Tensor e = green_strain(displacement_gradient(s, u0, u1, u2));
-    const Tensor p = stress(c, e);
-    return 0.5 * s.volume * (p.xx * e.xx + p.yy * e.yy + 2.0 * p.xy * e.xy);
 }
 
 Tensor cauchy_stress(const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)

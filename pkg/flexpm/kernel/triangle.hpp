@@ -93,8 +93,13 @@ __attribute__((always_inline)) inline TriangleForces triangle_forces(
 }
 
 /// Strain energy of the triangle [J].
-double triangle_energy(
-    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2);
+__attribute__((always_inline)) inline double triangle_energy(
+    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
+{
+    const Tensor e = green_strain(displacement_gradient(s, u0, u1, u2));
+    const Tensor p = stress(c, e);
+    return 0.5 * s.volume * (p.xx * e.xx + p.yy * e.yy + 2.0 * p.xy * e.xy);
+}
 
 /// Cauchy stress [Pa].
 Tensor cauchy_stress(const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2);
