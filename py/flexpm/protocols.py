@@ -360,7 +360,7 @@ def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedu
     """Tell the recorder when the test is over."""
     scales = recorder.scales()
     plan = schedule(scales, test, settings, built.name)
-    built.solver.measurePeriod = _row_period(scales)
+    built.solver.measurePeriod = built.solver.mirrorPeriod = _row_period(scales)
     recorder.maxStrain = plan.max_strain
     recorder.stopRatio = plan.stop_ratio
     recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
@@ -380,6 +380,8 @@ def _finish(
         diverged = _drive(plan, recorder, course)
 
     course.stage(prepare, advance)
+    built.solver.mirrorPeriod = 1  # a script may go on from here
+    built.solver.mirrorBodies()
     if not diverged:
         course.finish()
     return _result(test, built, diverged, course.step_time)

@@ -148,7 +148,7 @@ def test_a_number_that_is_not_finite_stops_the_run(make, grain):
     assert not (np.isfinite(named.forces).all() and np.isfinite(named.velocities).all())
 
 
-@pytest.mark.parametrize("name", ["measurePeriod", "touchPeriod", "checkPeriod"])
+@pytest.mark.parametrize("name", ["measurePeriod", "mirrorPeriod", "touchPeriod", "checkPeriod"])
 def test_a_period_of_no_steps_is_refused(make, name):
     model = make()
     setattr(model.solver, name, 0)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import copy
 import pickle
 
+import flexpm
 import numpy as np
 import pytest
 from yade import wrapper
@@ -38,6 +39,35 @@ def test_bodies_follow_the_centre_nodes(half_broken):
     cell = O.bodies[half_broken.solver.bodyIds[7]].shape
     start = cell.positions[cell.vertices] - cell.displacements[cell.vertices]
     assert start == pytest.approx(disc, abs=1e-17)
+
+
+def centre_of(body) -> tuple:
+    return tuple(body.shape.positions[body.shape.vertices])
+
+
+def test_bodies_follow_when_a_script_wants_them(make):
+    model = make(velocity=-5e-9)
+    model.solver.mirrorPeriod = 10
+    model.run(10)
+    body = O.bodies[3]
+    shown = tuple(body.state.pos)[:2]
+    assert shown == centre_of(body)
+    model.run(9)
+    assert tuple(body.state.pos)[:2] == shown != centre_of(body)
+    model.solver.mirrorBodies()
+    assert tuple(body.state.pos)[:2] == centre_of(body)
+
+
+@pytest.mark.parametrize("test", ["tension", "brazilian"])
+def test_bodies_are_where_a_test_has_left_their_grains(test):
+    O.reset()
+    size = {"brazilian": {"diameter": 12e-3}}.get(test, {"width": 9e-3, "height": 12e-3})
+    size["thickness"] = 0.01
+    shape = flexpm.Specimen.disc if test == "brazilian" else flexpm.Specimen.rectangle
+    flexpm.run(test, shape(**size, seed=1), model="rigid", rate=4.0)
+    assert all(tuple(b.state.pos)[:2] == centre_of(b) for b in O.bodies)
+    solver = next(e for e in O.engines if type(e).__name__ == "GrainSolver")
+    assert solver.mirrorPeriod == 1, "a script may go on"
 
 
 def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(make):

@@ -119,20 +119,22 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
         const double dx = along_normal.x, dy = along_normal.y;
         const double per_length = 1.0 / std::sqrt(dx * dx + dy * dy);
         const double nx = per_length * dx, ny = per_length * dy;
-        const double mx = 0.5 * (b.normal[l] + nx), my = 0.5 * (b.normal[lanes + l] + ny);
+        const double mx = 0.5 * dt * (b.normal[l] + nx), my = 0.5 * dt * (b.normal[lanes + l] + ny);
         b.normal[l] = nx;
         b.normal[lanes + l] = ny;
-        const double a0x = v[0], a0y = v[lanes], a1x = v[2 * lanes], a1y = v[3 * lanes];
-        const double b0x = v[4 * lanes], b0y = v[5 * lanes], b1x = v[6 * lanes], b1y = v[7 * lanes];
-        const double turn = -0.5 * dt
-            * (b.reach[l] * ((a1x - a0x) * mx + (a1y - a0y) * my)
-                + b.reach[lanes + l] * ((b1x - b0x) * mx + (b1y - b0y) * my));
+        // velocities of the ends of a, of b, and of the first end of b against that of a
+        const double ax = v[2 * lanes] - v[0], ay = v[3 * lanes] - v[lanes];
+        const double bx = v[6 * lanes] - v[4 * lanes], by = v[7 * lanes] - v[5 * lanes];
+        const double gx = v[4 * lanes] - v[0], gy = v[5 * lanes] - v[lanes];
+        const double a_apart = ax * mx + ay * my, a_along = ay * mx - ax * my;
+        const double b_apart = bx * mx + by * my, b_along = by * mx - bx * my;
+        const double g_apart = gx * mx + gy * my, g_along = gy * mx - gx * my;
+        const double turn = -0.5 * (b.reach[l] * a_apart + b.reach[lanes + l] * b_apart);
         for (int p = 0; p < Points; ++p) {
             const double* state = b.state + p * ContactRows::state * lanes + l;
             const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
-            const double rx = (b0x + wb * (b1x - b0x)) - (a0x + wa * (a1x - a0x));
-            const double ry = (b0y + wb * (b1y - b0y)) - (a0y + wa * (a1y - a0y));
-            const double apart = dt * (rx * mx + ry * my), along = dt * (ry * mx - rx * my);
+            const double apart = g_apart + (wb * b_apart - wa * a_apart);
+            const double along = g_along + (wb * b_along - wa * a_along);
             const double opening = state[opening_row], slip = state[slip_row];
             motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
             motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
@@ -149,26 +151,26 @@ __attribute__((always_inline)) inline void spread_forces(
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
-        double moment = 0.0, sum_x = 0.0, sum_y = 0.0, a1x = 0.0, a1y = 0.0, b1x = 0.0, b1y = 0.0;
+        // along the normal and along the tangent
+        double moment = 0.0, sum_n = 0.0, sum_s = 0.0, a_n = 0.0, a_s = 0.0, b_n = 0.0, b_s = 0.0;
         for (int p = 0; p < Points; ++p) {
             const double area = b.area[p * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
-            const double fx = fn * nx - fs * ny, fy = fn * ny + fs * nx;
             const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
             const double* state = b.state + p * ContactRows::state * lanes + l;
-            moment += 0.5 * (state[opening_row] * fs - state[slip_row] * fn);
-            sum_x += fx;
-            sum_y += fy;
-            a1x += wa * fx;
-            a1y += wa * fy;
-            b1x += wb * fx;
-            b1y += wb * fy;
+            moment += state[opening_row] * fs - state[slip_row] * fn;
+            sum_n += fn;
+            sum_s += fs;
+            a_n += wa * fn;
+            a_s += wa * fs;
+            b_n += wb * fn;
+            b_s += wb * fs;
         }
-        const double on_a = -moment * b.reach[l], on_b = moment * b.reach[lanes + l];
-        a1x += on_a * nx;
-        a1y += on_a * ny;
-        b1x += on_b * nx;
-        b1y += on_b * ny;
+        a_n -= 0.5 * moment * b.reach[l];
+        b_n += 0.5 * moment * b.reach[lanes + l];
+        const double sum_x = sum_n * nx - sum_s * ny, sum_y = sum_n * ny + sum_s * nx;
+        const double a1x = a_n * nx - a_s * ny, a1y = a_n * ny + a_s * nx;
+        const double b1x = b_n * nx - b_s * ny, b1y = b_n * ny + b_s * nx;
         double* f = b.force + l;
         f[0 * lanes] = sum_x - a1x;
         f[1 * lanes] = sum_y - a1y;

@@ -52,6 +52,7 @@ namespace {
 void GrainSolver::action()
 {
 	requirePeriod("measurePeriod", measurePeriod);
+	requirePeriod("mirrorPeriod", mirrorPeriod);
 	requirePeriod("touchPeriod", touchPeriod);
 	requirePeriod("checkPeriod", checkPeriod);
 	if (destroyedContacts() != seenDestroyed) retireErased();
@@ -62,7 +63,7 @@ void GrainSolver::action()
 	options.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
 	options.measure = (assembly.step + 1) % measurePeriod == 0;
 	flexpm::step(assembly, options);
-	publishBodies();
+	if (assembly.step % mirrorPeriod == 0) mirrorBodies();
 	if (assembly.step % touchPeriod == 0) changeContacts();
 	if (assembly.step % checkPeriod == 0) check();
 }
@@ -98,12 +99,13 @@ void GrainSolver::check()
 
 void GrainSolver::findStates()
 {
-	const auto slots = assembly.slot_grain.size();
+	const auto slots  = assembly.slot_grain.size();
+	const auto bodies = Omega::instance().getScene()->bodies; // an engine knows its scene from its first step on
 	states.assign(slots, nullptr);
 	for (std::size_t slot = 0; slot < slots; ++slot) {
 		const int grain = assembly.slot_grain[slot];
 		if (grain < 0) continue;
-		const auto& body = (*scene->bodies)[bodyIds[grain]];
+		const auto& body = (*bodies)[bodyIds[grain]];
 		if (body) states[slot] = body->state;
 	}
 }
@@ -118,7 +120,7 @@ namespace {
 		__builtin_prefetch(&state.angVel, 1);
 	}
 
-	void publish(const flexpm::CentreMotion& motion, int lane, bool rigid, State& state)
+	void mirror(const flexpm::CentreMotion& motion, int lane, bool rigid, State& state)
 	{
 		// through se3: State::pos and State::ori are references, which would have to be fetched first
 		state.se3.position = Vector3r(motion.x[lane], motion.y[lane], 0);
@@ -130,7 +132,7 @@ namespace {
 
 } // namespace
 
-void GrainSolver::publishBodies()
+void GrainSolver::mirrorBodies()
 {
 	if (states.size() != assembly.slot_grain.size()) findStates();
 	flexpm::CentreMotion motion;
@@ -141,7 +143,7 @@ void GrainSolver::publishBodies()
 		flexpm::find_centre_motion(assembly, block, motion);
 		for (int lane = 0; lane < flexpm::lanes; ++lane) {
 			if (later[lane]) prefetch(*later[lane]);
-			if (now[lane]) publish(motion, lane, rigid, *now[lane]);
+			if (now[lane]) mirror(motion, lane, rigid, *now[lane]);
 		}
 	}
 }

@@ -26,6 +26,7 @@ public:
 	void       addToScene(py::list materials);
 	void       scaleMasses();
 	Real       useRealMasses();
+	void       mirrorBodies();
 	void       openBooks();
 	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
 	int        addTouchingPlate(Vector3r normal, Real friction);
@@ -52,6 +53,7 @@ public:
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
 		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
+		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the measurements."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
@@ -72,6 +74,7 @@ public:
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", &GrainSolver::gravity, &GrainSolver::setGravity, "Acceleration of all masses, which must be real ones [m/s^2].")
 		.def("plates", &GrainSolver::plates, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+		.def("mirrorBodies", &GrainSolver::mirrorBodies, "Update the states of the bodies now, whatever mirrorPeriod is.")
 		.def("openBooks", &GrainSolver::openBooks, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", &GrainSolver::elasticConstants, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
 		.def("energies", &GrainSolver::energies, "Energies of the last step [J], by name.")
@@ -94,7 +97,6 @@ private:
 	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
 	void                      insertContacts();
 	void                      findStates();
-	void                      publishBodies();
 	bool                      hasInteraction(int contact);
 	void                      retireErased();
 	void                      listCandidates();
