@@ -6,10 +6,11 @@ from __future__ import annotations
 import copy
 import pickle
 
-import flexpm
 import numpy as np
 import pytest
 from yade import wrapper
+
+import flexpm
 
 O = wrapper.Omega()  # noqa: E741 - its name in YADE
 

@@ -199,35 +199,78 @@ template <int Points> __attribute__((always_inline)) inline bool is_intact(const
     return !any_of(damaged);
 }
 
-/// Advances all points as if they stayed on their branch: rows of their tractions and of the first
-/// four members of their next state. Returns whether any does not stay.
-template <int Points, bool Intact>
+/// Traction of one point of each contact [Pa].
+struct TractionRows {
+    double* normal;
+    double* shear;
+};
+
+/// Advances a point of each contact if all stay on their branches; otherwise changes no state.
+template <bool Intact>
 __attribute__((always_inline)) inline bool advance_elastic_lanes(
-    const Rows& b, const Motion& motion, double* normal, double* shear, double* next)
+    const Rows& b, const Motion& motion, int p, TractionRows traction)
 {
-    alignas(64) std::int64_t leaves[lanes] = {};
-    for (int p = 0; p < Points; ++p) {
-        const double* state = b.state + p * ContactRows::state * lanes;
+    double* state = b.state + p * ContactRows::state * lanes;
+    alignas(64) std::int64_t leaves[lanes];
+    alignas(64) double next[4 * lanes];  // the members of a state that an elastic step changes
 #pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            PointState s;
-            Traction t;
-            const bool elastic =
-                advance_elastic<Intact>(law_of(b.law, l), motion.opening[p * lanes + l],
-                    motion.slip[p * lanes + l], load_state(state, l), s, t);
-            next[(4 * p + 0) * lanes + l] = s.opening;
-            next[(4 * p + 1) * lanes + l] = s.max_opening;
-            next[(4 * p + 2) * lanes + l] = s.shear_traction;
-            next[(4 * p + 3) * lanes + l] = s.slip;
-            normal[p * lanes + l] = t.normal;
-            shear[p * lanes + l] = t.shear;
-            leaves[l] |= !elastic;
-        }
+    for (int l = 0; l < lanes; ++l) {
+        PointState s;
+        Traction t;
+        const bool elastic = advance_elastic<Intact>(law_of(b.law, l),
+            motion.opening[p * lanes + l], motion.slip[p * lanes + l], load_state(state, l), s, t);
+        next[0 * lanes + l] = s.opening;
+        next[1 * lanes + l] = s.max_opening;
+        next[2 * lanes + l] = s.shear_traction;
+        next[3 * lanes + l] = s.slip;
+        traction.normal[l] = t.normal;
+        traction.shear[l] = t.shear;
+        leaves[l] = !elastic;
     }
-    return any_of(leaves);
+    if (any_of(leaves)) return false;
+    for (int i = 0; i < 4 * lanes; ++i)
+        state[i] = next[i];
+    return true;
 }
 
-/// Returns the lanes, summed over points, that cracked in this step.
+/// Advances a point of each contact. Returns the lanes that cracked in this step.
+__attribute__((always_inline)) inline int advance_lanes(
+    const Rows& b, const Motion& motion, int p, TractionRows traction, std::uint8_t* cracked)
+{
+    double* state = b.state + p * ContactRows::state * lanes;
+    alignas(64) double fresh[lanes];
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        PointState s = load_state(state, l);
+        const Traction t = advance_point(
+            law_of(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
+        store_state(s, state, l);
+        traction.normal[l] = t.normal;
+        traction.shear[l] = t.shear;
+        fresh[l] = (t.damage_before < 1.0) & (t.damage >= 1.0) ? 1.0 : 0.0;
+    }
+    int cracks = 0;
+    for (int l = 0; l < lanes; ++l) {
+        cracked[l] = fresh[l] > 0.0;
+        cracks += cracked[l];
+    }
+    return cracks;
+}
+
+/// Returns the lanes, summed over points, that cracked in this step; `cracked` holds zeros before.
+template <int Points, bool Intact>
+__attribute__((always_inline)) inline int advance_points(
+    const Rows& b, const Motion& motion, double* normal, double* shear, std::uint8_t* cracked)
+{
+    int cracks = 0;
+    for (int p = 0; p < Points; ++p) {
+        const TractionRows traction = { normal + p * lanes, shear + p * lanes };
+        if (advance_elastic_lanes<Intact>(b, motion, p, traction)) continue;
+        cracks += advance_lanes(b, motion, p, traction, cracked + p * lanes);
+    }
+    return cracks;
+}
+
 template <int Points>
 __attribute__((always_inline)) inline int update_lanes(
     const Rows& b, double dt, std::uint8_t* cracked)
@@ -240,34 +283,9 @@ __attribute__((always_inline)) inline int update_lanes(
         move_points<Points, false>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
-    alignas(64) double next[Points * 4 * lanes];
-    const bool any = is_intact<Points>(b)
-        ? advance_elastic_lanes<Points, true>(b, motion, normal, shear, next)
-        : advance_elastic_lanes<Points, false>(b, motion, normal, shear, next);
-    int cracks = 0;
-    for (int p = 0; p < Points; ++p) {
-        double* state = b.state + p * ContactRows::state * lanes;
-        if (!any) {
-            for (int l = 0; l < 4 * lanes; ++l)
-                state[l] = next[4 * p * lanes + l];
-            continue;
-        }
-        alignas(64) double fresh[lanes];
-#pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            PointState s = load_state(state, l);
-            const Traction t = advance_point(
-                law_of(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
-            store_state(s, state, l);
-            normal[p * lanes + l] = t.normal;
-            shear[p * lanes + l] = t.shear;
-            fresh[l] = (t.damage_before < 1.0) & (t.damage >= 1.0) ? 1.0 : 0.0;
-        }
-        for (int l = 0; l < lanes; ++l) {
-            cracked[p * lanes + l] = fresh[l] > 0.0;
-            cracks += fresh[l] > 0.0;
-        }
-    }
+    const int cracks = is_intact<Points>(b)
+        ? advance_points<Points, true>(b, motion, normal, shear, cracked)
+        : advance_points<Points, false>(b, motion, normal, shear, cracked);
     spread_forces<Points>(b, normal, shear);
     return cracks;
 }
@@ -342,7 +360,7 @@ void update_contact_block(Assembly& a, int block, double dt, LawRows& law)
         a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
         a.contact_force.data() + first * ContactRows::forces, law.values };
-    std::uint8_t cracked[most_points * lanes];
+    std::uint8_t cracked[most_points * lanes] = {};
     const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
         : a.points == 2              ? update_2(rows, dt, cracked)
                                      : update_1(rows, dt, cracked);
