@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/contact_rows.hpp>
 #include <flexpm/kernel/simd.hpp>
+#include <flexpm/kernel/triangle_rows.hpp>
 
 namespace flexpm {
 
@@ -22,31 +23,16 @@ struct LaneSum {
     }
 };
 
-struct GrainRows {
-    int triangles;
-    const int* connectivity;
-    const double* shape;
-    const double* stiffness;
-    const double* displacement;
-};
-
-FLEXPM_MULTIVERSION void add_strain(const GrainRows& b, LaneSum& energy)
+FLEXPM_MULTIVERSION void add_strain(const TriangleRows& b, LaneSum& energy)
 {
-    const double* u = b.displacement;
     LaneSum sum = energy;  // a local, which no row aliases
     for (int t = 0; t < b.triangles; ++t) {
-        const int n0 = 2 * lanes * b.connectivity[3 * t];
-        const int n1 = 2 * lanes * b.connectivity[3 * t + 1];
-        const int n2 = 2 * lanes * b.connectivity[3 * t + 2];
-        const double* s = b.shape + 5 * lanes * t;
+        const TriangleNodes n = nodes_of(b, t);
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
-            const TriangleShape shape = { s[l], s[lanes + l], s[2 * lanes + l], s[3 * lanes + l],
-                s[4 * lanes + l] };
-            const PlaneStiffness c = { b.stiffness[l], b.stiffness[lanes + l],
-                b.stiffness[2 * lanes + l] };
-            sum.lane[l] += triangle_energy(shape, c, { u[n0 + l], u[n0 + lanes + l] },
-                { u[n1 + l], u[n1 + lanes + l] }, { u[n2 + l], u[n2 + lanes + l] });
+            sum.lane[l] +=
+                triangle_energy(shape_of(b, t, l), stiffness_of(b, l), displacement_of(b, n.n0, l),
+                    displacement_of(b, n.n1, l), displacement_of(b, n.n2, l));
         }
     }
     energy = sum;
@@ -78,14 +64,8 @@ FLEXPM_MULTIVERSION void add_contacts(
 double strain_energy(const Assembly& a)
 {
     LaneSum sum;
-    for (int block = 0; block < a.blocks(); ++block) {
-        const MeshGroup& group = a.group(block);
-        add_strain(
-            { static_cast<int>(group.triangles.size()) / 3, group.triangles.data(),
-                a.shape.data() + a.block_triangles[block], a.stiffness.data() + 3 * lanes * block,
-                a.displacement.data() + a.block_nodes[block] },
-            sum);
-    }
+    for (int block = 0; block < a.blocks(); ++block)
+        add_strain(triangle_rows(a, block), sum);
     return sum.total();
 }
 

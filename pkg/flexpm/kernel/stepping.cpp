@@ -9,6 +9,7 @@
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
 #include <flexpm/kernel/simd.hpp>
+#include <flexpm/kernel/triangle_rows.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,7 @@ namespace {
 /// The rows of one block of grains.
 struct Rows {
     int nodes;
-    int triangles;
-    const int* connectivity;
-    const double* shape;
-    const double* stiffness;
+    TriangleRows triangles;
     double* displacement;
     double* velocity;
     double* force;
@@ -34,29 +32,23 @@ struct Rows {
 /// Move the nodes, then add the forces of the elements to `force`.
 FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
 {
-    double* u = b.displacement;
     double* f = b.force;
     for (int i = 0; i < 2 * lanes * b.nodes; ++i)
-        u[i] += dt * b.velocity[i];
-    for (int t = 0; t < b.triangles; ++t) {
-        const int n0 = 2 * lanes * b.connectivity[3 * t];
-        const int n1 = 2 * lanes * b.connectivity[3 * t + 1];
-        const int n2 = 2 * lanes * b.connectivity[3 * t + 2];
-        const double* s = b.shape + 5 * lanes * t;
+        b.displacement[i] += dt * b.velocity[i];
+    const TriangleRows& rows = b.triangles;
+    for (int t = 0; t < rows.triangles; ++t) {
+        const TriangleNodes n = nodes_of(rows, t);
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
-            const TriangleShape shape = { s[l], s[lanes + l], s[2 * lanes + l], s[3 * lanes + l],
-                s[4 * lanes + l] };
-            const PlaneStiffness c = { b.stiffness[l], b.stiffness[lanes + l],
-                b.stiffness[2 * lanes + l] };
-            const TriangleForces e = triangle_forces(shape, c, { u[n0 + l], u[n0 + lanes + l] },
-                { u[n1 + l], u[n1 + lanes + l] }, { u[n2 + l], u[n2 + lanes + l] });
-            f[n0 + l] -= e.f1x + e.f2x;
-            f[n0 + lanes + l] -= e.f1y + e.f2y;
-            f[n1 + l] += e.f1x;
-            f[n1 + lanes + l] += e.f1y;
-            f[n2 + l] += e.f2x;
-            f[n2 + lanes + l] += e.f2y;
+            const TriangleForces e = triangle_forces(shape_of(rows, t, l), stiffness_of(rows, l),
+                displacement_of(rows, n.n0, l), displacement_of(rows, n.n1, l),
+                displacement_of(rows, n.n2, l));
+            f[n.n0 + l] -= e.f1x + e.f2x;
+            f[n.n0 + lanes + l] -= e.f1y + e.f2y;
+            f[n.n1 + l] += e.f1x;
+            f[n.n1 + lanes + l] += e.f1y;
+            f[n.n2 + l] += e.f2x;
+            f[n.n2 + lanes + l] += e.f2y;
         }
     }
 }
@@ -134,9 +126,7 @@ void update_deformable(Assembly& a, int block, const StepOptions& options, StepS
 {
     const int first = a.block_nodes[block];
     const MeshGroup& group = a.group(block);
-    const Rows rows = { group.nodes, static_cast<int>(group.triangles.size()) / 3,
-        group.triangles.data(), a.shape.data() + a.block_triangles[block],
-        a.stiffness.data() + 3 * lanes * block, a.displacement.data() + first,
+    const Rows rows = { group.nodes, triangle_rows(a, block), a.displacement.data() + first,
         a.velocity.data() + first, a.force.data() + first, a.held.data() + first,
         a.inverse_mass.data() + first / 2 };
     move_and_deform(rows, options.dt);
