@@ -163,5 +163,6 @@ def _styles(runs: Runs) -> list[tuple[str, object]]:
 
 def _caption(runs: Runs) -> str:
     first = runs[0][1]
+    tests = " and ".join(dict.fromkeys(result.test for _, result in runs))
     seed = "" if first.seed is None else f", seed {first.seed}"
-    return f"{first.test}, one packing of {first.grains} grains{seed}"
+    return f"{tests}, one packing of {first.grains} grains{seed}"
