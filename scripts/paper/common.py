@@ -2,8 +2,8 @@
 """Common to the scripts of the paper's figures: studies with committed results, derived measures.
 
 A script does the runs of the study file of its name and writes ``paper-out/NAME/*.png``. Runs
-whose results stand in ``results/NAME.csv`` are not repeated; a script started with ``--keep`` adds
-its new results to that table.
+whose results stand in ``results/NAME.csv`` are not repeated, but for those whose curves a picture
+needs; a script started with ``--keep`` adds its new results to that table.
 """
 
 from __future__ import annotations
@@ -11,7 +11,9 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pandas
 
@@ -37,24 +39,41 @@ def options(about: str) -> argparse.Namespace:
     return parser.parse_args()
 
 
-def results(name: str, chosen: argparse.Namespace) -> tuple[pandas.DataFrame, Path]:
+def results(
+    name: str,
+    chosen: argparse.Namespace,
+    drawn: Callable[[Mapping[str, Any]], bool] = lambda inputs: False,
+) -> tuple[pandas.DataFrame, Path]:
     """Table of a figure's runs and the folder for its pictures.
 
     Args:
         name: Of the study file and the table.
         chosen: The script's options.
+        drawn: Tells by its inputs whether a run's curve is drawn.
     """
     plan = study.read(HERE / f"{name}.toml")
     table, folder = RESULTS / f"{name}.csv", chosen.out / name
     known = pandas.read_csv(table) if table.exists() else pandas.DataFrame({"hash": []})
-    missing = [job for job in plan.jobs if job.name not in set(known["hash"])]
+    done = set(known["hash"])
+    missing = [job for job in plan.jobs if job.name not in done]
     print(f"{name}: {len(plan.jobs)} runs, {len(missing)} of them not in {table.name}")
+    curves = [
+        job
+        for job in plan.jobs
+        if job.name in done
+        and drawn(job.inputs)
+        and not (folder / "runs" / job.name / "curve.csv").exists()
+    ]
+    if curves:
+        print(f"{name}: {len(curves)} runs more, whose curves are not in {folder}")
+    missing += curves
     folder.mkdir(parents=True, exist_ok=True)
     if missing and not chosen.dry:
         with Progress(unit="runs") as progress:
             part = study.Study(plan.name, missing)
             new = study.run(part, folder, workers=chosen.workers, progress=progress)
         known = pandas.concat([known, new[new["exit_code"].isin([0, 3])]], ignore_index=True)
+        known = known.drop_duplicates("hash")
         if chosen.keep:
             RESULTS.mkdir(exist_ok=True)
             known.to_csv(table, index=False)
@@ -151,11 +170,14 @@ def curves_of(rows: pandas.DataFrame, folder: Path) -> list[tuple[str, Result]]:
     return found
 
 
-def panels_of_laws(name: str, rows: pandas.DataFrame, folder: Path) -> list[Path]:
-    """Draw the curves of the packing with seed 1: panel a with brittle contacts, b with bilinear.
+def of_first_packing(inputs: Mapping[str, Any]) -> bool:
+    """The run is of the packing whose curves are drawn."""
+    return inputs["seed"] == 1
 
-    Runs whose folders are not there any more are left out.
-    """
+
+def panels_of_laws(name: str, chosen: argparse.Namespace) -> list[Path]:
+    """Draw the curves of the first packing: panel a with brittle contacts, b with bilinear."""
+    rows, folder = results(name, chosen, of_first_packing)
     pictures = []
     for letter, law in (("a", "brittle"), ("b", "bilinear")):
         chosen = rows[rows["material"].str.endswith(law) & (rows["seed"] == 1)]

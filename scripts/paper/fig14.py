@@ -1,15 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures 14 and 15 of the paper: envelope and curves of the flexible model with Table 7."""
 
-from common import curves_of, envelope_of, macroscopic, options, results
+from common import (
+    curves_of,
+    envelope_of,
+    macroscopic,
+    of_first_packing,
+    options,
+    results,
+)
 
 from flexpm.plot_compare import curves_picture, envelope_picture
 from flexpm.references import reference_of
 
-rows, folder = results("fig14", options(__doc__))
+
+def drawn(inputs):
+    """The curve of a run is drawn: the first packing without confinement and under 4 MPa."""
+    pressure = {"uniaxial": 0.0, "biaxial": inputs.get("confinement")}.get(inputs["test"])
+    return of_first_packing(inputs) and pressure in (0.0, 4e6)
+
+
+rows, folder = results("fig14", options(__doc__), drawn)
 macroscopic(rows, ["model"]).to_csv(folder / "fig14.csv", index=False)
 envelope_picture(folder / "fig14.png", [envelope_of("flexible", rows)], reference_of("augig"))
-shown = rows[rows["confinement"].fillna(0.0).isin([0.0, 4e6])]
-compressed = shown[shown["test"].isin(["uniaxial", "biaxial"]) & (shown["seed"] == 1)]
-curves_picture(folder / "fig15.png", curves_of(compressed, folder))
-print(folder / "fig14.png", folder / "fig15.png")
+print(folder / "fig14.png")
+curves = curves_of(rows[[drawn(row) for row in rows.to_dict("records")]], folder)
+if curves:
+    curves_picture(folder / "fig15.png", curves)
+    print(folder / "fig15.png")
