@@ -178,10 +178,10 @@ def of_first_packing(inputs: Mapping[str, Any]) -> bool:
 def panels_of_laws(name: str, chosen: argparse.Namespace) -> list[Path]:
     """Draw the curves of the first packing: panel a with brittle contacts, b with bilinear."""
     rows, folder = results(name, chosen, of_first_packing)
+    first = rows[[of_first_packing(row) for row in rows.to_dict("records")]]
     pictures = []
     for letter, law in (("a", "brittle"), ("b", "bilinear")):
-        chosen = rows[rows["material"].str.endswith(law) & (rows["seed"] == 1)]
-        runs = curves_of(chosen, folder)
+        runs = curves_of(first[first["material"].str.endswith(law)], folder)
         if runs:
             plot_compare.curves_picture(folder / f"{name}{letter}.png", runs)
             pictures.append(folder / f"{name}{letter}.png")

@@ -3,7 +3,6 @@
 #include <flexpm/kernel/measures.hpp>
 
 #include <flexpm/kernel/energy_block.hpp>
-#include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
