@@ -124,6 +124,12 @@ struct Assembly {
     std::vector<int> more_first;
     std::vector<int> more_sources;
 
+    // the order of a step, not saved: which blocks of grains have their last contact in each chunk of
+    // contact blocks, and the chunk of the first contact of each block of grains
+    std::vector<int> chunk_first;   ///< offset of each chunk in `chunk_blocks`
+    std::vector<int> chunk_blocks;  ///< blocks of grains
+    std::vector<int> first_chunk;
+
     /// Current positions [m]; empty until a script asks for them, then kept up to date by each step.
     Array<double> shown_position;
 
@@ -142,6 +148,7 @@ struct Assembly {
 
     int blocks() const { return static_cast<int>(block_group.size()); }
     int contact_blocks() const { return (contacts + lanes - 1) / lanes; }
+    int chunks() const { return static_cast<int>(chunk_first.size()) - 1; }
     int edge_blocks() const { return (edges + lanes - 1) / lanes; }
     const MeshGroup& group(int block) const { return groups[block_group[block]]; }
     bool is_rigid(int grain) const { return group(grain_slot[grain] / lanes).rigid; }

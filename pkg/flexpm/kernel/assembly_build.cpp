@@ -47,8 +47,15 @@ MeshedGrain mesh_cell(
     return grain;
 }
 
-/// Grains of equal connectivity, block by block.
-void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
+/// Grains of one group that are stepped together.
+struct Block {
+    int group;
+    std::vector<int> grains;
+};
+
+/// Grains of equal connectivity by eights. Blocks follow the order of the grains, which is one in space,
+/// and not that of the groups: what a step reads together then lies together.
+std::vector<Block> group_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
 {
     std::map<std::pair<int, std::vector<int>>, std::vector<int>> members;
     for (int g = 0; g < a.grains; ++g) {
@@ -57,24 +64,38 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
             triangles.insert(triangles.end(), t.begin(), t.end());
         members[{ static_cast<int>(grains[g].vertices.size()), triangles }].push_back(g);
     }
+    std::vector<Block> blocks;
+    for (const auto& [key, ids] : members) {
+        const int group = static_cast<int>(a.groups.size());
+        a.groups.push_back({ key.first, static_cast<int>(grains[ids.front()].mesh.nodes.size()),
+            key.second, key.second.empty() });
+        for (auto first = ids.begin(); first != ids.end();) {
+            const auto end = first + std::min<std::ptrdiff_t>(lanes, ids.end() - first);
+            blocks.push_back({ group, { first, end } });
+            first = end;
+        }
+    }
+    std::sort(blocks.begin(), blocks.end(),
+        [](const Block& b, const Block& c) { return b.grains.back() < c.grains.back(); });
+    return blocks;
+}
+
+void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
+{
     int nodes = 0, triangles = 0;
     a.grain_slot.assign(a.grains, -1);
-    for (const auto& [key, ids] : members) {
-        const MeshGroup group { key.first, static_cast<int>(grains[ids.front()].mesh.nodes.size()),
-            key.second, key.second.empty() };
-        for (std::size_t i = 0; i < ids.size(); i += lanes) {
-            for (int l = 0; l < lanes; ++l) {
-                const bool real = i + l < ids.size();
-                a.slot_grain.push_back(real ? ids[i + l] : -1);
-                if (real) a.grain_slot[ids[i + l]] = a.blocks() * lanes + l;
-            }
-            a.block_group.push_back(static_cast<int>(a.groups.size()));
-            a.block_nodes.push_back(nodes);
-            a.block_triangles.push_back(triangles);
-            nodes += 2 * lanes * group.nodes;
-            triangles += 5 * lanes * static_cast<int>(group.triangles.size() / 3);
+    for (const Block& b : group_grains(a, grains)) {
+        const MeshGroup& group = a.groups[b.group];
+        for (int l = 0; l < lanes; ++l) {
+            const bool real = l < static_cast<int>(b.grains.size());
+            a.slot_grain.push_back(real ? b.grains[l] : -1);
+            if (real) a.grain_slot[b.grains[l]] = a.blocks() * lanes + l;
         }
-        a.groups.push_back(group);
+        a.block_group.push_back(b.group);
+        a.block_nodes.push_back(nodes);
+        a.block_triangles.push_back(triangles);
+        nodes += 2 * lanes * group.nodes;
+        triangles += 5 * lanes * static_cast<int>(group.triangles.size() / 3);
     }
     for (auto* array : { &a.reference, &a.displacement, &a.velocity, &a.force })
         array->assign(nodes, 0.0);

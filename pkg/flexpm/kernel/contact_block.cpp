@@ -339,7 +339,27 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
     }
 }
 
+template <class T> void fetch(const Array<T>& array, int rows, int block)
+{
+    constexpr int line = 64 / sizeof(T);
+    const T* row = array.data() + static_cast<std::ptrdiff_t>(block) * rows * lanes;
+    for (int i = 0; i < rows * lanes; i += line)
+        __builtin_prefetch(row + i);
+}
+
 }  // namespace
+
+void fetch_contact_block(const Assembly& a, int block)
+{
+    fetch(a.contact_nodes, ContactRows::nodes, block);
+    fetch(a.weight, 2 * a.points, block);
+    fetch(a.area, a.points, block);
+    fetch(a.span, 2, block);
+    fetch(a.edge_reach, 2, block);
+    fetch(a.normal, 2, block);
+    fetch(a.point_state, a.points * ContactRows::state, block);
+    fetch(a.contact_force, ContactRows::forces, block);
+}
 
 void predict_centres(Assembly& a, int block, double dt)
 {

@@ -2,6 +2,7 @@
 /// @file  Lists of forces, and their sums per node.
 #include <flexpm/kernel/gather.hpp>
 
+#include <flexpm/kernel/chunks.hpp>
 #include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
@@ -84,6 +85,7 @@ void list_forces(Assembly& a)
         a.gather_first.push_back(static_cast<int>(a.gather.size()));
     }
     sort_sources(a);
+    list_chunks(a);
 }
 
 void sort_sources(Assembly& a)

@@ -2,6 +2,7 @@
 /// @file  Grains, `lanes` at a time, and the step as a whole.
 #include <flexpm/kernel/stepping.hpp>
 
+#include <flexpm/kernel/chunks.hpp>
 #include <flexpm/kernel/contact_block.hpp>
 #include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/gravity.hpp>
@@ -13,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include <omp.h>
 
 namespace flexpm {
 
@@ -162,6 +165,60 @@ void update_grain_block(Assembly& a, int block, const StepOptions& options)
     }
 }
 
+/// Chunks of one thread.
+struct ChunkRange {
+    int first, end;
+};
+
+ChunkRange share_of(const Assembly& a, int thread, int threads)
+{
+    return { thread * a.chunks() / threads, (thread + 1) * a.chunks() / threads };
+}
+
+/// The rows of more contacts than these do not stay in a cache from step to step.
+constexpr int cached_contacts = 1 << 14;
+/// Contact blocks from the one that is asked for to the one that is updated.
+constexpr int blocks_ahead = 2;
+
+void update_contacts(Assembly& a, int chunk, double dt, LawRows& law)
+{
+    const int first = chunk * chunk_length, blocks = a.contact_blocks();
+    const bool far = a.contacts > cached_contacts;
+    for (int b = first; b < std::min(first + chunk_length, blocks); ++b) {
+        if (far && b + blocks_ahead < blocks) fetch_contact_block(a, b + blocks_ahead);
+        update_contact_block(a, b, dt, law);
+    }
+}
+
+/// Calls visit(block) for the blocks of grains that have their last contact in a chunk.
+template <class Visitor> void visit_grains(const Assembly& a, int chunk, Visitor&& visit)
+{
+    for (int i = a.chunk_first[chunk]; i < a.chunk_first[chunk + 1]; ++i)
+        visit(a.chunk_blocks[i]);
+}
+
+/// The contacts of a thread and the grains that only these contacts touch.
+void update_chunks(Assembly& a, ChunkRange own, const StepOptions& options)
+{
+    LawRows law;
+    for (int chunk = own.first; chunk < own.end; ++chunk) {
+        update_contacts(a, chunk, options.dt, law);
+        visit_grains(a, chunk, [&](int block) {
+            if (a.first_chunk[block] >= own.first) update_grain_block(a, block, options);
+        });
+    }
+}
+
+/// The grains that contacts of an earlier thread touch, too.
+void update_shared_grains(Assembly& a, ChunkRange own, const StepOptions& options)
+{
+    for (int chunk = own.first; chunk < own.end; ++chunk) {
+        visit_grains(a, chunk, [&](int block) {
+            if (a.first_chunk[block] < own.first) update_grain_block(a, block, options);
+        });
+    }
+}
+
 }  // namespace
 
 void show_positions(Assembly& a)
@@ -172,19 +229,17 @@ void show_positions(Assembly& a)
 
 void step(Assembly& a, const StepOptions& options)
 {
-    const int contact_blocks = a.contact_blocks(), blocks = a.blocks();
+    const int blocks = a.blocks();
     a.next_centre.resize(static_cast<std::size_t>(2 * lanes * blocks));
-    if (a.source_pairs.empty()) sort_sources(a);  // loaded
+    if (a.source_pairs.empty()) {  // loaded
+        sort_sources(a);
+        list_chunks(a);
+    }
 #pragma omp parallel num_threads(options.threads) if (options.threads > 1)
     {
-        LawRows law;
 #pragma omp for schedule(static)
         for (int b = 0; b < blocks; ++b)
             predict_centres(a, b, options.dt);
-            // contacts and boundary only read the nodes: neither waits for the other
-#pragma omp for schedule(static) nowait
-        for (int b = 0; b < contact_blocks; ++b)
-            update_contact_block(a, b, options.dt, law);
 #pragma omp single
         {
             for (int b = 0; b < a.edge_blocks(); ++b) {
@@ -192,9 +247,10 @@ void step(Assembly& a, const StepOptions& options)
             }
             update_plates(a, options.dt, options.damping);
         }
-#pragma omp for schedule(static)
-        for (int b = 0; b < blocks; ++b)
-            update_grain_block(a, b, options);
+        const ChunkRange own = share_of(a, omp_get_thread_num(), omp_get_num_threads());
+        update_chunks(a, own, options);
+#pragma omp barrier
+        update_shared_grains(a, own, options);
     }
     ++a.step;
 }
