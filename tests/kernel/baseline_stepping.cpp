@@ -7,7 +7,6 @@
 
 #undef FLEXPM_MULTIVERSION
 #define FLEXPM_MULTIVERSION
-#define fetch_contact_block baseline_fetch_contact_block
 #define update_contact_block baseline_update_contact_block
 #define predict_centres baseline_predict_centres
 #define update_edge_block baseline_update_edge_block

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/contact_block.hpp>
 
 #include <flexpm/kernel/contact_rows.hpp>
+#include <flexpm/kernel/fetch.hpp>
 #include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace flexpm {
 
 namespace {
 
-constexpr int most_points = 3;
+constexpr int most_points = 3, blocks_ahead = 2;
 constexpr int opening_row = ContactRows::opening * lanes, slip_row = ContactRows::slip * lanes;
 
 /// The rows of one block of contacts.
@@ -30,6 +31,7 @@ struct Rows {
     double* state;
     double* force;
     const double* law;  ///< LawRows
+    int ahead;          ///< blocks from this one to the one to ask for; 0: the caches hold all
 };
 
 /// What a block works out for its points on the way, [point][lane].
@@ -78,6 +80,13 @@ __attribute__((always_inline)) inline void gather(const double* from, const int*
     }
 }
 
+/// Ask for an array's rows of the block ahead, of which there are `per_block`.
+template <class T>
+__attribute__((always_inline)) inline void fetch_ahead(const Rows& b, const T* rows, int per_block)
+{
+    if (b.ahead != 0) fetch_rows(rows + b.ahead * per_block * lanes, per_block);
+}
+
 /// A vector along the normal at the end of the step: between the centres, or, where a contact has no
 /// span, across the mean of the two edges.
 template <bool OfEdges>
@@ -109,6 +118,10 @@ __attribute__((always_inline)) inline Point direction(const Rows& b, double dt, 
 template <int Points, bool OfEdges>
 __attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
 {
+    fetch_ahead(b, b.nodes, ContactRows::nodes);
+    fetch_ahead(b, b.span, 2);
+    fetch_ahead(b, b.reach, 2);
+    fetch_ahead(b, b.normal, 2);
     alignas(64) double ends[8 * lanes];
     for (int n = 0; n < 4; ++n)
         gather(b.velocity, b.nodes + n * lanes, ends + 2 * n * lanes);
@@ -265,6 +278,10 @@ __attribute__((always_inline)) inline int advance_points(
     int cracks = 0;
     for (int p = 0; p < Points; ++p) {
         const TractionRows traction = { normal + p * lanes, shear + p * lanes };
+        if (b.ahead != 0) {
+            fetch_rows(
+                b.state + (b.ahead * Points + p) * ContactRows::state * lanes, ContactRows::state);
+        }
         if (advance_elastic_lanes<Intact>(b, motion, p, traction)) continue;
         cracks += advance_lanes(b, motion, p, traction, cracked + p * lanes);
     }
@@ -286,6 +303,9 @@ __attribute__((always_inline)) inline int update_lanes(
     const int cracks = is_intact<Points>(b)
         ? advance_points<Points, true>(b, motion, normal, shear, cracked)
         : advance_points<Points, false>(b, motion, normal, shear, cracked);
+    fetch_ahead(b, b.weight, 2 * Points);
+    fetch_ahead(b, b.area, Points);
+    fetch_ahead(b, b.force, ContactRows::forces);
     spread_forces<Points>(b, normal, shear);
     return cracks;
 }
@@ -339,27 +359,7 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
     }
 }
 
-template <class T> void fetch(const Array<T>& array, int rows, int block)
-{
-    constexpr int line = 64 / sizeof(T);
-    const T* row = array.data() + static_cast<std::ptrdiff_t>(block) * rows * lanes;
-    for (int i = 0; i < rows * lanes; i += line)
-        __builtin_prefetch(row + i);
-}
-
 }  // namespace
-
-void fetch_contact_block(const Assembly& a, int block)
-{
-    fetch(a.contact_nodes, ContactRows::nodes, block);
-    fetch(a.weight, 2 * a.points, block);
-    fetch(a.area, a.points, block);
-    fetch(a.span, 2, block);
-    fetch(a.edge_reach, 2, block);
-    fetch(a.normal, 2, block);
-    fetch(a.point_state, a.points * ContactRows::state, block);
-    fetch(a.contact_force, ContactRows::forces, block);
-}
 
 void predict_centres(Assembly& a, int block, double dt)
 {
@@ -379,7 +379,8 @@ void update_contact_block(Assembly& a, int block, double dt, LawRows& law)
         a.weight.data() + first * 2 * a.points, a.area.data() + first * a.points,
         a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
-        a.contact_force.data() + first * ContactRows::forces, law.values };
+        a.contact_force.data() + first * ContactRows::forces, law.values,
+        exceeds_caches(a) ? blocks_ahead : 0 };
     std::uint8_t cracked[most_points * lanes] = {};
     const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
         : a.points == 2              ? update_2(rows, dt, cracked)

@@ -9,9 +9,6 @@ namespace flexpm {
 /// Fill `next_centre` of a block of grains, which contacts read.
 void predict_centres(Assembly& a, int block, double dt);
 
-/// Ask for the rows of contact block `block`, which is to be updated soon.
-void fetch_contact_block(const Assembly& a, int block);
-
 /// Update contact block `block` over a step `dt`, at the positions reached at its end.
 void update_contact_block(Assembly& a, int block, double dt, LawRows& law);
 

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/chunks.hpp>
 #include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/fetch.hpp>
 #include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/integrate.hpp>
@@ -30,7 +31,20 @@ struct Rows {
     double* force;
     const std::uint8_t* held;
     const double* inverse_mass;
+    bool fetch;  ///< ask for what comes after, which is no longer in a cache
 };
+
+/// Triangles from the one that is worked on to the one to ask for.
+constexpr int triangles_ahead = 12;
+
+/// Ask for the shape of a triangle ahead, and as many nodes of the next block as there are triangles.
+__attribute__((always_inline)) inline void fetch_ahead(const Rows& b, int triangle)
+{
+    if (!b.fetch) return;
+    fetch_rows(b.triangles.shape + 5 * lanes * (triangle + triangles_ahead), 5);
+    fetch_rows(b.displacement + 2 * lanes * (b.nodes + triangle), 2);
+    fetch_rows(b.force + 2 * lanes * (b.nodes + triangle), 2);
+}
 
 /// Move the nodes, then add the forces of the elements to `force`.
 FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
@@ -41,6 +55,7 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
     const TriangleRows& rows = b.triangles;
     for (int t = 0; t < rows.triangles; ++t) {
         const TriangleNodes n = nodes_of(rows, t);
+        fetch_ahead(b, t);
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
             const TriangleForces e = triangle_forces(shape_of(rows, t, l), stiffness_of(rows, l),
@@ -131,7 +146,7 @@ void update_deformable(Assembly& a, int block, const StepOptions& options, StepS
     const MeshGroup& group = a.group(block);
     const Rows rows = { group.nodes, triangle_rows(a, block), a.displacement.data() + first,
         a.velocity.data() + first, a.force.data() + first, a.held.data() + first,
-        a.inverse_mass.data() + first / 2 };
+        a.inverse_mass.data() + first / 2, exceeds_caches(a) };
     move_and_deform(rows, options.dt);
     (options.measure ? integrate_measured : integrate)(rows, options.dt, options.damping, sums);
 }
@@ -175,19 +190,11 @@ ChunkRange share_of(const Assembly& a, int thread, int threads)
     return { thread * a.chunks() / threads, (thread + 1) * a.chunks() / threads };
 }
 
-/// The rows of more contacts than these do not stay in a cache from step to step.
-constexpr int cached_contacts = 1 << 14;
-/// Contact blocks from the one that is asked for to the one that is updated.
-constexpr int blocks_ahead = 2;
-
 void update_contacts(Assembly& a, int chunk, double dt, LawRows& law)
 {
-    const int first = chunk * chunk_length, blocks = a.contact_blocks();
-    const bool far = a.contacts > cached_contacts;
-    for (int b = first; b < std::min(first + chunk_length, blocks); ++b) {
-        if (far && b + blocks_ahead < blocks) fetch_contact_block(a, b + blocks_ahead);
+    const int first = chunk * chunk_length;
+    for (int b = first; b < std::min(first + chunk_length, a.contact_blocks()); ++b)
         update_contact_block(a, b, dt, law);
-    }
 }
 
 /// Calls visit(block) for the blocks of grains that have their last contact in a chunk.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Asking for memory some time before it is read, where a step's arrays exceed the caches. It is
+/// asked for bit by bit between computations: a core can wait for few lines at once.
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+
+namespace flexpm {
+
+/// Whether rows that are read in one step are still in a cache in the next.
+inline bool exceeds_caches(const Assembly& a)
+{
+    constexpr int cached_contacts = 1 << 14;
+    return a.contacts > cached_contacts;
+}
+
+/// Ask for `count` rows of `lanes` values from `first` on, which may lie past the end of its array.
+template <class T> __attribute__((always_inline)) inline void fetch_rows(const T* first, int count)
+{
+    constexpr int line = 64 / sizeof(T);
+    for (int i = 0; i < count * lanes; i += line)
+        __builtin_prefetch(first + i);
+}
+
+}  // namespace flexpm
