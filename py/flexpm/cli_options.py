@@ -12,6 +12,7 @@ import click
 
 from .errors import InputError
 from .material_keys import ELASTIC_SET, check_name
+from .rates import STOP_RATIO
 
 #: Names of the contract; those that a version does not have yet are refused as such.
 TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
@@ -256,12 +257,13 @@ loading_options = combined(
         "--max-strain",
         type=Quantity("", above=0.0),
         metavar="E",
-        help="Axial strain at which the test ends [-].",
+        help="Axial strain at which the test ends [-]; 8 times that of the reference strength, 16 "
+        "times in the Brazilian test, if not given.",
     ),
     click.option(
         "--stop-ratio",
         type=Quantity("", above=0.0),
-        default=0.5,
+        default=STOP_RATIO,
         metavar="F",
         show_default=True,
         help="The test ends once the stress has fallen to this part of its peak [-].",

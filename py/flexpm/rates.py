@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fast tests are driven and when they count as quasi-static, paper Sec. 4.1 (D5). SI units.
+"""How fast tests are driven, when they end and when they count as quasi-static. SI units.
 
-They come from halving the rate on three packings until the mean peak stood still: of the paper's
-size for flexible and rigid grains. The tables and the command are in the documentation.
+The rates (paper Sec. 4.1, D5) come from halving them on three packings until the mean peak stood
+still: of the paper's size for flexible and rigid grains. The tables and the command are in the
+documentation.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ QUASISTATIC_RATIO = {
     "jcfpm": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
     "cohfrict": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
 }
+#: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
+STOP_RATIO = 0.5
 #: Models that are driven like another one.
 _LIKE = {"inner-un": "inner"}
 

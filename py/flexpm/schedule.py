@@ -10,7 +10,7 @@ import yade
 
 from .curve import PEAK_DROP
 from .errors import InputError
-from .rates import fastest_pace, rate_constant
+from .rates import STOP_RATIO, fastest_pace, rate_constant
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
 #: slowly, and the interlocking edges of inner particles, carry more than the reference.
@@ -31,7 +31,7 @@ class Settings:
     confinement: float = 0.0  #: lateral pressure [Pa]
     rate: float = 1.0  #: factor on the default loading rate [-]
     max_strain: float | None = None  #: axial strain at which the test ends [-]
-    stop_ratio: float = 0.5  #: part of its peak to which the stress falls in the end [-]
+    stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
     start: str = "rest"  #: how the loading begins, one of `STARTS`
     pace: str = "steady"  #: how the loading goes on, one of `PACES`
 

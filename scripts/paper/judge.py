@@ -21,7 +21,6 @@ LITTLE, STRAIGHT = 0.05, 0.10
 SHOWN = {
     **dict.fromkeys(("compressive_strength", "cohesion", "direct", "indirect"), (1e-6, "MPa")),
     **dict.fromkeys(("peak_stress", "tensile_onset_stress"), (1e-6, "MPa")),
-    "softening_slope": (1e-9, "GPa"),
     "friction_angle": (1.0, "degrees"),
 }
 Where = Mapping[str, Any]

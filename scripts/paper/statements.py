@@ -32,6 +32,8 @@ TABLE_KEYS = {
     "fig14": ["model"],
 }
 QUOTIENT = "compression_over_direct"
+#: A slope over a strain that goes back tells how the strain is measured, not how brittle the fall is.
+RECOVERS = "not judged; the strain of {} recovers after the peak (see Fig. {})"
 
 
 class Statement(NamedTuple):
@@ -140,19 +142,19 @@ STATEMENTS = [
         "4.3.1",
         "Inner particles are less brittle (8): slope after the peak, inner above flexible",
         "fig08",
-        both_laws(judge.above, measure="softening_slope", more=FLEXIBLE, less=INNER),
+        lambda _: RECOVERS.format("inner particles", 8),
     ),
     Statement(
         "4.3.1",
         "They are so with the edges' normals, too (8): inner-un above flexible",
         "fig08",
-        both_laws(judge.above, measure="softening_slope", more=FLEXIBLE, less=INNER_UN),
+        lambda _: RECOVERS.format("inner particles", 8),
     ),
     Statement(
         "4.3.1",
         "Deformable grains do not change the brittle fall after the peak (9): slope",
         "fig09",
-        lambda _: "not judged; the strain of rigid grains recovers after the peak (see Fig. 9)",
+        lambda _: RECOVERS.format("rigid grains", 9),
     ),
     Statement(
         "4.3.1",
