@@ -32,7 +32,7 @@ TABLE_KEYS = {
     "fig14": ["model"],
 }
 QUOTIENT = "compression_over_direct"
-#: A slope over a strain that goes back tells how the strain is measured, not how brittle the fall is.
+#: A slope over a strain that goes back tells how the strain is measured, not how brittle a fall is.
 RECOVERS = "not judged; the strain of {} recovers after the peak (see Fig. {})"
 
 
