@@ -3,8 +3,8 @@
 
 Runs tests on rectangles of half the paper's size and discs of its full size, with the strengths of
 Table 2, and writes one CSV row a run. Smaller discs are stronger: rigid and bilinear, 12.7 MPa at
-40 mm and 9.7 MPa at 80 mm. SI units. Start it from a checkout that scripts/setup has built (an
-hour of one core):
+40 mm and 9.7 MPa at 80 mm. SI units. Start it from a checkout that scripts/setup has built
+(within an hour on one core):
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/trends.py trends.csv
 """

@@ -7,7 +7,7 @@
 
 namespace flexpm {
 
-/// Whether rows that are read in one step are still in a cache in the next.
+/// Whether a step reads more than the caches keep until the next one.
 inline bool exceeds_caches(const Assembly& a)
 {
     constexpr int cached_contacts = 1 << 14;
