@@ -77,6 +77,51 @@ def test_the_unit_of_length_does_not_matter():
     assert np.array_equal(large, centres * 1024.0)
 
 
+@pytest.mark.parametrize(
+    "frame", [packing.Frame(width=0.03, height=0.04), packing.Frame(radius=0.017)]
+)
+def test_disc_loop_gives_the_bits_of_yades_loop(frame, monkeypatch):
+    from yade import wrapper
+
+    class YadesLoop(wrapper.InteractionLoop):
+        mirror = True
+
+    area = np.pi * frame.radius**2 if frame.radius else frame.width * frame.height
+    count = packing.load_kernel().disc_count(area, 2e-3, 4e-3, 0.10)
+    ours = packing.pack(frame, radii_of(count), UNIT, seed=3)
+    monkeypatch.setattr(wrapper, "DiscLoop", YadesLoop)
+    theirs = packing.pack(frame, radii_of(count), UNIT, seed=3)
+    assert np.array_equal(ours[0], theirs[0])
+    assert np.array_equal(ours[1], theirs[1])
+
+
+def test_disc_loop_mirrors_forces_when_told():
+    from yade import wrapper
+
+    class YadesLoop(wrapper.InteractionLoop):
+        mirror = True
+
+    def forces(kind, mirror):
+        frame, radii = packing.Frame(width=8.0, height=8.0), np.full(70, 0.5)
+        centres = packing.load_kernel().insert_discs(radii, frame.kernel_outline(), 0.5, 1)
+        with packing._private_scene(scene), pytest.MonkeyPatch.context() as patch:
+            patch.setattr(wrapper, "DiscLoop", kind)
+            packing._fill_scene(scene, wrapper, frame, centres, radii).mirror = mirror
+            scene.dt = 0.1
+            packing._advance(scene, 20)
+            return {
+                (contact.id1, contact.id2): tuple(contact.phys.normalForce)
+                for contact in scene.interactions
+                if contact.isReal
+            }
+
+    scene = wrapper.Omega()
+    ours = forces(wrapper.DiscLoop, True)
+    assert len(ours) > 70
+    assert ours == forces(YadesLoop, True)
+    assert ours != forces(wrapper.DiscLoop, False)
+
+
 @pytest.mark.long
 def test_threads_do_not_matter(package_parent):
     code = (

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The interaction loop of a packing of discs, paper Sec. 3.1.
+#pragma once
+
+#include <flexpm/kernel/disc_pair.hpp>
+#include <flexpm/yade/yade_lite.hpp>
+
+namespace yade {
+
+class DiscLoop : public InteractionLoop {
+public:
+	~DiscLoop() override;
+	void action() override;
+
+private:
+	/// What the loop keeps of an interaction, to go without YADE's objects.
+	struct Row {
+		shared_ptr<Interaction> interaction;   ///< held, so that no other can take its address
+		bool                    plain = false; ///< of two spheres
+		int                     first = 0, second = 0;
+		flexpm::DiscPair        pair;
+	};
+
+	std::vector<Row>           rows;   // as the scene's interactions
+	std::vector<flexpm::Point> places; // of all bodies
+
+	void updateScene();
+	void readPlaces();
+	Row  makeRow(const shared_ptr<Interaction>& interaction) const;
+	/// Add a plain row's push to the forces; false if the pair begins or ceases to touch.
+	bool push(const Row& row);
+	/// What InteractionLoop does with one interaction.
+	void dispatch(const shared_ptr<Interaction>& interaction);
+
+public:
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(DiscLoop, InteractionLoop,
+		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` in a plane z = const without friction and shear stiffness, under "
+		":yref:`Law2_ScGeom_FrictPhys_CundallStrack`: the same forces to the last bit, from packed arrays. Pairs that begin or cease to touch, and walls, "
+		"go through the functors. One thread; periodic cells and :yref:`callbacks<InteractionLoop.callbacks>` are not served.",
+		((bool, mirror, true,, "Write the normal force of each contact into :yref:`NormPhys.normalForce` for those who look; :yref:`ScGeom` is as old as the contact."))
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(DiscLoop);
+
+} // namespace yade
