@@ -124,6 +124,10 @@ struct Assembly {
     std::vector<int> more_first;
     std::vector<int> more_sources;
 
+    /// Not saved: 1 where all contacts of a block lie between whole edges that both grains share, with
+    /// points at the ends and in the middle: weights 0, 1/2, 1 and one reach for both, equal end areas.
+    std::vector<std::uint8_t> shared_edges;
+
     // the order of a step, not saved: which blocks of grains have their last contact in each chunk of
     // contact blocks, and the chunk of the first contact of each block of grains
     std::vector<int> chunk_first;   ///< offset of each chunk in `chunk_blocks`

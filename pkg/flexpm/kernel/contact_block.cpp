@@ -31,6 +31,7 @@ struct Rows {
     double* state;
     double* force;
     const double* law;  ///< LawRows
+    bool shared_edges;  ///< see Assembly::shared_edges
     int ahead;          ///< blocks from this one to the one to ask for; 0: the caches hold all
 };
 
@@ -80,6 +81,17 @@ __attribute__((always_inline)) inline void gather(const double* from, const int*
     }
 }
 
+/// A quantity at point `p` of an edge, less its value at the first end, from the difference of the ends.
+/// `Shared`: three points, of weights 0, 1/2 and 1, on both sides.
+template <bool Shared>
+__attribute__((always_inline)) inline double between_edges(
+    const Rows& b, int p, int l, double of_a, double of_b)
+{
+    if (Shared) return p == 0 ? 0.0 : p == 1 ? 0.5 * (of_b - of_a) : of_b - of_a;
+    const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
+    return wb * of_b - wa * of_a;
+}
+
 /// Ask for an array's rows of the block ahead, of which there are `per_block`.
 template <class T>
 __attribute__((always_inline)) inline void fetch_ahead(const Rows& b, const T* rows, int per_block)
@@ -109,13 +121,19 @@ __attribute__((always_inline)) inline Point direction(const Rows& b, double dt, 
     return { of_edge ? ey : dx, of_edge ? -ex : dy };
 }
 
+template <bool Shared>
+__attribute__((always_inline)) inline double reach_of_b(const Rows& b, int l)
+{
+    return b.reach[(Shared ? 0 : lanes) + l];
+}
+
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
 /// the new normal: with it the work of a turning contact is what its energy says to third order.
 ///
 /// Deviation D24: both grains are compared in the middle of the gap between their places of a point
 /// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair that
 /// turns as one body neither opens nor slips.
-template <int Points, bool OfEdges>
+template <int Points, bool OfEdges, bool Shared>
 __attribute__((always_inline)) inline void move_points(const Rows& b, double dt, Motion& motion)
 {
     fetch_ahead(b, b.nodes, ContactRows::nodes);
@@ -142,12 +160,11 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
         const double a_apart = ax * mx + ay * my, a_along = ay * mx - ax * my;
         const double b_apart = bx * mx + by * my, b_along = by * mx - bx * my;
         const double g_apart = gx * mx + gy * my, g_along = gy * mx - gx * my;
-        const double turn = -0.5 * (b.reach[l] * a_apart + b.reach[lanes + l] * b_apart);
+        const double turn = -0.5 * (b.reach[l] * a_apart + reach_of_b<Shared>(b, l) * b_apart);
         for (int p = 0; p < Points; ++p) {
             const double* state = b.state + p * ContactRows::state * lanes + l;
-            const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
-            const double apart = g_apart + (wb * b_apart - wa * a_apart);
-            const double along = g_along + (wb * b_along - wa * a_along);
+            const double apart = g_apart + between_edges<Shared>(b, p, l, a_apart, b_apart);
+            const double along = g_along + between_edges<Shared>(b, p, l, a_along, b_along);
             const double opening = state[opening_row], slip = state[slip_row];
             motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
             motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
@@ -155,9 +172,26 @@ __attribute__((always_inline)) inline void move_points(const Rows& b, double dt,
     }
 }
 
+/// Share of the second end of each edge in what acts on its points, along one direction.
+struct EndShares {
+    double a = 0.0, b = 0.0;
+
+    template <bool Shared>
+    __attribute__((always_inline)) inline void add(const Rows& rows, int p, int l, double force)
+    {
+        if (Shared) {
+            if (p > 0) a += p == 1 ? 0.5 * force : force;
+            b = a;
+        } else {
+            a += rows.weight[(2 * p) * lanes + l] * force;
+            b += rows.weight[(2 * p + 1) * lanes + l] * force;
+        }
+    }
+};
+
 /// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19. They act in the
 /// middle of the gap: each edge takes half of the gap's moment by a couple on its ends.
-template <int Points>
+template <int Points, bool Shared>
 __attribute__((always_inline)) inline void spread_forces(
     const Rows& b, const double* normal, const double* shear)
 {
@@ -165,25 +199,23 @@ __attribute__((always_inline)) inline void spread_forces(
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
         // along the normal and along the tangent
-        double moment = 0.0, sum_n = 0.0, sum_s = 0.0, a_n = 0.0, a_s = 0.0, b_n = 0.0, b_s = 0.0;
+        double moment = 0.0, sum_n = 0.0, sum_s = 0.0;
+        EndShares end_n, end_s;
         for (int p = 0; p < Points; ++p) {
-            const double area = b.area[p * lanes + l];
+            const double area = b.area[(Shared && p == 2 ? 0 : p) * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
-            const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
             const double* state = b.state + p * ContactRows::state * lanes + l;
             moment += state[opening_row] * fs - state[slip_row] * fn;
             sum_n += fn;
             sum_s += fs;
-            a_n += wa * fn;
-            a_s += wa * fs;
-            b_n += wb * fn;
-            b_s += wb * fs;
+            end_n.add<Shared>(b, p, l, fn);
+            end_s.add<Shared>(b, p, l, fs);
         }
-        a_n -= 0.5 * moment * b.reach[l];
-        b_n += 0.5 * moment * b.reach[lanes + l];
+        const double a_n = end_n.a - 0.5 * moment * b.reach[l];
+        const double b_n = end_n.b + 0.5 * moment * reach_of_b<Shared>(b, l);
         const double sum_x = sum_n * nx - sum_s * ny, sum_y = sum_n * ny + sum_s * nx;
-        const double a1x = a_n * nx - a_s * ny, a1y = a_n * ny + a_s * nx;
-        const double b1x = b_n * nx - b_s * ny, b1y = b_n * ny + b_s * nx;
+        const double a1x = a_n * nx - end_s.a * ny, a1y = a_n * ny + end_s.a * nx;
+        const double b1x = b_n * nx - end_s.b * ny, b1y = b_n * ny + end_s.b * nx;
         double* f = b.force + l;
         f[0 * lanes] = sum_x - a1x;
         f[1 * lanes] = sum_y - a1y;
@@ -288,39 +320,40 @@ __attribute__((always_inline)) inline int advance_points(
     return cracks;
 }
 
-template <int Points>
+template <int Points, bool Shared>
 __attribute__((always_inline)) inline int update_lanes(
     const Rows& b, double dt, std::uint8_t* cracked)
 {
     Motion motion;
     // two calls, not one through a pointer: only a direct call is compiled for each instruction set
     if (any_normal_of_edge(b))
-        move_points<Points, true>(b, dt, motion);
+        move_points<Points, true, Shared>(b, dt, motion);
     else
-        move_points<Points, false>(b, dt, motion);
+        move_points<Points, false, Shared>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     const int cracks = is_intact<Points>(b)
         ? advance_points<Points, true>(b, motion, normal, shear, cracked)
         : advance_points<Points, false>(b, motion, normal, shear, cracked);
-    fetch_ahead(b, b.weight, 2 * Points);
+    if (!Shared) fetch_ahead(b, b.weight, 2 * Points);
     fetch_ahead(b, b.area, Points);
     fetch_ahead(b, b.force, ContactRows::forces);
-    spread_forces<Points>(b, normal, shear);
+    spread_forces<Points, Shared>(b, normal, shear);
     return cracks;
 }
 
 FLEXPM_MULTIVERSION int update_1(const Rows& b, double dt, std::uint8_t* cracked)
 {
-    return update_lanes<1>(b, dt, cracked);
+    return update_lanes<1, false>(b, dt, cracked);
 }
 FLEXPM_MULTIVERSION int update_2(const Rows& b, double dt, std::uint8_t* cracked)
 {
-    return update_lanes<2>(b, dt, cracked);
+    return update_lanes<2, false>(b, dt, cracked);
 }
 FLEXPM_MULTIVERSION int update_3(const Rows& b, double dt, std::uint8_t* cracked)
 {
-    return update_lanes<3>(b, dt, cracked);
+    return b.shared_edges ? update_lanes<3, true>(b, dt, cracked)
+                          : update_lanes<3, false>(b, dt, cracked);
 }
 
 /// Where a point is now: the middle of its places on the two edges.
@@ -380,7 +413,7 @@ void update_contact_block(Assembly& a, int block, double dt, LawRows& law)
         a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
         a.point_state.data() + first * a.points * ContactRows::state,
         a.contact_force.data() + first * ContactRows::forces, law.values,
-        exceeds_caches(a) ? blocks_ahead : 0 };
+        a.shared_edges[block] != 0, exceeds_caches(a) ? blocks_ahead : 0 };
     std::uint8_t cracked[most_points * lanes] = {};
     const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
         : a.points == 2              ? update_2(rows, dt, cracked)

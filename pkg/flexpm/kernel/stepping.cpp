@@ -238,10 +238,7 @@ void step(Assembly& a, const StepOptions& options)
 {
     const int blocks = a.blocks();
     a.next_centre.resize(static_cast<std::size_t>(2 * lanes * blocks));
-    if (a.source_pairs.empty()) {  // loaded
-        sort_sources(a);
-        list_chunks(a);
-    }
+    if (a.source_pairs.empty()) prepare_step(a);  // loaded
 #pragma omp parallel num_threads(options.threads) if (options.threads > 1)
     {
 #pragma omp for schedule(static)
