@@ -5,6 +5,8 @@
 
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/prepare.hpp>
+#include <flexpm/kernel/retire.hpp>
 
 #include "driven.hpp"
 
@@ -121,4 +123,21 @@ TEST_CASE("Real masses are stable at the time step that goes with them")
             if (factor == 2.0) CHECK(most > 1e6);
         }
     }
+}
+
+TEST_CASE("The elements' part of the stiffness bound is kept, and found anew once a grain is gone")
+{
+    Assembly a =
+        specimens::assemble(specimens::random_grains(12e-3, 15e-3, 3e-3, 9), specimens::options());
+    const int node = flexpm::scalar_index(a.centre(2));
+    REQUIRE_FALSE(a.element_bound.empty());
+    CHECK(a.element_bound == flexpm::element_bound(a));
+    CHECK(a.element_bound[node] > 0.0);
+    const auto before = flexpm::stiffness_bound(a).node;
+    flexpm::retire_grain(a, 2);
+    const auto after = flexpm::stiffness_bound(a).node;
+    CHECK(after[node] == 0.0);
+    CHECK(after[flexpm::scalar_index(a.centre(3))] == before[flexpm::scalar_index(a.centre(3))]);
+    flexpm::prepare_step(a);
+    CHECK(flexpm::stiffness_bound(a).node == after);
 }

@@ -137,6 +137,9 @@ struct Assembly {
     /// Current positions [m]; empty until a script asks for them, then kept up to date by each step.
     Array<double> shown_position;
 
+    /// Not saved: what elements add to StiffnessBound::node [N/m]; empty until prepare_step() finds it.
+    Array<double> element_bound;
+
     // sums that only grow; energies in J. Per block of grains unless said.
     Array<double> damping_work;  ///< [block][done, second half of the last step]
     Array<double> driven_work;   ///< the same for nodes with prescribed velocity

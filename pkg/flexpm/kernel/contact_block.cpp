@@ -121,8 +121,7 @@ __attribute__((always_inline)) inline Point direction(const Rows& b, double dt, 
     return { of_edge ? ey : dx, of_edge ? -ex : dy };
 }
 
-template <bool Shared>
-__attribute__((always_inline)) inline double reach_of_b(const Rows& b, int l)
+template <bool Shared> __attribute__((always_inline)) inline double reach_of_b(const Rows& b, int l)
 {
     return b.reach[(Shared ? 0 : lanes) + l];
 }
@@ -392,6 +391,31 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
     }
 }
 
+Rows rows_from(Assembly& a, int contact, const LawRows& law)
+{
+    return { a.reference.data(), a.displacement.data(), a.velocity.data(), a.next_centre.data(),
+        a.contact_nodes.data() + contact * ContactRows::nodes,
+        a.weight.data() + contact * 2 * a.points, a.area.data() + contact * a.points,
+        a.span.data() + contact * 2, a.edge_reach.data() + contact * 2,
+        a.normal.data() + contact * 2,
+        a.point_state.data() + contact * a.points * ContactRows::state,
+        a.contact_force.data() + contact * ContactRows::forces, law.values, false,
+        exceeds_caches(a) ? blocks_ahead : 0 };
+}
+
+/// Go on to the rows of the next block.
+void advance_block(Rows& b, int points)
+{
+    b.nodes += lanes * ContactRows::nodes;
+    b.weight += lanes * 2 * points;
+    b.area += lanes * points;
+    b.span += lanes * 2;
+    b.reach += lanes * 2;
+    b.normal += lanes * 2;
+    b.state += lanes * points * ContactRows::state;
+    b.force += lanes * ContactRows::forces;
+}
+
 }  // namespace
 
 void predict_centres(Assembly& a, int block, double dt)
@@ -403,28 +427,27 @@ void predict_centres(Assembly& a, int block, double dt)
         next[i] = u[i] + dt * v[i];
 }
 
-void update_contact_block(Assembly& a, int block, double dt, LawRows& law)
+void update_contact_blocks(Assembly& a, int first, int end, double dt)
 {
-    law.fill(a, block);
-    const int first = block * lanes;
-    const Rows rows = { a.reference.data(), a.displacement.data(), a.velocity.data(),
-        a.next_centre.data(), a.contact_nodes.data() + first * ContactRows::nodes,
-        a.weight.data() + first * 2 * a.points, a.area.data() + first * a.points,
-        a.span.data() + first * 2, a.edge_reach.data() + first * 2, a.normal.data() + first * 2,
-        a.point_state.data() + first * a.points * ContactRows::state,
-        a.contact_force.data() + first * ContactRows::forces, law.values,
-        a.shared_edges[block] != 0, exceeds_caches(a) ? blocks_ahead : 0 };
-    std::uint8_t cracked[most_points * lanes] = {};
-    const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
-        : a.points == 2              ? update_2(rows, dt, cracked)
-                                     : update_1(rows, dt, cracked);
-    if (cracks > 0) record_cracks(a, block, dt, cracked);
+    LawRows law;
+    Rows rows = rows_from(a, first * lanes, law);
+    for (int block = first; block < end; ++block, advance_block(rows, a.points)) {
+        law.fill(a, block);
+        rows.shared_edges = a.shared_edges[block] != 0;
+        std::uint8_t cracked[most_points * lanes] = {};
+        const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
+            : a.points == 2              ? update_2(rows, dt, cracked)
+                                         : update_1(rows, dt, cracked);
+        if (cracks > 0) record_cracks(a, block, dt, cracked);
+    }
 }
 
 double update_edge_block(Assembly& a, int block, double dt)
 {
     double work = 0.0;
     for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges); ++e) {
+        double* f = a.edge_force.data() + row_index(e, 0, ContactRows::forces);
+        if (a.edge_pressure[e] == 0.0 && f[0] == 0.0 && f[lanes] == 0.0) continue;
         const int n0 = a.edge_nodes[row_index(e, 0, 2)], n1 = a.edge_nodes[row_index(e, 1, 2)];
         const Point p0 = a.position(n0), p1 = a.position(n1);
         const double* v = a.velocity.data();
@@ -433,7 +456,6 @@ double update_edge_block(Assembly& a, int block, double dt)
         // the outward normal of a counter-clockwise edge is (ey, -ex) / length
         const double half = 0.5 * a.edge_pressure[e] * a.thickness;
         const double fx = -half * ey, fy = half * ex;
-        double* f = a.edge_force.data() + row_index(e, 0, ContactRows::forces);
         work += 0.5 * dt
             * ((f[0] + fx) * (v[n0] + v[n1]) + (f[lanes] + fy) * (v[n0 + lanes] + v[n1 + lanes]));
         f[0] = f[2 * lanes] = fx;

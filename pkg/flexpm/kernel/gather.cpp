@@ -2,7 +2,7 @@
 /// @file  Lists of forces, and their sums per node.
 #include <flexpm/kernel/gather.hpp>
 
-#include <flexpm/kernel/chunks.hpp>
+#include <flexpm/kernel/prepare.hpp>
 #include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
@@ -55,46 +55,6 @@ FLEXPM_MULTIVERSION void sum_pairs(
     }
 }
 
-void sort_sources(Assembly& a)
-{
-    const int none = a.contact_blocks() * lanes * ContactRows::forces;
-    a.contact_force.resize(static_cast<std::size_t>(none) + 2 * lanes);  // x and y are zero
-    a.source_pairs.assign(a.reference.size(), none);
-    a.more_sources.clear();
-    a.more_first.assign(1, 0);
-    for (int block = 0; block < a.blocks(); ++block) {
-        const Sources s = { a.source_pairs.data() + a.block_nodes[block], a.more_sources, none };
-        for (int i = a.gather_first[block]; i < a.gather_first[block + 1]; i += 3) {
-            add_source(s, a.gather[i], a.gather[i + 1]);
-            add_source(s, second_force(a.gather[i]), a.gather[i + 2]);
-        }
-        a.more_first.push_back(static_cast<int>(a.more_sources.size()));
-    }
-}
-
-bool between_shared_edges(const Assembly& a, int block)
-{
-    const int first = block * lanes;
-    const double *w = a.weight.data() + 6 * first, *area = a.area.data() + 3 * first,
-                 *reach = a.edge_reach.data() + 2 * first;
-    for (int l = 0; l < lanes; ++l) {
-        for (int p = 0; p < 3; ++p) {
-            for (int side = 0; side < 2; ++side)
-                if (w[(2 * p + side) * lanes + l] != 0.5 * p) return false;
-        }
-        if (area[l] != area[2 * lanes + l] || reach[l] != reach[lanes + l]) return false;
-    }
-    return true;
-}
-
-void find_shared_edges(Assembly& a)
-{
-    a.shared_edges.assign(a.contact_blocks(), 0);
-    if (a.points != 3) return;
-    for (int b = 0; b < a.contact_blocks(); ++b)
-        a.shared_edges[b] = between_shared_edges(a, b);
-}
-
 }  // namespace
 
 void list_forces(Assembly& a)
@@ -127,11 +87,21 @@ void list_forces(Assembly& a)
     prepare_step(a);
 }
 
-void prepare_step(Assembly& a)
+void sort_sources(Assembly& a)
 {
-    sort_sources(a);
-    list_chunks(a);
-    find_shared_edges(a);
+    const int none = a.contact_blocks() * lanes * ContactRows::forces;
+    a.contact_force.resize(static_cast<std::size_t>(none) + 2 * lanes);  // x and y are zero
+    a.source_pairs.assign(a.reference.size(), none);
+    a.more_sources.clear();
+    a.more_first.assign(1, 0);
+    for (int block = 0; block < a.blocks(); ++block) {
+        const Sources s = { a.source_pairs.data() + a.block_nodes[block], a.more_sources, none };
+        for (int i = a.gather_first[block]; i < a.gather_first[block + 1]; i += 3) {
+            add_source(s, a.gather[i], a.gather[i + 1]);
+            add_source(s, second_force(a.gather[i]), a.gather[i + 2]);
+        }
+        a.more_first.push_back(static_cast<int>(a.more_sources.size()));
+    }
 }
 
 void gather_forces(Assembly& a, int block)

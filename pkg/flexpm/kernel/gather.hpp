@@ -11,9 +11,8 @@ namespace flexpm {
 /// act on which nodes.
 void list_forces(Assembly& a);
 
-/// Derive what a saved state does not hold and a step needs: the gather list sorted by nodes, the order
-/// of a step, blocks between shared edges. list_forces() does it, too.
-void prepare_step(Assembly& a);
+/// Sort the gather list by nodes, for gather_forces().
+void sort_sources(Assembly& a);
 
 /// Sum the listed forces on the nodes of a block into `Assembly::force`, which is overwritten.
 void gather_forces(Assembly& a, int block);

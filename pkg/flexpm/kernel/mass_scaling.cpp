@@ -172,13 +172,19 @@ void scale_plates(Assembly& a, double damping, double dt)
 
 }  // namespace
 
+Array<double> element_bound(const Assembly& a)
+{
+    Array<double> bound(a.inverse_mass.size(), 0.0);
+    for (int g = 0; g < a.grains; ++g)
+        add_elements(a, g, bound);
+    return bound;
+}
+
 StiffnessBound stiffness_bound(const Assembly& a)
 {
     StiffnessBound bound;
-    bound.node.assign(a.inverse_mass.size(), 0.0);
+    bound.node = a.element_bound.empty() ? element_bound(a) : a.element_bound;
     bound.rotation.assign(a.inverse_inertia.size(), 0.0);
-    for (int g = 0; g < a.grains; ++g)
-        add_elements(a, g, bound.node);
     for (int c = 0; c < a.contacts; ++c)
         add_contact(a, c, bound);
     for (const Plate& p : a.plates)

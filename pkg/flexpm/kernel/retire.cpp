@@ -22,6 +22,7 @@ void retire_grain(Assembly& a, int grain)
     for (int t = 0; t < triangles; ++t) {
         a.shape[a.block_triangles[block] + (5 * t + 4) * lanes + lane] = 0.0;
     }
+    a.element_bound.clear();
     for (int n = 0; n < a.nodes_of(grain); ++n) {
         for (int i : { a.node(grain, n), a.node(grain, n) + lanes }) {
             a.velocity[i] = 0.0;

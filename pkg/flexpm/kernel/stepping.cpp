@@ -9,6 +9,7 @@
 #include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/integrate.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/prepare.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
 #include <flexpm/kernel/simd.hpp>
 #include <flexpm/kernel/triangle_rows.hpp>
@@ -190,11 +191,10 @@ ChunkRange share_of(const Assembly& a, int thread, int threads)
     return { thread * a.chunks() / threads, (thread + 1) * a.chunks() / threads };
 }
 
-void update_contacts(Assembly& a, int chunk, double dt, LawRows& law)
+void update_contacts(Assembly& a, int chunk, double dt)
 {
     const int first = chunk * chunk_length;
-    for (int b = first; b < std::min(first + chunk_length, a.contact_blocks()); ++b)
-        update_contact_block(a, b, dt, law);
+    update_contact_blocks(a, first, std::min(first + chunk_length, a.contact_blocks()), dt);
 }
 
 /// Calls visit(block) for the blocks of grains that have their last contact in a chunk.
@@ -207,9 +207,8 @@ template <class Visitor> void visit_grains(const Assembly& a, int chunk, Visitor
 /// The contacts of a thread and the grains that only these contacts touch.
 void update_chunks(Assembly& a, ChunkRange own, const StepOptions& options)
 {
-    LawRows law;
     for (int chunk = own.first; chunk < own.end; ++chunk) {
-        update_contacts(a, chunk, options.dt, law);
+        update_contacts(a, chunk, options.dt);
         visit_grains(a, chunk, [&](int block) {
             if (a.first_chunk[block] >= own.first) update_grain_block(a, block, options);
         });

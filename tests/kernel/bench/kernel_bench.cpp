@@ -29,11 +29,9 @@ void contact_blocks(benchmark::State& state)
     loaded::load(a, -1e-8);
     loaded::run(a, 50);
     for (auto _ : state) {
-        flexpm::LawRows law;
         for (int b = 0; b < a.blocks(); ++b)
             flexpm::predict_centres(a, b, 1e-6);
-        for (int b = 0; b < a.contact_blocks(); ++b)
-            flexpm::update_contact_block(a, b, 1e-6, law);
+        flexpm::update_contact_blocks(a, 0, a.contact_blocks(), 1e-6);
     }
     count(state, a.contacts, "contact");
 }

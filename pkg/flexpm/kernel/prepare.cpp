@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What a step needs and a saved state does not hold.
+#include <flexpm/kernel/prepare.hpp>
+
+#include <flexpm/kernel/chunks.hpp>
+#include <flexpm/kernel/gather.hpp>
+#include <flexpm/kernel/mass_scaling.hpp>
+
+namespace flexpm {
+
+namespace {
+
+bool between_shared_edges(const Assembly& a, int block)
+{
+    const int first = block * lanes;
+    const double *w = a.weight.data() + 6 * first, *area = a.area.data() + 3 * first,
+                 *reach = a.edge_reach.data() + 2 * first;
+    for (int l = 0; l < lanes; ++l) {
+        for (int p = 0; p < 3; ++p) {
+            for (int side = 0; side < 2; ++side)
+                if (w[(2 * p + side) * lanes + l] != 0.5 * p) return false;
+        }
+        if (area[l] != area[2 * lanes + l] || reach[l] != reach[lanes + l]) return false;
+    }
+    return true;
+}
+
+void find_shared_edges(Assembly& a)
+{
+    a.shared_edges.assign(a.contact_blocks(), 0);
+    if (a.points != 3) return;
+    for (int b = 0; b < a.contact_blocks(); ++b)
+        a.shared_edges[b] = between_shared_edges(a, b);
+}
+
+}  // namespace
+
+void prepare_step(Assembly& a)
+{
+    sort_sources(a);
+    list_chunks(a);
+    find_shared_edges(a);
+    if (a.element_bound.empty()) a.element_bound = element_bound(a);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What a step needs and a saved state does not hold.
+#pragma once
+
+#include <flexpm/kernel/assembly.hpp>
+
+namespace flexpm {
+
+/// Derive from the contacts and the grains: the gather list sorted by nodes, the order of a step, blocks
+/// between shared edges, and, unless it is known, the elements' part of the stiffness bound. Needed after
+/// a state has been loaded; list_forces() does it, too.
+void prepare_step(Assembly& a);
+
+}  // namespace flexpm
