@@ -107,10 +107,10 @@ TEST_CASE("The work of a path is stored or dissipated, to first order in the ste
     CHECK(error[2] < 0.6 * error[1]);
 }
 
-TEST_CASE("The short cut of the elastic branch gives the bits of the whole law")
+TEST_CASE("The short cuts of the elastic branch and of friction give the bits of the whole law")
 {
     flexpm::Random random(13);
-    int taken = 0, refused = 0, idle_refused = 0;
+    int taken = 0, slid = 0, refused = 0, idle_refused = 0;
     for (int i = 0; i < 3000; ++i) {
         const ContactMaterial m = random_material(random);
         const int steps = 1 + static_cast<int>(20 * random.next());
@@ -127,6 +127,14 @@ TEST_CASE("The short cut of the elastic branch gives the bits of the whole law")
                     ++taken;
                     REQUIRE(same_bits(&next, &path.state, sizeof next));
                     REQUIRE(same_bits(&traction, &path.traction, sizeof traction));
+                } else if (old.shear_damage >= 1.0) {
+                    ++slid;
+                    const flexpm::Sliding slide = flexpm::slide_used_up(
+                        path.law, traction.normal, next.shear_traction, old.shear_traction);
+                    traction.shear = next.shear_traction = slide.shear;
+                    next.friction_energy += slide.loss;
+                    REQUIRE(same_bits(&next, &path.state, sizeof next));
+                    REQUIRE(same_bits(&traction, &path.traction, sizeof traction));
                 } else {
                     ++refused;
                     idle_refused += path.state.damage_energy == old.damage_energy
@@ -135,8 +143,9 @@ TEST_CASE("The short cut of the elastic branch gives the bits of the whole law")
             }
         }
     }
-    CAPTURE(taken, refused, idle_refused);
+    CAPTURE(taken, slid, refused, idle_refused);
     CHECK(taken > 10000);
+    CHECK(slid > 10000);
     CHECK(refused > 10000);
 }
 

@@ -150,6 +150,26 @@ __attribute__((always_inline)) inline bool advance_elastic(const LawParameters& 
     return same_secant & (std::fabs(shear) <= limit);
 }
 
+/// What friction leaves of the shear traction [Pa] and takes [J/m^2] in a step.
+struct Sliding {
+    double shear;
+    double loss;
+};
+
+/// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be damaged
+/// further: with advance_elastic() the whole step of such a point. `trial` is the traction that it would
+/// have without friction, `before` that of the last step.
+__attribute__((always_inline)) inline Sliding slide_used_up(
+    const LawParameters& p, double normal, double trial, double before)
+{
+    const double size = std::fabs(trial);
+    const double limit = std::max(-p.friction * normal, 0.0);
+    const double shear = std::min(size, limit);
+    const double slip = (size - shear) / p.shear_stiffness;
+    const double along = std::copysign(1.0, trial) * before;
+    return { std::copysign(shear, trial), 0.5 * std::max(along + shear, 0.0) * slip };
+}
+
 /// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
 /// return with its damage in closed form, and the normal traction once more with the new damage.
 /// Free of branches, so that eight points advance at once.

@@ -249,20 +249,40 @@ struct TractionRows {
     double* shear;
 };
 
-/// Advances a point of each contact if all stay on their branches; otherwise changes no state.
+/// Slides the points that leave their branch, which shear has used up: `next` holds what an elastic
+/// step would have made of all.
+__attribute__((always_inline)) inline void slide_lanes(
+    const Rows& b, int p, const std::int64_t* leaves, double* next, TractionRows traction)
+{
+    double* state = b.state + p * ContactRows::state * lanes;
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        const PointState s = load_state(state, l);
+        const Sliding slide = slide_used_up(
+            law_of(b.law, l), traction.normal[l], next[2 * lanes + l], s.shear_traction);
+        const bool slides = leaves[l] != 0;
+        traction.shear[l] = slides ? slide.shear : traction.shear[l];
+        next[2 * lanes + l] = traction.shear[l];
+        state[6 * lanes + l] = s.friction_energy + (slides ? slide.loss : 0.0);
+    }
+}
+
+/// Advances a point of each contact if all stay on their branches or only friction holds them;
+/// otherwise changes no state.
 template <bool Intact>
 __attribute__((always_inline)) inline bool advance_elastic_lanes(
     const Rows& b, const Motion& motion, int p, TractionRows traction)
 {
     double* state = b.state + p * ContactRows::state * lanes;
-    alignas(64) std::int64_t leaves[lanes];
+    alignas(64) std::int64_t leaves[lanes], needs_law[lanes];
     alignas(64) double next[4 * lanes];  // the members of a state that an elastic step changes
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         PointState s;
         Traction t;
+        const PointState old = load_state(state, l);
         const bool elastic = advance_elastic<Intact>(law_of(b.law, l),
-            motion.opening[p * lanes + l], motion.slip[p * lanes + l], load_state(state, l), s, t);
+            motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
         next[0 * lanes + l] = s.opening;
         next[1 * lanes + l] = s.max_opening;
         next[2 * lanes + l] = s.shear_traction;
@@ -270,8 +290,12 @@ __attribute__((always_inline)) inline bool advance_elastic_lanes(
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
         leaves[l] = !elastic;
+        needs_law[l] = !elastic & !(old.shear_damage >= 1.0);
     }
-    if (any_of(leaves)) return false;
+    if (any_of(leaves)) {
+        if (Intact || any_of(needs_law)) return false;
+        slide_lanes(b, p, leaves, next, traction);
+    }
     for (int i = 0; i < 4 * lanes; ++i)
         state[i] = next[i];
     return true;
