@@ -281,8 +281,8 @@ __attribute__((always_inline)) inline bool advance_elastic_lanes(
         PointState s;
         Traction t;
         const PointState old = load_state(state, l);
-        const bool elastic = advance_elastic<Intact>(law_of(b.law, l),
-            motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
+        const bool elastic = advance_elastic<Intact>(
+            law_of(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
         next[0 * lanes + l] = s.opening;
         next[1 * lanes + l] = s.max_opening;
         next[2 * lanes + l] = s.shear_traction;
