@@ -8,6 +8,4 @@
 #undef FLEXPM_MULTIVERSION
 #define FLEXPM_MULTIVERSION
 #define update_contact_blocks baseline_update_contact_blocks
-#define predict_centres baseline_predict_centres
-#define update_edge_block baseline_update_edge_block
 #include "../../pkg/flexpm/kernel/contact_block.cpp"

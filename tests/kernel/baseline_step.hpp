@@ -10,7 +10,5 @@ namespace flexpm {
 void baseline_step(Assembly& a, const StepOptions& options);
 
 void baseline_update_contact_blocks(Assembly& a, int first, int end, double dt);
-void baseline_predict_centres(Assembly& a, int block, double dt);
-double baseline_update_edge_block(Assembly& a, int block, double dt);
 
 }  // namespace flexpm

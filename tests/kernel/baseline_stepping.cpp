@@ -8,8 +8,6 @@
 #undef FLEXPM_MULTIVERSION
 #define FLEXPM_MULTIVERSION
 #define update_contact_blocks baseline_update_contact_blocks
-#define predict_centres baseline_predict_centres
-#define update_edge_block baseline_update_edge_block
 #define show_positions baseline_show_positions
 #define step(assembly, options) baseline_step(assembly, options)
 #include "../../pkg/flexpm/kernel/stepping.cpp"

@@ -113,4 +113,26 @@ void set_pressure(Assembly& a, int side, double pressure)
     }
 }
 
+double update_edge_block(Assembly& a, int block, double dt)
+{
+    double work = 0.0;
+    for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges); ++e) {
+        double* f = a.edge_force.data() + row_index(e, 0, ContactRows::forces);
+        if (a.edge_pressure[e] == 0.0 && f[0] == 0.0 && f[lanes] == 0.0) continue;
+        const int n0 = a.edge_nodes[row_index(e, 0, 2)], n1 = a.edge_nodes[row_index(e, 1, 2)];
+        const Point p0 = a.position(n0), p1 = a.position(n1);
+        const double* v = a.velocity.data();
+        const double ex = (p1.x - p0.x) + dt * (v[n1] - v[n0]);
+        const double ey = (p1.y - p0.y) + dt * (v[n1 + lanes] - v[n0 + lanes]);
+        // the outward normal of a counter-clockwise edge is (ey, -ex) / length
+        const double half = 0.5 * a.edge_pressure[e] * a.thickness;
+        const double fx = -half * ey, fy = half * ex;
+        work += 0.5 * dt
+            * ((f[0] + fx) * (v[n0] + v[n1]) + (f[lanes] + fy) * (v[n0 + lanes] + v[n1 + lanes]));
+        f[0] = f[2 * lanes] = fx;
+        f[lanes] = f[3 * lanes] = fy;
+    }
+    return work;
+}
+
 }  // namespace flexpm

@@ -34,6 +34,15 @@ void find_turns(const Assembly& a, int block, CentreMotion& motion)
 
 }  // namespace
 
+void predict_centres(Assembly& a, int block, double dt)
+{
+    const int first = a.block_nodes[block] + 2 * lanes * a.group(block).vertices;
+    const double *u = a.displacement.data() + first, *v = a.velocity.data() + first;
+    double* next = a.next_centre.data() + 2 * lanes * block;
+    for (int i = 0; i < 2 * lanes; ++i)
+        next[i] = u[i] + dt * v[i];
+}
+
 void find_centre_motion(const Assembly& a, int block, CentreMotion& motion)
 {
     const MeshGroup& group = a.group(block);

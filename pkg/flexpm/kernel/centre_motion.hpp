@@ -17,6 +17,9 @@ struct CentreMotion {
     alignas(64) double spin[lanes];                           ///< [rad/s]
 };
 
+/// Fill `next_centre` of a block of grains, which contacts read.
+void predict_centres(Assembly& a, int block, double dt);
+
 void find_centre_motion(const Assembly& a, int block, CentreMotion& motion);
 
 }  // namespace flexpm

@@ -2,6 +2,8 @@
 /// @file  Grains, `lanes` at a time, and the step as a whole.
 #include <flexpm/kernel/stepping.hpp>
 
+#include <flexpm/kernel/boundary.hpp>
+#include <flexpm/kernel/centre_motion.hpp>
 #include <flexpm/kernel/chunks.hpp>
 #include <flexpm/kernel/contact_block.hpp>
 #include <flexpm/kernel/fetch.hpp>

@@ -4,6 +4,7 @@
 /// (--benchmark_repetitions, --benchmark_enable_random_interleaving=true).
 #include "loaded.hpp"
 
+#include <flexpm/kernel/centre_motion.hpp>
 #include <flexpm/kernel/contact_block.hpp>
 
 #include <benchmark/benchmark.h>
