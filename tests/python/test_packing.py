@@ -122,6 +122,39 @@ def test_disc_loop_mirrors_forces_when_told():
     assert ours != forces(wrapper.DiscLoop, False)
 
 
+def test_disc_loop_leaves_shear_and_erased_bodies_to_the_functors():
+    from yade import utils, wrapper
+
+    def forces(kind):
+        with packing._private_scene(scene):
+            stiff = scene.materials.append(wrapper.FrictMat(young=1.0, poisson=0.3))
+            places = ((0.0, 0.0), (0.9, 0.1), (0.2, 0.9), (-0.9, 0.2))
+            for x, y in places:
+                body = utils.sphere((x, y, 0.0), 0.5, material=stiff)
+                body.state.blockedDOFs, body.state.mass = "zXY", 1.0
+                body.state.inertia = (1.0, 1.0, 1.0)
+                scene.bodies.append(body)
+            scene.bodies[0].state.vel = (0.0, 0.1, 0.0)
+            loop = kind(
+                [wrapper.Ig2_Sphere_Sphere_ScGeom()],
+                [wrapper.Ip2_FrictMat_FrictMat_FrictPhys()],
+                [wrapper.Law2_ScGeom_FrictPhys_CundallStrack()],
+            )
+            collider = wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()], verletDist=0.1)
+            newton = wrapper.NewtonIntegrator()
+            scene.engines = [wrapper.ForceResetter(), collider, loop, newton]
+            scene.dt = 0.05
+            packing._advance(scene, 10)
+            scene.bodies.erase(3)
+            packing._advance(scene, 10)
+            return [tuple(scene.forces.f(k)) + tuple(scene.forces.t(k)) for k in range(3)]
+
+    scene = wrapper.Omega()
+    ours = forces(wrapper.DiscLoop)
+    assert max(abs(force[5]) for force in ours) > 0.0
+    assert ours == forces(wrapper.InteractionLoop)
+
+
 @pytest.mark.long
 def test_threads_do_not_matter(package_parent):
     code = (

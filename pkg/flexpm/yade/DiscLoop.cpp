@@ -41,19 +41,31 @@ void DiscLoop::readPlaces()
 	}
 }
 
+namespace {
+
+	const Sphere* sphereOf(int id, const Scene* scene)
+	{
+		const auto& body = (*scene->bodies)[id];
+		return body ? dynamic_cast<const Sphere*>(body->shape.get()) : nullptr;
+	}
+
+} // namespace
+
 DiscLoop::Row DiscLoop::makeRow(const shared_ptr<Interaction>& interaction) const
 {
 	Row row;
 	row.interaction = interaction;
 	row.first       = interaction->getId1();
 	row.second      = interaction->getId2();
-	const auto *a   = dynamic_cast<const Sphere*>(Body::byId(row.first, scene)->shape.get()),
-	           *b   = dynamic_cast<const Sphere*>(Body::byId(row.second, scene)->shape.get());
-	row.plain       = a && b;
+	const auto *a = sphereOf(row.first, scene), *b = sphereOf(row.second, scene);
+	row.plain = a && b;
 	if (!row.plain) return row;
 	row.pair.reach    = a->radius + b->radius;
 	row.pair.touching = interaction->isReal();
-	if (row.pair.touching) row.pair.stiffness = static_cast<const NormPhys&>(*interaction->phys).kn;
+	if (!row.pair.touching) return row;
+	const auto& contact = static_cast<const NormShearPhys&>(*interaction->phys);
+	row.plain           = contact.ks == 0;
+	row.pair.stiffness  = contact.kn;
 	return row;
 }
 
@@ -72,6 +84,10 @@ void DiscLoop::dispatch(const shared_ptr<Interaction>& interaction)
 {
 	auto& functors = interaction->functorCache;
 	if (!functors.geomExists) return;
+	if (!(*scene->bodies)[interaction->getId1()] || !(*scene->bodies)[interaction->getId2()]) {
+		scene->interactions->requestErase(interaction);
+		return;
+	}
 	const auto body = [&](int id) -> Body& { return *Body::byId(id, scene); };
 	bool       swap = false;
 	if (!functors.geom) functors.geom = geomDispatcher->getFunctor2D(body(interaction->getId1()).shape, body(interaction->getId2()).shape, swap);
