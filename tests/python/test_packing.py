@@ -145,6 +145,8 @@ def test_disc_loop_leaves_shear_and_erased_bodies_to_the_functors():
             scene.engines = [wrapper.ForceResetter(), collider, loop, newton]
             scene.dt = 0.05
             packing._advance(scene, 10)
+            scene.interactions.erase(0, 1)
+            packing._advance(scene, 10)
             scene.bodies.erase(3)
             packing._advance(scene, 10)
             return [tuple(scene.forces.f(k)) + tuple(scene.forces.t(k)) for k in range(3)]

@@ -126,7 +126,7 @@ struct Assembly {
 
     /// Not saved: 1 where all contacts of a block lie between whole edges that both grains share, with
     /// points at the ends and in the middle: weights 0, 1/2, 1 and one reach for both, equal end areas.
-    std::vector<std::uint8_t> shared_edges;
+    std::vector<std::uint8_t> whole_edges;
 
     // the order of a step, not saved: which blocks of grains have their last contact in each chunk of
     // contact blocks, and the chunk of the first contact of each block of grains
@@ -137,7 +137,8 @@ struct Assembly {
     /// Current positions [m]; empty until a script asks for them, then kept up to date by each step.
     Array<double> shown_position;
 
-    /// Not saved: what elements add to StiffnessBound::node [N/m]; empty until prepare_step() finds it.
+    /// Not saved: what elements add to StiffnessBound::node [N/m]; empty until prepare_step() finds
+    /// it, and again once a grain is taken out.
     Array<double> element_bound;
 
     // sums that only grow; energies in J. Per block of grains unless said.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Where the grains of a block are and how they move, for all who watch them step by step. SI
-/// units, rotations counter-clockwise.
+/// @file  Where the grains of a block are and how they move: for contacts, and for all who watch them
+/// step by step. SI units, rotations counter-clockwise.
 #pragma once
 
 #include <flexpm/kernel/assembly.hpp>

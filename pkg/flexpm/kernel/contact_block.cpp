@@ -157,7 +157,7 @@ __attribute__((always_inline)) inline int update_lanes(
         ? advance_points<Points, true>(b, motion, normal, shear, cracked)
         : advance_points<Points, false>(b, motion, normal, shear, cracked);
     if (!Shared) fetch_ahead(b, b.weight, 2 * Points);
-    fetch_ahead(b, b.area, Points);
+    fetch_ahead(b, b.area, Points, Shared ? 2 : Points);
     fetch_ahead(b, b.force, ContactRows::forces);
     spread_forces<Points, Shared>(b, normal, shear);
     return cracks;
@@ -173,8 +173,8 @@ FLEXPM_MULTIVERSION int update_2(const ContactLanes& b, double dt, std::uint8_t*
 }
 FLEXPM_MULTIVERSION int update_3(const ContactLanes& b, double dt, std::uint8_t* cracked)
 {
-    return b.shared_edges ? update_lanes<3, true>(b, dt, cracked)
-                          : update_lanes<3, false>(b, dt, cracked);
+    return b.whole_edges ? update_lanes<3, true>(b, dt, cracked)
+                         : update_lanes<3, false>(b, dt, cracked);
 }
 
 ContactLanes rows_from(Assembly& a, int contact, const LawRows& law)
@@ -210,7 +210,7 @@ void update_contact_blocks(Assembly& a, int first, int end, double dt)
     ContactLanes rows = rows_from(a, first * lanes, law);
     for (int block = first; block < end; ++block, advance_block(rows, a.points)) {
         law.fill(a, block);
-        rows.shared_edges = a.shared_edges[block] != 0;
+        rows.whole_edges = a.whole_edges[block] != 0;
         std::uint8_t cracked[most_points * lanes] = {};
         const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
             : a.points == 2              ? update_2(rows, dt, cracked)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One block of contacts: relative motion, bilinear law, nodal forces, paper Eqs. 5-19.
+/// @file  Blocks of contacts: relative motion, bilinear law, nodal forces, paper Eqs. 5-19.
 #pragma once
 
 #include <flexpm/kernel/assembly.hpp>

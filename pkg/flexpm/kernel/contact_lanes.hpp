@@ -28,7 +28,7 @@ struct ContactLanes {
     double* state;
     double* force;
     const double* law;  ///< LawRows
-    bool shared_edges;  ///< see Assembly::shared_edges
+    bool whole_edges;   ///< see Assembly::whole_edges
     int ahead;          ///< blocks from this one to the one to ask for; 0: the caches hold all
 };
 
@@ -78,12 +78,18 @@ __attribute__((always_inline)) inline double between_edges(
     return wb * of_b - wa * of_a;
 }
 
-/// Ask for an array's rows of the block ahead, of which there are `per_block`.
+/// Ask for the first rows, or all, of the block ahead of an array with `per_block` rows a block.
+template <class T>
+__attribute__((always_inline)) inline void fetch_ahead(
+    const ContactLanes& b, const T* rows, int per_block, int first)
+{
+    if (b.ahead != 0) fetch_rows(rows + b.ahead * per_block * lanes, first);
+}
 template <class T>
 __attribute__((always_inline)) inline void fetch_ahead(
     const ContactLanes& b, const T* rows, int per_block)
 {
-    if (b.ahead != 0) fetch_rows(rows + b.ahead * per_block * lanes, per_block);
+    fetch_ahead(b, rows, per_block, per_block);
 }
 
 /// A vector along the normal at the end of the step: between the centres, or, where a contact has no
@@ -126,7 +132,7 @@ __attribute__((always_inline)) inline void move_points(
 {
     fetch_ahead(b, b.nodes, ContactRows::nodes);
     fetch_ahead(b, b.span, 2);
-    fetch_ahead(b, b.reach, 2);
+    fetch_ahead(b, b.reach, 2, Shared ? 1 : 2);
     fetch_ahead(b, b.normal, 2);
     alignas(64) double ends[8 * lanes];
     for (int n = 0; n < 4; ++n)

@@ -10,7 +10,7 @@ namespace flexpm {
 
 namespace {
 
-bool between_shared_edges(const Assembly& a, int block)
+bool between_whole_edges(const Assembly& a, int block)
 {
     const int first = block * lanes;
     const double *w = a.weight.data() + 6 * first, *area = a.area.data() + 3 * first,
@@ -25,12 +25,12 @@ bool between_shared_edges(const Assembly& a, int block)
     return true;
 }
 
-void find_shared_edges(Assembly& a)
+void find_whole_edges(Assembly& a)
 {
-    a.shared_edges.assign(a.contact_blocks(), 0);
+    a.whole_edges.assign(a.contact_blocks(), 0);
     if (a.points != 3) return;
     for (int b = 0; b < a.contact_blocks(); ++b)
-        a.shared_edges[b] = between_shared_edges(a, b);
+        a.whole_edges[b] = between_whole_edges(a, b);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ void prepare_step(Assembly& a)
 {
     sort_sources(a);
     list_chunks(a);
-    find_shared_edges(a);
+    find_whole_edges(a);
     if (a.element_bound.empty()) a.element_bound = element_bound(a);
 }
 

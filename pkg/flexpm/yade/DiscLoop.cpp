@@ -43,6 +43,11 @@ void DiscLoop::readPlaces()
 
 namespace {
 
+	template <class Functor> void require(const shared_ptr<Functor>& functor, const char* what)
+	{
+		if (!functor) throw std::runtime_error("DiscLoop: " + std::string(what) + " = no functor, must have one; add it to the loop");
+	}
+
 	const Sphere* sphereOf(int id, const Scene* scene)
 	{
 		const auto& body = (*scene->bodies)[id];
@@ -71,6 +76,7 @@ DiscLoop::Row DiscLoop::makeRow(const shared_ptr<Interaction>& interaction) cons
 
 bool DiscLoop::push(const Row& row)
 {
+	if (mirror && row.pair.touching && !row.interaction->isReal()) return false; // a script has reset it
 	const flexpm::PairPush step = flexpm::push_apart(row.pair, places[row.first], places[row.second]);
 	if (step.changes || !row.pair.touching) return !step.changes;
 	const Vector3r force(step.push.x, step.push.y, 0);
@@ -84,12 +90,15 @@ void DiscLoop::dispatch(const shared_ptr<Interaction>& interaction)
 {
 	auto& functors = interaction->functorCache;
 	if (!functors.geomExists) return;
-	if (!(*scene->bodies)[interaction->getId1()] || !(*scene->bodies)[interaction->getId2()]) {
-		scene->interactions->requestErase(interaction);
-		return;
-	}
 	const auto body = [&](int id) -> Body& { return *Body::byId(id, scene); };
-	bool       swap = false;
+	for (int id : { interaction->getId1(), interaction->getId2() }) {
+		if (!Body::byId(id, scene)) {
+			scene->interactions->requestErase(interaction);
+			return;
+		}
+		if (!body(id).shape) return;
+	}
+	bool swap = false;
 	if (!functors.geom) functors.geom = geomDispatcher->getFunctor2D(body(interaction->getId1()).shape, body(interaction->getId2()).shape, swap);
 	functors.geomExists = bool(functors.geom);
 	if (!functors.geomExists) return;
@@ -102,9 +111,11 @@ void DiscLoop::dispatch(const shared_ptr<Interaction>& interaction)
 		return;
 	}
 	if (!functors.phys) functors.phys = physDispatcher->getFunctor2D(first.material, second.material, swap);
+	require(functors.phys, "physics of a contact");
 	functors.phys->go(first.material, second.material, interaction);
 	if (!wasReal) interaction->iterMadeReal = scene->iter;
 	if (!functors.constLaw) functors.constLaw = lawDispatcher->getFunctor2D(interaction->geom, interaction->phys, swap);
+	require(functors.constLaw, "law of a contact");
 	if (!functors.constLaw->go(interaction->geom, interaction->phys, interaction.get())) scene->interactions->requestErase(interaction);
 }
 

@@ -35,10 +35,11 @@ private:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(DiscLoop, InteractionLoop,
-		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` in a plane z = const without friction and shear stiffness, under "
-		":yref:`Law2_ScGeom_FrictPhys_CundallStrack`: the same forces to the last bit, from packed arrays. Pairs that begin or cease to touch, and walls, "
-		"go through the functors, as do contacts with a shear stiffness. One thread; periodic cells and :yref:`callbacks<InteractionLoop.callbacks>` are not served.",
-		((bool, mirror, true,, "Write the normal force of each contact into :yref:`NormPhys.normalForce` for those who look; :yref:`ScGeom` is as old as the contact."))
+		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` that do not turn, in a plane z = const, without friction, under "
+		":yref:`Law2_ScGeom_FrictPhys_CundallStrack`: the same forces to the last bit, from packed arrays. Pairs that begin or cease to touch, walls, "
+		"and contacts with a shear stiffness go through the functors. Radii and stiffnesses must not change while a pair stays as it is; one thread, "
+		":yref:`InsertionSortCollider`; no periodic cell, detection factor, sorting, energy tracking or :yref:`callbacks<InteractionLoop.callbacks>`.",
+		((bool, mirror, true,, "Write the normal force of each contact into :yref:`NormPhys.normalForce` for those who look; :yref:`ScGeom` is as old as the contact. Needed where scripts erase interactions."))
 	);
 	// clang-format on
 };
