@@ -141,25 +141,25 @@ __attribute__((always_inline)) inline int advance_points(const ContactLanes& b,
     return cracks;
 }
 
-template <int Points, bool Shared>
+template <int Points, bool Whole>
 __attribute__((always_inline)) inline int update_lanes(
     const ContactLanes& b, double dt, std::uint8_t* cracked)
 {
     PointMotion motion;
     // two calls, not one through a pointer: only a direct call is compiled for each instruction set
     if (any_normal_of_edge(b))
-        move_points<Points, true, Shared>(b, dt, motion);
+        move_points<Points, true, Whole>(b, dt, motion);
     else
-        move_points<Points, false, Shared>(b, dt, motion);
+        move_points<Points, false, Whole>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     const int cracks = is_intact<Points>(b)
         ? advance_points<Points, true>(b, motion, normal, shear, cracked)
         : advance_points<Points, false>(b, motion, normal, shear, cracked);
-    if (!Shared) fetch_ahead(b, b.weight, 2 * Points);
-    fetch_ahead(b, b.area, Points, Shared ? 2 : Points);
+    if (!Whole) fetch_ahead(b, b.weight, 2 * Points);
+    fetch_ahead(b, b.area, Points, Whole ? 2 : Points);
     fetch_ahead(b, b.force, ContactRows::forces);
-    spread_forces<Points, Shared>(b, normal, shear);
+    spread_forces<Points, Whole>(b, normal, shear);
     return cracks;
 }
 

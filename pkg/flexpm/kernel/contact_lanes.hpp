@@ -68,12 +68,12 @@ __attribute__((always_inline)) inline void gather_values(
 }
 
 /// A quantity at point `p` of an edge, less its value at the first end, from the difference of the ends.
-/// `Shared`: three points, of weights 0, 1/2 and 1, on both sides.
-template <bool Shared>
+/// `Whole`: three points, of weights 0, 1/2 and 1, on both sides.
+template <bool Whole>
 __attribute__((always_inline)) inline double between_edges(
     const ContactLanes& b, int p, int l, double of_a, double of_b)
 {
-    if (Shared) return p == 0 ? 0.0 : p == 1 ? 0.5 * (of_b - of_a) : of_b - of_a;
+    if (Whole) return p == 0 ? 0.0 : p == 1 ? 0.5 * (of_b - of_a) : of_b - of_a;
     const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
     return wb * of_b - wa * of_a;
 }
@@ -114,10 +114,10 @@ __attribute__((always_inline)) inline Point direction(const ContactLanes& b, dou
     return { of_edge ? ey : dx, of_edge ? -ex : dy };
 }
 
-template <bool Shared>
+template <bool Whole>
 __attribute__((always_inline)) inline double reach_of_b(const ContactLanes& b, int l)
 {
-    return b.reach[(Shared ? 0 : lanes) + l];
+    return b.reach[(Whole ? 0 : lanes) + l];
 }
 
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
@@ -126,13 +126,13 @@ __attribute__((always_inline)) inline double reach_of_b(const ContactLanes& b, i
 /// Deviation D24: both grains are compared in the middle of the gap between their places of a point
 /// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair that
 /// turns as one body neither opens nor slips.
-template <int Points, bool OfEdges, bool Shared>
+template <int Points, bool OfEdges, bool Whole>
 __attribute__((always_inline)) inline void move_points(
     const ContactLanes& b, double dt, PointMotion& motion)
 {
     fetch_ahead(b, b.nodes, ContactRows::nodes);
     fetch_ahead(b, b.span, 2);
-    fetch_ahead(b, b.reach, 2, Shared ? 1 : 2);
+    fetch_ahead(b, b.reach, 2, Whole ? 1 : 2);
     fetch_ahead(b, b.normal, 2);
     alignas(64) double ends[8 * lanes];
     for (int n = 0; n < 4; ++n)
@@ -154,11 +154,11 @@ __attribute__((always_inline)) inline void move_points(
         const double a_apart = ax * mx + ay * my, a_along = ay * mx - ax * my;
         const double b_apart = bx * mx + by * my, b_along = by * mx - bx * my;
         const double g_apart = gx * mx + gy * my, g_along = gy * mx - gx * my;
-        const double turn = -0.5 * (b.reach[l] * a_apart + reach_of_b<Shared>(b, l) * b_apart);
+        const double turn = -0.5 * (b.reach[l] * a_apart + reach_of_b<Whole>(b, l) * b_apart);
         for (int p = 0; p < Points; ++p) {
             const double* state = b.state + p * ContactRows::state * lanes + l;
-            const double apart = g_apart + between_edges<Shared>(b, p, l, a_apart, b_apart);
-            const double along = g_along + between_edges<Shared>(b, p, l, a_along, b_along);
+            const double apart = g_apart + between_edges<Whole>(b, p, l, a_apart, b_apart);
+            const double along = g_along + between_edges<Whole>(b, p, l, a_along, b_along);
             const double opening = state[ContactRows::opening * lanes],
                          slip = state[ContactRows::slip * lanes];
             motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
@@ -171,11 +171,11 @@ __attribute__((always_inline)) inline void move_points(
 struct EndShares {
     double a = 0.0, b = 0.0;
 
-    template <bool Shared>
+    template <bool Whole>
     __attribute__((always_inline)) inline void add(
         const ContactLanes& rows, int p, int l, double force)
     {
-        if (Shared) {
+        if (Whole) {
             if (p > 0) a += p == 1 ? 0.5 * force : force;
             b = a;
         } else {
@@ -187,7 +187,7 @@ struct EndShares {
 
 /// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19. They act in the
 /// middle of the gap: each edge takes half of the gap's moment by a couple on its ends.
-template <int Points, bool Shared>
+template <int Points, bool Whole>
 __attribute__((always_inline)) inline void spread_forces(
     const ContactLanes& b, const double* normal, const double* shear)
 {
@@ -198,18 +198,18 @@ __attribute__((always_inline)) inline void spread_forces(
         double moment = 0.0, sum_n = 0.0, sum_s = 0.0;
         EndShares end_n, end_s;
         for (int p = 0; p < Points; ++p) {
-            const double area = b.area[(Shared && p == 2 ? 0 : p) * lanes + l];
+            const double area = b.area[(Whole && p == 2 ? 0 : p) * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
             const double* state = b.state + p * ContactRows::state * lanes + l;
             moment +=
                 state[ContactRows::opening * lanes] * fs - state[ContactRows::slip * lanes] * fn;
             sum_n += fn;
             sum_s += fs;
-            end_n.add<Shared>(b, p, l, fn);
-            end_s.add<Shared>(b, p, l, fs);
+            end_n.add<Whole>(b, p, l, fn);
+            end_s.add<Whole>(b, p, l, fs);
         }
         const double a_n = end_n.a - 0.5 * moment * b.reach[l];
-        const double b_n = end_n.b + 0.5 * moment * reach_of_b<Shared>(b, l);
+        const double b_n = end_n.b + 0.5 * moment * reach_of_b<Whole>(b, l);
         const double sum_x = sum_n * nx - sum_s * ny, sum_y = sum_n * ny + sum_s * nx;
         const double a1x = a_n * nx - end_s.a * ny, a1y = a_n * ny + end_s.a * nx;
         const double b1x = b_n * nx - end_s.b * ny, b1y = b_n * ny + end_s.b * nx;

@@ -90,14 +90,8 @@ __attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, int 
     alignas(64) double along[lanes], across[lanes];
     for (int l = 0; l < lanes; ++l) {
         const Turn turn = turn_by(dt * b.spin[l]);
-        along[l] = turn.along;
-        across[l] = turn.across;
-    }
-    if (dt != 1.0) {  // divisions are slow, and the step of scaled masses is 1
-        for (int l = 0; l < lanes; ++l) {
-            along[l] /= dt;
-            across[l] /= dt;
-        }
+        along[l] = turn.along / dt;
+        across[l] = turn.across / dt;
     }
     const double* of_centre = b.velocity + centre;
     for (int i = 0; i < centre; i += 2 * lanes) {

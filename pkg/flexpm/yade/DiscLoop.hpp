@@ -16,7 +16,7 @@ private:
 	/// What the loop keeps of an interaction, to go without YADE's objects.
 	struct Row {
 		shared_ptr<Interaction> interaction;   ///< held, so that no other can take its address
-		bool                    plain = false; ///< of two spheres
+		bool                    plain = false; ///< of two spheres, without shear stiffness
 		int                     first = 0, second = 0;
 		flexpm::DiscPair        pair;
 	};
