@@ -12,6 +12,7 @@ namespace driven {
 using flexpm::Assembly;
 using flexpm::lanes;
 using flexpm::Point;
+using flexpm::record_index;
 using flexpm::row_index;
 
 inline void hold_all(Assembly& a) { std::fill(a.held.begin(), a.held.end(), 1); }
@@ -57,8 +58,8 @@ inline void run(Assembly& a, int steps, double damping = 0.0)
 inline Point contact_force(const Assembly& a, int contact, int side, int end)
 {
     const double* f =
-        &a.contact_force[row_index(contact, 4 * side + 2 * end, flexpm::ContactRows::forces)];
-    return { f[0], f[lanes] };
+        &a.contact_force[record_index(contact, 4 * side + 2 * end, flexpm::ContactRows::forces)];
+    return { f[0], f[1] };
 }
 
 /// Resultant of a contact on its first grain [N]: along x positive in tension if the normal is +x.

@@ -50,8 +50,8 @@ void distort(Assembly& a, double amplitude)
 Point contact_force(const Assembly& a, int c, int side, int end)
 {
     const int row = 4 * side + 2 * end;
-    return { a.contact_force[row_index(c, row, ContactRows::forces)],
-        a.contact_force[row_index(c, row + 1, ContactRows::forces)] };
+    return { a.contact_force[record_index(c, row, ContactRows::forces)],
+        a.contact_force[record_index(c, row + 1, ContactRows::forces)] };
 }
 
 int contact_node(const Assembly& a, int c, int side, int end)
@@ -198,7 +198,7 @@ TEST_CASE("padded lanes stay at rest and exert nothing", "[assembly]")
     CHECK(padded == a.blocks() * lanes - a.grains);
     for (int c = a.contacts; c < a.contact_blocks() * lanes; ++c) {
         for (int row = 0; row < ContactRows::forces; ++row) {
-            CHECK(a.contact_force[row_index(c, row, ContactRows::forces)] == 0.0);
+            CHECK(a.contact_force[record_index(c, row, ContactRows::forces)] == 0.0);
         }
     }
 }

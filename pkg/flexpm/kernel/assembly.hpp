@@ -83,7 +83,7 @@ struct Assembly {
     Array<double> shape;
     Array<double> stiffness;  ///< [block][normal, cross, shear][lane] [Pa]
 
-    // contacts: [block][row][lane]
+    // contacts: [block][row][lane] unless said
     std::vector<LawParameters> laws;
     std::vector<int> contact_grains;  ///< two per contact, the smaller first
     std::vector<int> contact_law;     ///< index into `laws`
@@ -102,7 +102,9 @@ struct Assembly {
     Array<int> crack_step;           ///< [point]: step of the crack, -1 while intact
     Array<std::uint8_t> crack_mode;  ///< [point]: CrackMode
     Array<double> crack_position;    ///< [point][x, y] where it cracked [m]
-    Array<double> contact_force;     ///< ContactRows::forces [N]; zeros follow the last block
+    /// ContactRows::forces [N], one contact after the other, as grains gather them; zeros follow the
+    /// last block.
+    Array<double> contact_force;
 
     // boundary edges: [block][row][lane]
     std::vector<int> edge_grain;
@@ -192,6 +194,9 @@ inline int row_index(int contact, int row, int rows)
 {
     return (contact / lanes * rows + row) * lanes + contact % lanes;
 }
+
+/// The same in an array in which the values of one contact follow those of the other.
+inline int record_index(int contact, int value, int values) { return contact * values + value; }
 
 /// Calls visit(name, member) for all that must be saved to continue a run to the same bits.
 template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, Visitor&& visit);

@@ -211,8 +211,9 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
 void size_contacts(Assembly& a)
 {
     const int padded = a.contact_blocks() * lanes;
-    visit_contact_rows(a,
-        [&](auto& values, int rows) { values.assign(static_cast<std::size_t>(padded) * rows, 0); });
+    visit_contact_rows(a, [&](auto& values, int rows, auto) {
+        values.assign(static_cast<std::size_t>(padded) * rows, 0);
+    });
     std::fill(a.crack_step.begin(), a.crack_step.end(), -1);
 }
 

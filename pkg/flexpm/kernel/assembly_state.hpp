@@ -34,21 +34,22 @@ template <class LawType, class Visitor> void visit_law(LawType& p, Visitor&& vis
     visit("slip_rate", p.slip_rate);
 }
 
-/// Calls visit(array, rows) for all arrays with rows per contact.
+/// Calls visit(array, rows, index) for all arrays with rows per contact; index(contact, row, rows) is the
+/// place of a value.
 template <class AssemblyType, class Visitor>
 void visit_contact_rows(AssemblyType& a, Visitor&& visit)
 {
-    visit(a.contact_nodes, ContactRows::nodes);
-    visit(a.weight, 2 * a.points);
-    visit(a.area, a.points);
-    visit(a.span, 2);
-    visit(a.edge_reach, 2);
-    visit(a.normal, 2);
-    visit(a.point_state, a.points * ContactRows::state);
-    visit(a.crack_step, a.points);
-    visit(a.crack_mode, a.points);
-    visit(a.crack_position, 2 * a.points);
-    visit(a.contact_force, ContactRows::forces);
+    visit(a.contact_nodes, ContactRows::nodes, row_index);
+    visit(a.weight, 2 * a.points, row_index);
+    visit(a.area, a.points, row_index);
+    visit(a.span, 2, row_index);
+    visit(a.edge_reach, 2, row_index);
+    visit(a.normal, 2, row_index);
+    visit(a.point_state, a.points * ContactRows::state, row_index);
+    visit(a.crack_step, a.points, row_index);
+    visit(a.crack_mode, a.points, row_index);
+    visit(a.crack_position, 2 * a.points, row_index);
+    visit(a.contact_force, ContactRows::forces, record_index);
 }
 
 template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, Visitor&& visit)

@@ -136,12 +136,12 @@ std::vector<int> new_order(
 void move_rows(Assembly& a, const std::vector<int>& order)
 {
     const int count = static_cast<int>(order.size());
-    visit_contact_rows(a, [&](auto& values, int rows) {
+    visit_contact_rows(a, [&](auto& values, int rows, auto index) {
         auto moved = values;
         moved.assign(static_cast<std::size_t>((count + lanes - 1) / lanes * lanes) * rows, 0);
         for (int c = 0; c < count; ++c) {
             for (int r = 0; order[c] >= 0 && r < rows; ++r) {
-                moved[row_index(c, r, rows)] = values[row_index(order[c], r, rows)];
+                moved[index(c, r, rows)] = values[index(order[c], r, rows)];
             }
         }
         values = std::move(moved);
@@ -152,9 +152,9 @@ void move_rows(Assembly& a, const std::vector<int>& order)
 void pad_contacts(Assembly& a)
 {
     for (int c = a.contacts; c < a.contact_blocks() * lanes; ++c) {
-        visit_contact_rows(a, [&](auto& values, int rows) {
+        visit_contact_rows(a, [&](auto& values, int rows, auto index) {
             for (int r = 0; r < rows; ++r) {
-                values[row_index(c, r, rows)] = values[row_index(a.contacts - 1, r, rows)];
+                values[index(c, r, rows)] = values[index(a.contacts - 1, r, rows)];
             }
         });
         for (int p = 0; p < a.points; ++p) {

@@ -6,6 +6,7 @@
 
 #include <flexpm/kernel/assembly.hpp>
 #include <flexpm/kernel/fetch.hpp>
+#include <flexpm/kernel/simd.hpp>
 
 #include <cmath>
 
@@ -191,6 +192,7 @@ template <int Points, bool Whole>
 __attribute__((always_inline)) inline void spread_forces(
     const ContactLanes& b, const double* normal, const double* shear)
 {
+    alignas(64) double rows[ContactRows::forces * lanes];
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
@@ -213,7 +215,7 @@ __attribute__((always_inline)) inline void spread_forces(
         const double sum_x = sum_n * nx - sum_s * ny, sum_y = sum_n * ny + sum_s * nx;
         const double a1x = a_n * nx - end_s.a * ny, a1y = a_n * ny + end_s.a * nx;
         const double b1x = b_n * nx - end_s.b * ny, b1y = b_n * ny + end_s.b * nx;
-        double* f = b.force + l;
+        double* f = rows + l;
         f[0 * lanes] = sum_x - a1x;
         f[1 * lanes] = sum_y - a1y;
         f[2 * lanes] = a1x;
@@ -222,6 +224,11 @@ __attribute__((always_inline)) inline void spread_forces(
         f[5 * lanes] = b1y - sum_y;
         f[6 * lanes] = -b1x;
         f[7 * lanes] = -b1y;
+    }
+    for (int l = 0; l < lanes; l += 4) {
+        for (int r = 0; r < ContactRows::forces; r += 4)
+            transpose(rows + r * lanes + l, lanes, b.force + l * ContactRows::forces + r,
+                ContactRows::forces);
     }
 }
 

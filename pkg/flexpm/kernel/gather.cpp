@@ -32,25 +32,20 @@ void add_source(Sources s, int source, int node)
 }
 
 /// Offsets of the forces on the second node of an edge follow those on the first.
-int second_force(int source) { return source >= 0 ? source + 2 * lanes : ~(~source + 2 * lanes); }
+int second_force(int source) { return source >= 0 ? source + 2 : ~(~source + 2 * lanes); }
 
-/// Sums of the two contacts of each outer node; one after the other, or the compiler runs out of
-/// registers for the addresses.
+/// Sums of the two contacts of each outer node, x and y at once.
 FLEXPM_MULTIVERSION void sum_pairs(
     const double* contact, const int* pairs, double* force, int vertices)
 {
+    const auto at = [&](int source) { return reinterpret_cast<const Two*>(contact + source); };
     for (int i = 0; i < 2 * lanes * vertices; i += 2 * lanes) {
         const int *first = pairs + i, *second = first + lanes;
-        double* f = force + i;
-#pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            f[l] = 0.0 + contact[first[l]];
-            f[lanes + l] = 0.0 + contact[first[l] + lanes];
-        }
-#pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            f[l] += contact[second[l]];
-            f[lanes + l] += contact[second[l] + lanes];
+        for (int l = 0; l < lanes; l += 2) {
+            const Two f = 0.0 + *at(first[l]) + *at(second[l]);
+            const Two g = 0.0 + *at(first[l + 1]) + *at(second[l + 1]);
+            *reinterpret_cast<Two*>(force + i + l) = Two { f[0], g[0] };
+            *reinterpret_cast<Two*>(force + i + lanes + l) = Two { f[1], g[1] };
         }
     }
 }
@@ -67,7 +62,7 @@ void list_forces(Assembly& a)
     };
     for (int c = 0; c < a.contacts; ++c) {
         for (int side = 0; side < 2; ++side) {
-            add(a.contact_grains[2 * c + side], row_index(c, 4 * side, ContactRows::forces),
+            add(a.contact_grains[2 * c + side], record_index(c, 4 * side, ContactRows::forces),
                 a.contact_nodes[row_index(c, 2 * side, ContactRows::nodes)],
                 a.contact_nodes[row_index(c, 2 * side + 1, ContactRows::nodes)]);
         }
@@ -90,7 +85,7 @@ void list_forces(Assembly& a)
 void sort_sources(Assembly& a)
 {
     const int none = a.contact_blocks() * lanes * ContactRows::forces;
-    a.contact_force.resize(static_cast<std::size_t>(none) + 2 * lanes);  // x and y are zero
+    a.contact_force.resize(static_cast<std::size_t>(none) + 2);  // x and y are zero
     a.source_pairs.assign(a.reference.size(), none);
     a.more_sources.clear();
     a.more_first.assign(1, 0);
@@ -115,9 +110,10 @@ void gather_forces(Assembly& a, int block)
     const int *entry = a.more_sources.data() + a.more_first[block],
               *end = a.more_sources.data() + a.more_first[block + 1];
     for (; entry != end; entry += 2) {
-        const double* f = entry[0] >= 0 ? contact + entry[0] : edge + ~entry[0];
+        const bool of_contact = entry[0] >= 0;
+        const double* f = of_contact ? contact + entry[0] : edge + ~entry[0];
         force[entry[1]] += f[0];
-        force[entry[1] + lanes] += f[lanes];
+        force[entry[1] + lanes] += f[of_contact ? 1 : lanes];
     }
 }
 

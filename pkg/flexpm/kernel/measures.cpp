@@ -98,8 +98,8 @@ double unbalanced_ratio(const Assembly& a)
         largest = std::max(largest, p.unbalanced);
     double sum = 0.0;
     for (int c = 0; c < a.contacts; ++c) {
-        const double* f = &a.contact_force[row_index(c, 0, ContactRows::forces)];
-        const double x = f[0] + f[2 * lanes], y = f[lanes] + f[3 * lanes];
+        const double* f = &a.contact_force[record_index(c, 0, ContactRows::forces)];
+        const double x = f[0] + f[2], y = f[1] + f[3];
         sum += std::sqrt(x * x + y * y);
     }
     return sum > 0.0 ? largest * a.contacts / sum : 0.0;

@@ -11,7 +11,7 @@ void retire_contact(Assembly& a, int contact)
     for (int p = 0; p < a.points; ++p)
         a.area[row_index(contact, p, a.points)] = 0.0;
     for (int r = 0; r < ContactRows::forces; ++r) {
-        a.contact_force[row_index(contact, r, ContactRows::forces)] = 0.0;
+        a.contact_force[record_index(contact, r, ContactRows::forces)] = 0.0;
     }
 }
 
