@@ -131,10 +131,18 @@ struct Assembly {
     std::vector<std::uint8_t> whole_edges;
 
     // the order of a step, not saved: which blocks of grains have their last contact in each chunk of
-    // contact blocks, and the chunk of the first contact of each block of grains
+    // contact blocks, the chunk of the first contact of each block of grains, and the last chunk of the
+    // grains that contacts of a chunk touch
     std::vector<int> chunk_first;   ///< offset of each chunk in `chunk_blocks`
     std::vector<int> chunk_blocks;  ///< blocks of grains
     std::vector<int> first_chunk;
+    std::vector<int> needs_chunk;
+
+    // what contacts ask for ahead, not saved, empty where the caches hold all: for each block of contacts
+    // the lines of x values of nodes in `velocity`, and as ~line of centres in `next_centre`, that none of
+    // the blocks just before it reads
+    std::vector<int> fetch_first;
+    std::vector<int> fetch_lines;
 
     /// Current positions [m]; empty until a script asks for them, then kept up to date by each step.
     Array<double> shown_position;

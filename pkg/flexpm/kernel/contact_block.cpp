@@ -11,7 +11,8 @@ namespace flexpm {
 
 namespace {
 
-constexpr int blocks_ahead = 2;
+constexpr int blocks_ahead = 2;  ///< rows, which follow each other
+constexpr int nodes_ahead = 6;   ///< blocks whose nodes lie anywhere
 
 __attribute__((always_inline)) inline void store_state(const PointState& s, double* rows, int lane)
 {
@@ -210,6 +211,9 @@ void update_contact_blocks(Assembly& a, int first, int end, double dt)
     ContactLanes rows = rows_from(a, first * lanes, law);
     for (int block = first; block < end; ++block, advance_block(rows, a.points)) {
         law.fill(a, block);
+        if (rows.ahead != 0 && block + nodes_ahead < a.contact_blocks()) {
+            fetch_nodes(a, block + nodes_ahead);
+        }
         rows.whole_edges = a.whole_edges[block] != 0;
         std::uint8_t cracked[most_points * lanes] = {};
         const int cracks = a.points == 3 ? update_3(rows, dt, cracked)

@@ -22,4 +22,17 @@ template <class T> __attribute__((always_inline)) inline void fetch_rows(const T
         __builtin_prefetch(first + i);
 }
 
+/// Fill `fetch_first` and `fetch_lines`.
+void list_fetches(Assembly& a);
+
+/// Ask for what a block of contacts gathers from the nodes of its grains.
+inline void fetch_nodes(const Assembly& a, int block)
+{
+    for (int i = a.fetch_first[block]; i < a.fetch_first[block + 1]; ++i) {
+        const int line = a.fetch_lines[i];
+        fetch_rows(
+            line >= 0 ? a.velocity.data() + line * lanes : a.next_centre.data() + ~line * lanes, 2);
+    }
+}
+
 }  // namespace flexpm

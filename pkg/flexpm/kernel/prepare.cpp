@@ -3,6 +3,7 @@
 #include <flexpm/kernel/prepare.hpp>
 
 #include <flexpm/kernel/chunks.hpp>
+#include <flexpm/kernel/fetch.hpp>
 #include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 
@@ -39,6 +40,7 @@ void prepare_step(Assembly& a)
 {
     sort_sources(a);
     list_chunks(a);
+    list_fetches(a);
     find_whole_edges(a);
     if (a.element_bound.empty()) a.element_bound = element_bound(a);
 }
