@@ -113,12 +113,31 @@ void set_pressure(Assembly& a, int side, double pressure)
     }
 }
 
+namespace {
+
+/// Pressure acts on an edge, or has acted until the last step.
+bool is_pressed(const Assembly& a, int edge)
+{
+    const double* f = a.edge_force.data() + row_index(edge, 0, ContactRows::forces);
+    return a.edge_pressure[edge] != 0.0 || f[0] != 0.0 || f[lanes] != 0.0;
+}
+
+}  // namespace
+
+bool is_pressed(const Assembly& a)
+{
+    for (int e = 0; e < a.edges; ++e) {
+        if (is_pressed(a, e)) return true;
+    }
+    return false;
+}
+
 double update_edge_block(Assembly& a, int block, double dt)
 {
     double work = 0.0;
     for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges); ++e) {
+        if (!is_pressed(a, e)) continue;
         double* f = a.edge_force.data() + row_index(e, 0, ContactRows::forces);
-        if (a.edge_pressure[e] == 0.0 && f[0] == 0.0 && f[lanes] == 0.0) continue;
         const int n0 = a.edge_nodes[row_index(e, 0, 2)], n1 = a.edge_nodes[row_index(e, 1, 2)];
         const Point p0 = a.position(n0), p1 = a.position(n1);
         const double* v = a.velocity.data();
