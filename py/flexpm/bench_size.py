@@ -21,9 +21,9 @@ from . import export, models
 from .packing import Progress
 from .specimen import Specimen
 
-#: Bytes that a step of the refined mesh with three points has to move when its arrays exceed the
-#: caches: every array once for each time it is read or written in one go through the specimen, no
-#: write-allocation. A contact between whole shared edges: its rows (nodes 24, areas 16, span, reach
+#: Bytes that one go through the specimen, of one step or of some together, has to move with the
+#: refined mesh and three points when the arrays exceed the caches: every array once for each time it
+#: is read or written, no write-allocation. A contact between whole shared edges: its rows (nodes 24, areas 16, span, reach
 #: and normal 56, state 216, forces 64) and the places of its forces (24). What contacts leave in a
 #: cache for the grains that follow at once does not count again.
 _PER_CONTACT = 400
@@ -80,7 +80,7 @@ def timed_set_up(
 
 
 def bytes_per_step(counts: dict[str, int | None]) -> int:
-    """Memory traffic of a step of the refined mesh with three points [B]."""
+    """Memory traffic of one go through the specimen, refined mesh and three points [B]."""
     return (
         _PER_CONTACT * counts["contacts"]
         + _PER_NODE * counts["nodes"]

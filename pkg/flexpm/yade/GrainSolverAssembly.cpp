@@ -66,6 +66,7 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 		o.grain_material.assign(minerals.data(), minerals.data() + minerals.size(0));
 	}
 	if (options.has_key("outer")) chooseInner(options, o);
+	waiting                           = 0;
 	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
 	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
 }
@@ -121,13 +122,13 @@ void GrainSolver::insertContacts()
 void GrainSolver::scaleMasses()
 {
 	scaled = true;
-	flexpm::scale_masses(assembly, damping, Omega::instance().getScene()->dt);
+	flexpm::scale_masses(current(), damping, Omega::instance().getScene()->dt);
 }
 
 Real GrainSolver::useRealMasses()
 {
 	scaled = false;
-	return flexpm::set_real_masses(assembly, damping);
+	return flexpm::set_real_masses(current(), damping);
 }
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
@@ -138,7 +139,7 @@ void GrainSolver::setGravity(Vector3r acceleration)
 		throw std::invalid_argument(
 		        "GrainSolver.gravity = " + std::to_string(acceleration.norm()) + " m/s^2, must be 0 with scaled masses; call useRealMasses() first");
 	}
-	flexpm::set_gravity(assembly, { acceleration[0], acceleration[1] });
+	flexpm::set_gravity(current(), { acceleration[0], acceleration[1] });
 }
 
 } // namespace yade

@@ -15,26 +15,26 @@ namespace yade {
 
 using flexpm_bindings::copied;
 
-void GrainSolver::openBooks() { flexpm::open_books(assembly); }
+void GrainSolver::openBooks() { flexpm::open_books(current()); }
 
 py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction)
 {
 	py::list numbers;
-	for (int plate : flexpm::add_side_plates(assembly, side, pieces, { 0, friction, bonded }))
+	for (int plate : flexpm::add_side_plates(current(), side, pieces, { 0, friction, bonded }))
 		numbers.append(plate);
 	return numbers;
 }
 
 int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 {
-	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
+	return flexpm::add_touching_plate(current(), { normal[0], normal[1] }, { 0, friction, false });
 }
 
-void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(assembly, plate); }
+void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(current(), plate); }
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
 {
-	return flexpm::add_wall(assembly, { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
+	return flexpm::add_wall(current(), { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
 }
 
 py::list GrainSolver::plates() const
@@ -55,15 +55,15 @@ py::list GrainSolver::plates() const
 	return all;
 }
 
-py::tuple GrainSolver::elasticConstants() const
+py::tuple GrainSolver::elasticConstants()
 {
-	const auto e = flexpm::elastic_constants(assembly);
+	const auto e = flexpm::elastic_constants(current());
 	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
 }
 
-py::dict GrainSolver::energies() const
+py::dict GrainSolver::energies()
 {
-	const auto e = flexpm::energies(assembly);
+	const auto e = flexpm::energies(current());
 	py::dict   d;
 	d["kinetic_energy"]   = e.kinetic;
 	d["elastic_energy"]   = e.elastic;
@@ -76,9 +76,9 @@ py::dict GrainSolver::energies() const
 	return d;
 }
 
-py::tuple GrainSolver::cracks() const
+py::tuple GrainSolver::cracks()
 {
-	const auto count = flexpm::count_cracks(assembly);
+	const auto count = flexpm::count_cracks(current());
 	return py::make_tuple(count.tensile, count.shear);
 }
 
@@ -103,9 +103,9 @@ py::dict GrainSolver::counts() const
 	return d;
 }
 
-Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(assembly); }
+Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
 
-void GrainSolver::clearPressure(int side) { flexpm::set_pressure(assembly, side, 0.); }
+void GrainSolver::clearPressure(int side) { flexpm::set_pressure(current(), side, 0.); }
 
 py::object GrainSolver::sideNodes(int side) const
 {
@@ -120,9 +120,9 @@ py::object GrainSolver::sideNodes(int side) const
 	return copied(rows, 2);
 }
 
-py::dict GrainSolver::snapshot() const
+py::dict GrainSolver::snapshot()
 {
-	const auto s = flexpm::take_snapshot(assembly);
+	const auto s = flexpm::take_snapshot(current());
 	const int  p = assembly.points;
 	py::dict   d;
 	d["positions"]         = copied(s.positions, 2);

@@ -24,8 +24,8 @@ Real PaceEngine::ofScene(const Scene& scene)
 void PaceEngine::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
-	if (solver->assembly.step % solver->measurePeriod != 0) return;
-	const flexpm::Energies now    = flexpm::energies(solver->assembly);
+	if (!solver->measured()) return;
+	const flexpm::Energies now    = flexpm::energies(solver->current());
 	flexpm::Energies       before = now;
 	if (seen.size() == 3) {
 		before.damage        = seen[0];

@@ -50,9 +50,10 @@ PlatenEngine::~PlatenEngine() = default;
 
 void PlatenEngine::action()
 {
-	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	if (gripped && (!holdTop || velocity == drivenAt)) return;
+	auto& assembly = GrainSolver::ofScene(*scene)->current();
 	if (!gripped) flexpm::grip_bottom(assembly);
-	if (!holdTop || (gripped && velocity == drivenAt)) return;
+	if (!holdTop) return;
 	flexpm::move_top(assembly, velocity);
 	flexpm::rebook_driven(assembly, scene->dt);
 	if (!gripped && elasticStart) flexpm::start_elastically(assembly);
@@ -63,7 +64,7 @@ void PlatenEngine::action()
 void PlatenEngine::lead(Real share, int steps)
 {
 	const auto world    = Omega::instance().getScene();
-	auto&      assembly = GrainSolver::ofScene(*world)->assembly;
+	auto&      assembly = GrainSolver::ofScene(*world)->current();
 	flexpm::grip_bottom(assembly);
 	flexpm::move_top(assembly, velocity);
 	flexpm::lead_elastically(assembly, share, steps, world->dt);
@@ -74,14 +75,14 @@ void PlatenEngine::lead(Real share, int steps)
 void PlatenEngine::goOn()
 {
 	const auto world = Omega::instance().getScene();
-	flexpm::go_on(GrainSolver::ofScene(*world)->assembly, velocity, world->dt);
+	flexpm::go_on(GrainSolver::ofScene(*world)->current(), velocity, world->dt);
 }
 
 ConfinementEngine::~ConfinementEngine() = default;
 
 void ConfinementEngine::action()
 {
-	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	auto& assembly = GrainSolver::ofScene(*scene)->current();
 	for (int side : sides)
 		flexpm::set_pressure(assembly, side, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
 }
@@ -91,10 +92,10 @@ AxialRecorder::~AxialRecorder() = default;
 void AxialRecorder::action()
 {
 	const auto solver   = GrainSolver::ofScene(*scene);
-	const bool measured = solver->assembly.step % solver->measurePeriod == 0;
+	const bool measured = solver->measured();
 	if (!measured && !fromNow) return;
-	auto now = diameter > 0 ? flexpm::observe_disc(solver->assembly, diameter)
-	                        : flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
+	auto now = diameter > 0 ? flexpm::observe_disc(solver->current(), diameter)
+	                        : flexpm::observe(solver->current(), flexpm::rectangle_of(solver->current(), senseOf(tension)));
 	if (fromNow) zero = Vector2r(now.axial_strain, now.lateral_strain);
 	fromNow = false;
 	if (!measured) return;
@@ -122,8 +123,8 @@ py::dict AxialRecorder::scales() const
 {
 	const auto world  = Omega::instance().getScene();
 	const auto solver = GrainSolver::ofScene(*world);
-	const auto s      = diameter > 0 ? flexpm::disc_scales(solver->assembly, diameter, world->dt)
-	                                 : flexpm::rectangle_scales(solver->assembly, senseOf(tension), world->dt);
+	const auto s      = diameter > 0 ? flexpm::disc_scales(solver->current(), diameter, world->dt)
+	                                 : flexpm::rectangle_scales(solver->current(), senseOf(tension), world->dt);
 	py::dict   d;
 	d["crossing_steps"] = s.crossing_steps;
 	d["modulus"]        = s.modulus;
