@@ -22,10 +22,10 @@ from .packing import Progress
 from .specimen import Specimen
 
 #: Bytes that one go through the specimen, of one step or of some together, has to move with the
-#: refined mesh and three points when the arrays exceed the caches: every array once for each time it
-#: is read or written, no write-allocation. A contact between whole shared edges: its rows (nodes 24, areas 16, span, reach
-#: and normal 56, state 216, forces 64) and the places of its forces (24). What contacts leave in a
-#: cache for the grains that follow at once does not count again.
+#: refined mesh and three points when the arrays exceed the caches: every array once for each time
+#: it is read or written, no write-allocation. A contact between whole shared edges: its rows (nodes
+#: 24, areas 16, span, reach and normal 56, state 216, forces 64) and the places of its forces (24).
+#: What contacts leave in a cache for the grains that follow at once does not count again.
 _PER_CONTACT = 400
 #: A node: displacement and velocity, both ways (64), force (16), mass (8) and held flags (2).
 _PER_NODE = 90
