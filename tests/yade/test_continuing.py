@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import pytest
@@ -106,3 +107,14 @@ def test_the_number_of_threads_does_not_change_a_bit(make, bits):
         assert sum(model.solver.cracks()) > 0
         results.append(bits())
     assert results[0] == results[1]
+
+
+def test_a_scene_of_another_layout_of_the_state_is_refused(make, tmp_path):
+    make()
+    file = tmp_path / "scene.xml"
+    O.save(str(file))
+    found = re.subn(r'(<assembly [^>]*version=")\d+"', r'\g<1>0"', file.read_text())
+    assert found[1] == 1
+    file.write_text(found[0])
+    with pytest.raises(RuntimeError, match="state of the grains = version 0, must be 1 .* again"):
+        O.load(str(file))

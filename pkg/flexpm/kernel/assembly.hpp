@@ -3,7 +3,7 @@
 ///
 /// Grains of one mesh connectivity form a group and are stepped `lanes` at a time, one in each lane.
 /// Node arrays are laid out [block][node of the grain][x, y][lane]; a node is named by the offset of
-/// its x value, its y value lies `lanes` further. Contacts are laid out [block][row][lane] in the
+/// its x value, its y value lies `lanes` further. Contacts are laid out [block][row][lane], their forces one contact after the other, in the
 /// order of their grain pair. Lanes that no grain or contact fills repeat a real one, without
 /// stiffness or area. SI units, tension positive.
 #pragma once
@@ -32,7 +32,7 @@ struct MeshGroup {
 /// How a point of contact cracked.
 enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2 };
 
-/// Rows of a contact block, in units of `lanes`.
+/// Rows of a contact block, in units of `lanes`; forces of contacts are values one after the other.
 struct ContactRows {
     static constexpr int nodes = 6;  ///< a0, a1, b0, b1, centre a, centre b
     static constexpr int state = 7;  ///< members of PointState, in their order
@@ -115,7 +115,7 @@ struct Assembly {
 
     std::vector<Plate> plates;
 
-    // which forces act on a grain, per block: force offset, local offset of first and second node
+    // not saved: which forces act on a grain, per block: force offset, local offset of first and second node
     std::vector<int> gather_first;
     std::vector<int> gather;
 

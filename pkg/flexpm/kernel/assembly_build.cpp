@@ -3,8 +3,8 @@
 #include <flexpm/kernel/assembly_build.hpp>
 
 #include <flexpm/kernel/checks.hpp>
-#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/prepare.hpp>
 
 #include <algorithm>
 #include <array>
@@ -355,7 +355,7 @@ Assembly make_assembly(
         fill_slot(a, slot, grains);
     bond(a, t, discs, grains, options);
     lay_out_edges(a, t, grains);
-    list_forces(a);
+    prepare_step(a);
     find_close_pairs(a, t);
     return a;
 }

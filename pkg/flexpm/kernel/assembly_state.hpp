@@ -105,8 +105,6 @@ template <class AssemblyType, class Visitor> void visit_state(AssemblyType& a, V
     visit("edge_nodes", a.edge_nodes);
     visit("edge_force", a.edge_force);
     visit("plates", a.plates);
-    visit("gather_first", a.gather_first);
-    visit("gather", a.gather);
     visit("damping_work", a.damping_work);
     visit("driven_work", a.driven_work);
     visit("pressure_work", a.pressure_work);

@@ -2,10 +2,10 @@
 /// @file  Contacts that come and go.
 #include <flexpm/kernel/contact_change.hpp>
 
-#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/mass_scaling.hpp>
 #include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/prepare.hpp>
 #include <flexpm/kernel/retire.hpp>
 
 #include <algorithm>
@@ -261,7 +261,7 @@ bool follow_touches(Assembly& a, double damping, double dt)
     }
     if (!moved) return false;
     pad_contacts(a);
-    list_forces(a);
+    prepare_step(a);
     if (dt > 0.0) book_kinetic_change(a, [&] { raise_masses(a, damping, dt); });
     return true;
 }
@@ -296,7 +296,7 @@ void change_contacts(Assembly& a, const std::vector<int>& over,
         if (from < 0) fill_touch(a, c, pair);
     }
     pad_contacts(a);
-    list_forces(a);
+    prepare_step(a);
     if (!touching.empty() && dt > 0.0) {
         book_kinetic_change(a, [&] { raise_masses(a, damping, dt); });
     }

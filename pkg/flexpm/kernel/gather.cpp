@@ -2,7 +2,6 @@
 /// @file  Lists of forces, and their sums per node.
 #include <flexpm/kernel/gather.hpp>
 
-#include <flexpm/kernel/prepare.hpp>
 #include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
@@ -31,7 +30,8 @@ void add_source(Sources s, int source, int node)
     }
 }
 
-/// Offsets of the forces on the second node of an edge follow those on the first.
+/// The force on the second node of an edge: two values on in the forces of a contact, two rows in those of
+/// an edge.
 int second_force(int source) { return source >= 0 ? source + 2 : ~(~source + 2 * lanes); }
 
 /// Sums of the two contacts of each outer node, x and y at once.
@@ -79,7 +79,6 @@ void list_forces(Assembly& a)
         a.gather.insert(a.gather.end(), list.begin(), list.end());
         a.gather_first.push_back(static_cast<int>(a.gather.size()));
     }
-    prepare_step(a);
 }
 
 void sort_sources(Assembly& a)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Laying plates against a specimen.
 #include <flexpm/kernel/checks.hpp>
-#include <flexpm/kernel/gather.hpp>
 #include <flexpm/kernel/grain_access.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
+#include <flexpm/kernel/prepare.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ void list_inner_edges(Assembly& a)
             a.edge_nodes[row_index(e, 1, 2)] = a.node(g, (k + 1) % corners);
         }
     }
-    list_forces(a);
+    prepare_step(a);
 }
 
 void check_index(const Assembly& a, int plate)

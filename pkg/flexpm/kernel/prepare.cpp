@@ -38,6 +38,7 @@ void find_whole_edges(Assembly& a)
 
 void prepare_step(Assembly& a)
 {
+    list_forces(a);
     sort_sources(a);
     list_chunks(a);
     list_fetches(a);

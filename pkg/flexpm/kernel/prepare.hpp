@@ -6,9 +6,10 @@
 
 namespace flexpm {
 
-/// Derive from the contacts and the grains: the gather list sorted by nodes, the order of a step, what to
-/// ask for ahead, blocks between shared edges, and, unless it is known, the elements' part of the
-/// stiffness bound. Needed after a state has been loaded; list_forces() does it, too.
+/// Derive from the contacts, the edges and the grains: the gather list and the same sorted by nodes, the
+/// order of a step, what to ask for ahead, blocks between shared edges, and, unless it is known, the
+/// elements' part of the stiffness bound. Needed once contacts or edges have changed; a step does it
+/// after a state has been loaded.
 void prepare_step(Assembly& a);
 
 }  // namespace flexpm

@@ -49,7 +49,8 @@ namespace {
 		}
 	};
 
-	/// The solver's arrays, or nullptr: a window must not fail when a script has taken the solver out of O.engines.
+	/// The solver's arrays, or nullptr: a window must not fail when a script has taken the solver out of O.engines. Steps that wait are
+	/// not done for it: it would hold up the thread that steps.
 	const flexpm::Assembly* shownAssembly(int grain)
 	{
 		for (const auto& engine : Omega::instance().getScene()->engines) {

@@ -57,11 +57,17 @@ flexpm::Assembly& GrainSolver::current()
 	return assembly;
 }
 
-bool GrainSolver::measured() const { return waiting == 0 && assembly.step % measurePeriod == 0; }
+bool GrainSolver::measured() const { return (assembly.step + waiting) % measurePeriod == 0; }
+
+flexpm::Assembly& GrainSolver::viewed()
+{
+	hasViews = true;
+	return current();
+}
 
 int GrainSolver::threads() const { return ompThreads > 0 ? ompThreads : omp_get_max_threads(); }
 
-int GrainSolver::stepsTogether() const { return flexpm::steps_together(assembly, threads()); }
+int GrainSolver::stepsTogether() const { return hasViews ? 1 : flexpm::steps_together(assembly, threads()); }
 
 void GrainSolver::preSave(GrainSolver&) { current(); }
 

@@ -28,6 +28,8 @@ public:
 
 	/// The grains after the last step, once those that wait are done. For all who look at or change `assembly` between steps.
 	flexpm::Assembly& current();
+	/// The same for views that scripts keep and may write to at any time: from now on no step waits.
+	flexpm::Assembly& viewed();
 	/// Whether the last step was measured; unlike current() it does no step.
 	bool measured() const;
 	/// YADE calls it before it saves.
@@ -55,6 +57,7 @@ public:
 	Real       unbalanced();
 	int        threads() const;
 	int        stepsTogether() const;
+	int        stepsWaiting() const { return waiting; }
 	void       clearPressure(int side);
 
 	// clang-format off
@@ -96,7 +99,8 @@ public:
 		.def("cracks", &GrainSolver::cracks, "Numbers of cracked points: (tensile, shear).")
 		.def("counts", &GrainSolver::counts, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges.")
 		.def("unbalanced", &GrainSolver::unbalanced, "Largest unbalanced over mean contact force [-], at the last measured step.")
-		.add_property("stepsTogether", &GrainSolver::stepsTogether, "Most steps that are done together [-], see mirrorPeriod: some on one thread where the arrays exceed the caches, without plates and pressure; otherwise 1.")
+		.add_property("stepsTogether", &GrainSolver::stepsTogether, "Most steps that are done together [-], see mirrorPeriod: some on one thread where the arrays exceed the caches, without plates and pressure, until a script takes an array of a grain or a bond, which shows each step; otherwise 1.")
+		.add_property("stepsWaiting", &GrainSolver::stepsWaiting, "Steps that wait to be done together, fewer than stepsTogether [-].")
 		.def("clearPressure", &GrainSolver::clearPressure, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", &GrainSolver::sideNodes, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);
@@ -106,7 +110,8 @@ public:
 private:
 	std::atomic<int>          waiting { 0 }; // steps that YADE has done and the assembly has not
 	flexpm::StepOptions       waitingOptions;
-	std::mutex                stepping; // a script may look while YADE steps in another thread
+	bool                      hasViews = false;
+	std::mutex                stepping; // a look from another thread waits for the steps under way
 	flexpm::NearPairs         nearPairs;
 	vector<flexpm::GrainPair> candidates;     // near pairs without a contact
 	bool                      listed = false; // the candidates are up to date

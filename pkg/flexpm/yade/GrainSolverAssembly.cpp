@@ -66,9 +66,9 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 		o.grain_material.assign(minerals.data(), minerals.data() + minerals.size(0));
 	}
 	if (options.has_key("outer")) chooseInner(options, o);
-	waiting                           = 0;
 	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
 	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
+	waiting                           = 0; // what waited went with the grains
 }
 
 void GrainSolver::addToScene(py::list materials)

@@ -20,7 +20,7 @@ namespace {
 	/// (nodes, 2) view of the rows of one grain in a node array.
 	template <class T> py::object nodeView(const shared_ptr<GrainSolver>& solver, int grain, const flexpm::Array<T>& values, Access access)
 	{
-		const auto&          a   = solver->current();
+		const auto&          a   = solver->viewed();
 		const std::ptrdiff_t row = flexpm::lanes * sizeof(T);
 		return flexpm_bindings::array_view(values.data() + a.node(grain, 0), { a.nodes_of(grain), 2 }, { 2 * row, row }, py::object(solver), access);
 	}

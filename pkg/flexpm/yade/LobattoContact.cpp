@@ -19,7 +19,7 @@ namespace {
 	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int row = 0, int rows = 1)
 	{
 		const auto           solver = GrainSolver::ofContact(contact);
-		const auto&          a      = solver->current();
+		const auto&          a      = solver->viewed();
 		const std::ptrdiff_t step   = rows * flexpm::lanes * sizeof(T);
 		const T*             first  = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
 		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(solver), Access::readOnly);

@@ -7,6 +7,10 @@
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/vector.hpp>
+#include <boost/serialization/version.hpp>
+
+#include <stdexcept>
+#include <string>
 
 namespace boost {
 namespace serialization {
@@ -27,7 +31,20 @@ namespace serialization {
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Plate& plate, unsigned) { flexpm::visit_plate(plate, archiver(archive)); }
 
-	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned) { flexpm::visit_state(assembly, archiver(archive)); }
+	/// Of what visit_state() lists and how it lies in memory: to be raised with each change of either.
+	constexpr unsigned assemblyVersion = 1;
+
+	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
+	{
+		if (version != assemblyVersion) {
+			throw std::runtime_error(
+			        "state of the grains = version " + std::to_string(version) + ", must be " + std::to_string(assemblyVersion)
+			        + " to fit this flexpm; build and run the specimen again");
+		}
+		flexpm::visit_state(assembly, archiver(archive));
+	}
 
 } // namespace serialization
 } // namespace boost
+
+BOOST_CLASS_VERSION(flexpm::Assembly, boost::serialization::assemblyVersion)
