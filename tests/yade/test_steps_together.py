@@ -117,6 +117,7 @@ def test_a_scene_saved_while_steps_wait_continues_to_the_same_bits(
 ):
     model = pulled(SELDOM)
     O.run(33, True)
+    assert model.solver.stepsWaiting == 3
     O.save(str(tmp_path / "scene.bin"))
     O.run(9, True)
     uninterrupted = at_the_end(model, bits)

@@ -3,9 +3,9 @@
 ///
 /// Grains of one mesh connectivity form a group and are stepped `lanes` at a time, one in each lane.
 /// Node arrays are laid out [block][node of the grain][x, y][lane]; a node is named by the offset of
-/// its x value, its y value lies `lanes` further. Contacts are laid out [block][row][lane], their forces one contact after the other, in the
-/// order of their grain pair. Lanes that no grain or contact fills repeat a real one, without
-/// stiffness or area. SI units, tension positive.
+/// its x value, its y value lies `lanes` further. Contacts are laid out [block][row][lane] in the order
+/// of their grain pair, their forces one contact after the other. Lanes that no grain or contact fills
+/// repeat a real one, without stiffness or area. SI units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/bilinear_law.hpp>

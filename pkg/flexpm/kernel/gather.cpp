@@ -30,8 +30,8 @@ void add_source(Sources s, int source, int node)
     }
 }
 
-/// The force on the second node of an edge: two values on in the forces of a contact, two rows in those of
-/// an edge.
+/// The force on the second node follows that on the first: x and y two values on in a contact, two rows
+/// on in a boundary edge.
 int second_force(int source) { return source >= 0 ? source + 2 : ~(~source + 2 * lanes); }
 
 /// Sums of the two contacts of each outer node, x and y at once.
