@@ -29,15 +29,16 @@ __attribute__((always_inline)) inline void store_state(const PointState& s, doub
 /// No point of the block has any damage: true of most blocks.
 template <int Points> __attribute__((always_inline)) inline bool is_intact(const ContactLanes& b)
 {
-    alignas(64) std::int64_t damaged[lanes] = {};
-    for (int p = 0; p < Points; ++p) {
-        const double* state = b.state + p * ContactRows::state * lanes;
+    alignas(64) std::int64_t damaged[lanes];
 #pragma GCC ivdep
-        for (int l = 0; l < lanes; ++l) {
-            const PointState s = load_state(state, l);
-            const double excess = s.max_opening - law_of(b.law, l).elastic_opening;
-            damaged[l] |= (excess > 0.0) | (s.shear_damage > 0.0);
+    for (int l = 0; l < lanes; ++l) {
+        double opened = 0.0, sheared = 0.0;
+        for (int p = 0; p < Points; ++p) {
+            const PointState s = load_state(b.state + p * ContactRows::state * lanes, l);
+            opened = std::max(opened, s.max_opening);
+            sheared = std::max(sheared, s.shear_damage);
         }
+        damaged[l] = (opened > law_of(b.law, l).elastic_opening) | (sheared > 0.0);
     }
     return !any_of(damaged);
 }

@@ -39,12 +39,16 @@ struct PointMotion {
     alignas(64) double slip[most_points * lanes];
 };
 
+/// By halves: of a sum over lanes the compiler makes one or two instructions a lane.
 __attribute__((always_inline)) inline bool any_of(const std::int64_t* flags)
 {
-    std::int64_t any = 0;
-    for (int l = 0; l < lanes; ++l)
-        any |= flags[l];
-    return any != 0;
+    typedef std::int64_t Half __attribute__((vector_size(4 * sizeof(std::int64_t)), may_alias));
+    typedef std::int64_t Quarter __attribute__((vector_size(2 * sizeof(std::int64_t)), may_alias));
+    const auto* half = reinterpret_cast<const Half*>(flags);
+    const Half either = half[0] | half[1];
+    const auto* quarter = reinterpret_cast<const Quarter*>(&either);
+    const Quarter both = quarter[0] | quarter[1];
+    return (both[0] | both[1]) != 0;
 }
 
 /// A contact of the block takes its normal from its edges: it has no span, which marks it.
