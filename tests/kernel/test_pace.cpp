@@ -25,15 +25,6 @@ namespace {
 constexpr PaceRule rule = { 8.0, 0.02, 400.0 };
 constexpr double damping = 0.7;
 
-Energies books(double damage, double friction, double work)
-{
-    Energies e;
-    e.damage = damage;
-    e.friction = friction;
-    e.boundary_work = work;
-    return e;
-}
-
 /// Pace after `steps` steps of 100 at a constant share.
 double pace_after(double pace, double share, int steps)
 {
@@ -46,11 +37,11 @@ double pace_after(double pace, double share, int steps)
 
 TEST_CASE("The dissipated share is what damage and friction take of the work in between")
 {
-    const Energies before = books(1.0, 2.0, 10.0);
-    CHECK(dissipated_share(before, books(1.5, 2.5, 14.0)) == Approx(0.25));
-    CHECK(dissipated_share(before, books(1.0, 2.0, 14.0)) == 0.0);
+    const Dissipation before = { 1.0, 2.0, 10.0 };
+    CHECK(dissipated_share(before, { 1.5, 2.5, 14.0 }) == Approx(0.25));
+    CHECK(dissipated_share(before, { 1.0, 2.0, 14.0 }) == 0.0);
     CHECK(dissipated_share(before, before) == 0.0);
-    CHECK(std::isinf(dissipated_share(before, books(1.5, 2.0, 9.0))));
+    CHECK(std::isinf(dissipated_share(before, { 1.5, 2.0, 9.0 })));
 }
 
 TEST_CASE("The pace settles at the share of the rule over the present one, within its limits")

@@ -6,6 +6,8 @@
 #include <flexpm/kernel/simd.hpp>
 #include <flexpm/kernel/triangle_rows.hpp>
 
+#include <cmath>
+
 namespace flexpm {
 
 namespace {
@@ -38,25 +40,55 @@ FLEXPM_MULTIVERSION void add_strain(const TriangleRows& b, LaneSum& energy)
     energy = sum;
 }
 
-struct ContactSums {
-    LaneSum elastic, damage, friction;
-};
-
-FLEXPM_MULTIVERSION void add_contacts(
-    const double* area, const double* states, const double* law, int points, ContactSums& total)
+FLEXPM_MULTIVERSION void add_stored(
+    const double* area, const double* states, const double* law, int points, LaneSum& energy)
 {
-    ContactSums sums = total;
+    LaneSum sum = energy;
     for (int p = 0; p < points; ++p) {
         const double *a = area + p * lanes, *state = states + p * ContactRows::state * lanes;
 #pragma GCC ivdep
         for (int l = 0; l < lanes; ++l) {
             const PointState s = load_state(state, l);
-            sums.elastic.lane[l] += a[l] * law::elastic_energy(law_of(law, l), s);
-            sums.damage.lane[l] += a[l] * s.damage_energy;
-            sums.friction.lane[l] += a[l] * s.friction_energy;
+            sum.lane[l] += a[l] * law::elastic_energy(law_of(law, l), s);
         }
     }
-    total = sums;
+    energy = sum;
+}
+
+FLEXPM_MULTIVERSION void add_lost(
+    const double* area, const double* states, int rows, LaneSum& damage, LaneSum& friction)
+{
+    LaneSum of_damage = damage, of_friction = friction;
+    for (int r = 0; r < rows; ++r) {
+        const double *a = area + r * lanes, *state = states + r * ContactRows::state * lanes;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            const PointState s = load_state(state, l);
+            of_damage.lane[l] += a[l] * s.damage_energy;
+            of_friction.lane[l] += a[l] * s.friction_energy;
+        }
+    }
+    damage = of_damage;
+    friction = of_friction;
+}
+
+/// Of records of contacts, `lanes` at a time.
+FLEXPM_MULTIVERSION void add_forces(const double* forces, int contacts, LaneSum& total)
+{
+    LaneSum sum = total;
+    for (int c = 0; c < contacts; c += lanes) {
+        const double* f = forces + c * ContactRows::forces;
+        alignas(64) double rows[4 * lanes];  // what acts on the first grain
+        for (int l = 0; l < lanes; l += 4)
+            transpose(f + l * ContactRows::forces, ContactRows::forces, rows + l, lanes);
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            const double x = rows[l] + rows[2 * lanes + l];
+            const double y = rows[lanes + l] + rows[3 * lanes + l];
+            sum.lane[l] += std::sqrt(x * x + y * y);
+        }
+    }
+    total = sum;
 }
 
 }  // namespace
@@ -69,17 +101,31 @@ double strain_energy(const Assembly& a)
     return sum.total();
 }
 
-ContactEnergy contact_energy(const Assembly& a)
+double contact_energy(const Assembly& a)
 {
-    ContactSums sums;
+    LaneSum sum;
     LawRows law;
     for (int block = 0; block < a.contact_blocks(); ++block) {
         const int first = block * lanes * a.points;
         law.fill(a, block);
-        add_contacts(a.area.data() + first, a.point_state.data() + first * ContactRows::state,
-            law.values, a.points, sums);
+        add_stored(a.area.data() + first, a.point_state.data() + first * ContactRows::state,
+            law.values, a.points, sum);
     }
-    return { sums.elastic.total(), sums.damage.total(), sums.friction.total() };
+    return sum.total();
+}
+
+ContactLoss contact_loss(const Assembly& a)
+{
+    LaneSum damage, friction;
+    add_lost(a.area.data(), a.point_state.data(), a.contact_blocks() * a.points, damage, friction);
+    return { damage.total(), friction.total() };
+}
+
+double sum_of_forces(const Assembly& a)
+{
+    LaneSum sum;
+    add_forces(a.contact_force.data(), a.contact_blocks() * lanes, sum);
+    return sum.total();
 }
 
 }  // namespace flexpm

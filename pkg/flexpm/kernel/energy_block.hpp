@@ -9,13 +9,18 @@ namespace flexpm {
 /// Stored in the triangles of all grains [J].
 double strain_energy(const Assembly& a);
 
-/// Of all contact points [J].
-struct ContactEnergy {
-    double elastic = 0.0;
-    double damage = 0.0;    ///< dissipated
-    double friction = 0.0;  ///< dissipated
+/// Stored in all contact points [J].
+double contact_energy(const Assembly& a);
+
+/// Dissipated in all contact points [J].
+struct ContactLoss {
+    double damage = 0.0;
+    double friction = 0.0;
 };
 
-ContactEnergy contact_energy(const Assembly& a);
+ContactLoss contact_loss(const Assembly& a);
+
+/// Sum of the magnitudes of all contact forces [N].
+double sum_of_forces(const Assembly& a);
 
 }  // namespace flexpm

@@ -6,9 +6,12 @@
 #include <flexpm/kernel/gravity.hpp>
 #include <flexpm/kernel/plate_contact.hpp>
 #include <flexpm/kernel/rigid_grain.hpp>
+#include <flexpm/kernel/simd.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <sstream>
 
 namespace flexpm {
@@ -21,6 +24,14 @@ double first_of_pairs(const Array<double>& values)
     for (std::size_t i = 0; i < values.size(); i += 2)
         total += values[i];
     return total;
+}
+
+FLEXPM_MULTIVERSION bool all_finite(const double* values, int count)
+{
+    std::int64_t bad = 0;
+    for (int i = 0; i < count; ++i)
+        bad |= !(std::fabs(values[i]) <= std::numeric_limits<double>::max());
+    return bad == 0;
 }
 
 }  // namespace
@@ -45,24 +56,36 @@ double kinetic_of_velocities(const Assembly& a)
     return total;
 }
 
+Dissipation dissipation(const Assembly& a)
+{
+    const ContactLoss contact = contact_loss(a);
+    Dissipation d;
+    d.damage = contact.damage + a.past_damage;
+    d.friction = contact.friction + a.past_friction;
+    d.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
+    for (const Plate& p : a.plates) {
+        d.friction += p.friction_energy;
+        d.boundary_work += p.boundary_work;
+    }
+    return d;
+}
+
 Energies energies(const Assembly& a)
 {
+    const Dissipation d = dissipation(a);
     Energies e;
     for (double k : a.kinetic)
         e.kinetic += k;
-    const ContactEnergy contact = contact_energy(a);
-    e.elastic = strain_energy(a) + contact.elastic;
-    e.damage = contact.damage + a.past_damage;
-    e.friction = contact.friction + a.past_friction;
+    e.elastic = strain_energy(a) + contact_energy(a);
+    e.damage = d.damage;
+    e.friction = d.friction;
     e.damping = first_of_pairs(a.damping_work);
     e.potential = potential_energy(a);
-    e.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
+    e.boundary_work = d.boundary_work;
     for (const Plate& p : a.plates) {
         e.kinetic += p.kinetic;
         e.elastic += elastic_energy(p);
-        e.friction += p.friction_energy;
         e.damping += p.damping_work;
-        e.boundary_work += p.boundary_work;
     }
     e.initial = a.initial_energy;
     return e;
@@ -96,12 +119,7 @@ double unbalanced_ratio(const Assembly& a)
     double largest = *std::max_element(a.largest_force.begin(), a.largest_force.end());
     for (const Plate& p : a.plates)
         largest = std::max(largest, p.unbalanced);
-    double sum = 0.0;
-    for (int c = 0; c < a.contacts; ++c) {
-        const double* f = &a.contact_force[record_index(c, 0, ContactRows::forces)];
-        const double x = f[0] + f[2], y = f[1] + f[3];
-        sum += std::sqrt(x * x + y * y);
-    }
+    const double sum = sum_of_forces(a);
     return sum > 0.0 ? largest * a.contacts / sum : 0.0;
 }
 
@@ -117,6 +135,8 @@ CrackCount count_cracks(const Assembly& a)
 
 std::string find_bad_number(const Assembly& a)
 {
+    const int values = static_cast<int>(a.force.size());
+    if (all_finite(a.force.data(), values) && all_finite(a.velocity.data(), values)) return {};
     for (int g = 0; g < a.grains; ++g) {
         for (int n = 0; n < a.nodes_of(g); ++n) {
             for (int c = 0; c < 2; ++c) {

@@ -24,6 +24,15 @@ struct Energies {
 
 Energies energies(const Assembly& a);
 
+/// Those of the energies that say what a loading does to the specimen [J].
+struct Dissipation {
+    double damage = 0.0;
+    double friction = 0.0;
+    double boundary_work = 0.0;
+};
+
+Dissipation dissipation(const Assembly& a);
+
 /// Open the energy books: the present energy becomes the initial energy, works and
 /// dissipation count from zero. Before the first step the kinetic energy is that of the velocities
 /// set; later it is that of the last step, which must have been measured.

@@ -8,7 +8,7 @@
 
 namespace flexpm {
 
-double dissipated_share(const Energies& before, const Energies& now)
+double dissipated_share(const Dissipation& before, const Dissipation& now)
 {
     const double taken = now.damage + now.friction - before.damage - before.friction;
     const double work = now.boundary_work - before.boundary_work;

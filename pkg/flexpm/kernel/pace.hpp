@@ -19,7 +19,7 @@ struct PaceRule {
 
 /// Part of the boundary's work between two states that damage and friction have taken [-]; infinite
 /// if they took some without work.
-double dissipated_share(const Energies& before, const Energies& now);
+double dissipated_share(const Dissipation& before, const Dissipation& now);
 
 /// Pace of the coming steps: slow_share / share, between 1 and `fastest`. It changes smoothly: it at
 /// most doubles while a wave crosses the specimen once, and at most halves in a quarter of that.

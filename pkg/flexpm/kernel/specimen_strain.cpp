@@ -31,23 +31,31 @@ double strain_between(const Station& first, const Station& second)
     return u / (second.place / second.weight - first.place / first.weight);
 }
 
-/// Grains whose centre is within a mean diameter of `height` above the bottom.
-Station band(const Assembly& a, double height)
+void need_grains(const Station& s, double height)
 {
-    double diameter = 0.0;
+    if (s.weight != 0.0) return;
+    refuse("height of a strain gauge", height, "m", "has no grain near; use smaller grains");
+}
+
+/// Between the grains whose centres are within a mean diameter of a height `low` above the bottom and
+/// those of a height `high`.
+double band_strain(const Assembly& a, double low, double high)
+{
+    double diameters = 0.0;
     for (double r : a.radius)
-        diameter += 2.0 * r / a.grains;
+        diameters += 2.0 * r;
+    // a little more, so that round-off does not choose
+    const double reach = 1.001 * diameters / a.grains;
     const double bottom = a.reference[side_nodes(a, bottom_side).front() + lanes];
-    Station s;
+    Station at_low, at_high;
     for (int g = 0; g < a.grains; ++g) {
         const double y = a.reference[a.centre(g) + lanes] - bottom;
-        // a little more, so that round-off does not choose
-        if (std::fabs(y - height) <= 1.001 * diameter) s.add(a, g, 1, 1.0);
+        if (std::fabs(y - low) <= reach) at_low.add(a, g, 1, 1.0);
+        if (std::fabs(y - high) <= reach) at_high.add(a, g, 1, 1.0);
     }
-    if (s.weight == 0.0) {
-        refuse("height of a strain gauge", height, "m", "has no grain near; use smaller grains");
-    }
-    return s;
+    need_grains(at_low, low);
+    need_grains(at_high, high);
+    return strain_between(at_low, at_high);
 }
 
 Station side_grains(const Assembly& a, int side)
@@ -71,7 +79,7 @@ SpecimenStrain specimen_strain(const Assembly& a)
     check_positive("length of the bottom side", width, "m");
     check_positive("length of the left side", height, "m");
     if (a.is_rigid(0)) {
-        return { strain_between(band(a, 0.25 * height), band(a, 0.75 * height)),
+        return { band_strain(a, 0.25 * height, 0.75 * height),
             strain_between(side_grains(a, left_side), side_grains(a, right_side)) };
     }
     return { (side_displacement(a, top_side, 1) - side_displacement(a, bottom_side, 1)) / height,

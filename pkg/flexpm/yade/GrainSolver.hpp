@@ -69,7 +69,7 @@ public:
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
 		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
-		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the measurements. "
+		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the checks. "
 			"Where arrays exceed the caches, the steps in between are done some at a time, those that wait at any look at a grain, a bond or the solver."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))

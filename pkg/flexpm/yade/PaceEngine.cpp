@@ -25,13 +25,9 @@ void PaceEngine::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (!solver->measured()) return;
-	const flexpm::Energies now    = flexpm::energies(solver->current());
-	flexpm::Energies       before = now;
-	if (seen.size() == 3) {
-		before.damage        = seen[0];
-		before.friction      = seen[1];
-		before.boundary_work = seen[2];
-	}
+	const flexpm::Dissipation now    = flexpm::dissipation(solver->current());
+	const flexpm::Dissipation before = seen.size() == 3 ? flexpm::Dissipation { seen[0], seen[1], seen[2] } : now;
+
 	seen = { now.damage, now.friction, now.boundary_work };
 
 	const Real next   = flexpm::next_pace(pace, flexpm::dissipated_share(before, now), solver->measurePeriod, { fastest, slowShare, crossingSteps });
