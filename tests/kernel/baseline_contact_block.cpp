@@ -7,5 +7,12 @@
 
 #undef FLEXPM_MULTIVERSION
 #define FLEXPM_MULTIVERSION
+#undef FLEXPM_MULTIVERSION_WIDE
+#define FLEXPM_MULTIVERSION_WIDE(head, ...)                                                        \
+    head                                                                                           \
+    {                                                                                              \
+        constexpr bool Wide = false;                                                               \
+        __VA_ARGS__                                                                                \
+    }
 #define update_contact_blocks baseline_update_contact_blocks
 #include "../../pkg/flexpm/kernel/contact_block.cpp"

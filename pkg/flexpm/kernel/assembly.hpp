@@ -76,7 +76,7 @@ struct Assembly {
     Array<double> inverse_inertia;  ///< of the scaled or real moment of inertia [1/(kg m^2)]
     Array<std::uint8_t> spin_held;  ///< 1: the spin is prescribed
 
-    /// Displacement of the centres at the end of the step, [block][x, y][lane]; each step fills it.
+    /// Displacement of the centres at the end of the step, [block][lane][x, y]; each step fills it.
     Array<double> next_centre;
 
     // triangles: [block][triangle][g1x, g1y, g2x, g2y, volume][lane]
@@ -181,11 +181,7 @@ struct Assembly {
     int centre(int grain) const { return node(grain, group(grain_slot[grain] / lanes).vertices); }
 
     /// Offset of a grain's centre in `next_centre`.
-    int centre_slot(int grain) const
-    {
-        const int slot = grain_slot[grain];
-        return 2 * lanes * (slot / lanes) + slot % lanes;
-    }
+    int centre_slot(int grain) const { return 2 * grain_slot[grain]; }
 
     Point position(int node) const
     {

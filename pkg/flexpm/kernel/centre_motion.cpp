@@ -39,8 +39,10 @@ void predict_centres(Assembly& a, int block, double dt)
     const int first = a.block_nodes[block] + 2 * lanes * a.group(block).vertices;
     const double *u = a.displacement.data() + first, *v = a.velocity.data() + first;
     double* next = a.next_centre.data() + 2 * lanes * block;
-    for (int i = 0; i < 2 * lanes; ++i)
-        next[i] = u[i] + dt * v[i];
+    for (int l = 0; l < lanes; ++l) {
+        next[2 * l] = u[l] + dt * v[l];
+        next[2 * l + 1] = u[lanes + l] + dt * v[lanes + l];
+    }
 }
 
 void find_centre_motion(const Assembly& a, int block, CentreMotion& motion)

@@ -143,16 +143,16 @@ __attribute__((always_inline)) inline int advance_points(const ContactLanes& b,
     return cracks;
 }
 
-template <int Points, bool Whole>
+template <int Points, bool Whole, bool Wide>
 __attribute__((always_inline)) inline int update_lanes(
     const ContactLanes& b, double dt, std::uint8_t* cracked)
 {
     PointMotion motion;
     // two calls, not one through a pointer: only a direct call is compiled for each instruction set
     if (any_normal_of_edge(b))
-        move_points<Points, true, Whole>(b, dt, motion);
+        move_points<Points, true, Whole, Wide>(b, dt, motion);
     else
-        move_points<Points, false, Whole>(b, dt, motion);
+        move_points<Points, false, Whole, Wide>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     const int cracks = is_intact<Points>(b)
@@ -165,19 +165,15 @@ __attribute__((always_inline)) inline int update_lanes(
     return cracks;
 }
 
-FLEXPM_MULTIVERSION int update_1(const ContactLanes& b, double dt, std::uint8_t* cracked)
-{
-    return update_lanes<1, false>(b, dt, cracked);
-}
-FLEXPM_MULTIVERSION int update_2(const ContactLanes& b, double dt, std::uint8_t* cracked)
-{
-    return update_lanes<2, false>(b, dt, cracked);
-}
-FLEXPM_MULTIVERSION int update_3(const ContactLanes& b, double dt, std::uint8_t* cracked)
-{
-    return b.whole_edges ? update_lanes<3, true>(b, dt, cracked)
-                         : update_lanes<3, false>(b, dt, cracked);
-}
+FLEXPM_MULTIVERSION_WIDE(int update_1(const ContactLanes& b, double dt, std::uint8_t* cracked),
+                         return update_lanes<1, false, Wide>(b, dt, cracked);)
+
+FLEXPM_MULTIVERSION_WIDE(int update_2(const ContactLanes& b, double dt, std::uint8_t* cracked),
+                         return update_lanes<2, false, Wide>(b, dt, cracked);)
+
+FLEXPM_MULTIVERSION_WIDE(int update_3(const ContactLanes& b, double dt, std::uint8_t* cracked),
+                         return b.whole_edges ? update_lanes<3, true, Wide>(b, dt, cracked)
+                                              : update_lanes<3, false, Wide>(b, dt, cracked);)
 
 ContactLanes rows_from(Assembly& a, int contact, const LawRows& law)
 {

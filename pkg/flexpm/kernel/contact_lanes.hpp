@@ -61,15 +61,23 @@ __attribute__((always_inline)) inline bool any_normal_of_edge(const ContactLanes
 }
 
 /// x and y of the nodes of a row, one node after the other, or the compiler runs out of registers for
-/// the addresses.
+/// the addresses. A row is stored at once: a load of it in one register would wait for two halves.
 __attribute__((always_inline)) inline void gather_values(
     const double* from, const int* nodes, double* to)
 {
-#pragma GCC ivdep
+#pragma omp simd simdlen(8)
     for (int l = 0; l < lanes; ++l) {
         to[l] = from[nodes[l]];
         to[lanes + l] = from[nodes[l] + lanes];
     }
+}
+
+/// The same where y follows x.
+template <bool Wide>
+__attribute__((always_inline)) inline void gather_pairs(
+    const double* from, const int* pairs, double* to)
+{
+    unzip<Wide>([&](int i) { return *reinterpret_cast<const Two*>(from + pairs[i]); }, to);
 }
 
 /// A quantity at point `p` of an edge, less its value at the first end, from the difference of the ends.
@@ -97,15 +105,14 @@ __attribute__((always_inline)) inline void fetch_ahead(
     fetch_ahead(b, rows, per_block, per_block);
 }
 
-/// A vector along the normal at the end of the step: between the centres, or, where a contact has no
-/// span, across the mean of the two edges.
+/// A vector along the normal at the end of the step: between the centres, rows of x and y of a and of b,
+/// or, where a contact has no span, across the mean of the two edges.
 template <bool OfEdges>
-__attribute__((always_inline)) inline Point direction(const ContactLanes& b, double dt, int l)
+__attribute__((always_inline)) inline Point direction(
+    const ContactLanes& b, const double* centres, double dt, int l)
 {
-    const double* centres = b.centres;
-    const int ca = b.nodes[4 * lanes + l], cb = b.nodes[5 * lanes + l];
-    const double dx = b.span[l] + (centres[cb] - centres[ca]);
-    const double dy = b.span[lanes + l] + (centres[cb + lanes] - centres[ca + lanes]);
+    const double dx = b.span[l] + (centres[2 * lanes + l] - centres[l]);
+    const double dy = b.span[lanes + l] + (centres[3 * lanes + l] - centres[lanes + l]);
     if (!OfEdges) return { dx, dy };
     const double *u = b.displacement, *v = b.velocity;
     double ex = 0.0, ey = 0.0;
@@ -131,7 +138,7 @@ __attribute__((always_inline)) inline double reach_of_b(const ContactLanes& b, i
 /// Deviation D24: both grains are compared in the middle of the gap between their places of a point
 /// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair that
 /// turns as one body neither opens nor slips.
-template <int Points, bool OfEdges, bool Whole>
+template <int Points, bool OfEdges, bool Whole, bool Wide>
 __attribute__((always_inline)) inline void move_points(
     const ContactLanes& b, double dt, PointMotion& motion)
 {
@@ -139,13 +146,15 @@ __attribute__((always_inline)) inline void move_points(
     fetch_ahead(b, b.span, 2);
     fetch_ahead(b, b.reach, 2, Whole ? 1 : 2);
     fetch_ahead(b, b.normal, 2);
-    alignas(64) double ends[8 * lanes];
+    alignas(64) double ends[8 * lanes], centres[4 * lanes];
     for (int n = 0; n < 4; ++n)
         gather_values(b.velocity, b.nodes + n * lanes, ends + 2 * n * lanes);
+    for (int side = 0; side < 2; ++side)
+        gather_pairs<Wide>(b.centres, b.nodes + (4 + side) * lanes, centres + 2 * side * lanes);
 #pragma GCC ivdep
     for (int l = 0; l < lanes; ++l) {
         const double* v = ends + l;
-        const Point along_normal = direction<OfEdges>(b, dt, l);
+        const Point along_normal = direction<OfEdges>(b, centres, dt, l);
         const double dx = along_normal.x, dy = along_normal.y;
         const double per_length = 1.0 / std::sqrt(dx * dx + dy * dy);
         const double nx = per_length * dx, ny = per_length * dy;

@@ -30,8 +30,11 @@ inline void fetch_nodes(const Assembly& a, int block)
 {
     for (int i = a.fetch_first[block]; i < a.fetch_first[block + 1]; ++i) {
         const int line = a.fetch_lines[i];
-        fetch_rows(
-            line >= 0 ? a.velocity.data() + line * lanes : a.next_centre.data() + ~line * lanes, 2);
+        if (line >= 0) {
+            fetch_rows(a.velocity.data() + line * lanes, 2);
+        } else {
+            fetch_rows(a.next_centre.data() + ~line * lanes, 1);
+        }
     }
 }
 

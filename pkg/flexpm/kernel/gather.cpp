@@ -35,20 +35,20 @@ void add_source(Sources s, int source, int node)
 int second_force(int source) { return source >= 0 ? source + 2 : ~(~source + 2 * lanes); }
 
 /// Sums of the two contacts of each outer node, x and y at once.
-FLEXPM_MULTIVERSION void sum_pairs(
+template <bool Wide>
+__attribute__((always_inline)) inline void sum_lanes(
     const double* contact, const int* pairs, double* force, int vertices)
 {
-    const auto at = [&](int source) { return reinterpret_cast<const Two*>(contact + source); };
+    const auto at = [&](int source) { return *reinterpret_cast<const Two*>(contact + source); };
     for (int i = 0; i < 2 * lanes * vertices; i += 2 * lanes) {
         const int *first = pairs + i, *second = first + lanes;
-        for (int l = 0; l < lanes; l += 2) {
-            const Two f = 0.0 + *at(first[l]) + *at(second[l]);
-            const Two g = 0.0 + *at(first[l + 1]) + *at(second[l + 1]);
-            *reinterpret_cast<Two*>(force + i + l) = Two { f[0], g[0] };
-            *reinterpret_cast<Two*>(force + i + lanes + l) = Two { f[1], g[1] };
-        }
+        unzip<Wide>([&](int l) { return 0.0 + at(first[l]) + at(second[l]); }, force + i);
     }
 }
+
+FLEXPM_MULTIVERSION_WIDE(
+    void sum_pairs(const double* contact, const int* pairs, double* force, int vertices),
+    sum_lanes<Wide>(contact, pairs, force, vertices);)
 
 }  // namespace
 

@@ -32,7 +32,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::Plate& plate, unsigned) { flexpm::visit_plate(plate, archiver(archive)); }
 
 	/// Of what visit_state() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 1;
+	constexpr unsigned assemblyVersion = 2;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{
