@@ -116,5 +116,7 @@ def test_a_scene_of_another_layout_of_the_state_is_refused(make, tmp_path):
     found = re.subn(r'(<assembly [^>]*version=")\d+"', r'\g<1>0"', file.read_text())
     assert found[1] == 1
     file.write_text(found[0])
-    with pytest.raises(RuntimeError, match=r"state of the grains = version 0, must be \d+ .* again"):
+    with pytest.raises(
+        RuntimeError, match=r"state of the grains = version 0, must be \d+ .* again"
+    ):
         O.load(str(file))
