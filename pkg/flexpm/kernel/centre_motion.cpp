@@ -32,17 +32,22 @@ void find_turns(const Assembly& a, int block, CentreMotion& motion)
     }
 }
 
+FLEXPM_MULTIVERSION void move_pairs(const double* u, const double* v, double dt, double* pairs)
+{
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        pairs[2 * l] = u[l] + dt * v[l];
+        pairs[2 * l + 1] = u[lanes + l] + dt * v[lanes + l];
+    }
+}
+
 }  // namespace
 
 void predict_centres(Assembly& a, int block, double dt)
 {
     const int first = a.block_nodes[block] + 2 * lanes * a.group(block).vertices;
-    const double *u = a.displacement.data() + first, *v = a.velocity.data() + first;
-    double* next = a.next_centre.data() + 2 * lanes * block;
-    for (int l = 0; l < lanes; ++l) {
-        next[2 * l] = u[l] + dt * v[l];
-        next[2 * l + 1] = u[lanes + l] + dt * v[lanes + l];
-    }
+    move_pairs(a.displacement.data() + first, a.velocity.data() + first, dt,
+        a.next_centre.data() + 2 * lanes * block);
 }
 
 void find_centre_motion(const Assembly& a, int block, CentreMotion& motion)
