@@ -192,9 +192,9 @@ def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
 def scaling_picture(path: Path, found: list[dict[str, float | int]]) -> None:
     """Draw the time per grain and step over the number of grains."""
     with plot.drawing(path) as axes:
-        grains = [row["grains"] for row in found]
-        axes.plot(grains, [1e9 * row["time_per_grain"] for row in found], "o-", color="black")
+        times = [1e9 * row["time_per_grain"] for row in found]
+        axes.plot([row["grains"] for row in found], times, "o-", color="black")
         axes.set_xscale("log")
         axes.set_xlabel("grains")
         axes.set_ylabel("time per grain and step [ns]")
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.1 * max(times))  # room for the highest mark
