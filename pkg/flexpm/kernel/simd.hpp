@@ -46,7 +46,8 @@ __attribute__((always_inline)) inline void transpose(
 }
 
 /// Rows of x and of y of eight pairs at(0) to at(7). Rows that one register holds are stored at once: a
-/// load of such a row would wait for two halves on their way to the cache.
+/// load of such a row would wait for two halves on their way to the cache. Without such registers the
+/// compiler would store them value by value.
 template <bool Wide, class Pair>
 __attribute__((always_inline)) inline void unzip(Pair&& at, double* to)
 {
