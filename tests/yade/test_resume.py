@@ -20,11 +20,13 @@ PYTHON = "/usr/bin/python3"
 SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
 DISC = {"diameter": 0.016, "thickness": 0.01, "seed": 1}
 TESTS = {
-    "uniaxial": {"rate": 4.0},
-    "tension": {"rate": 1.0},
-    "biaxial": {"rate": 4.0, "confinement": 5e6},
+    "uniaxial": {"rate": 0.5},
+    "tension": {"rate": 0.25},
+    "biaxial": {"rate": 1.5, "confinement": 5e6},
     "brazilian": {"rate": 0.25},
 }
+#: On the rate: a step of rigid grains is short, one of inner particles long.
+FACTORS = {"rigid": 0.125, "inner": 4.0, "inner-un": 4.0}
 #: Stages of flexpm's own models in which a test is killed, one after the other.
 STAGES = {"biaxial": (1, 2)}
 SCRIPT = """
@@ -43,9 +45,9 @@ def small() -> flexpm.Specimen:
 
 
 def settings_of(test: str, model: str) -> dict:
-    """Settings of a run that lasts long enough to be killed; a step of rigid grains is short."""
+    """Settings of a run that lasts about a second of stepping, long enough to be killed within."""
     settings = TESTS[test]
-    return settings | {"rate": settings["rate"] / 8.0} if model == "rigid" else settings
+    return settings | {"rate": settings["rate"] * FACTORS.get(model, 1.0)}
 
 
 def start(
