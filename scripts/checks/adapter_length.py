@@ -32,7 +32,7 @@ def main() -> int:
     """Print too long bodies in the tree given as argument, or in this one."""
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]
     found = 0
-    for path in sorted((root / "pkg/flexpm/yade").glob("*.[ch]pp")):
+    for path in sorted((root / "pkg/flexpm/yade").rglob("*.[ch]pp")):
         for line, length in bodies(path.read_text()):
             if length > LIMIT:
                 found += 1

@@ -1,31 +1,36 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check which file may include or import what: kernel without frameworks, one home per library.
+"""Check which file may include or import what: one table of rooms for kernel, adapters and Python.
 
 Usage: scripts/checks/layering.py [ROOT]. Prints one line per violation; exit code 1 if any.
+The table is scripts/checks/layers.toml below ROOT.
 """
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
-from collections.abc import Iterator
+import tomllib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from fnmatch import fnmatch
 from pathlib import Path
 
+TABLE = "scripts/checks/layers.toml"
+TREES = {"kernel": "pkg/flexpm/kernel", "yade": "pkg/flexpm/yade", "python": "py/flexpm"}
+MOST_MODULES = 16
+# Folders of the kernel's tests that mirror no room of the kernel.
+TEST_FOLDERS = {"bench", "support"}
 # What the kernel must not use of the standard library: it does not print, read files or clocks.
 FORBIDDEN_STANDARD = {"chrono", "ctime", "filesystem", "fstream", "iomanip", "iostream", "ostream"}
-# Libraries that one kind of kernel source may use.
-KERNEL_LIBRARIES = {
-    "CGAL/": r"power_diagram\.cpp",
-    "Eigen/": r"elastic_solve\.cpp",
-    "omp.h": r"stepping[a-z_0-9]*\.cpp",
-}
 FORBIDDEN_WORDS = {
     r"std::c(out|err|log)\b": "prints",
     r"(?<!n)\bprintf\s*\(|\bputs\s*\(": "prints",
     r"\bgetenv\s*\(": "reads the environment",
     r"\bs?rand\s*\(|\brandom_device\b": "draws random numbers without a seed",
 }
+OPENMP = r"#\s*pragma\s+omp\s+(?!simd|declare)"
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
 PYTHON_LIBRARIES = {
@@ -33,6 +38,72 @@ PYTHON_LIBRARIES = {
     "vtk": {"export.py"},
     "vtkmodules": {"export.py"},
 }
+
+
+@dataclass(frozen=True)
+class Room:
+    """A folder of sources, or one file at the top of its tree."""
+
+    uses: frozenset[str]
+    libraries: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Use:
+    """A line of a file that includes or imports another file of the project."""
+
+    path: Path
+    line: int
+    target: Path
+
+
+class Rooms:
+    """The table of rooms and where each file stands in it. Rooms are named "tree.room"."""
+
+    def __init__(self, root: Path) -> None:
+        table = root / TABLE
+        self.root = root
+        self.trees = tomllib.loads(table.read_text(encoding="utf-8")) if table.exists() else {}
+        self.rooms = {
+            f"{tree}.{name}": Room(
+                frozenset(self._full(tree, room["uses"])), room.get("libraries", {})
+            )
+            for tree, rooms in self.trees.items()
+            for name, room in rooms.items()
+        }
+
+    def _full(self, tree: str, names: Iterable[str]) -> Iterator[str]:
+        for name in names:
+            if name in TREES:
+                yield from (f"{name}.{room}" for room in self.trees.get(name, {}))
+            else:
+                yield name if "." in name else f"{tree}.{name}"
+
+    def name(self, path: Path) -> str:
+        """Return the name of the room that a file stands in, listed or not."""
+        for tree, folder in TREES.items():
+            top = self.root / folder
+            if path.is_relative_to(top):
+                first = path.relative_to(top).parts[0]
+                return f"{tree}.{first if (top / first).is_dir() else Path(first).stem}"
+        return ""
+
+    def listed(self, tree: str) -> bool:
+        """Tell whether the rooms of a tree are in the table."""
+        return tree in self.trees
+
+
+def ring(below: dict[str, set[str]]) -> list[str]:
+    """Return the nodes of a graph that stand on circles or between two, sorted."""
+    left = dict(below)
+    while True:
+        used = set().union(*left.values())
+        ends = [name for name, children in left.items() if not children & left.keys()]
+        ends += [name for name in left if name not in used]
+        if not ends:
+            return sorted(left)
+        for name in ends:
+            left.pop(name, None)
 
 
 def without_comments(text: str) -> str:
@@ -53,63 +124,152 @@ def includes(path: Path) -> Iterator[tuple[int, str]]:
             yield number, match.group(1)
 
 
-def kernel_include(path: Path, name: str) -> str | None:
+def sources(folder: Path) -> list[Path]:
+    """Return the C++ files below a folder."""
+    return sorted([*folder.rglob("*.hpp"), *folder.rglob("*.cpp")])
+
+
+def cpp_uses(path: Path, root: Path) -> Iterator[Use]:
+    """Yield the includes of a C++ file that name a file of the project."""
+    for number, name in includes(path):
+        if name.startswith("flexpm/"):
+            yield Use(path, number, root / "pkg" / name)
+
+
+def python_file(base: Path, parts: Iterable[str]) -> Path | None:
+    """Return the file of a module of the package in `base`, None if there is none."""
+    path = base.joinpath(*parts)
+    module = path.with_name(path.name + ".py") if path != base else base / "__init__.py"
+    package = path / "__init__.py"
+    return module if module.exists() else package if package.exists() else None
+
+
+def imported(node: ast.AST, path: Path, base: Path) -> Iterator[Path]:
+    """Yield the files of the package in `base` that an import statement of `path` names."""
+    if isinstance(node, ast.Import):
+        for alias in node.names:
+            first, *parts = alias.name.split(".")
+            target = python_file(base, parts) if first == base.name else None
+            if target:
+                yield target
+    elif isinstance(node, ast.ImportFrom):
+        parts = node.module.split(".") if node.module else []
+        if node.level:
+            here = path.parent.relative_to(base).parts
+            parts = [*here[: len(here) - node.level + 1], *parts]
+        elif parts and parts[0] == base.name:
+            parts = parts[1:]
+        else:
+            return
+        for alias in node.names:
+            target = python_file(base, [*parts, alias.name]) or python_file(base, parts)
+            if target:
+                yield target
+
+
+def python_uses(path: Path, base: Path) -> Iterator[Use]:
+    """Yield the imports of a Python file that name a file of the package."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for target in imported(node, path, base):
+            if target != path:
+                yield Use(path, node.lineno, target)
+
+
+def check_table(rooms: Rooms) -> Iterator[str]:
+    """Yield names in the table that are no rooms, and rooms that use each other in a circle."""
+    for name, room in rooms.rooms.items():
+        for other in sorted(room.uses - rooms.rooms.keys()):
+            yield f"{TABLE}: {name} uses {other}, which is no room"
+    circle = ring({name: set(room.uses) for name, room in rooms.rooms.items()})
+    if circle:
+        yield f"{TABLE}: {', '.join(circle)} use each other in a circle"
+
+
+def check_rooms(rooms: Rooms, paths: list[Path], uses: list[Use]) -> Iterator[str]:
+    """Yield files outside all rooms and uses that the table does not allow."""
+    for path in paths:
+        if rooms.name(path) not in rooms.rooms:
+            yield f"{path}:1: stands in no room of {TABLE}; move it or list its folder"
+    for use in uses:
+        here, there = rooms.name(use.path), rooms.name(use.target)
+        room = rooms.rooms.get(here)
+        if room and there != here and there not in room.uses:
+            yield f"{use.path}:{use.line}: uses {there}; {here} may not, see {TABLE}"
+
+
+def check_size(paths: list[Path]) -> Iterator[str]:
+    """Yield folders with too many modules; header and source of one name are one module."""
+    for folder in sorted({path.parent for path in paths}):
+        count = len({path.stem for path in paths if path.parent == folder} - {"__init__"})
+        if count > MOST_MODULES:
+            yield f"{folder}: {count} modules, must be <= {MOST_MODULES}; split the folder"
+
+
+def check_ring(paths: list[Path], uses: list[Use]) -> Iterator[str]:
+    """Yield files that use each other in a circle, which #pragma once or a late import hides."""
+    below: dict[str, set[str]] = {str(path): set() for path in paths}
+    for use in uses:
+        if str(use.path) in below:
+            below[str(use.path)].add(str(use.target))
+    circle = ring(below)
+    if circle:
+        yield f"{circle[0]}: {', '.join(circle)} use each other in a ring"
+
+
+def check_tree(rooms: Rooms, tree: str, paths: list[Path], uses: list[Use]) -> Iterator[str]:
+    """Yield what breaks the rules that all trees share."""
+    if rooms.listed(tree):
+        yield from check_rooms(rooms, paths, uses)
+        yield from check_size(paths)
+        yield from check_ring([path for path in paths if path.suffix != ".cpp"], uses)
+
+
+def kernel_include(room: Room, path: Path, name: str) -> str | None:
     """Return why a kernel file may not include `name`, or None if it may."""
     if name.startswith("flexpm/kernel/"):
         return None
-    for library, home in KERNEL_LIBRARIES.items():
+    for library, home in room.libraries.items():
         if name.startswith(library):
-            return None if re.fullmatch(home, path.name) else f"only {home} may use it"
+            return None if fnmatch(path.name, home) else f"only {home} may use it"
     if name == "immintrin.h" and path.suffix == ".cpp":
         return None
     if "/" in name or "." in name:
-        return "the kernel knows the standard library and its own headers only"
+        return "the kernel knows the standard library, its own headers and the room's libraries"
     return "the kernel does not print, read files or clocks" if name in FORBIDDEN_STANDARD else None
 
 
-def check_kernel(folder: Path) -> Iterator[str]:
-    """Yield violations of the kernel's sources, `folder` being pkg/flexpm/kernel."""
-    for path in sorted([*folder.glob("*.hpp"), *folder.glob("*.cpp")]):
+def check_kernel(rooms: Rooms) -> Iterator[str]:
+    """Yield violations of the kernel's sources."""
+    folder = rooms.root / TREES["kernel"]
+    paths = sources(folder)
+    for path in paths:
+        room = rooms.rooms.get(rooms.name(path), Room(frozenset()))
         found = list(includes(path))
         for number, name in found:
-            reason = kernel_include(path, name)
+            reason = kernel_include(room, path, name)
             if reason:
                 yield f"{path}:{number}: includes {name}; {reason}"
-        own = f"flexpm/kernel/{path.stem}.hpp"
-        if path.suffix == ".cpp" and (folder / f"{path.stem}.hpp").exists() and found[0][1] != own:
-            yield f"{path}:{found[0][0]}: includes {found[0][1]} first; its own header comes first"
+        header = path.with_suffix(".hpp")
+        own = str(header.relative_to(rooms.root / "pkg"))
+        if path.suffix == ".cpp" and header.exists() and (not found or found[0][1] != own):
+            line, first = found[0] if found else (1, "nothing")
+            yield f"{path}:{line}: includes {first} first; its own header comes first"
         text = without_comments(path.read_text())
         words = dict(FORBIDDEN_WORDS)
-        if not re.fullmatch(KERNEL_LIBRARIES["omp.h"], path.name):
-            words[r"#\s*pragma\s+omp\s+(?!simd|declare)"] = (
-                "uses OpenMP outside the stepping sources"
-            )
+        if "omp.h" not in room.libraries:
+            words[OPENMP] = "uses OpenMP outside the rooms that have it"
         for pattern, what in words.items():
             for match in re.finditer(pattern, text):
                 number = text.count("\n", 0, match.start()) + 1
                 yield f"{path}:{number}: {what} ({match.group(0).strip()}); callers do that"
-    yield from check_cycles(folder)
+    uses = [use for path in paths for use in cpp_uses(path, rooms.root)]
+    yield from check_tree(rooms, "kernel", paths, uses)
 
 
-def check_cycles(folder: Path) -> Iterator[str]:
-    """Yield kernel headers that include each other in a ring, which #pragma once would hide."""
-    below = {
-        path.name: {name.split("/")[-1] for _, name in includes(path) if "flexpm/kernel/" in name}
-        for path in folder.glob("*.hpp")
-    }
-    while True:
-        leaves = [name for name, children in below.items() if not children & below.keys()]
-        if not leaves:
-            break
-        for name in leaves:
-            del below[name]
-    if below:
-        yield f"{folder}: headers {', '.join(sorted(below))} include each other in a ring"
-
-
-def check_adapters(folder: Path) -> Iterator[str]:
-    """Yield violations of the YADE side, `folder` being pkg/flexpm/yade."""
-    for path in sorted([*folder.glob("*.hpp"), *folder.glob("*.cpp")]):
+def check_adapters(rooms: Rooms) -> Iterator[str]:
+    """Yield violations of the YADE side."""
+    paths = sources(rooms.root / TREES["yade"])
+    for path in paths:
         plain = re.match(r"(binding|elf)_", path.name)
         for number, name in includes(path):
             yades = re.match(r"(core|lib|pkg|gui|py)/", name)
@@ -117,29 +277,54 @@ def check_adapters(folder: Path) -> Iterator[str]:
                 yield f"{path}:{number}: includes {name}; YADE's headers come through yade_lite.hpp"
             if name.endswith("yade_lite.hpp") and plain:
                 yield f"{path}:{number}: includes {name}; {plain.group(1)}_* files know no YADE"
-            if name.startswith("CGAL/"):
-                yield f"{path}:{number}: includes {name}; only power_diagram.cpp may use it"
+            if name.startswith(("CGAL/", "Eigen/")):
+                yield f"{path}:{number}: includes {name}; the kernel alone may use it"
         text = without_comments(path.read_text())
         for name in FORBIDDEN_YADE:
             for match in re.finditer(rf"\b{name}\b", text):
                 number = text.count("\n", 0, match.start()) + 1
                 yield f"{path}:{number}: names {name}, whose layout differs; use Python for it"
+    uses = [use for path in paths for use in cpp_uses(path, rooms.root)]
+    yield from check_tree(rooms, "yade", paths, uses)
 
 
-def check_tests(folder: Path) -> Iterator[str]:
-    """Yield violations of the kernel's tests, `folder` being tests/kernel."""
-    for path in sorted([*folder.glob("*.hpp"), *folder.glob("*.cpp")]):
+def check_tests(rooms: Rooms) -> Iterator[str]:
+    """Yield violations of the kernel's tests, whose folders are those of the kernel."""
+    folder = rooms.root / "tests/kernel"
+    paths = sources(folder)
+    for path in paths:
+        first = path.relative_to(folder).parts[0]
+        if first not in TEST_FOLDERS and f"kernel.{first}" not in rooms.rooms:
+            yield f"{path}:1: stands in {first}; the folders are the kernel's and {TEST_FOLDERS}"
         for number, name in includes(path):
             # Eigen: an independent reference for eigenvalues and linear systems
-            known = name.startswith(("flexpm/kernel/", "catch2/", "Eigen/"))
-            local = (folder / name).exists()
+            known = name.startswith(("flexpm/kernel/", "catch2/", "Eigen/", "benchmark/"))
+            local = (folder / name).exists() or (path.parent / name).exists()
             if not (known or local or "/" not in name):
                 yield f"{path}:{number}: includes {name}; kernel, Catch2 and Eigen are allowed"
+    yield from check_size(paths)
 
 
-def check_python(folder: Path) -> Iterator[str]:
-    """Yield violations of the package, `folder` being py/flexpm."""
-    for path in sorted(folder.rglob("*.py")):
+def hidden_imports(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Yield line and name of imports of own modules through a string, which no tool sees."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else None
+        name = node.func.id if isinstance(node.func, ast.Name) else name
+        if name not in {"import_module", "__import__"}:
+            continue
+        first = node.args[0] if node.args else None
+        text = first.value if isinstance(first, ast.Constant) else None
+        if not isinstance(text, str) or re.match(r"\.|flexpm\b", text):
+            yield node.lineno, name
+
+
+def check_python(rooms: Rooms) -> Iterator[str]:
+    """Yield violations of the package."""
+    folder = rooms.root / TREES["python"]
+    paths = sorted(folder.rglob("*.py"))
+    for path in paths:
         for number, line in enumerate(path.read_text().splitlines(), start=1):
             match = re.match(r"\s*(?:from|import)\s+(\w+)", line)
             homes = PYTHON_LIBRARIES.get(match.group(1)) if match else None
@@ -147,14 +332,21 @@ def check_python(folder: Path) -> Iterator[str]:
                 yield f"{path}:{number}: imports {match.group(1)}; only {', '.join(homes)} may"
             if re.match(r"\s*from\s+yade(\.\w+)?\s+import\s+\*", line):
                 yield f"{path}:{number}: imports all names of YADE; import the names that are used"
+        if rooms.listed("python"):
+            for number, name in hidden_imports(ast.parse(path.read_text(encoding="utf-8"))):
+                yield f"{path}:{number}: hides an import in a string ({name}); write it out"
+    uses = [use for path in paths for use in python_uses(path, folder)]
+    yield from check_tree(rooms, "python", paths, uses)
 
 
 def violations(root: Path) -> Iterator[str]:
     """Yield all violations of the tree at `root`, one line each."""
-    yield from check_kernel(root / "pkg/flexpm/kernel")
-    yield from check_adapters(root / "pkg/flexpm/yade")
-    yield from check_tests(root / "tests/kernel")
-    yield from check_python(root / "py/flexpm")
+    rooms = Rooms(root)
+    yield from check_table(rooms)
+    yield from check_kernel(rooms)
+    yield from check_adapters(rooms)
+    yield from check_tests(rooms)
+    yield from check_python(rooms)
 
 
 def main() -> int:

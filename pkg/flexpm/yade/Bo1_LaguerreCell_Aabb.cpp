@@ -2,7 +2,7 @@
 /// @file  Bounding box of a deformable grain.
 #include <flexpm/yade/LaguerreCell.hpp>
 
-#include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/yade/Bo1_LaguerreCell_Aabb.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 

@@ -2,7 +2,7 @@
 /// @file  The interaction loop of a packing of discs, paper Sec. 3.1.
 #pragma once
 
-#include <flexpm/kernel/disc_pair.hpp>
+#include <flexpm/kernel/geometry/disc_repulsion.hpp>
 #include <flexpm/yade/yade_lite.hpp>
 
 namespace yade {

@@ -2,7 +2,7 @@
 /// @file  Drawing a deformable grain.
 #include <flexpm/yade/LaguerreCell.hpp>
 
-#include <flexpm/kernel/grain_access.hpp>
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/yade/Gl1_LaguerreCell.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 

@@ -2,8 +2,8 @@
 /// @file  One step, and what YADE's objects see of it.
 #include <flexpm/yade/GrainSolver.hpp>
 
-#include <flexpm/kernel/centre_motion.hpp>
-#include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/motion/centre_motion.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
-#include <flexpm/kernel/near_pairs.hpp>
-#include <flexpm/kernel/stepping.hpp>
+#include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/yade/array_view.hpp>
 #include <flexpm/yade/assembly_archive.hpp>
 #include <flexpm/yade/yade_lite.hpp>

@@ -2,9 +2,9 @@
 /// @file  From Python's specimen and materials to the solver's arrays, bodies and interactions.
 #include <flexpm/yade/GrainSolver.hpp>
 
-#include <flexpm/kernel/assembly_build.hpp>
-#include <flexpm/kernel/gravity.hpp>
-#include <flexpm/kernel/mass_scaling.hpp>
+#include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/assembly_build.hpp>
 #include <flexpm/yade/GrainMat.hpp>
 #include <flexpm/yade/LaguerreCell.hpp>
 #include <flexpm/yade/LobattoContact.hpp>

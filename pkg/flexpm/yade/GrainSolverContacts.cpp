@@ -2,8 +2,8 @@
 /// @file  Contacts that come and go: the kernel's contacts to interactions.
 #include <flexpm/yade/GrainSolver.hpp>
 
-#include <flexpm/kernel/mass_scaling.hpp>
-#include <flexpm/kernel/retire.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/removal.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 
 #include <algorithm>

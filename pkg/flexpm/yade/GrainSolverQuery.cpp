@@ -2,12 +2,12 @@
 /// @file  What Python asks of the solver: energies, counts, arrays.
 #include <flexpm/yade/GrainSolver.hpp>
 
-#include <flexpm/kernel/boundary.hpp>
-#include <flexpm/kernel/elastic_solve.hpp>
-#include <flexpm/kernel/grain_access.hpp>
-#include <flexpm/kernel/measures.hpp>
-#include <flexpm/kernel/plate_contact.hpp>
-#include <flexpm/kernel/snapshot.hpp>
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/assembly/snapshot.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/statics/elastic_solve.hpp>
 
 #include <algorithm>
 

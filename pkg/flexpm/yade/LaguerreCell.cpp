@@ -2,9 +2,9 @@
 /// @file  Views of a grain's nodes.
 #include <flexpm/yade/LaguerreCell.hpp>
 
-#include <flexpm/kernel/grain_access.hpp>
-#include <flexpm/kernel/rigid_grain.hpp>
-#include <flexpm/kernel/stepping.hpp>
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/step/step.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 #include <flexpm/yade/LobattoContact.hpp>
 

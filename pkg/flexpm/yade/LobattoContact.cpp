@@ -2,8 +2,8 @@
 /// @file  Views of a bond's points.
 #include <flexpm/yade/LobattoContact.hpp>
 
-#include <flexpm/kernel/grain_access.hpp>
-#include <flexpm/kernel/snapshot.hpp>
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 
 namespace yade {

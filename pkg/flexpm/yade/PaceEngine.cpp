@@ -2,7 +2,7 @@
 /// @file  Pace of a test's loading.
 #include <flexpm/yade/PaceEngine.hpp>
 
-#include <flexpm/kernel/pace.hpp>
+#include <flexpm/kernel/laboratory/loading_rate.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 #include <flexpm/yade/PlateEngine.hpp>
 #include <flexpm/yade/PlatenEngine.hpp>

@@ -2,9 +2,9 @@
 /// @file  Driving plates.
 #include <flexpm/yade/PlateEngine.hpp>
 
-#include <flexpm/kernel/axial_test.hpp>
-#include <flexpm/kernel/plate_contact.hpp>
-#include <flexpm/kernel/static_start.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 
 namespace yade {

@@ -2,9 +2,9 @@
 /// @file  Platens, confinement and record.
 #include <flexpm/yade/PlatenEngine.hpp>
 
-#include <flexpm/kernel/axial_test.hpp>
-#include <flexpm/kernel/boundary.hpp>
-#include <flexpm/kernel/static_start.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/yade/GrainSolver.hpp>
 #include <flexpm/yade/PaceEngine.hpp>
 

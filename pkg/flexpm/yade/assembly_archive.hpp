@@ -2,7 +2,7 @@
 /// @file  How Boost saves the kernel's assembly: all members that flexpm::visit_state names.
 #pragma once
 
-#include <flexpm/kernel/assembly.hpp>
+#include <flexpm/kernel/assembly/assembly.hpp>
 
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/nvp.hpp>

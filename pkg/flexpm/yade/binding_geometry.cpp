@@ -4,10 +4,10 @@
 #include <flexpm/yade/binding_discs.hpp>
 #include <flexpm/yade/bindings.hpp>
 
-#include <flexpm/kernel/grain_mesh.hpp>
-#include <flexpm/kernel/insertion.hpp>
-#include <flexpm/kernel/radii.hpp>
-#include <flexpm/kernel/tessellation.hpp>
+#include <flexpm/kernel/fem/grain_mesh.hpp>
+#include <flexpm/kernel/geometry/disc_sizes.hpp>
+#include <flexpm/kernel/geometry/insertion.hpp>
+#include <flexpm/kernel/geometry/tessellation.hpp>
 
 #include <memory>
 

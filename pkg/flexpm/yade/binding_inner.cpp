@@ -3,7 +3,7 @@
 #include <flexpm/yade/array_view.hpp>
 #include <flexpm/yade/bindings.hpp>
 
-#include <flexpm/kernel/inner_cells.hpp>
+#include <flexpm/kernel/geometry/subdivision.hpp>
 
 #include <memory>
 

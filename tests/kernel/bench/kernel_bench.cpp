@@ -4,8 +4,8 @@
 /// (--benchmark_repetitions, --benchmark_enable_random_interleaving=true).
 #include "loaded.hpp"
 
-#include <flexpm/kernel/centre_motion.hpp>
-#include <flexpm/kernel/contact_block.hpp>
+#include <flexpm/kernel/forces/contact_forces.hpp>
+#include <flexpm/kernel/motion/centre_motion.hpp>
 
 #include <benchmark/benchmark.h>
 

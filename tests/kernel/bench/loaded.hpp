@@ -3,13 +3,13 @@
 /// lengths per unit step; tension positive.
 #pragma once
 
-#include <flexpm/kernel/axial_test.hpp>
-#include <flexpm/kernel/mass_scaling.hpp>
-#include <flexpm/kernel/plate_contact.hpp>
-#include <flexpm/kernel/static_start.hpp>
-#include <flexpm/kernel/stepping.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/step.hpp>
 
-#include "specimens.hpp"
+#include "support/specimens.hpp"
 
 #include <stdexcept>
 #include <string>

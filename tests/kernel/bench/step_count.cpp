@@ -2,7 +2,7 @@
 /// @file  A fixed number of steps of a fixed specimen; scripts/checks/instructions.py counts what they cost.
 #include "loaded.hpp"
 
-#include <flexpm/kernel/measures.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 
 #include <cstdio>
 #include <exception>

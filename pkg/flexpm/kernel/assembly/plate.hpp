@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  A rigid plate that loads grains through one-point contacts, paper Sec. 4.1. SI units; the
+/// normal points from the plate into the specimen, forces are positive along it.
+#pragma once
+
+#include <flexpm/kernel/core/types.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// A straight plate that does not turn. Its contacts are the middles of boundary edges of rigid
+/// grains, or both ends of those of deformable grains, each with half of the edge: a boundary node
+/// then carries its tributary length. Contacts are elastic and only press, unless the plate is bonded.
+struct Plate {
+    // what it is
+    int side = -1;                 ///< side of the outline it lies on; -1: none in particular
+    Point position;                ///< of a point of its face at the reference [m]
+    Point normal;                  ///< unit vector
+    double width = 0.0;            ///< of the face that takes pressure [m]
+    double stiffness = 0.0;        ///< normal stiffness per area K_n [Pa/m]
+    double shear_stiffness = 0.0;  ///< [Pa/m], of frictional contacts
+    double friction = 0.0;         ///< coefficient [-]; 0: smooth
+    bool bonded = false;           ///< pulls as well as it presses
+    int points = 1;                ///< per edge: 1 in the middle, 2 at the ends
+
+    // what drives it
+    bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
+    double load = 0.0;    ///< force on the plate along its normal [N]
+    Point velocity;       ///< half a step after `displacement` [m/s]
+    double mass = 0.0;    ///< of a loaded plate, scaled [kg]
+
+    // state
+    Point displacement;           ///< [m]
+    std::vector<int> edges;       ///< boundary edges that may touch it
+    std::vector<double> gap;      ///< [edge][point] at the reference [m]
+    std::vector<double> area;     ///< [edge][point] [m^2]
+    std::vector<double> opening;  ///< [edge][point] gap at the last step [m]
+    std::vector<double>
+        shear_force;  ///< [edge][point] on the grain along (-normal.y, normal.x) [N]
+    Point force;      ///< on the specimen at the last step [N]
+
+    // energy [J]
+    double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows
+    double damping_work = 0.0, damping_work_next = 0.0;
+    double friction_energy = 0.0;
+    double kinetic = 0.0;
+    double unbalanced = 0.0;  ///< force on a loaded plate that nothing balances [N]
+};
+
+/// Place of point `point` along its edge, 0 to 1.
+inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
+
+/// Calls visit(name, member) for all that must be saved to continue a run to the same bits.
+template <class PlateType, class Visitor> void visit_plate(PlateType& p, Visitor&& visit)
+{
+    visit("side", p.side);
+    visit("position_x", p.position.x);
+    visit("position_y", p.position.y);
+    visit("normal_x", p.normal.x);
+    visit("normal_y", p.normal.y);
+    visit("width", p.width);
+    visit("stiffness", p.stiffness);
+    visit("shear_stiffness", p.shear_stiffness);
+    visit("friction", p.friction);
+    visit("bonded", p.bonded);
+    visit("points", p.points);
+    visit("loaded", p.loaded);
+    visit("load", p.load);
+    visit("velocity_x", p.velocity.x);
+    visit("velocity_y", p.velocity.y);
+    visit("mass", p.mass);
+    visit("displacement_x", p.displacement.x);
+    visit("displacement_y", p.displacement.y);
+    visit("edges", p.edges);
+    visit("gap", p.gap);
+    visit("area", p.area);
+    visit("opening", p.opening);
+    visit("shear_force", p.shear_force);
+    visit("force_x", p.force.x);
+    visit("force_y", p.force.y);
+    visit("boundary_work", p.boundary_work);
+    visit("boundary_work_next", p.boundary_work_next);
+    visit("damping_work", p.damping_work);
+    visit("damping_work_next", p.damping_work_next);
+    visit("friction_energy", p.friction_energy);
+    visit("kinetic", p.kinetic);
+    visit("unbalanced", p.unbalanced);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The assembly unpacked into plain rows, for files and pictures. Tension positive, SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace flexpm {
+
+/// Nodes grain after grain, triangles grain after grain, contacts in their order.
+struct Snapshot {
+    std::vector<double> positions;   ///< [node][x, y] [m]
+    std::vector<double> reference;   ///< [node][x, y] [m]
+    std::vector<double> velocities;  ///< [node][x, y] [m/s]
+    std::vector<double> forces;      ///< [node][x, y] [N]
+
+    std::vector<std::int32_t> triangles;       ///< [triangle][3] nodes
+    std::vector<std::int32_t> triangle_grain;  ///< [triangle] grain of the rock
+    std::vector<std::int32_t>
+        triangle_particle;                ///< [triangle] what moves: grain or inner particle
+    std::vector<double> triangle_stress;  ///< [triangle][xx, yy, xy] Cauchy [Pa]
+
+    std::vector<std::int32_t> contact_grains;  ///< [contact][2] grains of the rock
+    std::vector<double> contact_ends;          ///< [contact][start, end][x, y] [m]
+    std::vector<double> point_opening;         ///< [contact][point] [m]
+    std::vector<double> point_slip;            ///< [contact][point] [m]
+    std::vector<double> point_damage;          ///< [contact][point] [-]
+    std::vector<double> point_traction;        ///< [contact][point][normal, shear] [Pa]
+    std::vector<std::int32_t> crack_step;      ///< [contact][point], -1 while intact
+    std::vector<std::int32_t> crack_mode;      ///< [contact][point] CrackMode
+    std::vector<double> crack_position;        ///< [contact][point][x, y] [m]
+};
+
+Snapshot take_snapshot(const Assembly& a);
+
+/// Normal and shear traction of a point [Pa], tension positive.
+Point point_traction(const Assembly& a, int contact, int point);
+
+/// Current end of a contact's edge (0 or 1): the middle between the two grains.
+Point contact_end(const Assembly& a, int contact, int end);
+
+}  // namespace flexpm

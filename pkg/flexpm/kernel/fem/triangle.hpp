@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Constant-strain triangle, linear elastic, total Lagrangian: exact under large rotation.
+/// Tension positive. Plane stress or plane strain, paper Sec. 2.1 and 3.1.
+#pragma once
+
+#include <flexpm/kernel/core/types.hpp>
+
+namespace flexpm {
+
+enum class Plane { stress, strain };
+
+/// Elastic properties of a grain.
+struct ElasticMaterial {
+    double young = 0.0;    ///< [Pa], > 0
+    double poisson = 0.0;  ///< [-], 0 < nu < 0.5
+    double density = 0.0;  ///< [kg/m^3], > 0
+    Plane plane = Plane::stress;
+};
+
+/// Plane stiffness: S11 = normal E11 + cross E22, S12 = 2 shear E12 [Pa].
+struct PlaneStiffness {
+    double normal;
+    double cross;
+    double shear;
+};
+
+/// @throws std::invalid_argument  if a property is not finite or out of range
+PlaneStiffness plane_stiffness(const ElasticMaterial& material);
+
+/// Reference shape: gradients of the shape functions of nodes 1 and 2, and the volume.
+struct TriangleShape {
+    double g1x, g1y, g2x, g2y;  ///< [1/m]
+    double volume;              ///< area times thickness [m^3]
+};
+
+/// @throws std::invalid_argument  if the triangle is not counter-clockwise
+TriangleShape triangle_shape(Point p0, Point p1, Point p2, double thickness);
+
+/// Symmetric tensor of the plane.
+struct Tensor {
+    double xx, yy, xy;
+};
+
+/// Displacement gradient H: xy is the derivative of the x displacement along y.
+struct Gradient {
+    double xx, xy, yx, yy;
+};
+
+/// From the displacements of the three nodes [m]: small strains keep all their digits.
+__attribute__((always_inline)) inline Gradient displacement_gradient(
+    const TriangleShape& s, Point u0, Point u1, Point u2)
+{
+    const double ax = u1.x - u0.x, ay = u1.y - u0.y;
+    const double bx = u2.x - u0.x, by = u2.y - u0.y;
+    return { ax * s.g1x + bx * s.g2x, ax * s.g1y + bx * s.g2y, ay * s.g1x + by * s.g2x,
+        ay * s.g1y + by * s.g2y };
+}
+
+/// Green-Lagrange strain [-].
+__attribute__((always_inline)) inline Tensor green_strain(const Gradient& h)
+{
+    return { h.xx + 0.5 * (h.xx * h.xx + h.yx * h.yx), h.yy + 0.5 * (h.xy * h.xy + h.yy * h.yy),
+        0.5 * (h.xy + h.yx + h.xx * h.xy + h.yx * h.yy) };
+}
+
+/// Second Piola-Kirchhoff stress [Pa].
+__attribute__((always_inline)) inline Tensor stress(const PlaneStiffness& c, const Tensor& e)
+{
+    return { c.normal * e.xx + c.cross * e.yy, c.cross * e.xx + c.normal * e.yy,
+        2.0 * c.shear * e.xy };
+}
+
+/// First Piola-Kirchhoff stress (I + H) S [Pa].
+__attribute__((always_inline)) inline Gradient first_stress(const Gradient& h, const Tensor& p)
+{
+    return { p.xx + h.xx * p.xx + h.xy * p.xy, p.xy + h.xx * p.xy + h.xy * p.yy,
+        p.xy + h.yx * p.xx + h.yy * p.xy, p.yy + h.yx * p.xy + h.yy * p.yy };
+}
+
+/// Forces that the triangle exerts on its nodes 1 and 2 [N]; node 0 gets minus their sum.
+struct TriangleForces {
+    double f1x, f1y, f2x, f2y;
+};
+
+/// @param u0, u1, u2  displacements of the nodes [m]
+__attribute__((always_inline)) inline TriangleForces triangle_forces(
+    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
+{
+    const Gradient h = displacement_gradient(s, u0, u1, u2);
+    const Gradient p = first_stress(h, stress(c, green_strain(h)));
+    return { -s.volume * (p.xx * s.g1x + p.xy * s.g1y), -s.volume * (p.yx * s.g1x + p.yy * s.g1y),
+        -s.volume * (p.xx * s.g2x + p.xy * s.g2y), -s.volume * (p.yx * s.g2x + p.yy * s.g2y) };
+}
+
+/// Strain energy of the triangle [J].
+__attribute__((always_inline)) inline double triangle_energy(
+    const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
+{
+    const Tensor e = green_strain(displacement_gradient(s, u0, u1, u2));
+    const Tensor p = stress(c, e);
+    return 0.5 * s.volume * (p.xx * e.xx + p.yy * e.yy + 2.0 * p.xy * e.xy);
+}
+
+/// Cauchy stress [Pa].
+Tensor cauchy_stress(const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2);
+
+/// 2x2 block of the linear stiffness between nodes a and b (0..2) at the reference shape [N/m],
+/// row by row: xx, xy, yx, yy.
+struct StiffnessBlock {
+    double xx, xy, yx, yy;
+};
+StiffnessBlock stiffness_block(const TriangleShape& s, const PlaneStiffness& c, int a, int b);
+
+}  // namespace flexpm

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The record of cracked points: when, how and where.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+namespace flexpm {
+
+/// Note the points of a block of contacts that `cracked` marks, [point][lane], as cracked at the end of
+/// the step `dt` that is under way.
+void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracked);
+
+}  // namespace flexpm

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Sides of a specimen: held and driven nodes, reactions, mean displacements, pressure,
+/// paper Sec. 4.1. Components: 0 = x, 1 = y.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// Offsets of the nodes on one side of the outline, ascending, each once.
+std::vector<int> side_nodes(const Assembly& a, int side);
+
+/// Prescribe one velocity component of the nodes [m/s].
+void drive(Assembly& a, const std::vector<int>& nodes, int component, double velocity);
+
+/// After velocities were prescribed between two steps: what the present forces work in the half step
+/// that follows goes with the new velocities, see integrate_one().
+void rebook_driven(Assembly& a, double dt);
+
+/// Integrate the component again, from the velocity it has.
+void release(Assembly& a, const std::vector<int>& nodes, int component);
+
+/// Force that the holder exerts on the nodes [N]: minus the sum of the nodal forces.
+double reaction(const Assembly& a, const std::vector<int>& nodes, int component);
+
+/// Mean displacement of a side, weighted by edge length [m].
+double side_displacement(const Assembly& a, int side, int component);
+
+/// Reference length of a side [m].
+double side_length(const Assembly& a, int side);
+
+/// Pressure on a side, on the deformed edges, compressive positive [Pa].
+void set_pressure(Assembly& a, int side, double pressure);
+
+/// Pressure acts on some boundary edge, or has acted until the last step.
+bool is_pressed(const Assembly& a);
+
+/// Update the pressure forces on block `block` of boundary edges, at the positions reached at the end of
+/// the step `dt`; returns their work [J].
+double update_edge_block(Assembly& a, int block, double dt);
+
+}  // namespace flexpm

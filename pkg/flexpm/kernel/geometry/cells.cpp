@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Single cells of a specimen: their outlines and what follows from them. A source of its own,
+/// so that what only reads a tessellation needs no CGAL.
+#include <flexpm/kernel/geometry/edge_collapse.hpp>
+#include <flexpm/kernel/geometry/tessellation.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+std::vector<Point> cell_polygon(const Tessellation& t, int cell)
+{
+    std::vector<Point> polygon;
+    for (int k = t.cell_offsets[cell]; k < t.cell_offsets[cell + 1]; ++k)
+        polygon.push_back(t.vertices[t.cell_vertices[k]]);
+    return polygon;
+}
+
+double cell_area(const Tessellation& t, int cell)
+{
+    return polygon_shape(cell_polygon(t, cell)).area;
+}
+
+Point cell_centroid(const Tessellation& t, int cell)
+{
+    return polygon_shape(cell_polygon(t, cell)).centroid;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What discs must fulfil before they are given Laguerre cells, paper Sec. 3.1.
+#include <flexpm/kernel/geometry/disc_checks.hpp>
+
+#include <flexpm/kernel/core/format.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace flexpm {
+
+void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
+{
+    if (discs.empty())
+        throw std::invalid_argument("tessellate: discs = 0, must be >= 1; give at least one disc");
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const Disc& d = discs[i];
+        const std::string name = "tessellate: disc " + std::to_string(i);
+        if (!std::isfinite(d.centre.x) || !std::isfinite(d.centre.y))
+            throw std::invalid_argument(name + ": centre is not finite; give finite coordinates");
+        if (!(std::isfinite(d.radius) && d.radius > 0.0))
+            throw std::invalid_argument(name + ": radius = " + number(d.radius)
+                + " m, must be finite and > 0; remove or correct the disc");
+        if (!contains(outline, d.centre))
+            throw std::invalid_argument(name + ": centre = (" + number(d.centre.x) + ", "
+                + number(d.centre.y) + ") m, must lie inside the outline; move or remove it");
+    }
+}
+
+std::vector<bool> find_coincident(const std::vector<Disc>& discs)
+{
+    double tolerance = 0.0;
+    for (const Disc& d : discs)
+        tolerance += 1e-6 * 2.0 * d.radius / static_cast<double>(discs.size());
+    std::vector<int> order(discs.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+        [&](int i, int j) { return discs[i].centre.x < discs[j].centre.x; });
+
+    std::vector<bool> coincident(discs.size(), false);
+    for (std::size_t k = 0; k < order.size(); ++k)
+        for (std::size_t l = k + 1; l < order.size(); ++l) {
+            const int i = std::min(order[k], order[l]), j = std::max(order[k], order[l]);
+            const Point a = discs[i].centre, b = discs[j].centre;
+            if (std::abs(b.x - a.x) > tolerance) break;
+            if (std::abs(b.y - a.y) > tolerance) continue;
+            coincident[discs[j].radius > discs[i].radius ? i : j] = true;
+        }
+    return coincident;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Two discs of a packing that push each other apart in proportion to their overlap, paper
+/// Sec. 3.1. Lengths in mean diameters, stiffness and mass without units.
+#pragma once
+
+#include <flexpm/kernel/core/types.hpp>
+
+#include <cmath>
+
+namespace flexpm {
+
+/// Two discs and what is known of them as long as they keep touching, or keep apart.
+struct DiscPair {
+    double reach = 0.0;      ///< sum of the radii
+    double stiffness = 0.0;  ///< force over overlap
+    bool touching = false;
+};
+
+/// What a pair does in a step.
+struct PairPush {
+    bool changes = false;  ///< the pair begins or ceases to touch: the push is not given
+    Point push;            ///< force on the second disc, the first takes the opposite; 0 if apart
+};
+
+/// Push of the discs at `first` and `second`. The order of operations is that of YADE's spheres, to
+/// the last bit, so that a packing does not depend on which of the two computed it.
+inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
+{
+    const double x = second.x - first.x, y = second.y - first.y;
+    const double square = x * x + y * y;
+    if (!pair.touching) {
+        // pairs within rounding of touching are left to the code that decides
+        constexpr double rounding = 1e-12;
+        return { square <= pair.reach * pair.reach * (1.0 + rounding), {} };
+    }
+    const double distance = std::sqrt(square);
+    const double overlap = pair.reach - distance;
+    if (overlap < 0.0) return { true, {} };
+    const double force = pair.stiffness * overlap;
+    return { false, { force * (x / distance), force * (y / distance) } };
+}
+
+}  // namespace flexpm

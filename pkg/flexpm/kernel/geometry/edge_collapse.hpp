@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Collapse of short edges of a cell complex, paper Sec. 3.1.
+#pragma once
+
+#include <flexpm/kernel/geometry/power_diagram.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// What a polygon looks like from its centroid; see is_star_shaped().
+struct PolygonShape {
+    double area = 0.0;
+    Point centroid;
+};
+
+/// Area (positive counter-clockwise) and centroid of a polygon.
+PolygonShape polygon_shape(const std::vector<Point>& polygon);
+
+/// True if the polygon has three corners or more, winds once round the point, and each triangle
+/// (point, edge) has an area above `smallest`.
+bool is_star_shaped(const std::vector<Point>& polygon, Point from, double smallest);
+
+/// Collapses edges shorter than `threshold`, shortest first, ties by vertex index. Two inner
+/// vertices meet in the middle; outline corners stay, outline vertices stay on the outline. Cells
+/// without edges (hidden discs) are ignored. A collapse that would spoil a cell is not made.
+///
+/// @param smallest  smallest area of a triangle (centroid, edge) of a changed cell; a small
+///                  negative value lets edges of zero length go one by one
+/// @return          per vertex: does an edge end here that was collapsed into it
+std::vector<bool> collapse_edges(
+    PowerDiagram& diagram, const Outline& outline, double threshold, double smallest);
+
+}  // namespace flexpm

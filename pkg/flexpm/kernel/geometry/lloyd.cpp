@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Seeds of inner particles: capacity-constrained Lloyd relaxation in one grain.
+#include <flexpm/kernel/geometry/edge_collapse.hpp>
+#include <flexpm/kernel/geometry/subdivision.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int most_rounds = 400;
+constexpr double area_tolerance = 0.01;  // of the mean area
+
+using Cell = std::vector<InnerCorner>;
+
+std::vector<Point> points_of(const Cell& cell)
+{
+    std::vector<Point> points;
+    for (const InnerCorner& c : cell)
+        points.push_back(c.point);
+    return points;
+}
+
+bool inside(const std::vector<Point>& polygon, Point p)
+{
+    bool in = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Point a = polygon[i], b = polygon[j];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y))
+            in = !in;
+    }
+    return in;
+}
+
+/// Evenly spread points of a sequence without randomness (Roberts' generalised golden ratio).
+std::vector<Point> first_seeds(const std::vector<Point>& polygon, int count)
+{
+    Point low = polygon.front(), high = low;
+    for (Point p : polygon) {
+        low = { std::min(low.x, p.x), std::min(low.y, p.y) };
+        high = { std::max(high.x, p.x), std::max(high.y, p.y) };
+    }
+    std::vector<Point> seeds;
+    for (int i = 1; static_cast<int>(seeds.size()) < count; ++i) {
+        const double u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0);
+        const double v = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
+        const Point p = { low.x + u * (high.x - low.x), low.y + v * (high.y - low.y) };
+        if (inside(polygon, p)) seeds.push_back(p);
+    }
+    return seeds;
+}
+
+/// The part of a cell where `offset + slope . x` is not positive; the new edge gets the tag.
+void clip(Cell& cell, Point slope, double offset, int tag, Cell& scratch)
+{
+    const auto value = [&](Point p) { return slope.x * p.x + slope.y * p.y + offset; };
+    scratch.clear();
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        const InnerCorner &a = cell[i], &b = cell[(i + 1) % cell.size()];
+        const double fa = value(a.point), fb = value(b.point);
+        if (fa <= 0.0) scratch.push_back(a);
+        if ((fa <= 0.0) == (fb <= 0.0)) continue;
+        const double t = fa / (fa - fb);
+        const Point cut = { a.point.x + t * (b.point.x - a.point.x),
+            a.point.y + t * (b.point.y - a.point.y) };
+        scratch.push_back({ cut, fa <= 0.0 ? tag : a.tag });
+    }
+    cell.swap(scratch);
+}
+
+/// Power cells of the seeds inside the polygon.
+void cut_cells(
+    const std::vector<Point>& polygon, const std::vector<double>& weights, InnerPacking& packing)
+{
+    const int count = static_cast<int>(packing.seeds.size());
+    Cell scratch;
+    for (int i = 0; i < count; ++i) {
+        Cell& cell = packing.cells[i];
+        cell.clear();
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            cell.push_back({ polygon[k], -1 - static_cast<int>(k) });
+        }
+        const Point s = packing.seeds[i];
+        for (int j = 0; j < count; ++j) {
+            if (j == i) continue;
+            const Point o = packing.seeds[j];
+            clip(cell, { 2.0 * (o.x - s.x), 2.0 * (o.y - s.y) },
+                s.x * s.x + s.y * s.y - o.x * o.x - o.y * o.y + weights[j] - weights[i], j,
+                scratch);
+        }
+    }
+}
+
+/// How fast a cell's area grows with its weight [-].
+double growth(const InnerPacking& packing, int cell)
+{
+    double sum = 0.0;
+    const Cell& c = packing.cells[cell];
+    for (std::size_t k = 0; k < c.size(); ++k) {
+        if (c[k].tag < 0) continue;
+        const Point a = c[k].point, b = c[(k + 1) % c.size()].point;
+        const Point s = packing.seeds[cell], o = packing.seeds[c[k].tag];
+        sum += 0.5 * std::hypot(b.x - a.x, b.y - a.y) / std::hypot(o.x - s.x, o.y - s.y);
+    }
+    return sum;
+}
+
+}  // namespace
+
+InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
+{
+    // about the centroid: differences of squared places keep their digits
+    const PolygonShape shape = polygon_shape(polygon);
+    std::vector<Point> local;
+    for (Point p : polygon)
+        local.push_back({ p.x - shape.centroid.x, p.y - shape.centroid.y });
+    InnerPacking packing { first_seeds(local, count), std::vector<Cell>(count) };
+    std::vector<double> weights(count, 0.0);
+    const double mean = shape.area / count;
+    for (int round = 0; round < most_rounds; ++round) {
+        cut_cells(local, weights, packing);
+        double worst = 0.0, moved = 0.0;
+        std::vector<Point> next = packing.seeds;
+        for (int i = 0; i < count; ++i) {
+            const PolygonShape s = packing.cells[i].size() < 3
+                ? PolygonShape {}
+                : polygon_shape(points_of(packing.cells[i]));
+            worst = std::max(worst, std::fabs(s.area / mean - 1.0));
+            weights[i] += 0.5 * (mean - s.area) / std::max(growth(packing, i), 0.5);
+            // an empty cell keeps its seed: its weight brings it back
+            if (s.area > 0.0) next[i] = s.centroid;
+            moved = std::max(
+                moved, std::hypot(next[i].x - packing.seeds[i].x, next[i].y - packing.seeds[i].y));
+        }
+        if (worst < area_tolerance && moved < 0.01 * std::sqrt(mean)) break;
+        packing.seeds = next;
+    }
+    cut_cells(local, weights, packing);
+    for (Point& p : packing.seeds)
+        p = { p.x + shape.centroid.x, p.y + shape.centroid.y };
+    for (Cell& cell : packing.cells) {
+        for (InnerCorner& c : cell) {
+            c.point = { c.point.x + shape.centroid.x, c.point.y + shape.centroid.y };
+        }
+    }
+    return packing;
+}
+
+}  // namespace flexpm

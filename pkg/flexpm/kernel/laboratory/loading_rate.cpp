@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Pace of a loading.
+#include <flexpm/kernel/laboratory/loading_rate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexpm {
+
+double dissipated_share(const Dissipation& before, const Dissipation& now)
+{
+    const double taken = now.damage + now.friction - before.damage - before.friction;
+    const double work = now.boundary_work - before.boundary_work;
+    if (!(taken > 0.0)) return 0.0;
+    return work > 0.0 ? taken / work : std::numeric_limits<double>::infinity();
+}
+
+double next_pace(double pace, double share, double steps, const PaceRule& rule)
+{
+    const double crossings = steps / rule.crossing;
+    const double wanted =
+        share > 0.0 ? std::clamp(rule.slow_share / share, 1.0, rule.fastest) : rule.fastest;
+    return std::clamp(wanted, pace * std::exp2(-4.0 * crossings), pace * std::exp2(crossings));
+}
+
+}  // namespace flexpm

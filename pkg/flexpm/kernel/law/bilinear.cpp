@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Parameters of the bilinear law and their checks.
+#include <flexpm/kernel/law/bilinear.hpp>
+
+#include <flexpm/kernel/core/checks.hpp>
+
+namespace flexpm {
+
+namespace {
+
+// relative tolerance on "fracture energy = elastic energy", the brittle limit
+constexpr double brittle_tolerance = 1e-12;
+
+/// 1 / (critical - elastic), or `brittle_rate` where the two agree.
+double rate(double critical, double elastic)
+{
+    return critical - elastic > brittle_tolerance * elastic ? 1.0 / (critical - elastic)
+                                                            : brittle_rate;
+}
+
+}  // namespace
+
+LawParameters make_law(const ContactMaterial& m)
+{
+    check_positive("normal_stiffness", m.normal_stiffness, "Pa/m");
+    check_positive("shear_ratio", m.shear_ratio, "");
+    check_positive("tensile_strength", m.tensile_strength, "Pa");
+    check_positive("cohesion", m.cohesion, "Pa");
+    check_not_negative("friction", m.friction, "");
+    check_positive("tensile_fracture_energy", m.tensile_fracture_energy, "N/m");
+    check_positive("shear_fracture_energy", m.shear_fracture_energy, "N/m");
+
+    LawParameters p;
+    p.normal_stiffness = m.normal_stiffness;
+    p.shear_stiffness = m.shear_ratio * m.normal_stiffness;
+    p.tensile_strength = m.tensile_strength;
+    p.cohesion = m.cohesion;
+    p.friction = m.friction;
+    const double tensile_least = 0.5 * m.tensile_strength * m.tensile_strength / p.normal_stiffness;
+    const double shear_least = 0.5 * m.cohesion * m.cohesion / p.shear_stiffness;
+    check_at_least("tensile_fracture_energy", m.tensile_fracture_energy,
+        tensile_least * (1.0 - brittle_tolerance), "N/m");
+    check_at_least("shear_fracture_energy", m.shear_fracture_energy,
+        shear_least * (1.0 - brittle_tolerance), "N/m");
+
+    p.elastic_opening = m.tensile_strength / p.normal_stiffness;
+    p.critical_opening =
+        std::max(2.0 * m.tensile_fracture_energy / m.tensile_strength, p.elastic_opening);
+    p.opening_rate = rate(p.critical_opening, p.elastic_opening);
+    const double elastic_slip = m.cohesion / p.shear_stiffness;
+    p.critical_slip = std::max(2.0 * m.shear_fracture_energy / m.cohesion, elastic_slip);
+    // eta K_n - tau / s_c = eta K_n (1 - s_e / s_c)
+    const double slip_rate = rate(p.critical_slip, elastic_slip);
+    p.slip_rate =
+        slip_rate < brittle_rate ? slip_rate * p.critical_slip / p.shear_stiffness : brittle_rate;
+    return p;
+}
+
+ContactMaterial unbreakable(const ContactMaterial& material)
+{
+    constexpr double far = 1.0;  // [m]
+    ContactMaterial m = material;
+    m.tensile_strength = m.normal_stiffness * far;
+    m.cohesion = m.shear_ratio * m.normal_stiffness * far;
+    m.tensile_fracture_energy = m.tensile_strength * far;
+    m.shear_fracture_energy = m.cohesion * far;
+    return m;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Sums over an assembly: energies, unbalanced force, cracks, and the search for bad numbers.
+/// All sums run in a fixed order.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <string>
+
+namespace flexpm {
+
+/// Energy books at the last step [J]. What went in, boundary_work + initial, equals the sum of the
+/// others but for the discrete steps of the law.
+struct Energies {
+    double kinetic = 0.0;  ///< 1/2 m v(n-1/2) v(n+1/2); of the last measured step
+    double elastic = 0.0;  ///< triangles and contact points
+    double damage = 0.0;
+    double friction = 0.0;
+    double damping = 0.0;
+    double potential = 0.0;      ///< in the field of gravity, 0 at the reference
+    double boundary_work = 0.0;  ///< of held nodes and of edge pressure
+    double initial = 0.0;
+};
+
+Energies energies(const Assembly& a);
+
+/// Those of the energies that say what a loading does to the specimen [J].
+struct Dissipation {
+    double damage = 0.0;
+    double friction = 0.0;
+    double boundary_work = 0.0;
+};
+
+Dissipation dissipation(const Assembly& a);
+
+/// Open the energy books: the present energy becomes the initial energy, works and
+/// dissipation count from zero. Before the first step the kinetic energy is that of the velocities
+/// set; later it is that of the last step, which must have been measured.
+void open_books(Assembly& a);
+
+/// Kinetic energy as if no force acted on the present velocities: 1/2 m v^2 [J].
+double kinetic_of_velocities(const Assembly& a);
+
+/// Largest force component on a free node over the mean contact force [-]; of the last measured
+/// step. 0 without contact forces.
+double unbalanced_ratio(const Assembly& a);
+
+struct CrackCount {
+    int tensile = 0;
+    int shear = 0;
+};
+CrackCount count_cracks(const Assembly& a);
+
+/// Empty if all is well, else one line that names the step, the grain and the quantity that is not a
+/// finite number.
+std::string find_bad_number(const Assembly& a);
+
+}  // namespace flexpm

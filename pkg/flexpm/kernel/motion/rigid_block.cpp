@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Rigid grains, `lanes` at a time.
+#include <flexpm/kernel/motion/rigid_block.hpp>
+
+#include <flexpm/kernel/core/simd.hpp>
+
+namespace flexpm {
+
+namespace {
+
+/// A rotation by a small angle: what turning by it adds to a vector.
+struct Turn {
+    double along;   ///< cos - 1
+    double across;  ///< sin
+};
+
+/// By tan(angle / 2): a rotation to round-off for any value of it, free of branches. The series is
+/// exact to round-off up to a tenth of a turn in one step.
+__attribute__((always_inline)) inline Turn turn_by(double angle)
+{
+    const double h = 0.5 * angle, q = h * h;
+    const double t = h
+        * (1.0
+            + q
+                * (1.0 / 3.0
+                    + q
+                        * (2.0 / 15.0
+                            + q * (17.0 / 315.0 + q * (62.0 / 2835.0 + q * (1382.0 / 155925.0))))));
+    const double scale = 2.0 * t / (1.0 + t * t);
+    return { -t * scale, scale };
+}
+
+/// Forces and moments of a block's grains about their centres, and for the unbalanced ratio the
+/// squares of the longest arms.
+struct Resultants {
+    alignas(64) double x[lanes], y[lanes], moment[lanes], reach[lanes];
+};
+
+__attribute__((always_inline)) inline void move_centres(const RigidRows& b, int centre, double dt)
+{
+    double *along = b.rotation, *across = b.rotation + lanes, *angle = b.rotation + 2 * lanes;
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        const Turn turn = turn_by(dt * b.spin[l]);
+        const double k = along[l] + turn.along * (1.0 + along[l]) - turn.across * across[l];
+        const double s = across[l] + turn.along * across[l] + turn.across * (1.0 + along[l]);
+        // keep cos^2 + sin^2 = 1 against the growth of round-off
+        const double excess = 0.5 * (2.0 * k + k * k + s * s);
+        along[l] = k - excess * (1.0 + k);
+        across[l] = s - excess * s;
+        angle[l] += dt * b.spin[l];
+        b.displacement[centre + l] += dt * b.velocity[centre + l];
+        b.displacement[centre + lanes + l] += dt * b.velocity[centre + lanes + l];
+    }
+}
+
+/// Move the outer nodes with the grains and sum the forces there. With `Move` false nodes stay where
+/// they are. Arms about the centres are left in the place of the nodes' velocities.
+template <bool Move, bool Measure>
+__attribute__((always_inline)) inline void find_arms(
+    const RigidRows& b, int centre, Resultants& sum)
+{
+    const double *along = b.rotation, *across = b.rotation + lanes;
+    const double *origin = b.reference + centre, *way = b.displacement + centre;
+    for (int i = 0; i < centre; i += 2 * lanes) {
+        const double *reference = b.reference + i, *force = b.force + i;
+        double *u = b.displacement + i, *arm = b.velocity + i;
+#pragma GCC ivdep
+        for (int l = 0; l < lanes; ++l) {
+            const int y = lanes + l;
+            const double x0 = reference[l] - origin[l], y0 = reference[y] - origin[y];
+            if (Move) {
+                u[l] = way[l] + (along[l] * x0 - across[l] * y0);
+                u[y] = way[y] + (across[l] * x0 + along[l] * y0);
+            }
+            const double rx = x0 + (u[l] - way[l]), ry = y0 + (u[y] - way[y]);
+            arm[l] = rx;
+            arm[y] = ry;
+            sum.x[l] += force[l];
+            sum.y[l] += force[y];
+            sum.moment[l] += rx * force[y] - ry * force[l];
+            if (Measure) sum.reach[l] = std::max(sum.reach[l], rx * rx + ry * ry);
+        }
+    }
+}
+
+/// Velocities of the outer nodes, of the arms that are in their place.
+__attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, int centre, double dt)
+{
+    alignas(64) double along[lanes], across[lanes];
+    for (int l = 0; l < lanes; ++l) {
+        const Turn turn = turn_by(dt * b.spin[l]);
+        along[l] = turn.along / dt;
+        across[l] = turn.across / dt;
+    }
+    const double* of_centre = b.velocity + centre;
+    for (int i = 0; i < centre; i += 2 * lanes) {
+        double* v = b.velocity + i;
+#pragma GCC ivdep
+#pragma GCC unroll 1  // unrolled, the compiler takes the nodes for lanes
+        for (int l = 0; l < lanes; ++l) {
+            const double rx = v[l], ry = v[lanes + l];
+            v[l] = of_centre[l] + (along[l] * rx - across[l] * ry);
+            v[lanes + l] = of_centre[lanes + l] + (across[l] * rx + along[l] * ry);
+        }
+    }
+}
+
+bool holds_any(const RigidRows& b)
+{
+    std::uint8_t any = 0;
+    for (int l = 0; l < lanes; ++l)
+        any |= b.held[l] | b.held[lanes + l] | b.spin_held[l];
+    return any != 0;
+}
+
+template <bool Measure, bool Held>
+__attribute__((always_inline)) inline void integrate_lanes(
+    const RigidRows& b, int centre, const Resultants& f, double dt, double damping, StepSums& total)
+{
+    StepSums sums;                            // a local, which no row aliases
+    alignas(64) double held[3 * lanes] = {};  // bytes and doubles in one loop are not vectorised
+    if (Held) {
+        std::copy_n(b.held, 2 * lanes, held);
+        std::copy_n(b.spin_held, lanes, held + 2 * lanes);
+    }
+    double* v = b.velocity + centre;
+#pragma GCC ivdep
+    for (int l = 0; l < lanes; ++l) {
+        const int y = lanes + l;
+        integrate_one<Measure, Held>(
+            f.x[l], held[l], b.inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
+        integrate_one<Measure, Held>(
+            f.y[l], held[y], b.inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
+        integrate_one<Measure, Held>(f.moment[l], held[2 * lanes + l], b.inverse_inertia[l],
+            Measure ? std::sqrt(f.reach[l]) : 1.0, dt, damping, b.spin[l], sums, l);
+    }
+    sums.copy_to(total);
+}
+
+template <bool Measure>
+__attribute__((always_inline)) inline void step_lanes(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
+{
+    const int centre = 2 * (b.nodes - 1) * lanes;
+    move_centres(b, centre, dt);
+    Resultants f;
+    for (int l = 0; l < lanes; ++l) {
+        f.x[l] = b.force[centre + l];
+        f.y[l] = b.force[centre + lanes + l];
+        f.moment[l] = f.reach[l] = 0.0;
+    }
+    find_arms<true, Measure>(b, centre, f);
+    if (holds_any(b)) {
+        integrate_lanes<Measure, true>(b, centre, f, dt, damping, sums);
+    } else {
+        integrate_lanes<Measure, false>(b, centre, f, dt, damping, sums);
+    }
+    spread_lanes(b, centre, dt);
+}
+
+}  // namespace
+
+FLEXPM_MULTIVERSION void step_rigid(const RigidRows& b, double dt, double damping, StepSums& sums)
+{
+    step_lanes<false>(b, dt, damping, sums);
+}
+
+FLEXPM_MULTIVERSION void step_rigid_measured(
+    const RigidRows& b, double dt, double damping, StepSums& sums)
+{
+    step_lanes<true>(b, dt, damping, sums);
+}
+
+void spread_velocities(const RigidRows& b, double dt)
+{
+    const int centre = 2 * (b.nodes - 1) * lanes;
+    Resultants unused = {};
+    find_arms<false, false>(b, centre, unused);
+    spread_lanes(b, centre, dt);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One rigid grain at a time: its motion and its geometry. SI units, rotations counter-clockwise.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/motion/rigid_block.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+RigidRows rigid_rows(Assembly& a, int block);
+
+/// Index of a grain in the arrays with one value per rigid grain; [block][row] if there are `rows`.
+int rigid_index(const Assembly& a, int grain, int row = 0, int rows = 1);
+
+/// Velocity of the centre [m/s] and spin [rad/s]; the nodes follow. Use this, not the velocities of
+/// nodes, for a rigid grain.
+void set_motion(Assembly& a, int grain, Point velocity, double spin, double dt);
+
+/// Prescribe the spin [rad/s] instead of integrating it.
+void drive_spin(Assembly& a, int grain, double spin, double dt);
+
+/// Angle from the reference [rad].
+double rotation_of(const Assembly& a, int grain);
+
+/// Cosine and sine of half the angle from the reference, a quaternion's components.
+struct HalfTurn {
+    double cosine, sine;
+};
+HalfTurn half_turn(const Assembly& a, int grain);
+
+/// The same from cos - 1 and sin of the whole angle, up to a cosine of half of it of
+/// `least_half_cosine`: near half a turn the quotient would lose its digits.
+constexpr double least_half_cosine = 0.5;
+__attribute__((always_inline)) inline HalfTurn half_turn_of(double along, double across)
+{
+    const double cosine = std::sqrt(std::max(1.0 + 0.5 * along, 0.0));
+    return { cosine, 0.5 * across / cosine };
+}
+
+/// Reference area of the cell [m^2] and its polar second moment about its centroid [m^4].
+struct CellSection {
+    double area;
+    double polar;
+};
+CellSection cell_section(const Assembly& a, int grain);
+
+/// Sum of the nodal forces on a grain [N], and their moment about its centre [N m].
+struct Resultant {
+    Point force;
+    double moment;
+};
+Resultant resultant_on(const Assembly& a, int grain);
+
+}  // namespace flexpm

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Nodal stiffness bound, scaled and real masses.
+#include <flexpm/kernel/step/mass_scaling.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/motion/rigid_grain.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace flexpm {
+
+namespace {
+
+/// Largest singular value of a 2x2 block.
+double norm(const StiffnessBlock& k)
+{
+    const double sum = k.xx * k.xx + k.xy * k.xy + k.yx * k.yx + k.yy * k.yy;
+    const double det = k.xx * k.yy - k.xy * k.yx;
+    return std::sqrt(0.5 * (sum + std::sqrt(std::max(sum * sum - 4.0 * det * det, 0.0))));
+}
+
+void add_elements(const Assembly& a, int grain, Array<double>& bound)
+{
+    if (a.is_rigid(grain)) return;
+    const int nodes = a.nodes_of(grain);
+    std::vector<StiffnessBlock> rows(nodes * nodes, StiffnessBlock { 0.0, 0.0, 0.0, 0.0 });
+    const PlaneStiffness c = stiffness_of(a, grain);
+    for (int t = 0; t < triangles_of(a, grain); ++t) {
+        const auto n = triangle_nodes(a, grain, t);
+        const TriangleShape s = shape_of(a, grain, t);
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                const StiffnessBlock k = stiffness_block(s, c, i, j);
+                StiffnessBlock& sum = rows[n[i] * nodes + n[j]];
+                sum = { sum.xx + k.xx, sum.xy + k.xy, sum.yx + k.yx, sum.yy + k.yy };
+            }
+        }
+    }
+    for (int i = 0; i < nodes; ++i) {
+        for (int j = 0; j < nodes; ++j) {
+            bound[scalar_index(a.node(grain, i))] += norm(rows[i * nodes + j]);
+        }
+    }
+}
+
+/// What one spring does to the degrees of freedom of a side: the forces on them per unit of its force,
+/// rotations counted as the grain's radius times the angle.
+struct SpringSide {
+    bool rigid = false;
+    int grain = 0;
+    int node[2] = { 0, 0 };          ///< of a deformable grain
+    double share[2] = { 0.0, 0.0 };  ///< of its nodes; of a rigid grain: translation, rotation
+
+    double size() const { return std::fabs(share[0]) + std::fabs(share[1]); }
+};
+
+/// A spring along `direction` at share `w` between two nodes of an edge.
+SpringSide spring_side(const Assembly& a, int grain, int n0, int n1, double w, Point direction)
+{
+    if (!a.is_rigid(grain)) return { false, grain, { n0, n1 }, { 1.0 - w, w } };
+    const int c = a.centre(grain);
+    const double x = (1.0 - w) * a.reference[n0] + w * a.reference[n1] - a.reference[c];
+    const double y =
+        (1.0 - w) * a.reference[n0 + lanes] + w * a.reference[n1 + lanes] - a.reference[c + lanes];
+    return { true, grain, { c, c },
+        { 1.0, (x * direction.y - y * direction.x) / a.radius[grain] } };
+}
+
+/// Row sums of the spring's stiffness: each degree of freedom takes its share times all shares.
+void add_spring(const Assembly& a, const SpringSide& s, double stiffness, StiffnessBound& bound)
+{
+    bound.node[scalar_index(s.node[0])] += stiffness * std::fabs(s.share[0]);
+    if (s.rigid) {
+        const double r = a.radius[s.grain];
+        bound.rotation[rigid_index(a, s.grain)] += r * r * stiffness * std::fabs(s.share[1]);
+    } else {
+        bound.node[scalar_index(s.node[1])] += stiffness * std::fabs(s.share[1]);
+    }
+}
+
+void add_contact(const Assembly& a, int contact, StiffnessBound& bound)
+{
+    const LawParameters& law = a.laws[a.contact_law[contact]];
+    const Point n = bonded_normal(a, contact);
+    for (int p = 0; p < a.points; ++p) {
+        const double area = a.area[row_index(contact, p, a.points)];
+        for (const auto& [direction, stiffness] : { std::pair { n, law.normal_stiffness },
+                 std::pair { Point { -n.y, n.x }, law.shear_stiffness } }) {
+            SpringSide sides[2];
+            for (int s = 0; s < 2; ++s) {
+                sides[s] = spring_side(a, a.contact_grains[2 * contact + s],
+                    a.contact_nodes[row_index(contact, 2 * s, ContactRows::nodes)],
+                    a.contact_nodes[row_index(contact, 2 * s + 1, ContactRows::nodes)],
+                    a.weight[row_index(contact, 2 * p + s, 2 * a.points)], direction);
+            }
+            // sizes of the shares: 2 in all, more where a point beyond its edge extrapolates
+            const double k = stiffness * area * (sides[0].size() + sides[1].size());
+            for (const SpringSide& side : sides)
+                add_spring(a, side, k, bound);
+        }
+    }
+}
+
+/// Also returns the row sum of the plate itself, along its normal.
+double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
+{
+    double own = 0.0;
+    const Point n = plate.normal;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const int n0 = a.edge_nodes[row_index(p.edge, 0, 2)];
+        const int n1 = a.edge_nodes[row_index(p.edge, 1, 2)];
+        for (const auto& [direction, stiffness] : { std::pair { n, p.stiffness },
+                 std::pair { Point { -n.y, n.x }, p.shear_stiffness } }) {
+            const SpringSide s = spring_side(a, a.edge_grain[p.edge], n0, n1, p.weight, direction);
+            const double k = stiffness * (s.size() + 1.0);
+            add_spring(a, s, k, bound);
+            own += k;
+        }
+    }
+    return own;
+}
+
+/// A rigid grain that nothing touches, or that no force turns, gets what one contact of half its size
+/// would ask for, so that its masses are finite.
+void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
+{
+    if (!a.is_rigid(grain)) return;
+    const double r = a.radius[grain];
+    const double least = a.laws.front().normal_stiffness * r * a.thickness;
+    double& node = bound.node[scalar_index(a.centre(grain))];
+    if (node == 0.0) node = least;
+    double& rotation = bound.rotation[rigid_index(a, grain)];
+    rotation = std::max(rotation, 0.01 * r * r * node);
+}
+
+void check_damping(double damping)
+{
+    if (!(damping >= 0.0 && damping < 1.0)) {
+        refuse("damping", damping, "", "must be at least 0 and below 1");
+    }
+}
+
+template <class Visit> void for_each_node(const Assembly& a, Visit visit)
+{
+    for (int g = 0; g < a.grains; ++g) {
+        if (a.is_rigid(g)) {
+            visit(scalar_index(a.centre(g)));
+            continue;
+        }
+        for (int n = 0; n < a.nodes_of(g); ++n)
+            visit(scalar_index(a.node(g, n)));
+    }
+}
+
+/// The mass that the bound asks for at a time step.
+double mass_for(double bound, double damping, double dt)
+{
+    return mass_margin * (1.0 + damping) * bound * dt * dt / 4.0;
+}
+
+void scale_plates(Assembly& a, double damping, double dt)
+{
+    StiffnessBound unused = stiffness_bound(a);
+    for (Plate& p : a.plates)
+        p.mass = mass_for(add_plate(a, p, unused), damping, dt);
+}
+
+}  // namespace
+
+Array<double> element_bound(const Assembly& a)
+{
+    Array<double> bound(a.inverse_mass.size(), 0.0);
+    for (int g = 0; g < a.grains; ++g)
+        add_elements(a, g, bound);
+    return bound;
+}
+
+StiffnessBound stiffness_bound(const Assembly& a)
+{
+    StiffnessBound bound;
+    bound.node = a.element_bound.empty() ? element_bound(a) : a.element_bound;
+    bound.rotation.assign(a.inverse_inertia.size(), 0.0);
+    for (int c = 0; c < a.contacts; ++c)
+        add_contact(a, c, bound);
+    for (const Plate& p : a.plates)
+        add_plate(a, p, bound);
+    for (int g = 0; g < a.grains; ++g)
+        complete_rigid(a, g, bound);
+    return bound;
+}
+
+void scale_masses(Assembly& a, double damping, double dt)
+{
+    check_damping(damping);
+    check_positive("time step", dt, "s");
+    const StiffnessBound bound = stiffness_bound(a);
+    for_each_node(
+        a, [&](int i) { a.inverse_mass[i] = 1.0 / mass_for(bound.node[i], damping, dt); });
+    for (int g = 0; g < a.grains; ++g) {
+        const int i = rigid_index(a, g);
+        if (!a.is_rigid(g)) continue;
+        a.inverse_inertia[i] = 1.0 / mass_for(bound.rotation[i], damping, dt);
+    }
+    scale_plates(a, damping, dt);
+}
+
+namespace {
+
+/// Real mass of a grain on its nodes; of a rigid one its moment of inertia too.
+void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>& inertia)
+{
+    const double density = a.elastic[a.grain_material[g]].density;
+    if (a.is_rigid(g)) {
+        const CellSection section = cell_section(a, g);
+        mass[scalar_index(a.centre(g))] = density * a.thickness * section.area;
+        inertia[rigid_index(a, g)] = density * a.thickness * section.polar;
+        return;
+    }
+    for (int t = 0; t < triangles_of(a, g); ++t) {
+        const double share = density / 3.0 * shape_of(a, g, t).volume;
+        for (int n : triangle_nodes(a, g, t))
+            mass[scalar_index(a.node(g, n))] += share;
+    }
+}
+
+}  // namespace
+
+double stable_step(const Assembly& a, double damping)
+{
+    check_damping(damping);
+    const StiffnessBound bound = stiffness_bound(a);
+    double most = 0.0;  // of stiffness / mass
+    for_each_node(a, [&](int i) { most = std::max(most, bound.node[i] * a.inverse_mass[i]); });
+    for (int g = 0; g < a.grains; ++g) {
+        const int i = rigid_index(a, g);
+        if (a.is_rigid(g)) most = std::max(most, bound.rotation[i] * a.inverse_inertia[i]);
+    }
+    return 2.0 / std::sqrt(mass_margin * (1.0 + damping) * most);
+}
+
+double set_real_masses(Assembly& a, double damping)
+{
+    check_damping(damping);
+    Array<double> mass(a.inverse_mass.size(), 0.0), inertia(a.inverse_inertia.size(), 0.0);
+    for (int g = 0; g < a.grains; ++g)
+        add_real_mass(a, g, mass, inertia);
+    for_each_node(a, [&](int i) { a.inverse_mass[i] = 1.0 / mass[i]; });
+    for (int g = 0; g < a.grains; ++g) {
+        const int i = rigid_index(a, g);
+        if (a.is_rigid(g)) a.inverse_inertia[i] = 1.0 / inertia[i];
+    }
+    const double dt = stable_step(a, damping);
+    scale_plates(a, damping, dt);
+    return dt;
+}
+
+}  // namespace flexpm

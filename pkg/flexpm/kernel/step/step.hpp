@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One step of the assembly: central differences with local damping, paper Eqs. 1-19.
+///
+/// A step moves the nodes by their velocities, updates contacts, boundary pressure and elements at
+/// the new positions, and then integrates the velocities: positions and forces belong to step n,
+/// velocities to n + 1/2. Velocities set between two steps (held nodes) therefore act at once.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+namespace flexpm {
+
+struct StepOptions {
+    double dt = 1.0;       ///< time step [s]; 1 with scaled masses
+    double damping = 0.7;  ///< alpha of Eq. 2 [-], 0 <= alpha < 1
+    int threads = 1;       ///< results do not depend on it
+    bool measure = false;  ///< also sum kinetic energy and largest unbalanced force
+};
+
+void step(Assembly& a, const StepOptions& options);
+
+/// Steps that are faster together than one by one: some where a step's arrays exceed the caches and nothing
+/// needs all of a step before the next, as several threads, plates and pressure do; otherwise 1.
+int steps_together(const Assembly& a, int threads);
+
+/// Do `count` steps, the last of them with `options.measure`. The bits are those of step() one by one.
+void step_several(Assembly& a, const StepOptions& options, int count);
+
+/// Fill `shown_position` and keep it up to date from now on.
+void show_positions(Assembly& a);
+
+}  // namespace flexpm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  From a tessellation to the packed, bonded, unloaded assembly, paper Sec. 2.3 and 3.1.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/fem/grain_mesh.hpp>
+#include <flexpm/kernel/geometry/tessellation.hpp>
+
+#include <cstdint>
+
+namespace flexpm {
+
+struct AssemblyOptions {
+    double thickness = 0.0;  ///< [m]
+    bool rigid = false;  ///< grains that move as one body; `mesh` and Young's modulus do not matter
+    MeshKind mesh = MeshKind::refined;
+    int points = 3;               ///< contact points: 3 or 2 (Lobatto), 1 (middle of the edge)
+    bool on_centre_line = false;  ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
+    std::vector<ElasticMaterial> elastic;
+    std::vector<int> grain_material;  ///< per cell, into `elastic`; empty: all 0
+    std::vector<int> aggregate;       ///< per cell: its grain of the rock; empty: itself
+    std::vector<int>
+        edge_law;  ///< per shared edge, into `laws`; empty: by the materials of its cells
+    std::vector<std::uint8_t> edge_normal;  ///< per shared edge: 1 takes the normal of the edge,
+                                            ///< 0 that between the centres; empty: all 0
+    std::vector<ContactMaterial> laws;      ///< per pair of materials: laws[i * elastic.size() + j]
+};
+
+/// @throws std::invalid_argument  if an option is out of range
+Assembly make_assembly(
+    const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options);
+
+}  // namespace flexpm

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Laying plates against a specimen.
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/step/step_plan.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace flexpm {
+
+namespace {
+
+Point reference_of(const Assembly& a, int node)
+{
+    return { a.reference[node], a.reference[node + lanes] };
+}
+
+/// Start and end of a boundary edge, the grain on its left.
+struct Edge {
+    Point start, end;
+    double length() const { return std::hypot(end.x - start.x, end.y - start.y); }
+    Point inward() const { return { (start.y - end.y) / length(), (end.x - start.x) / length() }; }
+};
+
+Edge edge_of(const Assembly& a, int edge)
+{
+    const auto n = edge_nodes(a, edge);
+    return { reference_of(a, n[0]), reference_of(a, n[1]) };
+}
+
+double along(Point direction, Point p) { return direction.x * p.x + direction.y * p.y; }
+
+Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
+{
+    check_not_negative("plate stiffness", contact.stiffness, "Pa/m");
+    check_not_negative("plate friction", contact.friction, "");
+    const double normal_stiffness =
+        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; });
+    const double shear_stiffness =
+        grain_mean(a, [&](int g) { return own_law(a, g).shear_stiffness; });
+    Plate p;
+    p.normal = normal;
+    p.stiffness = contact.stiffness > 0.0 ? contact.stiffness : normal_stiffness;
+    p.shear_stiffness = p.stiffness * shear_stiffness / normal_stiffness;
+    p.friction = contact.friction;
+    p.bonded = contact.bonded;
+    return p;
+}
+
+/// Points that touch a plate on each edge: grains of either kind, all of one kind.
+int points_on_edge(const Assembly& a, const Plate& p)
+{
+    return a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
+}
+
+/// Gaps and tributary areas of the plate's points; the state at the reference.
+void lay(const Assembly& a, Plate& p)
+{
+    for (int e : p.edges) {
+        const Edge edge = edge_of(a, e);
+        for (int i = 0; i < p.points; ++i) {
+            const double w = plate_weight(p, i);
+            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
+                (1.0 - w) * edge.start.y + w * edge.end.y };
+            // a bonded point is unloaded where it is; a point of the face itself has no gap
+            const double gap = along(p.normal, x) - along(p.normal, p.position);
+            const bool on_face = p.bonded || std::fabs(gap) < 1e-9 * edge.length();
+            p.gap.push_back(on_face ? 0.0 : gap);
+            p.area.push_back(edge.length() * a.thickness / p.points);
+        }
+    }
+    p.opening = p.gap;
+    p.shear_force.assign(p.gap.size(), 0.0);
+}
+
+Point unit(Point normal)
+{
+    const double size = std::hypot(normal.x, normal.y);
+    check_positive("length of the plate's normal", size, "");
+    return { normal.x / size, normal.y / size };
+}
+
+/// Make boundary edges of those that grains share, too; they lie on no side.
+void list_inner_edges(Assembly& a)
+{
+    std::set<int> known;  // first nodes
+    for (int e = 0; e < a.edges; ++e)
+        known.insert(edge_nodes(a, e)[0]);
+    for (int g = 0; g < a.grains; ++g) {
+        const int corners = a.group(a.grain_slot[g] / lanes).vertices;
+        for (int k = 0; k < corners; ++k) {
+            if (known.count(a.node(g, k)) != 0) continue;
+            const int e = a.edges++;
+            a.edge_grain.push_back(g);
+            a.edge_side.push_back(-1);
+            a.edge_pressure.push_back(0.0);
+            a.edge_nodes.resize(a.edge_blocks() * lanes * 2, 0);
+            a.edge_force.resize(a.edge_blocks() * lanes * ContactRows::forces, 0.0);
+            a.edge_nodes[row_index(e, 0, 2)] = a.node(g, k);
+            a.edge_nodes[row_index(e, 1, 2)] = a.node(g, (k + 1) % corners);
+        }
+    }
+    prepare_step(a);
+}
+
+void check_index(const Assembly& a, int plate)
+{
+    if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
+        refuse("plate", plate, "", "must be the number of a plate; add one first");
+    }
+}
+
+}  // namespace
+
+std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateContact& contact)
+{
+    if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
+    std::vector<int> edges;
+    for (int e = 0; e < a.edges; ++e) {
+        if (a.edge_side[e] == side) edges.push_back(e);
+    }
+    if (edges.empty())
+        refuse("side", side, "", "has no boundary edges; name a side of the outline");
+    const Point normal = edge_of(a, edges.front()).inward();
+    const Point direction = { -normal.y, normal.x };
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (int e : edges) {
+        for (Point p : { edge_of(a, e).start, edge_of(a, e).end }) {
+            first = std::min(first, along(direction, p));
+            last = std::max(last, along(direction, p));
+        }
+    }
+    const double width = (last - first) / pieces;
+    std::vector<int> numbers;
+    for (int i = 0; i < pieces; ++i) {
+        Plate p = plate_of(a, normal, contact);
+        p.side = side;
+        p.width = width;
+        p.position = edge_of(a, edges.front()).start;
+        for (int e : edges) {
+            const Edge edge = edge_of(a, e);
+            const double middle =
+                0.5 * (along(direction, edge.start) + along(direction, edge.end)) - first;
+            if (std::clamp(static_cast<int>(middle / width), 0, pieces - 1) == i)
+                p.edges.push_back(e);
+        }
+        if (p.edges.empty()) {
+            refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
+        }
+        p.points = points_on_edge(a, p);
+        lay(a, p);
+        numbers.push_back(static_cast<int>(a.plates.size()));
+        a.plates.push_back(p);
+    }
+    return numbers;
+}
+
+int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
+{
+    Plate p = plate_of(a, unit(normal), contact);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < a.edges; ++e) {
+        const Edge edge = edge_of(a, e);
+        const bool outer = a.edge_side[e] >= 0;
+        if (outer && along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
+    }
+    if (p.edges.empty())
+        refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
+    p.points = points_on_edge(a, p);
+    for (int e : p.edges) {
+        const Edge edge = edge_of(a, e);
+        for (int i = 0; i < p.points; ++i) {
+            const double w = plate_weight(p, i);
+            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
+                (1.0 - w) * edge.start.y + w * edge.end.y };
+            if (along(p.normal, x) < nearest) p.position = x;
+            nearest = std::min(nearest, along(p.normal, x));
+        }
+    }
+    lay(a, p);
+    a.plates.push_back(p);
+    return static_cast<int>(a.plates.size()) - 1;
+}
+
+void hold_sideways(Assembly& a, int plate)
+{
+    check_index(a, plate);
+    const Plate& p = a.plates[plate];
+    const auto first =
+        static_cast<int>(std::min_element(p.gap.begin(), p.gap.end()) - p.gap.begin());
+    const int edge = p.edges[first / p.points], grain = a.edge_grain[edge];
+    const int node = a.is_rigid(grain)
+        ? a.centre(grain)
+        : edge_nodes(a, edge)[plate_weight(p, first % p.points) > 0.5];
+    const int component = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
+    a.held[node + component * lanes] = 1;
+    a.velocity[node + component * lanes] = 0.0;
+}
+
+int add_wall(Assembly& a, Point position, Point normal, const PlateContact& contact)
+{
+    Plate p = plate_of(a, unit(normal), contact);
+    p.position = position;
+    list_inner_edges(a);
+    for (int e = 0; e < a.edges; ++e)
+        p.edges.push_back(e);
+    p.points = 2;  // rigid grains, too, rest on their corners
+    lay(a, p);
+    const double least = *std::min_element(p.gap.begin(), p.gap.end());
+    if (!(least >= 0.0)) refuse("gap between wall and grains", least, "m", "must not be below 0");
+    a.plates.push_back(p);
+    return static_cast<int>(a.plates.size()) - 1;
+}
+
+void press(Assembly& a, int plate, double pressure)
+{
+    check_index(a, plate);
+    check_not_negative("pressure on a plate", pressure, "Pa");
+    if (a.plates[plate].mass <= 0.0) {
+        refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
+    }
+    a.plates[plate].loaded = true;
+    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
+}
+
+void set_velocity(Assembly& a, int plate, Point velocity)
+{
+    check_index(a, plate);
+    check_finite("velocity of a plate", velocity.x, "m/s");
+    check_finite("velocity of a plate", velocity.y, "m/s");
+    Plate& p = a.plates[plate];
+    // the half step that a loaded plate was promised is not taken any more
+    if (p.loaded) p.boundary_work_next = p.damping_work_next = p.kinetic = p.unbalanced = 0.0;
+    p.loaded = false;
+    p.velocity = velocity;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Start of a test from its elastic solution: equilibrium, the first point's utilisation, and the
+/// energy books. SI units, tension positive.
+#include <catch2/catch.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/step.hpp>
+
+#include "support/balance.hpp"
+#include "support/specimens.hpp"
+
+#include <cmath>
+
+using namespace flexpm;
+
+namespace {
+
+constexpr double share = 0.9;
+constexpr int steps = 10;
+
+/// Random grains, gripped and driven at `velocity`, the books open.
+Assembly driven_grains(double velocity)
+{
+    Assembly a =
+        specimens::assemble(specimens::random_grains(0.02, 0.04, 2.8e-3, 3), specimens::options());
+    scale_masses(a, 0.7);
+    grip_bottom(a);
+    move_top(a, velocity);
+    open_books(a);
+    return a;
+}
+
+StepOptions measured()
+{
+    StepOptions o;
+    o.measure = true;
+    return o;
+}
+
+void run(Assembly& a, int count)
+{
+    for (int i = 0; i < count; ++i)
+        step(a, measured());
+}
+
+/// Largest share of its strength that a point carries, tension or Mohr-Coulomb.
+double utilisation(const Assembly& a)
+{
+    double largest = 0.0;
+    for (int c = 0; c < a.contacts; ++c) {
+        const LawParameters& law = a.laws[a.contact_law[c]];
+        for (int p = 0; p < a.points; ++p) {
+            const PointState s = point_state(a, c, p);
+            const double normal = law.normal_stiffness * s.opening;
+            largest = std::max(largest, normal / law.tensile_strength);
+            // proportional loading: c / (|shear| + mu normal) is what is left to grow
+            largest = std::max(
+                largest, (std::fabs(s.shear_traction) + law.friction * normal) / law.cohesion);
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("A specimen led along its elastic solution is in equilibrium at the share asked for")
+{
+    const double velocity = GENERATE(-1e-9, 1e-9);
+    Assembly a = driven_grains(velocity);
+    const ElasticConstants solved = elastic_constants(a);
+    lead_elastically(a, share, steps, 1.0);
+    run(a, steps);
+    const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
+    const AxialObservation o = observe(a, rectangle_of(a, sense));
+    // the solution is linear: strains of a few 1e-4 turn and stretch by as much of each term
+    CHECK(utilisation(a) == Approx(share).epsilon(2e-3));
+    CHECK(o.axial_stress / o.axial_strain == Approx(solved.youngs_modulus).epsilon(2e-3));
+    CHECK(o.lateral_strain / o.axial_strain == Approx(solved.poissons_ratio).epsilon(2e-3));
+    const Energies e = energies(a);
+    CHECK(e.damage == 0.0);
+    CHECK(std::fabs(balance::miss(e)) < 1e-5 * e.elastic);
+}
+
+TEST_CASE("After the elastic solution the test goes on without a jolt")
+{
+    const double velocity = GENERATE(-1e-9, 1e-9);
+    Assembly a = driven_grains(velocity);
+    lead_elastically(a, share, steps, 1.0);
+    run(a, steps);
+    const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
+    const AxialGeometry g = rectangle_of(a, sense);
+    const AxialObservation before = observe(a, g);
+    go_on(a, velocity, 1.0);
+    CHECK(unbalanced_ratio(a) == 0.0);  // nothing was free
+    double largest = 0.0;
+    for (int i = 0; i < 300; ++i) {
+        step(a, measured());
+        largest = std::max(largest, unbalanced_ratio(a));
+    }
+    CHECK(largest < 5e-3);
+    const AxialObservation after = observe(a, g);
+    const double strain = after.axial_strain - before.axial_strain;
+    CHECK(strain == Approx(300.0 * std::fabs(velocity) / g.height).epsilon(1e-6));
+    CHECK(after.axial_stress - before.axial_stress
+        == Approx(strain * before.axial_stress / before.axial_strain).epsilon(0.02));
+    const Energies e = energies(a);
+    CHECK(std::fabs(balance::miss(e)) < 1e-5 * e.elastic);
+}
+
+TEST_CASE("The elastic limit follows from the strengths of the point that reaches one first")
+{
+    // one bond in pure tension: the top moves until K_n u = sigma_t
+    Assembly a = specimens::assemble(specimens::grid(1, 2, 3e-3), specimens::options());
+    grip_bottom(a);
+    move_top(a, 1e-9);
+    Array<double> v(a.velocity.size(), 0.0);
+    for (int n = 0; n < a.nodes_of(1); ++n)
+        v[a.node(1, n) + lanes] = 1e-9;  // the upper grain as a whole
+    const LawParameters& law = a.laws[0];
+    CHECK(elastic_time(a, v) == Approx(law.elastic_opening / 1e-9));
+    for (double& value : v)
+        value = -value;
+    CHECK(std::isinf(elastic_time(a, v)));
+}
+
+TEST_CASE("A start from the elastic solution refuses shares and steps that make no sense")
+{
+    Assembly a = driven_grains(-1e-9);
+    CHECK_THROWS_AS(lead_elastically(a, 1.0, steps, 1.0), std::invalid_argument);
+    CHECK_THROWS_AS(lead_elastically(a, 0.0, steps, 1.0), std::invalid_argument);
+    CHECK_THROWS_AS(lead_elastically(a, share, 0, 1.0), std::invalid_argument);
+}

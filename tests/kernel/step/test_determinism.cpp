@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The same bits on any number of threads, from any saved state, on any instruction set.
+#include <catch2/catch.hpp>
+
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/motion/rigid_grain.hpp>
+
+#include "support/baseline_step.hpp"
+#include "support/same_bits.hpp"
+
+using namespace driven;
+
+namespace {
+
+constexpr int steps = 500;
+
+Assembly stepped(Assembly a, int count, int threads)
+{
+    flexpm::StepOptions o;
+    o.threads = threads;
+    for (int i = 0; i < count; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::step(a, o);
+    }
+    return a;
+}
+
+/// More than the caches hold.
+Assembly large(bool rigid = false)
+{
+    flexpm::AssemblyOptions options = specimens::options();
+    options.rigid = rigid;
+    Assembly a = specimens::assemble(specimens::random_grains(200e-3, 240e-3, 2.8e-3, 3), options);
+    flexpm::scale_masses(a, 0.7);
+    return a;
+}
+
+Assembly stepped(int threads) { return stepped(same_bits::breaking(), steps, threads); }
+
+}  // namespace
+
+TEST_CASE("One thread and two give the same bits while contacts break")
+{
+    const Assembly one = stepped(1);
+    const auto cracks = flexpm::count_cracks(one);
+    CHECK(cracks.tensile + cracks.shear > 10);
+    CHECK(cracks.tensile + cracks.shear < 3 * one.contacts);
+    CHECK(same_bits::difference(one, stepped(2)).empty());
+}
+
+TEST_CASE("Threads that share grains give the bits of one")
+{
+    Assembly a =
+        specimens::assemble(specimens::random_grains(75e-3, 75e-3, 3e-3, 3), specimens::options());
+    flexpm::scale_masses(a, 0.7);
+    flexpm::drive(a, flexpm::side_nodes(a, 0), 1, 0.0);
+    flexpm::drive(a, flexpm::side_nodes(a, 2), 1, 1e-6);
+    flexpm::set_pressure(a, 1, 1e5);
+    REQUIRE(a.chunks() > 3);
+    const Assembly one = stepped(a, 60, 1);
+    CHECK(one.kinetic.back() > 0.0);
+    for (int threads : { 2, 3, 7 })  // of seven some have no contacts
+        CHECK(same_bits::difference(one, stepped(a, 60, threads)).empty());
+}
+
+TEST_CASE("Steps done together give the bits of steps one by one while contacts break")
+{
+    Assembly a = large();
+    flexpm::drive(a, flexpm::side_nodes(a, 0), 1, 0.0);
+    flexpm::drive(a, flexpm::side_nodes(a, 2), 1, 2e-6);
+    flexpm::show_positions(a);
+    REQUIRE(flexpm::steps_together(a, 1) > 1);
+    CHECK(flexpm::steps_together(a, 2) == 1);
+    flexpm::StepOptions o;
+    Assembly one_by_one = a;
+    for (int i = 0; i < 33; ++i) {
+        o.measure = i == 12 || i == 32;
+        flexpm::step(one_by_one, o);
+    }
+    CHECK(flexpm::count_cracks(one_by_one).tensile > 10);
+    o.measure = true;
+    flexpm::step_several(a, o, 13);
+    flexpm::step_several(a, o, 20);
+    CHECK(a.step == 33);
+    CHECK(same_bits::difference(one_by_one, a).empty());
+    CHECK(one_by_one.shown_position == a.shown_position);
+}
+
+TEST_CASE("Rigid grains that fly apart do their steps together to the same bits")
+{
+    Assembly a = large(true);
+    for (int g = 0; g < a.grains; ++g) {
+        const Point x = a.position(a.centre(g));
+        flexpm::set_motion(a, g, { 5e-5 * x.x, 1e-4 * x.y }, 1e-3 * x.x, 1.0);
+    }
+    REQUIRE(flexpm::steps_together(a, 1) > 1);
+    flexpm::StepOptions o;
+    o.measure = true;
+    const Assembly one_by_one = stepped(a, 31, 1);
+    CHECK(flexpm::count_cracks(one_by_one).tensile > 10);
+    flexpm::step_several(a, flexpm::StepOptions(), 30);
+    flexpm::step_several(a, o, 1);
+    CHECK(same_bits::difference(one_by_one, a).empty());
+}
+
+TEST_CASE("Steps between plates and under pressure are done one by one")
+{
+    Assembly a = large();
+    REQUIRE(flexpm::steps_together(a, 1) > 1);
+    flexpm::set_pressure(a, 1, 1e5);
+    CHECK(flexpm::steps_together(a, 1) == 1);
+    flexpm::step(a, flexpm::StepOptions());
+    flexpm::set_pressure(a, 1, 0.0);
+    CHECK(flexpm::steps_together(a, 1) == 1);  // forces of the last step are worked off first
+    flexpm::step_several(a, flexpm::StepOptions(), 2);
+    CHECK(flexpm::steps_together(a, 1) > 1);
+    CHECK(a.pressure_work != 0.0);
+    flexpm::add_side_plates(a, flexpm::bottom_side, 1, {});
+    CHECK(flexpm::steps_together(a, 1) == 1);
+}
+
+TEST_CASE("A run continued from the listed state gives the same bits")
+{
+    const Assembly whole = stepped(1);
+    Assembly first = same_bits::breaking();
+    flexpm::StepOptions o;
+    for (int i = 0; i < 300; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::step(first, o);
+    }
+    // only what visit_state() lists goes over
+    std::map<std::string, const void*> from;
+    flexpm::visit_state(first, [&](const char* name, const auto& value) { from[name] = &value; });
+    Assembly second;
+    flexpm::visit_state(second, [&](const char* name, auto& value) {
+        value = *static_cast<const std::decay_t<decltype(value)>*>(from.at(name));
+    });
+    for (int i = 300; i < steps; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::step(second, o);
+    }
+    CHECK(same_bits::difference(whole, second).empty());
+}
+
+TEST_CASE("The instruction set of this machine gives the bits of the plainest one")
+{
+    Assembly baseline = same_bits::breaking();
+    flexpm::StepOptions o;
+    for (int i = 0; i < steps; ++i) {
+        o.measure = i % 10 == 0;
+        flexpm::baseline_step(baseline, o);
+    }
+    CHECK(baseline.step == steps);
+    CHECK(same_bits::difference(stepped(1), baseline).empty());
+}
+
+TEST_CASE("A difference of one bit is seen")
+{
+    Assembly a = stepped(1), b = a;
+    CHECK(same_bits::difference(a, b).empty());
+    b.velocity[0] = std::nextafter(b.velocity[0], 1.0);
+    CHECK(same_bits::difference(a, b) == "velocity ");
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The balance that the energy books must keep. SI units.
+#pragma once
+
+#include <flexpm/kernel/measure/energy_balance.hpp>
+
+namespace balance {
+
+/// All that is stored or dissipated [J].
+inline double total(const flexpm::Energies& e)
+{
+    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.potential;
+}
+
+/// What the books lack [J]: work and initial energy less that.
+inline double miss(const flexpm::Energies& e) { return e.boundary_work + e.initial - total(e); }
+
+}  // namespace balance

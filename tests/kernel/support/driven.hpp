@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Assemblies whose nodes are all held and led along a prescribed motion. SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/step/step.hpp>
+
+#include "support/specimens.hpp"
+
+namespace driven {
+
+using flexpm::Assembly;
+using flexpm::lanes;
+using flexpm::Point;
+using flexpm::record_index;
+using flexpm::row_index;
+
+inline void hold_all(Assembly& a) { std::fill(a.held.begin(), a.held.end(), 1); }
+
+/// Velocity of every node of a grain from its reference position, velocity(Point) [m/s].
+template <class Velocity> void set_velocity(Assembly& a, int grain, Velocity velocity)
+{
+    for (int n = 0; n < a.nodes_of(grain); ++n) {
+        const int i = a.node(grain, n);
+        const Point v = velocity(Point { a.reference[i], a.reference[i + lanes] });
+        a.velocity[i] = v.x;
+        a.velocity[i + lanes] = v.y;
+    }
+}
+
+inline void set_velocity(Assembly& a, int grain, Point v)
+{
+    set_velocity(a, grain, [v](Point) { return v; });
+}
+
+/// Velocities that bring every node in one step of `dt` to target(node offset).
+template <class Target> void aim(Assembly& a, double dt, Target target)
+{
+    for (int g = 0; g < a.grains; ++g) {
+        for (int n = 0; n < a.nodes_of(g); ++n) {
+            const int i = a.node(g, n);
+            const Point now = a.position(i), then = target(i);
+            a.velocity[i] = (then.x - now.x) / dt;
+            a.velocity[i + lanes] = (then.y - now.y) / dt;
+        }
+    }
+}
+
+inline void run(Assembly& a, int steps, double damping = 0.0)
+{
+    flexpm::StepOptions options;
+    options.damping = damping;
+    for (int i = 0; i < steps; ++i)
+        flexpm::step(a, options);
+}
+
+/// Force of a contact on the node of its side (0: a, 1: b) and end (0, 1) [N].
+inline Point contact_force(const Assembly& a, int contact, int side, int end)
+{
+    const double* f =
+        &a.contact_force[record_index(contact, 4 * side + 2 * end, flexpm::ContactRows::forces)];
+    return { f[0], f[1] };
+}
+
+/// Resultant of a contact on its first grain [N]: along x positive in tension if the normal is +x.
+inline Point resultant(const Assembly& a, int contact)
+{
+    const Point f0 = contact_force(a, contact, 0, 0), f1 = contact_force(a, contact, 0, 1);
+    return { f0.x + f1.x, f0.y + f1.y };
+}
+
+}  // namespace driven
