@@ -1,0 +1,187 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Detect a change of results: twelve small commands, their numbers compared with committed hashes.
+
+    scripts/checks/reference.py [BUILD]            fails if a column of numbers has changed
+    scripts/checks/reference.py [BUILD] --renew    writes the reference, after a wanted change
+
+BUILD is the build folder (default: build). The commands are the four tests with flexible and with
+rigid grains, compression of inner particles, tension of YADE's two models and a study of two runs.
+Each column of curve.csv and cracks.csv has a hash of its numbers, so a file's layout may change and
+a renamed column is renamed in reference.json. The single runs are repeated with each instruction set
+of this machine, which must give the same hashes.
+
+The check only detects change; that results are right is shown by the other tests. Wanted changes
+raise the results number of the run's inputs, by which finished runs are told from outdated ones:
+--renew refuses other hashes under the same number.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = Path(__file__).with_name("reference.json")
+PYTHON = "/usr/bin/python3"
+
+RECTANGLE = ("--width", "0.012", "--height", "0.024", "--seed", "1")
+DISC = ("--diameter", "0.016", "--seed", "1")
+TESTS = {
+    "uniaxial": (*RECTANGLE, "--rate", "4"),
+    "tension": (*RECTANGLE, "--rate", "1"),
+    "biaxial": (*RECTANGLE, "--rate", "4", "--confinement", "5e6"),
+    "brazilian": (*DISC, "--rate", "0.5"),
+}
+RUNS = (
+    *((test, model) for model in ("flexible", "rigid") for test in TESTS),
+    ("uniaxial", "inner"),
+    ("tension", "jcfpm"),
+    ("tension", "cohfrict"),
+)
+STUDY = """[common]
+test = "tension"
+width = 0.012
+height = 0.024
+seed = 1
+[grid]
+"set.cohesion" = [2e7, 3e7]
+"""
+
+
+def main(arguments: list[str]) -> int:
+    """Run the commands, then compare or renew."""
+    folders = [word for word in arguments if not word.startswith("-")]
+    if len(folders) > 1 or set(arguments) - {*folders, "--renew"}:
+        print(__doc__, file=sys.stderr)
+        return 2
+    package = (Path(folders[0]) if folders else ROOT / "build").resolve() / "python"
+    if not (package / "flexpm").is_dir():
+        return _fail(f"{package}/flexpm = missing; build first (scripts/setup)")
+    sets, number = ["default"], 1
+    work = Path(tempfile.mkdtemp(prefix="flexpm-reference-"))
+    jobs = [(test, model, name) for name in sets for test, model in RUNS]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        made = list(pool.map(lambda job: _run(package, work, *job), jobs))
+    found: dict[str, dict[str, str]] = {}
+    failed = 0
+    for (test, model, name), hashes in zip(jobs, made, strict=True):
+        first = found.setdefault(f"{test} {model}", hashes)
+        if differing := _differing(first, hashes):
+            failed = _fail(f"{test} {model} = other {differing} with {name} than with {sets[0]}")
+    found |= _study(package, work)
+    if failed == 0:
+        shutil.rmtree(work)
+    print(f"reference: {len(found)} runs, instruction sets {', '.join(sets)}")
+    return failed or (_renew if "--renew" in arguments else _compare)(number, found)
+
+
+def _run(package: Path, work: Path, test: str, model: str, instruction_set: str) -> dict[str, str]:
+    """Hashes of the columns of one run."""
+    folder = work / instruction_set / f"{test}-{model}"
+    command = [PYTHON, "-P", "-m", "flexpm", "run", test, "--model", model]
+    command += [*TESTS[test], "--quiet", "--out", str(folder)]
+    done = _child(package, command)
+    if done.returncode not in (0, 3):
+        sys.exit(_fail(f"{' '.join(command[4:])} = exit code {done.returncode}: {done.stderr}"))
+    return dict(_hashes(folder))
+
+
+def _study(package: Path, work: Path) -> dict[str, dict[str, str]]:
+    """Hashes of the columns of each run of a study, in the order of its table."""
+    plan, folder = work / "study.toml", work / "study"
+    plan.write_text(STUDY, encoding="utf-8")
+    command = [PYTHON, "-P", "-m", "flexpm", "study", str(plan), "--out", str(folder), "--quiet"]
+    done = _child(package, command)
+    if done.returncode != 0:
+        sys.exit(_fail(f"study = exit code {done.returncode}: {done.stderr}"))
+    with (folder / "table.csv").open(encoding="utf-8", newline="") as file:
+        runs = [next(iter(row.values())) for row in csv.DictReader(file)]
+    return {f"study {i + 1}": dict(_hashes(folder / "runs" / run)) for i, run in enumerate(runs)}
+
+
+def _hashes(folder: Path) -> Iterator[tuple[str, str]]:
+    """Name and hash of each column; numbers count by their value, texts by their letters."""
+    for name in ("curve.csv", "cracks.csv"):
+        with (folder / name).open(encoding="utf-8", newline="") as file:
+            header, *rows = csv.reader(file)
+        for column, heading in enumerate(header):
+            text = " ".join(_canonical(row[column]) for row in rows)
+            yield f"{name} {heading}", hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _canonical(cell: str) -> str:
+    try:
+        return float(cell).hex()
+    except ValueError:
+        return cell
+
+
+def _compare(number: int, found: dict[str, dict[str, str]]) -> int:
+    reference = json.loads(REFERENCE.read_text(encoding="utf-8"))
+    failed = 0
+    if number != reference["results"]:
+        failed = _fail(
+            f"results number = {number}, must be {reference['results']} of the reference; "
+            "renew it (--renew) in the commit that changes the number"
+        )
+    for run in {**reference["hashes"], **found}:
+        before, now = reference["hashes"].get(run, {}), found.get(run, {})
+        if differing := _differing(before, now):
+            failed = _fail(
+                f"{run} = other {differing}; find out why, or, if it is wanted, raise the results "
+                "number and renew the reference (--renew)"
+            )
+    if not failed:
+        print("reference: no change")
+    return failed
+
+
+def _renew(number: int, found: dict[str, dict[str, str]]) -> int:
+    if REFERENCE.exists():
+        before = json.loads(REFERENCE.read_text(encoding="utf-8"))
+        changed = [run for run in before["hashes"] if _differing(before["hashes"][run], found[run])]
+        if changed and number <= before["results"]:
+            return _fail(
+                f"results number = {number}, must be above {before['results']}, as "
+                f"{', '.join(changed)} changed; raise it in flexpm.laboratory.run_spec"
+            )
+    content = {"results": number, "hashes": found}
+    REFERENCE.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    print(f"reference: wrote {REFERENCE}")
+    return 0
+
+
+def _differing(one: dict[str, str], other: dict[str, str]) -> str:
+    """Columns of which the hashes differ, or which only one has."""
+    return ", ".join(name for name in {**one, **other} if one.get(name) != other.get(name))
+
+
+def _ask(package: Path, question: str) -> str:
+    done = _child(package, [PYTHON, "-P", "-c", f"import flexpm\n{question}"])
+    if done.returncode != 0:
+        sys.exit(_fail(f"{question} = exit code {done.returncode}: {done.stderr}"))
+    return done.stdout
+
+
+def _child(package: Path, command: list[str]) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(package), "OMP_NUM_THREADS": "1"}
+    return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+
+def _fail(text: str) -> int:
+    print(f"reference: {text}", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
