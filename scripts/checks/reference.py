@@ -7,9 +7,8 @@
 
 BUILD is the build folder (default: build). The commands are the four tests with flexible and with
 rigid grains, compression of inner particles, tension of YADE's two models and a study of two runs.
-Each column of curve.csv and cracks.csv has a hash of its numbers, so a file's layout may change and
-a renamed column is renamed in reference.json. The single runs are repeated with each instruction set
-of this machine, which must give the same hashes.
+Each column of curve.csv and cracks.csv has a hash of its numbers: a file's layout may change, and a
+renamed column is renamed in reference.json.
 
 The check only detects change; that results are right is shown by the other tests. Wanted changes
 raise the results number of the run's inputs, by which finished runs are told from outdated ones:
