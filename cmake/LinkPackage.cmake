@@ -2,7 +2,7 @@
 # Make PACKAGE hold a link to each Python and data file of SOURCE, and no link to a file that is gone.
 cmake_minimum_required(VERSION 3.25)
 
-file(GLOB_RECURSE wanted RELATIVE ${SOURCE} ${SOURCE}/*.py ${SOURCE}/*.toml)
+file(GLOB_RECURSE wanted RELATIVE ${SOURCE} ${SOURCE}/*.py ${SOURCE}/*.toml ${SOURCE}/py.typed)
 file(GLOB_RECURSE present RELATIVE ${PACKAGE} LIST_DIRECTORIES false ${PACKAGE}/*.py ${PACKAGE}/*.toml)
 foreach(name IN LISTS present)
     if(NOT name IN_LIST wanted)

@@ -6,22 +6,22 @@ from __future__ import annotations
 import importlib
 import sys
 
-from ._loading import load
+from ._plugin import load
 
 __version__ = "0.1.0"
 
 #: What users call, and the module it is in; imported when first used.
 _PUBLIC = {
     "InputError": "errors",
-    "Material": "materials",
-    "Model": "models",
-    "Result": "results",
+    "Material": "materials.material",
+    "Model": "models.grains",
+    "Result": "results.result",
     "SimulationError": "errors",
-    "Specimen": "specimen",
-    "build": "models",
-    "compare": "comparison",
-    "elastic": "models",
-    "run": "protocols",
+    "Specimen": "specimens.specimen",
+    "build": "models.grains",
+    "compare": "studies.comparison",
+    "elastic": "models.grains",
+    "run": "laboratory.protocols",
 }
 __all__: list[str] = list(_PUBLIC)
 
@@ -48,24 +48,19 @@ if not _is_command():
     _load_classes()
 
 
-#: Modules that scripts use as attributes of the package.
-_MODULES = (
-    "export",
-    "materials",
-    "models",
-    "plot",
-    "protocols",
-    "results",
-    "specimen",
-    "strength",
-    "study",
-)
+#: What scripts use as attributes of the package, and where it is.
+_MODULES = {
+    "export": "results.vtu",
+    "materials": "materials",
+    "plot": "report.curves",
+    "strength": "results.strength",
+    "study": "studies.study",
+}
 
 
 def __getattr__(name: str) -> object:
     if name in _MODULES:
-        _load_classes()
-        return importlib.import_module(f".{name}", __name__)
+        return importlib.import_module(f".{_MODULES[name]}", __name__)
     if name in _PUBLIC:
         _load_classes()
         value = getattr(importlib.import_module(f".{_PUBLIC[name]}", __name__), name)

@@ -34,9 +34,9 @@ OPENMP = r"#\s*pragma\s+omp\s+(?!simd|declare)"
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
 PYTHON_LIBRARIES = {
-    "matplotlib": {"plot.py", "plot_compare.py", "plot_maps.py"},
-    "vtk": {"export.py"},
-    "vtkmodules": {"export.py"},
+    "matplotlib": {"comparison.py", "curves.py", "maps.py"},
+    "vtk": {"vtu.py"},
+    "vtkmodules": {"vtu.py"},
 }
 
 

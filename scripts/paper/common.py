@@ -18,12 +18,14 @@ from typing import Any
 import pandas
 
 import flexpm
-from flexpm import plot_compare, study, study_plot
-from flexpm.comparison import Envelope
-from flexpm.console import Progress
-from flexpm.curve import Curve
+from flexpm.cli.terminal import Progress
 from flexpm.errors import InputError
-from flexpm.results import Result
+from flexpm.report import comparison as plot_compare
+from flexpm.results.record import Curve
+from flexpm.results.result import Result
+from flexpm.studies import figures as study_plot
+from flexpm.studies import study
+from flexpm.studies.comparison import Envelope
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"

@@ -3,8 +3,8 @@
 
 from common import options, results
 
-from flexpm.study import Study
-from flexpm.study_plot import draw
+from flexpm.studies.figures import draw
+from flexpm.studies.study import Study
 
 PANELS = {
     "ab": ("rigid", None, "rigid grains"),

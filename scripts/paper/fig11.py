@@ -3,8 +3,8 @@
 
 from common import envelope_of, macroscopic, options, results
 
-from flexpm.plot_compare import envelope_picture
-from flexpm.references import reference_of
+from flexpm.materials.references import reference_of
+from flexpm.report.comparison import envelope_picture
 
 LABELS = {"": "E = 25.8 GPa", "-quartz": "E = 51.6 GPa"}
 

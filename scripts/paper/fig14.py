@@ -10,8 +10,8 @@ from common import (
     results,
 )
 
-from flexpm.plot_compare import curves_picture, envelope_picture
-from flexpm.references import reference_of
+from flexpm.materials.references import reference_of
+from flexpm.report.comparison import curves_picture, envelope_picture
 
 
 def drawn(inputs):

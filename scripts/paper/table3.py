@@ -4,7 +4,7 @@
 import pandas
 from common import RESULTS, macroscopic, options, results
 
-from flexpm.references import reference_of
+from flexpm.materials.references import reference_of
 
 rock = reference_of("augig")
 #: Name, factor, value in Table 3 and digits of each measure; direct over indirect tensile strength

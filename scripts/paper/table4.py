@@ -6,7 +6,7 @@ import json
 import pandas
 from common import RESULTS, options
 
-from flexpm import bench
+from flexpm.bench import timing as bench
 
 MODELS = ("rigid", "refined", "inner", "inner-un")
 

@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import flexpm
-from flexpm import curve, rates
+from flexpm.laboratory import loading_rate as rates
+from flexpm.results import record as curve
 
 FIELDS = (
     "scale",

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import flexpm
-from flexpm.minerals import mineral_materials
+from flexpm.materials.mixing import mineral_materials
 
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else "two-minerals")
 

@@ -6,8 +6,9 @@ import pytest
 import yade
 
 import flexpm
-from flexpm import protocols, rates, schedule
 from flexpm.errors import InputError
+from flexpm.laboratory import loading_rate as rates
+from flexpm.laboratory import protocols, schedule
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]

@@ -10,7 +10,8 @@ import pytest
 import yade
 
 import flexpm
-from flexpm import loading, models
+from flexpm.laboratory import grain_loading as loading
+from flexpm.models import grains as models
 
 THICKNESS = 0.08
 #: Strengths that no load of these tests reaches.

@@ -6,12 +6,14 @@ import math
 
 import numpy as np
 import pytest
+import yade
 from hypothesis import given
 from hypothesis import strategies as st
 
 import flexpm
-from flexpm import mineral_map, minerals
-from flexpm.materials import Material, load
+from flexpm.materials import mixing as minerals
+from flexpm.materials.material import Material, load
+from flexpm.specimens import mineral_map
 
 SIZE = 2e-3  # of square grains [m]
 COLUMNS, ROWS = 4, 6
@@ -151,7 +153,7 @@ def test_the_solver_has_the_law_of_each_pair_and_grains_their_material():
     """Steps agree with the solve: the pull of one step on each bond names its stiffness."""
     kinds = np.random.default_rng(1).integers(0, 2, COLUMNS * ROWS)
     model = flexpm.build(grid().with_minerals(kinds), rock(density=3000.0))
-    scene = flexpm.models.yade.O
+    scene = yade.O
     stretch = 1e-9  # [m] a step, by the whole column: within the elastic branch
     for body, (_, y) in zip(model.solver.bodyIds, model.specimen.centres, strict=True):
         grain = scene.bodies[body]

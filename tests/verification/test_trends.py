@@ -14,7 +14,7 @@ from statistics import mean
 
 import pytest
 
-from flexpm import strength
+from flexpm.results import strength
 
 pytestmark = pytest.mark.slow
 

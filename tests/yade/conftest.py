@@ -4,17 +4,13 @@
 from __future__ import annotations
 
 import importlib
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import flexpm
-
-sys.path.insert(0, str(Path(__file__).parent))  # helpers that stand beside the tests
 
 # importing flexpm has told Python where YADE is
 wrapper = importlib.import_module("yade.wrapper")

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from flexpm import _flexpm, _loading
+from flexpm import _flexpm
+from flexpm import _plugin as _loading
 
 SIZES = {name: detail for name, check, _, detail in _flexpm.abi_report() if check == "size"}
 

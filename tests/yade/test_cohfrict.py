@@ -5,11 +5,14 @@ import bonded_pair
 import numpy as np
 import pytest
 
-from flexpm import models, protocols, yade_bonds, yade_protocols
-from flexpm.bench import yade
-from flexpm.checkpoint import Checkpoint
-from flexpm.course import Course
-from flexpm.specimen import Specimen
+from flexpm.bench.timing import yade
+from flexpm.laboratory import protocols
+from flexpm.laboratory import sphere_protocols as yade_protocols
+from flexpm.laboratory.checkpoint import Checkpoint
+from flexpm.laboratory.runner import Course
+from flexpm.models import grains as models
+from flexpm.models import sphere_bonds as yade_bonds
+from flexpm.specimens.specimen import Specimen
 
 MODEL = "cohfrict"
 GAP, TOUCH, OVERLAP = 0.9, 1.0, 1.05  # overlapping discs are shrunk until they touch

@@ -7,7 +7,9 @@ import importlib.util
 
 import pytest
 
-from flexpm import _flexpm, _loading, doctor
+from flexpm import _flexpm
+from flexpm import _plugin as _loading
+from flexpm.cli import doctor
 
 
 def test_sound_installation() -> None:

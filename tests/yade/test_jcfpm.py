@@ -7,11 +7,13 @@ import bonded_pair
 import numpy as np
 import pytest
 
-from flexpm import cli, models, protocols
-from flexpm.bench import yade
-from flexpm.curve import peak_row
+from flexpm.bench.timing import yade
+from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.specimen import Specimen
+from flexpm.laboratory import protocols
+from flexpm.models import grains as models
+from flexpm.results.record import peak_row
+from flexpm.specimens.specimen import Specimen
 
 MODEL = "jcfpm"
 GAP, TOUCH, OVERLAP = 0.9, 1.0, 1.05

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 import flexpm
-from flexpm.checkpoint import Checkpoint
-from flexpm.yade_models import NAMES as YADE_MODELS
+from flexpm.laboratory.checkpoint import Checkpoint
+from flexpm.models.spheres import NAMES as YADE_MODELS
 
 PYTHON = "/usr/bin/python3"
 SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}

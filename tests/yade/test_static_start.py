@@ -5,7 +5,7 @@ import pytest
 
 import flexpm
 from flexpm.errors import InputError
-from flexpm.specimen import Specimen
+from flexpm.specimens.specimen import Specimen
 
 
 @pytest.fixture(scope="module")

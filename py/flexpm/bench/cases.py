@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The models whose steps are timed, each as a scene that is ready for its first step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+import yade
+
+from ..laboratory import protocols
+from ..models import grains as models
+from ..models import spheres as yade_models
+from ..specimens.specimen import Specimen
+
+#: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.
+_RATE = 0.1
+
+
+def build_own(
+    specimen: Specimen, threads: int, model: str = "flexible", **options: Any
+) -> dict[str, int | None]:
+    """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
+    built = models.build(specimen, None, model, threads=threads, **options)
+    test = "brazilian" if specimen.kind == "disc" else "uniaxial"
+    protocols.load(test, built, protocols.Settings(rate=_RATE, pace="adaptive"))
+    return built.solver.counts() | {"steps_together": built.solver.stepsTogether}
+
+
+def _build_yade(specimen: Specimen, threads: int, model: str) -> dict[str, int | None]:
+    """Bonded spheres squeezed at about the same rate, without plates and record."""
+    built = yade_models.build(specimen, None, model, damping=models.DAMPING, threads=threads)
+    heights = specimen.centres[:, 1]
+    rate = 1e-8 / np.ptp(heights)
+    for body, height in zip(built.ids, heights.tolist(), strict=True):
+        yade.O.bodies[body].state.vel = (0.0, -rate * height, 0.0)
+    return built.counts()
+
+
+#: Name, label and builder of each model, in the order of a turn.
+BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], dict[str, int | None]]]] = {
+    "refined": (
+        "flexible, refined, 3 points",
+        lambda specimen, threads: build_own(specimen, threads, mesh="refined", points=3),
+    ),
+    "fan": (
+        "flexible, fan, 3 points",
+        lambda specimen, threads: build_own(specimen, threads, mesh="fan", points=3),
+    ),
+    **{
+        name: (f"{name}, {points}", partial(build_own, model=name))
+        for name, points in (
+            ("rigid", "3 points"),
+            ("inner", "1 point"),
+            ("inner-un", "1 point"),
+        )
+    },
+    "jcfpm": (
+        "YADE JCFpm",
+        lambda specimen, threads: _build_yade(specimen, threads, "jcfpm"),
+    ),
+    "cohfrict": (
+        "YADE CohFrict",
+        lambda specimen, threads: _build_yade(specimen, threads, "cohfrict"),
+    ),
+}

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a specimen costs besides its steps: set-up, memory, files, and the memory traffic of a step.
+
+Times in seconds, sizes in bytes.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import gc
+import os
+import time
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import yade
+
+from ..models import grains as models
+from ..progress import Progress
+from ..results import vtu as export
+from ..specimens.specimen import Specimen
+
+#: Bytes that one go through the specimen, of one step or of some together, has to move with the
+#: refined mesh and three points when the arrays exceed the caches: every array once for each time
+#: it is read or written, no write-allocation. A contact between whole shared edges: its rows (nodes
+#: 24, areas 16, span, reach and normal 56, state 216, forces 64) and the places of its forces (24).
+#: What contacts leave in a cache for the grains that follow at once does not count again.
+_PER_CONTACT = 400
+#: A node: displacement and velocity, both ways (64), force (16), mass (8) and held flags (2).
+_PER_NODE = 90
+#: A triangle: shape functions and volume.
+_PER_TRIANGLE = 40
+#: A grain: position and velocity of its body.
+_PER_GRAIN = 48
+
+_TRIAD_LENGTH = 1 << 24  # doubles of each array: 128 MiB, more than any cache
+_TRIAD_BYTES = 5 * 8  # two passes: read and write, read two and write
+_TRIAD_PASSES = 9
+
+
+def timed_set_up(
+    thickness: float, width: float, height: float, seed: int, progress: Progress | None
+) -> tuple[Specimen, dict[str, float | int]]:
+    """Make a rectangle and its flexible model, and take the times and the memory of it.
+
+    Returns:
+        The specimen, and: grains, contacts, specimen_time (packing and cells), model_time (meshes,
+        arrays, bodies, interactions), first_step_time (the collider's first run), vtu_time,
+        memory_per_grain (growth of the resident set from before the packing to after the step).
+    """
+    _give_back()
+    before, start = _resident(), time.perf_counter()
+    specimen = Specimen.rectangle(width, height, thickness, seed=seed, progress=progress)
+    packed = time.perf_counter()
+    yade.O.reset()
+    try:
+        built = models.build(specimen, None)
+        made = time.perf_counter()
+        yade.O.step()
+        stepped = time.perf_counter()
+        memory = _resident() - before
+        counts = built.solver.counts()
+        with TemporaryDirectory() as folder:
+            snapshot = built.snapshot()
+            begin = time.perf_counter()
+            export.write_vtu(Path(folder) / "state.vtu", snapshot)
+            written = time.perf_counter() - begin
+    finally:
+        yade.O.reset()
+    return specimen, {
+        "grains": counts["grains"],
+        "contacts": counts["contacts"],
+        "specimen_time": packed - start,
+        "model_time": made - packed,
+        "first_step_time": stepped - made,
+        "vtu_time": written,
+        "memory_per_grain": memory / counts["grains"],
+    }
+
+
+def bytes_per_step(counts: dict[str, int | None]) -> int:
+    """Memory traffic of one go through the specimen, refined mesh and three points [B]."""
+    return (
+        _PER_CONTACT * counts["contacts"]
+        + _PER_NODE * counts["nodes"]
+        + _PER_TRIANGLE * counts["triangles"]
+        + _PER_GRAIN * counts["grains"]
+    )
+
+
+def triad() -> float:
+    """Memory bandwidth of one thread, median of some passes of a = b + s c [B/s]."""
+    a, b, c = (np.full(_TRIAD_LENGTH, value) for value in (0.0, 1.0, 2.0))
+    times = []
+    for _ in range(_TRIAD_PASSES):
+        start = time.perf_counter()
+        np.multiply(c, 3.0, out=a)
+        np.add(a, b, out=a)
+        times.append(time.perf_counter() - start)
+    return _TRIAD_BYTES * _TRIAD_LENGTH / median(times)
+
+
+def _resident() -> int:
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def _give_back() -> None:
+    """Return freed memory to the system, so that what is taken next is counted."""
+    gc.collect()
+    ctypes.CDLL("libc.so.6").malloc_trim(0)

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wall time of a step of each model on one packing, paired in one run. Times in seconds.
+
+Each model has a scene of its own and does what a uniaxial test does in every step: flexpm's models
+with platens, measures and record, YADE's with collider, contact loop and integrator only. They
+take turns, so that a change of the machine's speed meets all of them.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import math
+import os
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from statistics import median
+
+import yade
+
+from ..files import write_text
+from ..progress import Progress
+from ..specimens.specimen import Specimen
+from . import lammps as bench_lammps
+from . import memory as bench_size
+from .cases import BUILDERS
+from .report import (
+    Case,
+    Timing,
+    disc_rows,
+    machine,
+    scaling_picture,
+    scaling_rows,
+    size_rows,
+    table_rows,
+    threads_rows,
+)
+
+#: Turns of a run; the steps of a model are shared out over them.
+TURNS = 10
+#: Turns of the comparison of threads.
+_THREAD_TURNS = 5
+#: Models of flexpm itself, whose ratios the paper gives.
+_OWN = ("refined", "rigid", "inner", "inner-un")
+#: Thickness of the paper's specimens [m].
+_PAPER = 0.08
+#: Steps of each model before the first turn: the collider's first run, the grip of the platens.
+_WARM_UP = 100
+#: Grains of a scaling run over those of the paper's specimen.
+SCALES = (1, 10, 40)
+
+
+def run(
+    steps: int = 2000,
+    progress: Progress | None = None,
+    *,
+    width: float = 0.08,
+    height: float = 0.16,
+    seed: int = 1,
+    threads: int = 1,
+    json_file: Path | str | None = None,
+    scaling: bool = False,
+    lammps: str | None = None,
+) -> list[tuple[str, str]]:
+    """Time all models and describe the outcome.
+
+    Args:
+        steps: Steps of each model; multiples of 1000 weigh measured steps evenly.
+        progress: Called with (steps done, steps expected, text).
+        width: Of the specimen [m].
+        height: Of the specimen [m].
+        seed: Of the packing.
+        threads: Threads of a step.
+        json_file: Also written there.
+        scaling: Time the flexible model also with 10 and 40 times the grains, and draw it beside
+            `json_file`.
+        lammps: Python that has LAMMPS; None: the present one, if it has.
+
+    Returns:
+        Rows (name, value) for a table.
+    """
+    python = bench_lammps.interpreter(lammps)
+    specimen, setup = bench_size.timed_set_up(_PAPER, width, height, seed, progress)
+    timing = compare(specimen, steps=steps, threads=threads, lammps=python, progress=progress)
+    data, rows = timing.as_dict(), table_rows(timing)
+    if python is None:
+        rows.append(("LAMMPS", f"not timed: this Python has none; {bench_lammps.REMEDY}"))
+    data["set_up"] = setup
+    rows += size_rows(setup)
+    disc = compare(_disc(width, seed), steps=steps, threads=threads, names=_OWN, progress=progress)
+    data["brazilian"] = disc.as_dict()
+    rows += disc_rows(disc)
+    pair = compare_threads(specimen, steps, progress)
+    data["two_threads"] = pair
+    rows += threads_rows(pair)
+    if scaling:
+        data["scaling"] = grow(steps, width, height, seed, threads, progress)
+        rows += scaling_rows(data["scaling"])
+    if json_file is not None:
+        write_text(Path(json_file), json.dumps(data, indent=2) + "\n")
+        if scaling:
+            scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
+    return rows
+
+
+def compare_threads(
+    specimen: Specimen, steps: int, progress: Progress | None
+) -> dict[str, float | int]:
+    """Time the flexible model on one thread and on two, in turns, in wall time.
+
+    Returns:
+        Step times [s], the median over the turns of one over two, and the load of the machine
+        before: the number of processes that wait for a core.
+    """
+    load = os.getloadavg()[0]
+    times: dict[int, list[float]] = {1: [], 2: []}
+    for turn in range(_THREAD_TURNS):
+        for threads, spans in times.items():
+            share = max(TURNS, steps // _THREAD_TURNS)
+            found = compare(specimen, steps=share, threads=threads, names=("refined",))
+            spans.append(found.cases[0].step_time)
+        if progress is not None:
+            progress(turn + 1, _THREAD_TURNS, "threads")
+    return {
+        "one": median(times[1]),
+        "two": median(times[2]),
+        "gain": median(one / two for one, two in zip(times[1], times[2], strict=True)),
+        "load": load,
+        "cores": os.cpu_count() or 1,
+    }
+
+
+def compare(
+    specimen: Specimen,
+    *,
+    steps: int,
+    threads: int = 1,
+    names: tuple[str, ...] | None = None,
+    lammps: str | None = None,
+    progress: Progress | None = None,
+) -> Timing:
+    """Time the models on one specimen in turns; the scenes are removed afterwards.
+
+    Args:
+        specimen: A rectangle.
+        steps: Steps of each model.
+        threads: Threads of a step.
+        names: Models to time; None for all.
+        lammps: Python that runs LAMMPS' models, on one thread; None: without them.
+        progress: Called with (steps done, steps expected, text).
+    """
+    chunk = math.ceil(steps / TURNS)
+    turns = math.ceil(steps / chunk)
+    with _threads(threads), bench_lammps.workers(lammps, specimen) as workers:
+        yade.O.reset()
+        try:
+            cases = [
+                _case(name, specimen, threads)
+                for name in BUILDERS
+                if names is None or name in names
+            ]
+            cases += [_lammps_case(name, worker) for name, worker in workers.items()]
+            for turn in range(turns):
+                for number, case in enumerate(cases):
+                    _take_turn(case, chunk)
+                    if progress is not None:
+                        done = (turn * len(cases) + number + 1) * chunk
+                        progress(done, turns * len(cases) * chunk, "timing")
+        finally:
+            yade.O.reset()
+    described = {**specimen.dimensions, "seed": specimen.seed, **cases[0].counts}
+    host = machine()
+    for worker in workers.values():
+        host["lammps"] = worker.version
+    return Timing(host, described, threads, turns * chunk, cases)
+
+
+def grow(
+    steps: int, width: float, height: float, seed: int, threads: int, progress: Progress | None
+) -> list[dict[str, float | int]]:
+    """Time the flexible model on specimens with more and more grains."""
+    found = []
+    for scale in SCALES:
+        side = math.sqrt(scale)
+        specimen, row = bench_size.timed_set_up(_PAPER, width * side, height * side, seed, progress)
+        share = max(10 * TURNS, steps // scale)
+        timing = compare(
+            specimen, steps=share, threads=threads, names=("refined",), progress=progress
+        )
+        case = timing.cases[0]
+        row["step_time"] = case.step_time
+        row["time_per_grain"] = case.step_time / case.counts["grains"]
+        row["steps_together"] = case.counts["steps_together"]
+        moved = bench_size.bytes_per_step(case.counts) / row["steps_together"]
+        row["bandwidth"] = moved / case.step_time
+        row["triad"] = bench_size.triad()
+        found.append(row)
+    return found
+
+
+def _case(name: str, specimen: Specimen, threads: int) -> Case:
+    label, build = BUILDERS[name]
+    omega = yade.O
+    scene = omega.addScene()
+    omega.switchToScene(scene)
+    counts = build(specimen, threads)
+    case = Case(name, label, scene, counts)
+    for _ in range(_WARM_UP):
+        omega.step()
+    return case
+
+
+def _lammps_case(name: str, worker: bench_lammps.Worker) -> Case:
+    worker.step(_WARM_UP)
+    return Case(name, bench_lammps.MODELS[name], None, worker.counts, worker=worker)
+
+
+def _take_turn(case: Case, steps: int) -> None:
+    """Do and time the next steps of a model."""
+    if case.worker is not None:
+        wall, own = case.worker.step(steps)
+        case.times.append(wall)
+        case.cpu_times.append(own)
+        return
+    omega = yade.O
+    omega.switchToScene(case.scene)
+    wall, own = time.perf_counter(), time.thread_time()
+    for _ in range(steps):
+        omega.step()  # in this thread, whose number of threads is known
+    for engine in omega.engines:
+        if isinstance(engine, yade.wrapper.GrainSolver):
+            engine.cracks()  # a look: no step of this turn waits for the next turn
+    case.cpu_times.append((time.thread_time() - own) / steps)
+    case.times.append((time.perf_counter() - wall) / steps)
+
+
+@contextmanager
+def _threads(count: int) -> Iterator[None]:
+    """Let YADE's own loops use `count` threads: not all of them obey their engine's number."""
+    openmp = ctypes.CDLL("libgomp.so.1")
+    before = openmp.omp_get_max_threads()
+    openmp.omp_set_num_threads(count)
+    try:
+        yield
+    finally:
+        openmp.omp_set_num_threads(before)
+
+
+def _disc(diameter: float, seed: int) -> Specimen:
+    return Specimen.disc(diameter, _PAPER, seed=seed)

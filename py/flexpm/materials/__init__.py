@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials: laws by name, presets, mixtures of minerals, published measurements."""
+
+from .material import Material, default_name, load, preset_names
+
+__all__ = ["Material", "default_name", "load", "preset_names"]

@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials: contact strengths and one elastic set per model, paper Tables 1, 2 and 7. SI units.
+
+Inside the contact law tension and opening are positive; all strengths here are magnitudes.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..files import load_toml
+from . import mixing as minerals
+from .keys import (
+    CHOICES,
+    COMMON_KEYS,
+    ELASTIC_KEYS,
+    ELASTIC_SET,
+    ENERGY_KEYS,
+    UNITS,
+    check_name,
+    checked,
+    elastic_set_name,
+    nearest,
+)
+from .mixing import Mineral
+
+#: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
+ENERGY_TOLERANCE = 1e-12
+
+_PRESETS = Path(__file__).with_name("presets")
+
+
+@dataclass(frozen=True)
+class ElasticSet:
+    """Elastic properties of one model.
+
+    The set ``flexible`` needs `young` and `poisson` for its triangles. In the set ``inner`` they
+    are the rock's: the stiffness of the contacts is fitted to them if they are given.
+    """
+
+    normal_stiffness: float  #: K_n of the contacts [Pa/m]
+    shear_ratio: float  #: eta = k_s / k_n of the contacts [-]
+    young: float | None = None  #: Young's modulus of the triangles, or of the rock [Pa]
+    poisson: float | None = None  #: Poisson's ratio of the triangles, or of the rock [-]
+
+
+@dataclass(frozen=True)
+class Material:
+    """Contact strengths and elastic sets of a rock. All values are checked on construction."""
+
+    name: str
+    elastic: Mapping[str, ElasticSet]  #: by name of the set: flexible, rigid, inner
+    tensile_strength: float  #: sigma_t [Pa]
+    cohesion: float  #: c [Pa]
+    friction: float  #: mu, tangent of the friction angle [-]
+    tensile_fracture_energy: float | None = None  #: G_fn [N/m], area under the whole curve
+    shear_fracture_energy: float | None = None  #: G_fs [N/m]
+    softening: str = "bilinear"  #: bilinear or brittle
+    density: float = 2650.0  #: [kg/m3], used by dynamic runs and by gravity
+    plane: str = "stress"  #: plane stress or plane strain of the triangles
+    minerals: tuple[Mineral, ...] = ()  #: kinds of grains; none: all grains alike
+
+    def __post_init__(self) -> None:
+        for key in COMMON_KEYS:
+            value = getattr(self, key)
+            if value is not None or key not in ENERGY_KEYS:
+                object.__setattr__(self, key, checked(key, value))
+        if not self.elastic:
+            raise InputError("material elastic = {}, needs a set such as [elastic.flexible]")
+        sets = {name: _checked_set(name, chosen) for name, chosen in self.elastic.items()}
+        object.__setattr__(self, "elastic", sets)
+        if self.softening == "bilinear":
+            for key in ENERGY_KEYS:
+                if getattr(self, key) is None:
+                    raise InputError(f"material {key} is missing; bilinear softening needs it")
+        object.__setattr__(self, "minerals", minerals.checked(self.minerals))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any], name: str = "custom") -> Material:
+        """Build a material from nested keys as they stand in a TOML file.
+
+        Args:
+            data: Common keys, a table `elastic` of sets, a list `mineral` of tables if grains
+                differ; `name` is optional.
+            name: Name if `data` holds none.
+
+        Raises:
+            InputError: naming the key that is unknown, missing or out of range.
+        """
+        common = dict(data)
+        label = str(common.pop("name", name))
+        sets = common.pop("elastic", {})
+        kinds = common.pop("mineral", ())
+        if not isinstance(sets, Mapping):
+            raise InputError(f"material elastic = {sets!r}, must be tables like [elastic.flexible]")
+        for key in common:
+            check_name("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
+        for key in ("tensile_strength", "cohesion", "friction"):
+            if key not in common:
+                raise InputError(f"material {key} is missing; give it in [{UNITS[key]}]")
+        elastic = {set_name: _elastic_from(set_name, values) for set_name, values in sets.items()}
+        return cls(name=label, elastic=elastic, minerals=kinds, **common)
+
+    def with_set(self, assignments: Iterable[str], model: str = "flexible") -> Material:
+        """Return a copy with `KEY=VALUE` assignments applied; elastic keys go to `model`'s set.
+
+        ``MINERAL.KEY=VALUE`` changes a key of one mineral; otherwise what a mineral changes itself
+        stays as it is.
+
+        Choosing brittle softening drops fracture energies that came with the material, since
+        brittle means that they equal the elastic energies. A stiffness or shear ratio given for
+        inner particles drops the constants that these would be fitted to.
+
+        Raises:
+            InputError: for a malformed assignment, an unknown key or a value out of range.
+        """
+        changes = dict(_parse_assignment(text) for text in assignments)
+        if not changes:
+            return self
+        name = elastic_set_name(model)
+        of_minerals = {key: changes.pop(key) for key in list(changes) if "." in key}
+        kinds = minerals.with_values(self.minerals, of_minerals, name)
+        elastic = dict(self.elastic)
+        own = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
+        if name == "inner" and own.keys() & {"normal_stiffness", "shear_ratio"}:
+            own = dict.fromkeys(("young", "poisson")) | own
+        if own:
+            elastic[name] = dataclasses.replace(self._elastic(model), **own)
+        if changes.get("softening") == "brittle":
+            changes = dict.fromkeys(ENERGY_KEYS) | changes
+        changed = dataclasses.replace(self, elastic=elastic, minerals=kinds, **changes)
+        changed.law(model)
+        return changed
+
+    def law(self, model: str = "flexible") -> dict[str, float | str | None]:
+        """Effective parameters of `model` as one flat dictionary, keys as in the TOML files.
+
+        For brittle softening the fracture energies are the elastic energies sigma_t^2 / (2 K_n)
+        and c^2 / (2 eta K_n) [N/m] of the model's own elastic set.
+
+        Raises:
+            InputError: if the material has no set for `model`, lacks a value that `model` needs,
+                or if a fracture energy lies below the elastic energy.
+        """
+        chosen = self._elastic(model)
+        if model == "flexible":
+            for key in ("young", "poisson"):
+                if getattr(chosen, key) is None:
+                    raise InputError(
+                        f"material [elastic.flexible] {key} is missing; triangles need it"
+                    )
+        values = {key: getattr(chosen, key) for key in ELASTIC_KEYS}
+        values |= {key: getattr(self, key) for key in COMMON_KEYS}
+        for key, elastic in zip(ENERGY_KEYS, self.elastic_energies(model), strict=True):
+            values[key] = self._energy(key, elastic)
+        return values
+
+    def description(self, model: str = "flexible") -> dict[str, Any]:
+        """``law`` of `model`, and if grains differ also that of each mineral, by `minerals`.
+
+        Raises:
+            InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
+                several.
+        """
+        values: dict[str, Any] = self.law(model)
+        if not self.minerals:
+            return values
+        if model not in minerals.MODELS:
+            raise InputError(
+                f"material = {self.name!r} has minerals, model {model} takes one kind of grain; "
+                f"use {' or '.join(minerals.MODELS)}"
+            )
+        minerals.pair_materials(self, model)
+        kinds = zip(self.minerals, minerals.mineral_materials(self), strict=True)
+        return values | {
+            "minerals": [
+                {"name": kind.name, "fraction": kind.fraction, **own.law(model)}
+                for kind, own in kinds
+            ]
+        }
+
+    def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
+        """Energies [N/m] a point has stored at its tensile and at its shear strength."""
+        chosen = self._elastic(model)
+        normal = chosen.normal_stiffness
+        tensile = self.tensile_strength**2 / (2.0 * normal)
+        return tensile, self.cohesion**2 / (2.0 * chosen.shear_ratio * normal)
+
+    def _elastic(self, model: str) -> ElasticSet:
+        name = elastic_set_name(model)
+        if name not in self.elastic:
+            raise InputError(
+                f"material = {self.name!r} has no elastic set for model {model}; "
+                f"add a table [elastic.{name}]"
+            )
+        return self.elastic[name]
+
+    def _energy(self, key: str, elastic: float) -> float:
+        given = getattr(self, key)
+        if given is None:
+            return elastic
+        if self.softening == "brittle":
+            if abs(given - elastic) > ENERGY_TOLERANCE * elastic:
+                raise InputError(
+                    f"material {key} = {given!r} N/m, brittle softening fixes it at the elastic "
+                    f"energy {elastic!r} N/m; remove the key or use bilinear softening"
+                )
+        elif given < elastic * (1.0 - ENERGY_TOLERANCE):
+            raise InputError(
+                f"material {key} = {given!r} N/m, must not be below the elastic energy at the "
+                f"peak; the smallest allowed value is {elastic!r} N/m"
+            )
+        return given
+
+
+def default_name(model: str = "flexible") -> str:
+    """Preset used when none is given: the best fit of the paper for that kind of model."""
+    return "augig-table7" if model == "flexible" else "augig-table2-bilinear"
+
+
+def preset_names() -> list[str]:
+    """Names of the presets that come with flexpm."""
+    return sorted(path.stem for path in _PRESETS.glob("*.toml"))
+
+
+def load(
+    material: str | Path | Mapping[str, Any] | Material | None = None, model: str = "flexible"
+) -> Material:
+    """Return a material from a preset's name, a TOML file, a dictionary or a Material.
+
+    Args:
+        material: None takes the default preset of `model`. A text that ends in `.toml` or holds
+            a path separator is a file, any other text is the name of a preset.
+        model: Model whose default is taken.
+
+    Raises:
+        InputError: for an unknown preset, an unreadable file or a wrong value.
+    """
+    if material is None:
+        material = default_name(model)
+    if isinstance(material, Material):
+        return material
+    if isinstance(material, Mapping):
+        return Material.from_dict(material)
+    if isinstance(material, Path) or str(material).endswith(".toml") or "/" in str(material):
+        return _load_file(Path(material))
+    known = preset_names()
+    if material not in known:
+        raise InputError(
+            f"material = {material!r}, unknown preset{nearest(str(material), known)}; "
+            f"known are {', '.join(known)}, or give a .toml file"
+        )
+    return _load_file(_PRESETS / f"{material}.toml")
+
+
+def _load_file(path: Path) -> Material:
+    return Material.from_dict(load_toml(path, "material"), name=path.stem)
+
+
+def _elastic_from(name: str, values: Any) -> ElasticSet:
+    if not isinstance(values, Mapping):
+        raise InputError(f"material elastic.{name} = {values!r}, must be a table [elastic.{name}]")
+    for key in values:
+        check_name(f"material [elastic.{name}] key", key, list(ELASTIC_KEYS))
+    for key in ("normal_stiffness", "shear_ratio"):
+        if key not in values:
+            raise InputError(
+                f"material [elastic.{name}] {key} is missing; give it in [{UNITS[key]}]"
+            )
+    return ElasticSet(**values)
+
+
+def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:
+    check_name("material elastic set", name, sorted(set(ELASTIC_SET.values())))
+    values: dict[str, Any] = {}
+    for key in ELASTIC_KEYS:
+        value = getattr(chosen, key)
+        if value is not None or key not in ("young", "poisson"):
+            values[key] = checked(key, value, f"[elastic.{name}] ")
+    return ElasticSet(**values)
+
+
+def _parse_assignment(text: str) -> tuple[str, float | str]:
+    key, equals, value = (part.strip() for part in text.partition("="))
+    if not equals or not key or not value:
+        raise InputError(f"set = {text!r}, must read KEY=VALUE; for example young=30e9")
+    plain = key.rpartition(".")[2]
+    check_name("set", plain, list(UNITS))
+    if plain in CHOICES:
+        return key, value
+    try:
+        return key, float(value)
+    except ValueError:
+        raise InputError(f"set {key} = {value!r} {UNITS[plain]}, must be a number") from None

@@ -1,0 +1,357 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models of a specimen: bodies and engines in YADE's scene, paper Sec. 2. SI units.
+
+With scaled masses (the default) time is counted in steps: the time step is 1, velocities are metres
+per step, and only slow loading means anything.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from ..errors import InputError
+from ..materials import material as materials
+from ..materials import mixing as minerals
+from ..materials.material import Material
+from ..specimens import inner_particles as inner
+from ..specimens import mineral_map
+from ..specimens.specimen import Specimen
+from . import spheres as yade_models
+
+#: Models of this module's own solver.
+SOLVER_MODELS = ("flexible", "rigid", *inner.NAMES)
+#: All models that this version has.
+MODELS = (*SOLVER_MODELS, *yade_models.NAMES)
+MESHES = ("refined", "fan")
+POINTS = (1, 2, 3)
+
+#: Local damping of all tests [-], paper Sec. 4.1.
+DAMPING = 0.7
+
+#: Bodies may move this share of the mean diameter before the collider looks again [-].
+_SWEEP = 0.05
+
+
+@dataclass
+class Model:
+    """A specimen in YADE's scene.
+
+    Attributes:
+        specimen: The grains.
+        material: Their material.
+        name: Name of the model.
+        solver: The engine that holds and steps the grains.
+        engines: All engines of the model; ``solver`` is one of them.
+        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        minerals: Index of each grain's mineral, or None if all grains are alike.
+        gravity: Acceleration downwards [m/s2], with real masses only.
+    """
+
+    specimen: Specimen
+    material: Material
+    name: str
+    solver: Any
+    engines: list[Any]
+    dynamic: bool = False
+    minerals: np.ndarray | None = None
+    gravity: float = 0.0
+
+    def set_masses(self) -> None:
+        """Scale the masses, or set the real ones and their stable time step, before the first step.
+
+        Needed again after plates have been laid.
+        """
+        if self.dynamic:
+            yade.O.dt = self.solver.useRealMasses()
+            self.solver.gravity = (0.0, -self.gravity, 0.0)
+        else:
+            yade.O.dt = 1.0
+            self.solver.scaleMasses()
+
+    def run(self, steps: int) -> None:
+        """Advance by `steps`.
+
+        Raises:
+            RuntimeError: if a number is not finite any more.
+        """
+        for _ in range(steps):
+            yade.O.step()
+
+    def add_engines(
+        self,
+        *,
+        before: tuple[Any, ...] = (),
+        after: tuple[Any, ...] = (),
+        last: tuple[Any, ...] = (),
+    ) -> None:
+        """Put engines of a protocol just before or after the solver's step, or last."""
+        place = self.engines.index(self.solver)
+        self.engines[place : place + 1] = [*before, self.solver, *after]
+        self.engines += last
+        yade.O.engines = self.engines
+
+    def remove_engines(self, *engines: Any) -> None:
+        """Take engines of a protocol out again."""
+        self.engines = [engine for engine in self.engines if engine not in engines]
+        yade.O.engines = self.engines
+
+    def engine(self, kind: str) -> Any:
+        """The engine of a class."""
+        return next(engine for engine in self.engines if type(engine).__name__ == kind)
+
+    def set_threads(self, threads: int) -> None:
+        """Threads of a step; results do not depend on it."""
+        self.solver.ompThreads = threads
+
+    def rebind(self) -> None:
+        """Take over the engines of a scene that has been loaded."""
+        self.engines = list(yade.O.engines)
+        self.solver = self.engine("GrainSolver")
+
+    def snapshot(self) -> dict[str, np.ndarray]:
+        """The present state as plain arrays; their list is in the documentation."""
+        found = self.solver.snapshot()
+        if self.minerals is not None:
+            found["grain_mineral"] = self.minerals
+        return found
+
+    def describe_material(self) -> dict[str, Any]:
+        """Name and parameters of the material, of minerals also the area that they have."""
+        found = {"name": self.material.name, **self.material.description(self.name)}
+        if self.minerals is not None:
+            kinds = found["minerals"]
+            areas = mineral_map.area_fractions(self.specimen, self.minerals, len(kinds))
+            for kind, area in zip(kinds, areas, strict=True):
+                kind["area_fraction"] = area
+        return found
+
+
+def build(
+    specimen: Specimen,
+    material: Material | str | None = None,
+    model: str = "flexible",
+    *,
+    points: int = 3,
+    mesh: str = "refined",
+    damping: float = DAMPING,
+    dynamic: bool = False,
+    gravity: float = 0.0,
+    threads: int = 1,
+) -> Model | yade_models.SphereModel:
+    """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
+
+    Bodies that the scene has already are kept, its engines are replaced.
+
+    Args:
+        specimen: The grains.
+        material: Preset, file, or material; None for the default of the model.
+        model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
+            ``cohfrict``.
+        points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have one.
+        mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
+        damping: Local damping alpha [-], 0 <= alpha < 1.
+        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
+        threads: Threads of a step; results do not depend on it.
+
+    Returns:
+        The model; ``yade.O`` holds its bodies and engines.
+
+    Raises:
+        InputError: for an argument or a material property out of range.
+    """
+    check(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
+    _require_damping(damping)
+    if model in yade_models.NAMES:
+        return yade_models.build(
+            specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
+        )
+    if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
+        raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
+    grains = _grains(specimen, model, points, mesh)
+    chosen = _fitted(specimen, grains, materials.load(material, model), model)
+    solver = _assembled(grains, chosen, model)
+    solver.damping = damping
+    solver.addToScene(_grain_materials(chosen, model))
+    engines = [_collider(grains), solver, _idle_newton()]
+    yade.O.engines = engines
+    kinds = mineral_map.minerals_of(specimen, chosen)
+    built = Model(specimen, chosen, model, solver, engines, dynamic, kinds, gravity)
+    built.set_threads(threads)
+    built.set_masses()
+    return built
+
+
+def check(
+    model: str, *, points: int, mesh: str, dynamic: bool = False, gravity: float = 0.0
+) -> None:
+    """Raise InputError for an unknown model, or for an option that it cannot have."""
+    _require_one_of("model", model, MODELS)
+    if model in yade_models.NAMES:
+        _require_one_of(f"points of model {model}", points, (POINTS[-1],))
+        _require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
+        _require_one_of(f"gravity of model {model}", gravity, (0.0,))
+    else:
+        _require_one_of("points", points, POINTS)
+        _require_one_of("mesh", mesh, MESHES)
+        _require_gravity(gravity, dynamic)
+
+
+def elastic(
+    specimen: Specimen,
+    material: Material | str = "augig-table7",
+    model: str = "flexible",
+    *,
+    points: int = 3,
+    mesh: str = "refined",
+) -> dict[str, float]:
+    """Elastic constants of a rectangular specimen by one sparse solve, without a simulation.
+
+    Args:
+        specimen: A rectangle.
+        material: Preset, file, or material.
+        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``.
+        points: Contact points per contact; inner particles have one.
+        mesh: ``refined`` or ``fan``.
+
+    Returns:
+        ``youngs_modulus`` [Pa], ``poissons_ratio`` [-] and the counts of the model.
+
+    Raises:
+        InputError: for an argument out of range or a specimen that is no rectangle.
+    """
+    _require_one_of("model", model, SOLVER_MODELS)
+    grains = _grains(specimen, model, points, mesh)
+    chosen = _fitted(specimen, grains, materials.load(material, model), model)
+    solver = _assembled(grains, chosen, model)
+    modulus, ratio = _constants(solver)
+    return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
+
+
+@dataclass
+class _Grains:
+    """What the solver assembles: cells, their discs (rows x, y, radius [m]) and its options."""
+
+    specimen: Specimen
+    tessellation: Any
+    discs: np.ndarray
+    options: dict[str, Any]
+
+
+def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
+    """The grains of a specimen, or the inner particles of all of them."""
+    _require_one_of("points", points, POINTS)
+    _require_one_of("mesh", mesh, MESHES)
+    options = {"rigid": model != "flexible", "mesh": mesh, "points": points, "centre_line": False}
+    if model not in inner.NAMES:
+        discs = np.asarray(specimen.discs, dtype=float)
+        return _Grains(specimen, specimen.tessellation, discs, options)
+    cells = inner.cells(specimen)
+    options |= {"points": 1, **inner.edge_options(cells, model)}
+    return _Grains(specimen, cells.tessellation, cells.discs, options)
+
+
+def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -> Material:
+    """The material, with the stiffness of inner particles fitted to the rock's."""
+    if model not in inner.NAMES:
+        return chosen
+    chosen.description(model)  # refuses a material without the set
+    if specimen.kind == "disc":  # no test of it gives a modulus
+        like = inner.rectangle_like(specimen)
+        grains = _grains(like, model, POINTS[0], MESHES[0])
+    return inner.fitted(chosen, lambda tried: _constants(_assembled(grains, tried, model)))
+
+
+def _constants(solver: Any) -> tuple[float, float]:
+    """Young's modulus [Pa] and Poisson's ratio [-] of an assembled rectangle."""
+    try:
+        return solver.elasticConstants()
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"elastic: {error}") from error
+
+
+def _assembled(grains: _Grains, chosen: Material, model: str) -> Any:
+    """Make the solver with the packed arrays of the bonded, unloaded grains."""
+    chosen.description(model)  # refuses minerals that do not go together
+    solver = wrapper.GrainSolver()
+    try:
+        solver.assemble(
+            tessellation=grains.tessellation,
+            centres=np.ascontiguousarray(grains.discs[:, :2]),
+            radii=np.ascontiguousarray(grains.discs[:, 2]),
+            thickness=float(grains.specimen.thickness),
+            materials=_grain_materials(chosen, model),
+            options=grains.options | _mineral_options(grains.specimen, chosen, model),
+        )
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"build: {error}") from error
+    return solver
+
+
+def _grain_materials(chosen: Material, model: str) -> list[Any]:
+    """Of each mineral, or of all grains."""
+    return [_grain_material(kind, model) for kind in minerals.mineral_materials(chosen)]
+
+
+def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> dict[str, Any]:
+    """Minerals of the grains and contacts of each pair of minerals, for the solver."""
+    found = mineral_map.minerals_of(specimen, chosen)
+    if found is None:
+        return {}
+    pairs = minerals.pair_materials(chosen, model)
+    return {"minerals": found, "pairs": [_grain_material(pair, model) for pair in pairs]}
+
+
+def _grain_material(chosen: Material, model: str) -> Any:
+    law = chosen.law(model)
+    return wrapper.GrainMat(
+        label=chosen.name,
+        young=law["young"] or 0.0,  # rigid grains have none
+        poisson=law["poisson"] or 0.0,
+        density=law["density"],
+        normalStiffness=law["normal_stiffness"],
+        shearRatio=law["shear_ratio"],
+        tensileStrength=law["tensile_strength"],
+        cohesion=law["cohesion"],
+        friction=law["friction"],
+        tensileFractureEnergy=law["tensile_fracture_energy"],
+        shearFractureEnergy=law["shear_fracture_energy"],
+        planeStrain=law["plane"] == "strain",
+    )
+
+
+def _collider(grains: _Grains) -> Any:
+    sweep = _SWEEP * 2.0 * float(np.mean(grains.discs[:, 2]))
+    return wrapper.InsertionSortCollider([wrapper.Bo1_LaguerreCell_Aabb()], verletDist=sweep)
+
+
+def _idle_newton() -> Any:
+    # The collider asks a NewtonIntegrator for the fastest motion. Grains are moved by the solver,
+    # which calls the collider itself; a value between 0 and 1 keeps the collider idle until then.
+    return wrapper.NewtonIntegrator(dead=True, maxVelocitySq=0.5, label="")
+
+
+def _require_one_of(name: str, value: Any, known: tuple[Any, ...]) -> None:
+    if value not in known:
+        choices = ", ".join(str(choice) for choice in known)
+        raise InputError(f"build: {name} = {value!r}, must be one of {choices}")
+
+
+def _require_damping(damping: float) -> None:
+    if not 0.0 <= damping < 1.0:
+        raise InputError(f"build: damping = {damping}, must be at least 0 and below 1")
+
+
+def _require_gravity(gravity: float, dynamic: bool) -> None:
+    if not (math.isfinite(gravity) and gravity >= 0.0):
+        raise InputError(f"build: gravity = {gravity} m/s2, must not be below 0")
+    if gravity != 0.0 and not dynamic:
+        raise InputError(
+            f"build: gravity = {gravity} m/s2, must be 0 with scaled masses; use dynamic"
+        )

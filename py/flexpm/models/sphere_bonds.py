@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bonds of YADE's own bonded models on the edges that grains share: the mapping rule. SI units.
+
+A bond stands on a shared edge of length L, area A = L t. From the material's rigid elastic set and
+its strengths it takes
+
+    k_n = K_n A,  k_s = eta k_n,  k_b = K_n A L^2 / 12  (bending; CohFrict only),
+    F_t = sigma_t A,  F_s = c A + mu F_n  (F_n compressive positive),
+
+so that one bond carries in tension and in shear what the edge's contact points carry together. Both
+models break at once: fracture energies are not used. Strengths are forces and magnitudes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..specimens.specimen import Specimen
+
+#: Margin on the masses of the stability bound [-].
+MASS_MARGIN = 1.1
+
+
+@dataclass(frozen=True)
+class Bonds:
+    """Properties of all bonds, one row each."""
+
+    grains: np.ndarray  #: (n, 2)
+    ends: np.ndarray  #: ends of the shared edges, (n, 2, 2) [m]
+    areas: np.ndarray  #: A [m2]
+    normal_stiffness: np.ndarray  #: k_n [N/m]
+    shear_stiffness: np.ndarray  #: k_s [N/m]
+    bending_stiffness: np.ndarray  #: k_b [N m]
+    tensile_strength: np.ndarray  #: F_t [N]
+    shear_strength: np.ndarray  #: F_s without friction [N]
+
+    def __len__(self) -> int:
+        return len(self.grains)
+
+
+def bonds_of(specimen: Specimen, law: Mapping[str, Any]) -> Bonds:
+    """Bonds of a specimen.
+
+    Args:
+        specimen: The grains; a bond stands on each edge that two of them share.
+        law: Effective parameters, ``Material.law``.
+    """
+    cells = specimen.tessellation
+    edges = np.array(cells.shared_edges, dtype=int).reshape(-1, 4)
+    ends = np.array(cells.vertices)[edges[:, 2:4]]
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    areas = lengths * specimen.thickness
+    normal = law["normal_stiffness"] * areas
+    return Bonds(
+        grains=edges[:, :2],
+        ends=ends,
+        areas=areas,
+        normal_stiffness=normal,
+        shear_stiffness=law["shear_ratio"] * normal,
+        bending_stiffness=normal * lengths**2 / 12.0,
+        tensile_strength=law["tensile_strength"] * areas,
+        shear_strength=law["cohesion"] * areas,
+    )
+
+
+def tributary_lengths(specimen: Specimen, side: int) -> dict[int, float]:
+    """Length [m] of the specimen's side that belongs to each grain, by grain.
+
+    Args:
+        specimen: The grains.
+        side: Side of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
+    """
+    cells = specimen.tessellation
+    vertices = np.array(cells.vertices)
+    lengths: dict[int, float] = {}
+    for cell, start, end, edge_side in np.array(cells.boundary_edges, dtype=int).tolist():
+        if edge_side == side:
+            length = float(np.hypot(*(vertices[end] - vertices[start])))
+            lengths[cell] = lengths.get(cell, 0.0) + length
+    return lengths
+
+
+def separate_radii(specimen: Specimen) -> np.ndarray:
+    """Radii [m] shrunk, disc by disc, until no two discs overlap and none leaves a rectangle.
+
+    CohFrict forgets the reference distance of a bond that breaks: discs that overlapped then would
+    fly apart. A pair gets the share of its distance that its discs' radii have.
+    """
+    from scipy.spatial import cKDTree
+
+    centres, radii = specimen.centres, specimen.radii
+    pairs = cKDTree(centres).query_pairs(2.0 * float(radii.max()), output_type="ndarray")
+    apart = np.hypot(*(centres[pairs[:, 0]] - centres[pairs[:, 1]]).T)
+    share = np.minimum(1.0, apart / radii[pairs].sum(axis=1))
+    factor = np.ones(len(radii))
+    for column in (0, 1):
+        np.minimum.at(factor, pairs[:, column], share)
+    shrunk = factor * radii
+    if specimen.kind == "rectangle":
+        low, high = specimen.outline.min(axis=0), specimen.outline.max(axis=0)
+        room = np.minimum(centres - low, high - centres).min(axis=1)
+        shrunk = np.minimum(shrunk, room)
+    return shrunk
+
+
+def stiffness_bounds(
+    centres: np.ndarray, radii: np.ndarray, bonds: Bonds, bending: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds of the row sums of the stiffness matrix, by grain.
+
+    Rotations count as disc radius times angle, so that both kinds of motion have one unit; the
+    levers of a bond are the parts of the distance of its two centres.
+
+    Args:
+        centres: Of the spheres, (n, 2) [m].
+        radii: Of the spheres [m].
+        bonds: Their bonds.
+        bending: Whether bonds resist bending.
+
+    Returns:
+        For translations [N/m] and for rotations [N m].
+    """
+    first, second = bonds.grains.T
+    apart = np.hypot(*(centres[second] - centres[first]).T)
+    overlap = radii[first] + radii[second] - apart
+    # levers over radii: what a unit of each grain's rotation moves at the contact point
+    levers = [1.0 - 0.5 * overlap / radii[first], 1.0 - 0.5 * overlap / radii[second]]
+    shares = levers[0] + levers[1]
+    move, turn = np.zeros(len(radii)), np.zeros(len(radii))
+    bend = bonds.bending_stiffness if bending else np.zeros(len(bonds))
+    for grain, other, lever in ((first, second, levers[0]), (second, first, levers[1])):
+        np.add.at(
+            move,
+            grain,
+            2.0 * np.maximum(bonds.normal_stiffness, bonds.shear_stiffness)
+            + bonds.shear_stiffness * np.abs(shares),
+        )
+        row = bonds.shear_stiffness * np.abs(lever) * (2.0 + np.abs(shares)) * radii[grain] ** 2
+        np.add.at(turn, grain, row + bend * (1.0 + radii[grain] / radii[other]))
+    return move, turn

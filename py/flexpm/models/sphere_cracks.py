@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cracks of YADE's own bonded models, found by looking at their bonds. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import yade
+
+from ..results.record import Curve
+from ..results.result import SHEAR, TENSILE, Crack
+from .sphere_bonds import Bonds
+
+_FOUND = ("steps", "modes", "places")
+
+
+class CrackWatch:
+    """Finds bonds that have broken, with step, mode and place.
+
+    JCFpm: tensile if the bond was opened beyond its tensile limit. CohFrict: tensile if its tension
+    was closer to the limit than its shear force.
+    """
+
+    def __init__(
+        self, law: Any, interactions: Sequence[Any], bonds: Bonds, bodies: Sequence[int]
+    ) -> None:
+        """Watch bonds from the present state on.
+
+        Args:
+            law: The contact law's functor.
+            interactions: One for each bond.
+            bonds: Their properties.
+            bodies: Body of each grain.
+        """
+        self._bonds, self._bodies = bonds, bodies
+        self.rebind(law, interactions)
+        self.steps = np.full(len(bonds), -1)
+        self.modes = np.zeros(len(bonds), dtype=int)
+        self.places = bonds.ends.mean(axis=1)
+        self._start = np.array([self._centre(grain) for grain in range(len(bodies))])
+
+    def rebind(self, law: Any, interactions: Sequence[Any]) -> None:
+        """Watch the same bonds in a scene that has been loaded; None stands for a lost one."""
+        self._law, self._interactions = law, interactions
+        # YADE drops this when the bond is lost; kept here, it still tells how that came
+        self.contacts = [None if one is None else one.phys for one in interactions]
+        self._counts_itself = hasattr(law, "nbTensCracks")
+
+    def memory(self) -> dict[str, list]:
+        """What has been found, as plain values."""
+        found = (self.steps, self.modes, self.places)
+        return dict(zip(_FOUND, (array.tolist() for array in found), strict=True))
+
+    def recall(self, memory: Mapping[str, list]) -> None:
+        """Take over what :meth:`memory` gave."""
+        self.steps, self.modes, self.places = (np.array(memory[name]) for name in _FOUND)
+
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Numbers of tensile and of shear cracks."""
+        return int(np.sum(self.modes == TENSILE)), int(np.sum(self.modes == SHEAR))
+
+    def look(self) -> None:
+        """Take note of the bonds that have broken since the last look."""
+        if self._counts_itself:
+            if self._law.nbTensCracks + self._law.nbShearCracks == np.sum(self.steps >= 0):
+                return
+            broken = [row for row in self._whole() if self.contacts[row].isBroken]
+        else:
+            # an interaction that is not real or has another phys is not the bond any more
+            broken = [
+                row
+                for row in self._whole()
+                if not self._interactions[row].isReal or self._interactions[row].phys.cohesionBroken
+            ]
+        for row in broken:
+            self.steps[row] = yade.O.iter
+            self.modes[row] = self._mode(row)
+            self.places[row] += self._moved(row)
+
+    def cracks(self, curve: Curve) -> list[Crack]:
+        """All cracks in the order of their steps; strains are interpolated in `curve`."""
+        rows = np.flatnonzero(self.steps >= 0)
+        rows = rows[np.argsort(self.steps[rows], kind="stable")]
+        steps = self.steps[rows]
+        strains = (
+            np.interp(steps, curve["step"], curve["axial_strain"])
+            if len(curve)
+            else np.full(len(rows), math.nan)
+        )
+        return [
+            Crack(int(step), float(strain), *map(float, self.places[row]), int(mode), int(row), 0)
+            for row, step, strain, mode in zip(rows, steps, strains, self.modes[rows], strict=True)
+        ]
+
+    def _whole(self) -> list[int]:
+        """Bonds that were whole at the last look."""
+        return np.flatnonzero(self.steps < 0).tolist()
+
+    def _mode(self, row: int) -> int:
+        bond, strength = self.contacts[row], self._bonds.tensile_strength[row]
+        if self._counts_itself:
+            limit = strength / self._bonds.normal_stiffness[row]
+            return TENSILE if bond.crackJointAperture > limit else SHEAR
+        tension = -self._normal_force(row)
+        limit = self._bonds.shear_strength[row] - bond.tangensOfFrictionAngle * tension
+        return TENSILE if tension * max(limit, 0.0) > bond.shearForce.norm() * strength else SHEAR
+
+    def _normal_force(self, row: int) -> float:
+        """Of the last step before the bond broke, compression positive [N]."""
+        first, second = self._bonds.grains[row]
+        force = self.contacts[row].normalForce
+        along = self._centre(second) - self._centre(first)
+        return float(force[0] * along[0] + force[1] * along[1]) / float(np.hypot(*along))
+
+    def _moved(self, row: int) -> np.ndarray:
+        grains = self._bonds.grains[row]
+        now = np.array([self._centre(grain) for grain in grains])
+        return (now - self._start[grains]).mean(axis=0)
+
+    def _centre(self, grain: int) -> np.ndarray:
+        place = yade.O.bodies[self._bodies[grain]].state.pos
+        return np.array([place[0], place[1]])

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""State of YADE's bonded spheres as the plain arrays of the other models' snapshots. SI units.
+
+Each cell is drawn as a fan of triangles that moves and turns with its sphere; its stress is the
+mean stress of the sphere's bonds, sum of branch times force over volume. A bond is one point at the
+middle of its edge: its damage is 0 or 1, its slip the elastic one. Tension is positive.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import yade
+
+if TYPE_CHECKING:
+    from .spheres import SphereModel
+
+
+def snapshot(built: SphereModel) -> dict[str, np.ndarray]:
+    """Arrays of N nodes, M triangles and C bonds, as :mod:`flexpm.results.vtu` takes them."""
+    motion = Motion(built)
+    grain_of, reference, triangles, triangle_grain = _fans(built)
+    bonds, cracks = built.bonds, built.cracks
+    ends = np.stack(
+        [
+            0.5 * sum(motion.carry(bonds.grains[:, side], bonds.ends[:, k]) for side in (0, 1))
+            for k in (0, 1)
+        ],
+        axis=1,
+    )
+    forces = bond_forces(built)
+    along, length = motion.branches(bonds.grains)
+    normal = np.einsum("ij,ij->i", forces, along)
+    shear = along[:, 0] * forces[:, 1] - along[:, 1] * forces[:, 0]
+    middle = 0.5 * (ends[:, 0] + ends[:, 1])
+    stress = _grain_stress(built, motion, forces, middle)
+    start = np.hypot(*np.diff(built.specimen.centres[bonds.grains], axis=1)[:, 0].T)
+    return {
+        "positions": motion.carry(grain_of, reference),
+        "reference": reference,
+        "velocities": motion.velocities(grain_of, reference),
+        "triangles": triangles,
+        "triangle_grain": triangle_grain,
+        "triangle_stress": stress[triangle_grain],
+        "contact_grains": bonds.grains,
+        "contact_ends": ends,
+        "point_opening": (length - start)[:, None],
+        "point_slip": (-shear / bonds.shear_stiffness)[:, None],
+        "point_damage": (cracks.steps >= 0).astype(float)[:, None],
+        "point_traction": np.stack([-normal, -shear], axis=1)[:, None] / bonds.areas[:, None, None],
+        "crack_step": cracks.steps[:, None],
+        "crack_mode": cracks.modes[:, None],
+        "crack_position": cracks.places[:, None],
+    }
+
+
+class Motion:
+    """Where the spheres have gone and how they have turned."""
+
+    def __init__(self, built: SphereModel) -> None:
+        states = [yade.O.bodies[body].state for body in built.ids]
+        self._start = np.array(built.specimen.centres)
+        self.centres = np.array([(s.pos[0], s.pos[1]) for s in states])
+        self._speeds = np.array([(s.vel[0], s.vel[1]) for s in states])
+        self._spins = np.array([s.angVel[2] for s in states])
+        turns = [s.ori.toAxisAngle() for s in states]
+        angles = np.array([math.copysign(1.0, axis[2]) * angle for axis, angle in turns])
+        self._cos, self._sin = np.cos(angles), np.sin(angles)
+
+    def carry(self, grains: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Present places of points [m] that move with grains."""
+        return self.centres[grains] + self._arms(grains, points)
+
+    def velocities(self, grains: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Velocities of points that move with grains."""
+        x, y = self._arms(grains, points).T
+        return self._speeds[grains] + self._spins[grains, None] * np.column_stack((-y, x))
+
+    def branches(self, pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Unit vectors and distances between the centres of pairs."""
+        branch = self.centres[pairs[:, 1]] - self.centres[pairs[:, 0]]
+        length = np.hypot(*branch.T)
+        return branch / length[:, None], length
+
+    def _arms(self, grains: np.ndarray, points: np.ndarray) -> np.ndarray:
+        x, y = (points - self._start[grains]).T
+        c, s = self._cos[grains], self._sin[grains]
+        return np.column_stack((c * x - s * y, s * x + c * y))
+
+
+def bond_forces(built: SphereModel) -> np.ndarray:
+    """Force of each bond on its second grain [N], (C, 2); of what is left of it once broken."""
+    forces = np.zeros((len(built.bonds), 2))
+    for row, interaction in enumerate(built.interactions):
+        if interaction is not None and interaction.isReal:
+            phys = interaction.phys
+            force = phys.normalForce + phys.shearForce
+            forces[row] = force[0], force[1]
+    # the collider may have named the other sphere first
+    first = np.array(built.ids)[built.bonds.grains[:, 0]]
+    named = [one.id1 if one is not None else -1 for one in built.interactions]
+    forces[np.array(named) != first] *= -1.0
+    return forces
+
+
+def _grain_stress(
+    built: SphereModel, motion: Motion, forces: np.ndarray, middle: np.ndarray
+) -> np.ndarray:
+    """Mean stress of each grain, rows xx, yy, xy [Pa]."""
+    tensor = np.zeros((len(built.ids), 2, 2))
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        grains = built.bonds.grains[:, side]
+        arm = middle - motion.centres[grains]
+        np.add.at(tensor, grains, sign * arm[:, :, None] * forces[:, None, :])
+    volumes = np.array(built.specimen.tessellation.cell_areas) * built.specimen.thickness
+    tensor /= volumes[:, None, None]
+    return np.column_stack(
+        (tensor[:, 0, 0], tensor[:, 1, 1], 0.5 * (tensor[:, 0, 1] + tensor[:, 1, 0]))
+    )
+
+
+def _fans(built: SphereModel) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Grain of each node, nodes, triangles over all nodes, grain of each triangle."""
+    meshes = built.specimen.meshes("fan")
+    nodes = np.diff(meshes.node_offsets)
+    count = np.diff(meshes.triangle_offsets)
+    first = np.repeat(np.array(meshes.node_offsets)[:-1], count)
+    grains = np.arange(len(nodes))
+    return (
+        np.repeat(grains, nodes),
+        np.array(meshes.nodes),
+        np.array(meshes.triangles) + first[:, None],
+        np.repeat(grains, count),
+    )

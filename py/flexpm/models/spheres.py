@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE's own bonded models, JCFpm and CohFrict, on the discs and bonds of a specimen. SI units.
+
+Spheres at the disc centres move in the plane and turn about z; each edge that two cells share is a
+bond whose stiffness and strength follow the rule of ``yade_bonds``. Spheres that meet later touch
+with friction only. As in the other models masses are scaled for a time step of 1 unless the model
+is dynamic.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import yade
+from yade import utils, wrapper
+
+from ..errors import InputError
+from ..materials import material as materials
+from ..materials.material import Material
+from ..specimens.specimen import Specimen
+from . import sphere_bonds as yade_bonds
+from . import sphere_snapshot as yade_snapshot
+from .sphere_bonds import MASS_MARGIN, Bonds
+from .sphere_cracks import CrackWatch
+
+#: Models of this module.
+NAMES = ("jcfpm", "cohfrict")
+
+#: Bodies may move this share of the mean diameter before the collider looks again [-].
+_SWEEP = 0.05
+#: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
+_PLATE_STIFFNESS = 1e3
+#: Tag of the scene that holds what YADE does not save.
+_MEMORY = "flexpm"
+
+
+@dataclass
+class SphereModel:
+    """A specimen of YADE's bonded spheres in YADE's scene.
+
+    Attributes:
+        specimen: The grains.
+        material: Their material.
+        name: ``jcfpm`` or ``cohfrict``.
+        bonds: Properties of the bonds.
+        law: The contact law's functor.
+        engines: All engines of the model.
+        material_ids: Ids of the materials of spheres and of plates.
+        ids: Body of each grain.
+        interactions: One for each bond; not real any more once it is lost.
+        cracks: Bonds that have broken.
+        plates: Bodies of the plates.
+        loads: Lasting force and moment on bodies, see :meth:`load`.
+        memory: Plain values of a test that go with the scene.
+    """
+
+    specimen: Specimen
+    material: Material
+    name: str
+    bonds: Bonds
+    law: Any
+    engines: list[Any]
+    material_ids: tuple[int, int]
+    ids: list[int]
+    interactions: list[Any] = field(init=False)
+    cracks: CrackWatch = field(init=False)
+    plates: list[int] = field(default_factory=list)
+    loads: dict[int, tuple[float, float, float]] = field(default_factory=dict)
+    memory: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.interactions = _make_bonds(self)
+        self.cracks = CrackWatch(self.law, self.interactions, self.bonds, self.ids)
+
+    def run(self, steps: int) -> None:
+        """Advance by `steps` and wait for the end."""
+        yade.O.run(steps, True)
+
+    def load(self, body: int, x: float, y: float, moment: float) -> None:
+        """Let a force [N] and a moment [N m] act on a body until they are set anew."""
+        self.loads[body] = (x, y, moment)
+        yade.O.forces.setPermF(body, (x, y, 0.0))
+        yade.O.forces.setPermT(body, (0.0, 0.0, moment))
+
+    def remember(self) -> None:
+        """Put all that YADE does not save into the scene, as one of its tags."""
+        self.memory["loads"] = list(self.loads.items())
+        self.memory["cracks"] = self.cracks.memory()
+        yade.O.tags[_MEMORY] = json.dumps(self.memory)
+
+    def rebind(self) -> None:
+        """Take over a scene that has been loaded, which :meth:`remember` has prepared."""
+        self.engines = list(yade.O.engines)
+        self.law = self.engines[2].lawDispatcher.functors[0]
+        bodies = yade.O.bodies
+        self.plates = [body.id for body in bodies if isinstance(body.shape, wrapper.Box)]
+        self.memory = json.loads(yade.O.tags[_MEMORY])
+        for body, load in self.memory["loads"]:
+            self.load(body, *load)
+        self.interactions = _find_bonds(self)
+        self.cracks.rebind(self.law, self.interactions)
+        self.cracks.recall(self.memory["cracks"])
+
+    def set_threads(self, threads: int) -> None:
+        """Threads of a step."""
+        for engine in self.engines:
+            engine.ompThreads = threads
+
+    def counts(self) -> dict[str, int | None]:
+        """Numbers of grains and contacts; there are no nodes and triangles."""
+        return {
+            "grains": len(self.ids),
+            "contacts": len(self.bonds),
+            "nodes": None,
+            "triangles": None,
+        }
+
+    def snapshot(self) -> dict[str, np.ndarray]:
+        """The present state as plain arrays; their list is in the documentation."""
+        self.cracks.look()
+        return yade_snapshot.snapshot(self)
+
+    def add_plate(self, face: float, sense: int) -> int:
+        """Put a fixed, frictionless, horizontal plate beside the specimen.
+
+        Args:
+            face: Height of the face that touches the specimen [m].
+            sense: 1 for a plate above the specimen, -1 for one below.
+
+        Returns:
+            Its body; give it a velocity to move it.
+        """
+        middle = self.specimen.centres[:, 0].mean()
+        half_width = np.ptp(self.specimen.centres[:, 0])  # twice the specimen's, for its bulging
+        half_height = self.specimen.mean_diameter
+        plate = utils.box(
+            (middle, face + sense * half_height, 0.0),
+            (half_width, half_height, half_height),
+            material=yade.O.materials[self.material_ids[1]],
+            fixed=True,
+        )
+        plate.state.isDamped = False  # else YADE books a part of its work as damped
+        self.plates.append(yade.O.bodies.append(plate))
+        return self.plates[-1]
+
+    def touch(self, plate: int, tributary: Mapping[int, float]) -> None:
+        """Let grains touch a plate without force from the start, whatever their distance is.
+
+        Args:
+            plate: Body of the plate.
+            tributary: Length [m] of the specimen's side that each grain carries.
+        """
+        stiffness = self.material.law(self.name)["normal_stiffness"] * self.specimen.thickness
+        for grain, length in tributary.items():
+            contact = utils.createInteraction(plate, self.ids[grain])
+            contact.phys.kn = stiffness * length
+            self._set_rest(contact, contact.geom.penetrationDepth)
+
+    def press(self, plate: int, pressure: float) -> None:
+        """Shift the rest of what touches a plate so that it carries a pressure [Pa] at once.
+
+        A step must have been done since :meth:`touch`: in its first step JCFpm finds the rest of a
+        contact itself.
+        """
+        overlap = pressure / self.material.law(self.name)["normal_stiffness"]
+        for contact in yade.O.interactions.withBody(plate):
+            if contact.isReal:
+                self._set_rest(contact, contact.geom.penetrationDepth - overlap)
+
+    def _set_rest(self, contact: Any, overlap: float) -> None:
+        """Set the overlap at which a contact carries no force [m]."""
+        setattr(contact.phys, "initD" if self.name == "jcfpm" else "unp", overlap)
+
+
+def build(
+    specimen: Specimen,
+    material: Material | str | None,
+    model: str,
+    *,
+    damping: float,
+    dynamic: bool = False,
+    threads: int = 1,
+) -> SphereModel:
+    """Put a specimen into YADE's scene as bonded spheres.
+
+    Args:
+        specimen: The grains.
+        material: Preset, file, or material; its rigid elastic set and its strengths are used.
+        model: ``jcfpm`` or ``cohfrict``.
+        damping: Local damping alpha [-].
+        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        threads: Threads of YADE's engines.
+
+    Returns:
+        The model; ``yade.O`` holds its bodies and engines.
+
+    Raises:
+        InputError: for an unknown model or a material without what it needs.
+    """
+    if model not in NAMES:
+        raise InputError(f"build: model = {model!r}, must be one of {', '.join(NAMES)}")
+    chosen = materials.load(material, model)
+    law = chosen.description(model)  # which refuses minerals
+    bonds = yade_bonds.bonds_of(specimen, law)
+    radii = specimen.radii if model == "jcfpm" else yade_bonds.separate_radii(specimen)
+    sphere, plate = _materials(model, law, bonds, radii)
+    material_ids = (yade.O.materials.append(sphere), yade.O.materials.append(plate))
+    ids = [
+        yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=sphere))
+        for (x, y), radius in zip(specimen.centres.tolist(), radii.tolist(), strict=True)
+    ]
+    yade.O.dt = _set_masses(specimen, radii, bonds, ids, law, (model, damping, dynamic))
+    functor, engines = _engines(specimen, model, damping)
+    yade.O.engines = engines
+    built = SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
+    built.set_threads(threads)
+    return built
+
+
+def _materials(model: str, law: dict[str, Any], bonds: Bonds, radii: np.ndarray) -> tuple[Any, Any]:
+    """Materials of spheres and plates; new contacts are as stiff as the mean bond."""
+    young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
+    common = {"young": young, "poisson": law["shear_ratio"], "density": law["density"]}
+    rigid = common | {"young": _PLATE_STIFFNESS * young, "frictionAngle": 0.0}
+    common["frictionAngle"] = math.atan(law["friction"])
+    if model == "jcfpm":
+        strengths = {"tensileStrength": law["tensile_strength"], "cohesion": law["cohesion"]}
+        return (
+            wrapper.JCFpmMat(type=0, label="flexpm-jcfpm", **common, **strengths),
+            wrapper.JCFpmMat(type=1, label="flexpm-jcfpm-plate", **rigid),
+        )
+    strengths = {"normalCohesion": law["tensile_strength"], "shearCohesion": law["cohesion"]}
+    moments = {"momentRotationLaw": True, "etaRoll": -1.0, "etaTwist": -1.0}
+    return (
+        wrapper.CohFrictMat(label="flexpm-cohfrict", **common, **strengths, **moments),
+        wrapper.CohFrictMat(label="flexpm-cohfrict-plate", isCohesive=False, **rigid),
+    )
+
+
+def _set_masses(
+    specimen: Specimen,
+    radii: np.ndarray,
+    bonds: Bonds,
+    ids: list[int],
+    law: dict[str, Any],
+    how: tuple[str, float, bool],
+) -> float:
+    """Give the spheres scaled or real masses; return the stable time step (1 if scaled)."""
+    model, damping, dynamic = how
+    bending = model == "cohfrict"
+    move, turn = yade_bonds.stiffness_bounds(specimen.centres, radii, bonds, bending)
+    rim = np.unique(np.array(specimen.tessellation.boundary_edges, dtype=int)[:, 0])
+    # a plate touches a sphere of the rim with about the stiffness of its diameter
+    move[rim] += 2.0 * law["normal_stiffness"] * 2.0 * radii[rim] * specimen.thickness
+    factor = MASS_MARGIN * (1.0 + damping) / 4.0
+    masses, inertias, dt = factor * move, factor * turn, 1.0
+    if dynamic:
+        areas = np.array(specimen.tessellation.cell_areas)
+        real = law["density"] * areas * specimen.thickness
+        turning = 0.5 * real * areas / math.pi  # of a disc of the cell's area
+        dt = math.sqrt(float(min(np.min(real / masses), np.min(turning / inertias))))
+        masses, inertias = real, turning
+    for body, mass, inertia in zip(ids, masses.tolist(), inertias.tolist(), strict=True):
+        state = yade.O.bodies[body].state
+        state.mass, state.inertia = mass, (inertia, inertia, inertia)
+        state.blockedDOFs = "zXY"
+    return dt
+
+
+def _engines(specimen: Specimen, model: str, damping: float) -> tuple[Any, list[Any]]:
+    if model == "jcfpm":
+        law = wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()
+        spheres = wrapper.Ig2_Sphere_Sphere_ScGeom()
+        geometries = [spheres, wrapper.Ig2_Box_Sphere_ScGeom()]
+        physics = wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys()
+    else:
+        law = wrapper.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()
+        spheres = wrapper.Ig2_Sphere_Sphere_ScGeom6D()
+        geometries = [spheres, wrapper.Ig2_Box_Sphere_ScGeom6D()]
+        physics = wrapper.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()
+    # shear displacements then have the levers that the moments have; else YADE scales them by the
+    # sum of the radii over the distance, and the bond's shear stiffness with them
+    spheres.avoidGranularRatcheting = False
+    bounds = [wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_Box_Aabb()]
+    loop = wrapper.InteractionLoop(geometries, [physics], [law])
+    newton = wrapper.NewtonIntegrator(damping=damping)
+    reach = _SWEEP * specimen.mean_diameter
+    collider = wrapper.InsertionSortCollider(bounds, verletDist=reach)
+    return law, [wrapper.ForceResetter(), collider, loop, newton]
+
+
+def _make_bonds(built: SphereModel) -> list[Any]:
+    """Make an interaction of each bond, also where its spheres do not touch."""
+    made = []
+    physics = built.engines[2].physDispatcher.functors[0]
+    _bonding(physics, True)
+    for row, (first, second) in enumerate(built.bonds.grains.tolist()):
+        contact = utils.createInteraction(built.ids[first], built.ids[second])
+        bond = contact.phys
+        bond.kn = float(built.bonds.normal_stiffness[row])
+        bond.ks = float(built.bonds.shear_stiffness[row])
+        strengths = built.bonds.tensile_strength[row], built.bonds.shear_strength[row]
+        if built.name == "jcfpm":
+            bond.crossSection = float(built.bonds.areas[row])
+            bond.FnMax, bond.FsMax = map(float, strengths)
+        else:
+            # nothing twists in the plane, but YADE's energy divides by the stiffness
+            bond.kr = bond.ktw = float(built.bonds.bending_stiffness[row])
+            bond.normalAdhesion, bond.shearAdhesion = map(float, strengths)
+        built._set_rest(contact, contact.geom.penetrationDepth)
+        made.append(contact)
+    _bonding(physics, False)
+    return made
+
+
+def _find_bonds(built: SphereModel) -> list[Any]:
+    """The interaction of each bond in a scene that has been loaded, None where there is none."""
+    found = {(one.id1, one.id2): one for one in yade.O.interactions}
+    pairs = np.array(built.ids)[built.bonds.grains].tolist()
+    return [found.get((a, b), found.get((b, a))) for a, b in pairs]
+
+
+def _bonding(physics: Any, on: bool) -> None:
+    """Whether contacts that appear from now on are bonds."""
+    if isinstance(physics, wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys):
+        physics.cohesiveTresholdIteration = -1 if on else 0
+    else:
+        physics.setCohesionOnNewContacts = on

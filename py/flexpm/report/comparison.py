@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of several runs: curves (paper Figs. 8, 9), crack maps (Fig. 10), envelope (Fig. 11).
+
+Input in SI units; labels in MPa, % and mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..materials.references import Reference
+from ..results.result import SHEAR, TENSILE, Result
+from ..results.strength import MohrCoulomb
+from . import curves as plot
+from . import maps as plot_maps
+
+if TYPE_CHECKING:
+    from ..studies.comparison import Envelope
+
+Runs = Sequence[tuple[str, Result]]
+
+#: One colour for each model, apart for colour-blind readers; then one dash for each confinement.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+_DASHES = ("-", (0, (6, 2)), (0, (3, 2)), (0, (1, 1.5)), (0, (6, 2, 1, 2)), (0, (10, 3)))
+_MARKERS = "osD^vP"
+_MAPS_A_ROW = 4
+
+
+def curves_picture(path: Path | str, runs: Runs) -> None:
+    """Draw stress over strain of all runs, and below it their cracked points.
+
+    Args:
+        path: Picture to write.
+        runs: Labels and results.
+    """
+    with rc_context(plot.STYLE):
+        figure = Figure(figsize=(6.2, 6.0), layout="constrained")
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1.0))
+        for (label, result), (colour, dash) in zip(runs, _styles(runs), strict=True):
+            strain = 100.0 * result.curve["axial_strain"]
+            stress = 1e-6 * result.curve["axial_stress"]
+            upper.plot(strain, stress, color=colour, ls=dash, lw=1.4, label=label)
+            if result.peak_stress is not None:
+                place = 100.0 * result.peak_strain, 1e-6 * result.peak_stress
+                upper.plot(*place, "o", ms=4.0, mfc="white", mec=colour, mew=1.1)
+            cracks = result.curve["tensile_cracks"] + result.curve["shear_cracks"]
+            lower.plot(strain, cracks, color=colour, ls=dash, lw=1.4)
+        upper.set_ylabel("axial stress [MPa]")
+        upper.legend(frameon=False, loc="best")
+        upper.set_title(_caption(runs), fontsize=9.5, loc="left")
+        lower.set_ylabel("cracked contact points [-]")
+        lower.set_xlabel("axial strain [%]")
+        for axes in (upper, lower):
+            axes.set_xlim(left=0.0)
+            axes.set_ylim(bottom=0.0)
+        plot.save(figure, path)
+
+
+def cracks_picture(path: Path | str, runs: Runs) -> None:
+    """Draw the crack maps of all runs in one scale; confinements of a model stand in a row."""
+    drawn = [(label, result) for label, result in runs if result.snapshot is not None]
+    if not drawn:
+        return
+    a_model = sum(result.model == drawn[0][1].model for _, result in drawn)
+    columns = min(len(drawn), a_model if a_model > 1 else _MAPS_A_ROW)
+    rows = -(-len(drawn) // columns)
+    places = 1e3 * np.concatenate([result.snapshot["positions"] for _, result in drawn])
+    low, high = places.min(axis=0), places.max(axis=0)
+    width, height = high - low
+    margin = 0.08 * height  # below, for the scale bar
+    size = (2.6 * columns, (2.6 * (height + margin) / width + 0.45) * rows + 0.4)
+    with rc_context(plot.STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        legend = 0.3 / size[1]  # keeps room for it
+        figure.get_layout_engine().set(rect=(0.0, legend, 1.0, 0.99 - legend))
+        grid = figure.subplots(rows, columns, squeeze=False).ravel()
+        for axes in grid:
+            axes.set_axis_off()
+        for axes, (label, result) in zip(grid, drawn, strict=False):
+            axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1] - margin, high[1]))
+            handles = plot_maps.draw_cracks(axes, result.snapshot)
+            counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
+            axes.set_title(f"{label}\n{counts}", fontsize=8.5)
+        names = [plot.MODE_NAMES[mode] for mode in (TENSILE, SHEAR)]
+        figure.legend(handles, names, loc="lower center", ncols=2, frameon=False)
+        plot.save(figure, path)
+
+
+def envelope_picture(
+    path: Path | str, envelopes: Sequence[Envelope], rock: Reference | None = None
+) -> None:
+    """Draw the peaks over the confinements with both criteria.
+
+    Args:
+        path: Picture to write.
+        envelopes: One for each model.
+        rock: Measured properties, whose line is drawn, too.
+    """
+    with rc_context(plot.STYLE):
+        figure = Figure(figsize=(5.8, 4.6), layout="constrained")
+        axes = figure.add_subplot()
+        widest = max(max(one.confinements) for one in envelopes)
+        confinements = np.linspace(0.0, 1.04 * widest, 200)
+        for number, one in enumerate(envelopes):
+            _draw_envelope(axes, one, confinements, number)
+        if rock is not None:
+            line = MohrCoulomb(rock.cohesion, rock.friction_angle)
+            stress = 1e-6 * line.strength(confinements)
+            label = f"{rock.name}, measured: {_line_text(line)}"
+            axes.plot(
+                1e-6 * confinements, stress, color="black", lw=1.0, ls=(0, (1, 1.5)), label=label
+            )
+        axes.set_xlabel("confinement, lateral stress [MPa]")
+        axes.set_ylabel("largest axial stress [MPa]")
+        axes.set_xlim(left=-0.02 * 1e-6 * widest)
+        axes.set_ylim(bottom=0.0)
+        axes.legend(frameon=False, loc="lower right")
+        plot.save(figure, path)
+
+
+def _draw_envelope(axes: Axes, one: Envelope, confinements: np.ndarray, number: int) -> None:
+    colour = _COLOURS[number % len(_COLOURS)]
+    marker = _MARKERS[number % len(_MARKERS)]
+    places = 1e-6 * np.array([one.confinements, one.peaks])
+    label = (
+        one.model if one.mohr_coulomb is None else f"{one.model}: {_line_text(one.mohr_coulomb)}"
+    )
+    axes.plot(*places, marker, color=colour, ms=5.0, mfc="white", mew=1.3, label=label)
+    if one.mohr_coulomb is not None:
+        stress = one.mohr_coulomb.strength(confinements)
+        axes.plot(1e-6 * confinements, 1e-6 * stress, color=colour, lw=1.3)
+    if one.hoek_brown is not None:
+        label = (
+            f"{one.model}: $\\sigma_{{ci}}$ = {1e-6 * one.hoek_brown.sigma_ci:.1f} MPa, "
+            f"$m_i$ = {one.hoek_brown.m_i:.1f}"
+        )
+        stress = one.hoek_brown.strength(confinements)
+        axes.plot(
+            1e-6 * confinements, 1e-6 * stress, color=colour, lw=1.0, ls=(0, (5, 3)), label=label
+        )
+
+
+def _line_text(line: MohrCoulomb) -> str:
+    return f"c = {1e-6 * line.cohesion:.1f} MPa, $\\varphi$ = {line.friction_angle:.1f}°"
+
+
+def _styles(runs: Runs) -> list[tuple[str, object]]:
+    models = list(dict.fromkeys(result.model for _, result in runs))
+    seen = dict.fromkeys(models, 0)
+    found = []
+    for _, result in runs:
+        colour = _COLOURS[models.index(result.model) % len(_COLOURS)]
+        found.append((colour, _DASHES[seen[result.model] % len(_DASHES)]))
+        seen[result.model] += 1
+    return found
+
+
+def _caption(runs: Runs) -> str:
+    first = runs[0][1]
+    tests = " and ".join(dict.fromkeys(result.test for _, result in runs))
+    seed = "" if first.seed is None else f", seed {first.seed}"
+    return f"{tests}, one packing of {first.grains} grains{seed}"

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures: their style, and the stress-strain curve of a test (paper Figs. 8, 15).
+
+Input in SI units; labels in MPa, % and mm. No window is opened and no display is needed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..files import whole_file
+from ..results import record as measures
+from ..results.record import Curve
+from ..results.result import SHEAR, TENSILE, Result
+
+#: Colours that stay apart for colour-blind readers and in print.
+COLOURS = {TENSILE: "#0072b2", SHEAR: "#d55e00"}
+MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks"}
+#: Settings of all pictures.
+STYLE = {
+    "font.size": 9.0,
+    "axes.labelsize": 9.5,
+    "legend.fontsize": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "savefig.dpi": 220,
+    "lines.solid_capstyle": "round",
+}
+
+
+def curve_picture(path: Path | str, result: Result) -> None:
+    """Draw stress and crack counts over strain, the line of Young's modulus, and the peak."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(5.6, 3.9), layout="constrained")
+        axes = figure.add_subplot()
+        record = result.curve
+        strain = 100.0 * record["axial_strain"]
+        counts = axes.twinx()
+        _draw_counts(counts, strain, record)
+        axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
+        axes.patch.set_visible(False)
+        (line,) = axes.plot(strain, 1e-6 * record["axial_stress"], color="black", lw=1.6)
+        line.set_label("axial stress")
+        _draw_modulus(axes, result)
+        _draw_peak(axes, result)
+        axes.set_xlabel("axial strain [%]")
+        axes.set_ylabel("axial stress [MPa]")
+        axes.set_xlim(left=0.0)
+        axes.set_ylim(bottom=0.0, top=1.18 * axes.get_ylim()[1])  # room for the peak's label
+        handles = [*axes.get_legend_handles_labels()[0], *counts.get_legend_handles_labels()[0]]
+        axes.legend(handles=handles, loc="upper left", frameon=False)
+        axes.set_title(_caption(result), fontsize=9.5, loc="left")
+        save(figure, path)
+
+
+def _draw_counts(axes: Axes, strain: np.ndarray, record: Curve) -> None:
+    for mode, column in ((TENSILE, "tensile_cracks"), (SHEAR, "shear_cracks")):
+        axes.plot(strain, record[column], color=COLOURS[mode], lw=1.1, label=MODE_NAMES[mode])
+    axes.set_ylabel("cracked contact points [-]")
+    axes.set_ylim(bottom=0.0, top=max(1.0, 1.18 * axes.get_ylim()[1]))
+    axes.spines["right"].set_visible(True)
+
+
+def _draw_modulus(axes: Axes, result: Result) -> None:
+    rows = measures.elastic_rows(result.curve)
+    if result.youngs_modulus is None or rows.stop <= rows.start:
+        return
+    strain = result.curve["axial_strain"]
+    stress = result.curve["axial_stress"]
+    middle = np.mean(strain[rows]), np.mean(stress[rows])
+    top = np.nanmax(stress)
+    ends = np.array([max(0.0, middle[1] - result.youngs_modulus * middle[0]), top])
+    places = middle[0] + (ends - middle[1]) / result.youngs_modulus
+    label = f"E = {1e-9 * result.youngs_modulus:.1f} GPa"
+    axes.plot(100.0 * places, 1e-6 * ends, color="0.45", lw=1.0, ls=(0, (5, 3)), label=label)
+
+
+def _draw_peak(axes: Axes, result: Result) -> None:
+    if result.peak_stress is None or result.peak_strain is None:
+        return
+    place = 100.0 * result.peak_strain, 1e-6 * result.peak_stress
+    axes.plot(*place, "o", ms=5.0, mfc="white", mec="black", mew=1.2)
+    axes.annotate(f"{place[1]:.1f} MPa", place, (0, 7), textcoords="offset points", ha="center")
+
+
+def _caption(result: Result) -> str:
+    confined = result.confinement or 0.0
+    where = f", confinement {1e-6 * confined:g} MPa" if confined else ""
+    caption = f"{result.test}, {result.model} model, {result.material.get('name', '')}{where}"
+    return caption if result.status == "ok" else f"{caption} ({result.status.replace('_', ' ')})"
+
+
+@contextlib.contextmanager
+def drawing(path: Path | str, size: tuple[float, float] = (5.6, 3.9)) -> Iterator[Axes]:
+    """Axes to draw in, in the style of all pictures; written to `path` afterwards.
+
+    Args:
+        path: Picture to write.
+        size: Width and height [inch].
+    """
+    with rc_context(STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        yield figure.add_subplot()
+        save(figure, path)
+
+
+def save(figure: Figure, path: Path | str) -> None:
+    """Write a picture, whole or not at all."""
+    with whole_file(path) as temporary:
+        figure.savefig(temporary)

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of a specimen: its grains and mesh (paper Fig. 5), cracks (Fig. 10), fragments, minerals.
+
+Input in SI units; labels in mm.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..results import fragments
+from ..results.result import SHEAR, TENSILE
+from .curves import COLOURS, MODE_NAMES, STYLE, save
+
+_GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
+#: Fragments by their rank, loose grains; the largest fragment has the first tint of the grains.
+_FRAGMENTS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#0072b2", "#d55e00")
+_LOOSE = "#8c8674"
+#: Minerals in their order.
+_MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
+_EDGE = "#6b6455"
+
+
+def specimen_picture(
+    path: Path | str,
+    polygons: Sequence[np.ndarray],
+    mesh: tuple[np.ndarray, np.ndarray] | None = None,
+    caption: str = "",
+) -> None:
+    """Draw the grains of a specimen.
+
+    Args:
+        path: Picture to write.
+        polygons: Corners (V, 2) of each grain [m].
+        mesh: Nodes (N, 2) [m] and triangles (M, 3) to draw in the grains.
+        caption: Line above the picture.
+    """
+    with rc_context(STYLE):
+        figure, axes = _map_figure(polygons)
+        _draw_grains(axes, polygons)
+        if mesh is not None:
+            nodes, triangles = (1e3 * np.asarray(mesh[0]), np.asarray(mesh[1]))
+            lines = LineCollection(nodes[_unique_edges(triangles)], colors=_EDGE, linewidths=0.15)
+            axes.add_collection(lines)
+        _draw_scale_bar(axes)
+        axes.set_title(caption, fontsize=9.5, loc="left")
+        save(figure, path)
+
+
+def crack_picture(
+    path: Path | str,
+    snapshot: Mapping[str, np.ndarray],
+    caption: str = "",
+    minerals: Sequence[str] = (),
+) -> None:
+    """Draw the deformed grains with their cracks; each point colours its share of a contact.
+
+    Args:
+        path: Picture to write.
+        snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        caption: Line above the picture.
+        minerals: Their names, for the legend.
+    """
+    with rc_context(STYLE):
+        figure, axes = _map_figure([snapshot["positions"]])
+        handles = draw_cracks(axes, snapshot)
+        handles += [
+            Patch(facecolor=_MINERALS[number % len(_MINERALS)], edgecolor=_EDGE, label=name)
+            for number, name in enumerate(minerals)
+        ]
+        axes.legend(
+            handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False
+        )
+        axes.set_title(caption, fontsize=9.5, loc="left")
+        save(figure, path)
+
+
+def draw_cracks(axes: Axes, snapshot: Mapping[str, np.ndarray]) -> list[Line2D]:
+    """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
+    tints = None
+    if "grain_mineral" in snapshot:
+        tints = np.array(_MINERALS)[np.asarray(snapshot["grain_mineral"]) % len(_MINERALS)]
+    _draw_rock(axes, snapshot, tints)
+    segments, handles = crack_segments(snapshot), []
+    for mode in (TENSILE, SHEAR):
+        lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
+        axes.add_collection(lines)
+        points = int(np.count_nonzero(np.asarray(snapshot["crack_mode"]) == mode))
+        label = f"{MODE_NAMES[mode]} ({points})"
+        handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
+    _draw_scale_bar(axes)
+    return handles
+
+
+def fragment_picture(
+    path: Path | str, snapshot: Mapping[str, np.ndarray], caption: str = ""
+) -> None:
+    """Draw the deformed grains in the colour of their fragment.
+
+    Grains of the largest fragment are pale, grains that hang on no other one are dark.
+
+    Args:
+        path: Picture to write.
+        snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        caption: Line above the picture; if empty, the number of fragments.
+    """
+    found = fragments.of_snapshot(snapshot)
+    colours = [_FRAGMENTS[rank % len(_FRAGMENTS)] for rank in range(len(found))]
+    colours = np.where(found.grains > 1, colours, _LOOSE)
+    colours[0] = _GRAIN_TINTS[0]
+    with rc_context(STYLE):
+        figure, axes = _map_figure([snapshot["positions"]])
+        _draw_rock(axes, snapshot, colours[found.labels])
+        _draw_scale_bar(axes)
+        largest = 100.0 * found.areas[0] / found.areas.sum()
+        text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
+        axes.set_title(caption or text, fontsize=9.5, loc="left")
+        save(figure, path)
+
+
+def cell_polygons(tessellation: Any) -> list[np.ndarray]:
+    """Corners (V, 2) [m] of each cell of a tessellation."""
+    corners = tessellation.vertices[tessellation.cell_vertices]
+    return np.split(corners, tessellation.cell_offsets[1:-1])
+
+
+def mesh_triangles(meshes: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (N, 2) [m] and triangles (M, 3) of all grains from the meshes of each."""
+    offsets = np.repeat(meshes.node_offsets[:-1], np.diff(meshes.triangle_offsets))
+    return np.asarray(meshes.nodes), np.asarray(meshes.triangles) + offsets[:, None]
+
+
+def grain_corners(triangles: np.ndarray) -> list[np.ndarray]:
+    """Outer nodes of each grain in order, from its counter-clockwise triangles.
+
+    Grains share no nodes, so an edge that belongs to one triangle only lies on an outline.
+    """
+    triangles = np.asarray(triangles)
+    starts, ends = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    base = int(triangles.max(initial=0)) + 1
+    outer = ~np.isin(starts * base + ends, ends * base + starts)
+    following = dict(zip(starts[outer].tolist(), ends[outer].tolist(), strict=True))
+    loops = []
+    while following:
+        first, node = following.popitem()
+        loop = [first]
+        while node != first:
+            loop.append(node)
+            node = following.pop(node)
+        loops.append(np.array(loop))
+    return loops[::-1]
+
+
+def _grains_of(snapshot: Mapping[str, np.ndarray], outlines: Sequence[np.ndarray]) -> np.ndarray:
+    """Grain of each outline."""
+    node_grain = np.zeros(len(snapshot["positions"]), dtype=int)
+    node_grain[np.ravel(snapshot["triangles"])] = np.repeat(snapshot["triangle_grain"], 3)
+    return node_grain[[corners[0] for corners in outlines]]
+
+
+def crack_segments(snapshot: Mapping[str, np.ndarray]) -> dict[int, np.ndarray]:
+    """Segments (K, 2, 2) [m] of the cracked points by mode; a point covers its share of area."""
+    from ..results.vtu import POINT_SHARES
+
+    modes, ends = np.asarray(snapshot["crack_mode"]), np.asarray(snapshot["contact_ends"])
+    bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[modes.shape[1]])])
+    start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
+    places = start[:, None] + bounds[None, :, None] * along[:, None]
+    pieces = np.stack([places[:, :-1], places[:, 1:]], axis=2)
+    return {mode: pieces[modes == mode] for mode in (TENSILE, SHEAR)}
+
+
+def _map_figure(polygons: Sequence[np.ndarray]) -> tuple[Figure, Axes]:
+    corners = 1e3 * np.concatenate(polygons)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    width, height = high - low
+    scale = min(6.5 / height, 5.0 / width)
+    figure = Figure(figsize=(width * scale + 0.3, height * scale + 0.9), layout="constrained")
+    axes = figure.add_subplot(aspect="equal")
+    margin = 0.02 * max(width, height)
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - 2.5 * margin, high[1] + margin)  # the scale bar stands below
+    axes.set_axis_off()
+    return figure, axes
+
+
+def _draw_rock(
+    axes: Axes, snapshot: Mapping[str, np.ndarray], tints: np.ndarray | None = None
+) -> None:
+    """Draw the deformed grains, those of inner particles without lines between these.
+
+    Args:
+        axes: Where to draw.
+        snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        tints: Colour of each grain.
+    """
+    outlines = grain_corners(snapshot["triangles"])
+    polygons = [snapshot["positions"][corners] for corners in outlines]
+    grains = _grains_of(snapshot, outlines)
+    chosen = _tints(grains) if tints is None else tints[grains]
+    if len(np.unique(grains)) == len(grains):
+        _draw_grains(axes, polygons, chosen)
+        return
+    _draw_grains(axes, polygons, chosen, edges="face")
+    pairs = np.asarray(snapshot["contact_grains"])
+    between = 1e3 * np.asarray(snapshot["contact_ends"])[pairs[:, 0] != pairs[:, 1]]
+    axes.add_collection(LineCollection(between, colors=_EDGE, linewidths=0.25))
+
+
+def _tints(numbers: Iterable[int]) -> list[str]:
+    return [_GRAIN_TINTS[number * 7 % len(_GRAIN_TINTS)] for number in numbers]
+
+
+def _draw_grains(
+    axes: Axes,
+    polygons: Sequence[np.ndarray],
+    tints: Sequence[str] | np.ndarray | None = None,
+    edges: str = _EDGE,
+) -> None:
+    if tints is None:
+        tints = _tints(range(len(polygons)))
+    scaled = [1e3 * np.asarray(polygon) for polygon in polygons]
+    grains = PolyCollection(scaled, facecolors=tints, edgecolors=edges, linewidths=0.25)
+    axes.add_collection(grains)
+
+
+def _draw_scale_bar(axes: Axes) -> None:
+    """Draw a bar of a round length, about a quarter of the width, below the lower left corner."""
+    data = axes.dataLim
+    quarter = data.width / 4.0
+    decade = 10.0 ** math.floor(math.log10(quarter))
+    length = max(step for step in (1.0, 2.0, 5.0) if step * decade <= quarter) * decade
+    gap = 0.03 * max(data.width, data.height)
+    ends, place = (data.x0, data.x0 + length), data.y0 - gap
+    axes.plot(ends, (place, place), color="black", lw=2.0, solid_capstyle="butt")
+    axes.text(ends[1] + 0.5 * gap, place, f"{length:g} mm", va="center", ha="left")
+
+
+def _unique_edges(triangles: np.ndarray) -> np.ndarray:
+    edges = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
+    return np.unique(np.sort(edges, axis=1), axis=0)

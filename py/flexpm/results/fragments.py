@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fragments: grains that still hang together after a test, and their areas. SI units.
+
+Two grains hang together if a contact between them has a point that is not fully damaged; contacts
+that are only touched, and points that have cracked, do not count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
+
+
+@dataclass(frozen=True)
+class Fragments:
+    """Fragments, the largest first; ties in the order of their first grain."""
+
+    labels: np.ndarray  #: fragment of each grain
+    grains: np.ndarray  #: number of grains of each fragment
+    areas: np.ndarray  #: area of each fragment, undeformed [m2]
+
+    def __len__(self) -> int:
+        return len(self.areas)
+
+    def csv(self) -> str:
+        """One line for each fragment: number, grains, area [m2]."""
+        rows = zip(self.grains.tolist(), self.areas.tolist(), strict=True)
+        lines = [f"{number},{grains},{area!r}" for number, (grains, area) in enumerate(rows)]
+        return "\n".join(["fragment,grains,area", *lines]) + "\n"
+
+
+def connected(pairs: np.ndarray, bonded: np.ndarray, areas: np.ndarray) -> Fragments:
+    """Find what hangs together.
+
+    Args:
+        pairs: The two grains of each contact, (C, 2).
+        bonded: Whether each contact holds its grains together, (C,).
+        areas: Area of each grain [m2].
+    """
+    pairs, areas = np.asarray(pairs).reshape(-1, 2), np.asarray(areas, dtype=float)
+    held = pairs[np.asarray(bonded, dtype=bool)]
+    count = len(areas)
+    graph = sparse.coo_matrix((np.ones(len(held)), (held[:, 0], held[:, 1])), shape=(count, count))
+    found, labels = csgraph.connected_components(graph, directed=False)
+    total = np.bincount(labels, weights=areas, minlength=found)
+    first = np.full(found, count)
+    np.minimum.at(first, labels, np.arange(count))
+    order = np.lexsort((first, -total))
+    rank = np.empty(found, dtype=int)
+    rank[order] = np.arange(found)
+    grains = np.bincount(labels, minlength=found)
+    return Fragments(rank[labels], grains[order], total[order])
+
+
+def of_snapshot(snapshot: Mapping[str, np.ndarray]) -> Fragments:
+    """Fragments of a snapshot, whose arrays are those of :func:`flexpm.results.vtu.write_vtu`."""
+    bonded = np.any(np.asarray(snapshot["point_damage"]) < 1.0, axis=1)
+    return connected(snapshot["contact_grains"], bonded, _grain_areas(snapshot))
+
+
+def _grain_areas(snapshot: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Undeformed area of each grain [m2]."""
+    corners = np.asarray(snapshot["reference"])[np.asarray(snapshot["triangles"])]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    return np.bincount(snapshot["triangle_grain"], weights=0.5 * (ax * by - ay * bx))

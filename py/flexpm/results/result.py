@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Outcome of a test: its numbers, its record, its cracks, and the files they go to. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..files import json_text, output_folder, write_text
+from ..laboratory.loading_rate import quasistatic_ratio
+from . import fragments
+from . import record as measures
+from .record import Curve
+
+#: Statuses that mean that a simulation has failed.
+FAILED = ("no_peak", "diverged")
+
+TENSILE, SHEAR = 1, 2
+_MODES = {TENSILE: "tensile", SHEAR: "shear"}
+
+
+class Crack(NamedTuple):
+    """One contact point that has lost its bond."""
+
+    step: int
+    strain: float  #: axial strain when it broke [-]
+    x: float  #: position when it broke [m]
+    y: float  #: [m]
+    mode: int  #: TENSILE if the point was opening, else SHEAR
+    contact: int  #: index of the contact
+    point: int  #: index of the point in its contact
+
+
+@dataclass
+class Result:
+    """Numbers of one test: the keys of result.json, then the record and the cracks.
+
+    None stands for a quantity that the test has not reached or does not define.
+    """
+
+    flexpm: str  #: version of flexpm
+    yade: str  #: version of YADE
+    test: str
+    model: str
+    material: dict[str, Any]  #: name and effective parameters
+    seed: int | None
+    grains: int
+    contacts: int
+    nodes: int | None
+    triangles: int | None
+    particles: int | None = None  #: what moves: grains, or inner particles
+    inner_contacts: int | None = None  #: between particles of the same grain
+    youngs_modulus: float | None = None  #: [Pa]
+    poissons_ratio: float | None = None  #: [-]
+    peak_stress: float | None = None  #: [Pa]
+    peak_strain: float | None = None  #: [-]
+    confinement: float | None = None  #: [Pa]
+    steps: int = 0
+    step_time: float | None = None  #: median wall time of a step [s]
+    tensile_cracks: int = 0  #: cracked points
+    shear_cracks: int = 0  #: cracked points
+    unbalanced_ratio: float | None = None  #: largest up to the peak [-]
+    end_mismatch: float | None = None  #: of both ends' reactions, largest up to the peak [-]
+    energy_error: float | None = None  #: relative to the largest work [-]
+    contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
+    softening_slope: float | None = None  #: of stress over strain after the peak, negative [Pa]
+    late_modulus: float | None = None  #: at 80 % of the peak over that at 20 % [-]
+    first_tensile_crack_strain: float | None = None  #: [-]
+    first_tensile_crack_stress: float | None = None  #: [Pa]
+    first_shear_crack_strain: float | None = None  #: [-]
+    first_shear_crack_stress: float | None = None  #: [Pa]
+    tensile_onset_strain: float | None = None  #: once 5 % of the final tensile cracks are there [-]
+    tensile_onset_stress: float | None = None  #: [Pa]
+    shear_onset_strain: float | None = None  #: the same of shear cracks [-]
+    shear_onset_stress: float | None = None  #: [Pa]
+    fragments: int | None = None  #: grains that hang together at the end, counted
+    largest_fragment: float | None = None  #: its share of the area [-]
+    status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
+    curve: Curve = field(default_factory=Curve, repr=False)
+    cracks: list[Crack] = field(default_factory=list, repr=False)
+    snapshot: Mapping[str, np.ndarray] | None = field(default=None, repr=False)  #: final state
+    resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
+
+    @property
+    def failed(self) -> bool:
+        """Whether the simulation failed: it diverged or passed no peak."""
+        return self.status in FAILED
+
+    def measure(
+        self,
+        *,
+        initial_energy: float | None = None,
+        diverged: bool = False,
+        max_unbalanced: float | None = None,
+    ) -> None:
+        """Fill the measured quantities and the status from `curve`.
+
+        Args:
+            initial_energy: Energy when the work began to count [J]; if None, from the first row.
+            diverged: The simulation met a number that is not finite.
+            max_unbalanced: Largest median unbalanced-force ratio taken as quasi-static [-]; None
+                for that of the test and the model.
+        """
+        whole = self.curve
+        record = measures.until_regained(whole) if self.test == "brazilian" else whole
+        self.youngs_modulus = measures.youngs_modulus(record)
+        self.poissons_ratio = measures.poissons_ratio(record)
+        self.unbalanced_ratio = measures.unbalanced_ratio(record)
+        self.end_mismatch = measures.end_mismatch(record)
+        self.energy_error = measures.energy_error(whole, initial_energy)
+        self.softening_slope = measures.softening_slope(record)
+        self.late_modulus = measures.late_modulus(record)
+        self._measure_onset()
+        if len(whole):
+            self.steps = int(whole["step"][-1])
+            self.confinement = float(whole["confinement"][-1])
+            self.tensile_cracks = int(whole["tensile_cracks"][-1])
+            self.shear_cracks = int(whole["shear_cracks"][-1])
+        peak = measures.peak_row(record)
+        if peak is not None:
+            self.peak_stress = float(record["axial_stress"][peak])
+            self.peak_strain = float(record["axial_strain"][peak])
+        if max_unbalanced is None:
+            max_unbalanced = quasistatic_ratio(self.test, self.model)
+        ratio = measures.median_unbalanced_ratio(record)
+        self.status = self._status(diverged, peak, ratio is None or ratio > max_unbalanced)
+
+    def measure_fragments(self, snapshot: Mapping[str, np.ndarray]) -> None:
+        """Keep the final state and count what hangs together in it.
+
+        Args:
+            snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        """
+        found = fragments.of_snapshot(snapshot)
+        self.snapshot = snapshot
+        self.fragments = len(found)
+        self.largest_fragment = float(found.areas[0] / found.areas.sum())
+
+    def _measure_onset(self) -> None:
+        for mode, name in _MODES.items():
+            steps = [crack.step for crack in self.cracks if crack.mode == mode]
+            labels = {f"first_{name}_crack": 0.0, f"{name}_onset": measures.ONSET_SHARE}
+            for label, share in labels.items():
+                strain, stress = measures.crack_onset(self.curve, steps, share)
+                setattr(self, f"{label}_strain", strain)
+                setattr(self, f"{label}_stress", stress)
+
+    def _status(self, diverged: bool, peak: int | None, fast: bool) -> str:
+        stress = self.curve["axial_stress"]
+        if diverged or (len(stress) and not math.isfinite(stress[-1])):
+            return "diverged"
+        if peak is None:
+            return "no_peak"
+        return "not_quasistatic" if fast else "ok"
+
+    def as_dict(self) -> dict[str, Any]:
+        """The content of result.json; numbers that are not finite become None."""
+        hidden = ("curve", "cracks", "snapshot", "resumed_at")
+        return {
+            name: _plain(getattr(self, name))
+            for name in self.__dataclass_fields__
+            if name not in hidden
+        }
+
+    def write(self, folder: Path | str) -> None:
+        """Write result.json and the tables into `folder`, each whole or not at all."""
+        folder = output_folder(folder)
+        write_text(folder / "curve.csv", self.curve.csv())
+        write_text(folder / "cracks.csv", cracks_csv(self.cracks))
+        if self.snapshot is not None:
+            write_text(folder / "fragments.csv", fragments.of_snapshot(self.snapshot).csv())
+        write_text(folder / "result.json", json_text(self.as_dict()))
+
+
+def cracks_csv(cracks: Sequence[Crack]) -> str:
+    """Cracks as CSV text in the order given; numbers read back unchanged."""
+    lines = [",".join(Crack._fields)]
+    for crack in cracks:
+        step, strain, x, y, mode, contact, point = crack
+        numbers = (repr(float(value)) for value in (strain, x, y))
+        lines.append(",".join([str(int(step)), *numbers, _MODES[mode], str(contact), str(point)]))
+    return "\n".join(lines) + "\n"
+
+
+def cracks_from_snapshot(snapshot: Mapping[str, np.ndarray], curve: Curve) -> list[Crack]:
+    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
+    steps = np.asarray(snapshot["crack_step"])
+    contacts, points = np.nonzero(steps >= 0)
+    order = np.lexsort((points, contacts, steps[contacts, points]))
+    contacts, points = contacts[order], points[order]
+    steps = steps[contacts, points]
+    strains = (
+        np.interp(steps, curve["step"], curve["axial_strain"])
+        if len(curve)
+        else np.full(len(steps), np.nan)
+    )
+    modes = np.asarray(snapshot["crack_mode"])[contacts, points]
+    places = np.asarray(snapshot["crack_position"])[contacts, points]
+    return [
+        Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
+        for step, strain, (x, y), mode, contact, point in zip(
+            steps, strains, places, modes, contacts, points, strict=True
+        )
+    ]
+
+
+def _plain(value: Any) -> Any:
+    """Turn numpy numbers into Python's and numbers that are not finite into None."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strength criteria from the peaks of several tests, paper Sec. 4.3.2. Compression positive, SI.
+
+Mohr-Coulomb as a line through the peaks, sigma_1 = q + k sigma_3 with
+
+    k = (1 + sin phi) / (1 - sin phi),  q = 2 c sqrt(k),
+
+and Hoek-Brown of intact rock (s = 1, a = 1/2),
+
+    sigma_1 = sigma_3 + sqrt(m_i sigma_ci sigma_3 + sigma_ci^2).
+
+Errors are standard errors of the fit; they say how well the criterion describes the peaks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import optimize, stats
+
+from ..errors import InputError
+
+
+@dataclass(frozen=True)
+class MohrCoulomb:
+    """Line through peaks; errors are None for two peaks, which leave nothing to judge by."""
+
+    cohesion: float  #: c [Pa]
+    friction_angle: float  #: phi [degree]
+    cohesion_error: float | None = None  #: [Pa]
+    friction_angle_error: float | None = None  #: [degree]
+
+    @property
+    def slope(self) -> float:
+        """k, growth of the strength with the confinement [-]."""
+        sine = math.sin(math.radians(self.friction_angle))
+        return (1.0 + sine) / (1.0 - sine)
+
+    @property
+    def uniaxial_strength(self) -> float:
+        """q, strength of the line at no confinement [Pa]."""
+        return 2.0 * self.cohesion * math.sqrt(self.slope)
+
+    def strength(self, confinement: np.ndarray | float) -> np.ndarray | float:
+        """Axial stress at failure [Pa] under a confinement [Pa]."""
+        return self.uniaxial_strength + self.slope * confinement
+
+
+@dataclass(frozen=True)
+class HoekBrown:
+    """Curve through peaks; errors are None for two peaks."""
+
+    sigma_ci: float  #: uniaxial strength of the intact rock [Pa]
+    m_i: float  #: [-]
+    sigma_ci_error: float | None = None  #: [Pa]
+    m_i_error: float | None = None  #: [-]
+
+    def strength(self, confinement: np.ndarray | float) -> np.ndarray | float:
+        """Axial stress at failure [Pa] under a confinement [Pa]."""
+        return _hoek_brown(confinement, self.sigma_ci, self.m_i)
+
+
+def mohr_coulomb(confinements: Sequence[float], peaks: Sequence[float]) -> MohrCoulomb:
+    """Cohesion and friction angle by linear regression of peaks over confinements.
+
+    The errors of c and phi follow from the covariance of intercept and slope to first order.
+
+    Args:
+        confinements: sigma_3 of each test [Pa], >= 0, at least two different ones.
+        peaks: Largest axial stress of each test, sigma_1 [Pa].
+
+    Raises:
+        InputError: for too few or wrong values, or no rise from a positive strength.
+    """
+    x, y = _checked("mohr_coulomb", confinements, peaks)
+    line = stats.linregress(x, y)
+    k, q = float(line.slope), float(line.intercept)
+    if not (k > 0.0 and q > 0.0):
+        raise InputError(
+            f"mohr_coulomb: sigma_1 = {q:.4g} Pa + {k:.4g} sigma_3, must have a positive strength "
+            "and slope; check the peaks"
+        )
+    root = math.sqrt(k)
+    cohesion, angle = q / (2.0 * root), 2.0 * math.atan(root) - 0.5 * math.pi
+    if len(x) < 3:
+        return MohrCoulomb(cohesion, math.degrees(angle))
+    var_k, var_q = line.stderr**2, line.intercept_stderr**2
+    covariance = -float(np.mean(x)) * var_k
+    by_q, by_k = 1.0 / (2.0 * root), -q / (4.0 * k * root)
+    var_c = by_q**2 * var_q + 2.0 * by_q * by_k * covariance + by_k**2 * var_k
+    angle_error = line.stderr / (root * (1.0 + k))
+    return MohrCoulomb(
+        cohesion, math.degrees(angle), math.sqrt(max(var_c, 0.0)), math.degrees(angle_error)
+    )
+
+
+def hoek_brown(confinements: Sequence[float], peaks: Sequence[float]) -> HoekBrown:
+    """sigma_ci and m_i of intact rock by least squares on the peaks.
+
+    Args:
+        confinements: sigma_3 of each test [Pa], >= 0, at least two different ones.
+        peaks: Largest axial stress of each test, sigma_1 [Pa].
+
+    Raises:
+        InputError: for too few or wrong values, or peaks that do not rise with the confinement.
+    """
+    x, y = _checked("hoek_brown", confinements, peaks)
+    scale = float(np.max(y))
+    # (sigma_1 - sigma_3)^2 is linear in sigma_3: a start near the optimum
+    line = stats.linregress(x, (y - x) ** 2)
+    if not (line.slope > 0.0 and line.intercept > 0.0):
+        raise InputError(
+            f"hoek_brown: peaks = {', '.join(f'{peak:.4g}' for peak in y)} Pa, must rise more than "
+            "the confinement from a positive strength; check the peaks"
+        )
+    start = math.sqrt(line.intercept)
+    if len(x) < 3:
+        return HoekBrown(start, float(line.slope) / start)
+    values, covariance = optimize.curve_fit(
+        _hoek_brown,
+        x / scale,
+        y / scale,
+        p0=(start / scale, line.slope / start),
+        bounds=(1e-12, np.inf),
+        x_scale=(start / scale, line.slope / start),
+        xtol=1e-14,
+        ftol=1e-14,
+        gtol=1e-14,
+    )
+    errors = np.sqrt(np.diag(covariance))
+    return HoekBrown(
+        scale * float(values[0]), float(values[1]), scale * float(errors[0]), float(errors[1])
+    )
+
+
+def tensile_ratio(direct: float | None, indirect: float | None) -> float | None:
+    """Strength in direct tension over that of the Brazilian test [-]; None without one of them."""
+    return direct / indirect if direct is not None and indirect else None
+
+
+def _hoek_brown(confinement: np.ndarray | float, sigma_ci: float, m_i: float) -> np.ndarray | float:
+    return confinement + np.sqrt(m_i * sigma_ci * confinement + sigma_ci**2)
+
+
+def _checked(
+    where: str, confinements: Sequence[float], peaks: Sequence[float]
+) -> tuple[np.ndarray, np.ndarray]:
+    x, y = np.asarray(confinements, dtype=float), np.asarray(peaks, dtype=float)
+    if x.shape != y.shape or x.ndim != 1:
+        raise InputError(
+            f"{where}: peaks = {y.size} values, must be one for each of {x.size} confinements"
+        )
+    for name, values, at_least in (("confinements", x, 0.0), ("peaks", y, -math.inf)):
+        wrong = values[~(np.isfinite(values) & (values >= at_least))]
+        if len(wrong):
+            raise InputError(f"{where}: {name} = {wrong[0]} Pa, must be finite and not negative")
+    if len(np.unique(x)) < 2:
+        raise InputError(
+            f"{where}: confinements = {x.tolist()} Pa, must hold at least two different values"
+        )
+    return x, y

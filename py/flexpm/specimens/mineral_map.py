@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which grain is of which mineral. Areas in m2, fractions of the area [-]."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..errors import InputError
+from ..materials.material import Material
+from .specimen import Specimen
+
+#: Keeps the draw of minerals apart from other draws with the same seed.
+_STREAM = 27
+
+
+def assign(fractions: Sequence[float], areas: np.ndarray, seed: int) -> np.ndarray:
+    """Draw a mineral for each grain so that the minerals have their fractions of the area.
+
+    Grains in random order are cut where the fractions end: each cut is off by half a grain at most.
+
+    Args:
+        fractions: Of each mineral [-], sum 1.
+        areas: Of each grain [m2].
+        seed: The same seed draws the same.
+
+    Returns:
+        Index of the mineral of each grain.
+    """
+    areas = np.asarray(areas, dtype=float)
+    order = np.random.default_rng([_STREAM, seed]).permutation(len(areas))
+    covered = np.cumsum(areas[order])
+    ends = np.cumsum(fractions)[:-1] * covered[-1]
+    # a grain belongs to where its middle lies
+    found = np.empty(len(areas), dtype=np.int32)
+    found[order] = np.searchsorted(ends, covered - 0.5 * areas[order])
+    return found
+
+
+def minerals_of(specimen: Specimen, material: Material) -> np.ndarray | None:
+    """Index of the mineral of each grain, or None for a rock of one kind of grain.
+
+    Taken from the specimen if it says so, else drawn with the specimen's seed (0 if it has none).
+
+    Raises:
+        InputError: if the specimen names minerals that the material does not have.
+    """
+    given, count = specimen.minerals, len(material.minerals)
+    if given is not None and (count == 0 or given.max() >= count):
+        raise InputError(
+            f"specimen minerals = {given.max()}, must be below the number of minerals of "
+            f"{material.name}, {count}; give it more [[mineral]] tables"
+        )
+    if count == 0:
+        return None
+    if given is not None:
+        return given
+    fractions = [mineral.fraction for mineral in material.minerals]
+    return assign(fractions, specimen.tessellation.cell_areas, specimen.seed or 0)
+
+
+def area_fractions(specimen: Specimen, found: np.ndarray, count: int) -> list[float]:
+    """Fraction of the area that each of `count` minerals has [-]."""
+    areas = np.asarray(specimen.tessellation.cell_areas)
+    return (np.bincount(found, weights=areas, minlength=count) / areas.sum()).tolist()

@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dense packings of discs by YADE's engines, paper Sec. 3.1.
+
+Discs are inserted at random with half their radius; then they take their radius and a cohesionless,
+frictionless relaxation inside the outline shares the overlap out. Lengths are scaled by the mean
+diameter, stiffness and mass are 1: a packing depends on shapes only, not on the unit of length.
+YADE's collider finds pairs and its integrator moves discs; the forces come from ``DiscLoop``, which
+gives the bits of YADE's interaction loop in a fraction of its time.
+
+The relaxation has a scene of its own. YADE cannot delete a scene, so one (empty) scene is kept for
+the next packing; bodies, engines, time and materials of the caller's ``O`` are not touched.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from .._plugin import import_yade, load
+from ..errors import SimulationError
+from ..progress import Progress
+
+_SHRINK = 0.5  # radius at insertion, paper Sec. 3.1
+_DAMPING = 0.4  # local damping [-]
+_STIFFNESS = 0.5  # of every contact, so that large discs do not squeeze small ones out
+_WALL_STIFFNESS = 1.0
+_TIME_STEP = 0.6  # hexagonal packings of unit mass allow 2 / sqrt(6 k (1 + damping)) = 0.97
+_START_TIME_STEP = 0.3  # while overlaps are large
+_UNBALANCED = 0.01  # at rest: mean resultant over mean contact force [-]
+_BATCH = 50  # steps between two checks
+_EXPECTED_STEPS = 900
+_MAX_STEPS = 50_000
+_STRIP = 2.5  # height of the strips of the disc order, in mean diameters
+_MANY = 6000  # discs whose bonds exceed the caches, so that steps follow each other through them
+_NARROW_STRIP = 1.5  # for them: the nearer in index neighbours are, the closer steps can follow
+_SCENE_TAG = "flexpm-packing"
+
+_scene: int | None = None
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Outline to fill: a rectangle from the origin, or a circle about it.
+
+    Attributes:
+        width: Width of the rectangle [m]; 0 for a circle.
+        height: Height of the rectangle [m]; 0 for a circle.
+        radius: Radius of the circle [m]; 0 for a rectangle.
+    """
+
+    width: float = 0.0
+    height: float = 0.0
+    radius: float = 0.0
+
+    def scaled(self, factor: float) -> Frame:
+        """Return the frame with all lengths multiplied by ``factor``."""
+        return Frame(self.width * factor, self.height * factor, self.radius * factor)
+
+    def kernel_outline(self) -> Any:
+        """Return the outline as the kernel's object."""
+        kernel = load_kernel()
+        if self.radius > 0.0:
+            return kernel.Outline.circle(0.0, 0.0, self.radius)
+        w, h = self.width, self.height
+        return kernel.Outline.polygon(np.array([[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]))
+
+
+def load_kernel() -> ModuleType:
+    """Return the compiled module, after YADE, which it needs."""
+    load()
+    from .. import _flexpm
+
+    return _flexpm
+
+
+def pack(
+    frame: Frame,
+    radii: np.ndarray,
+    mean_diameter: float,
+    seed: int,
+    progress: Progress | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Pack discs into a frame; the same arguments give the same bits.
+
+    Args:
+        frame: Outline to fill.
+        radii: Radii of the discs [m].
+        mean_diameter: Unit of length of the relaxation [m].
+        seed: Seed of the insertion.
+        progress: Called with (steps done, steps expected, text).
+
+    Returns:
+        Centres, (n, 2), and radii, (n,), of the discs [m], in an order in which neighbours in index
+        are neighbours in space.
+
+    Raises:
+        InputError: if the discs do not fit at half radius.
+        SimulationError: if the packing does not come to rest, or a disc leaves the frame.
+    """
+    unit_frame = frame.scaled(1.0 / mean_diameter)
+    unit_radii = radii / mean_diameter
+    centres = load_kernel().insert_discs(unit_radii, unit_frame.kernel_outline(), _SHRINK, seed)
+    order = spatial_order(centres, _STRIP)
+    centres = _relax(unit_frame, centres[order], unit_radii[order], progress)
+    radii = radii[order]
+    if len(radii) > _MANY:
+        order = spatial_order(centres, _NARROW_STRIP, one_way=True)
+    else:
+        order = spatial_order(centres, _STRIP)
+    return centres[order] * mean_diameter, radii[order]
+
+
+def spatial_order(centres: np.ndarray, strip: float, one_way: bool = False) -> np.ndarray:
+    """Order points in horizontal strips, walked to the right and to the left in turn.
+
+    Args:
+        centres: Points, (n, 2) [m].
+        strip: Height of a strip [m].
+        one_way: Walk all strips to the right: neighbours are about one strip apart in the order,
+            not up to two, but the ends of strips follow each other.
+
+    Returns:
+        Indices that sort the points.
+    """
+    row = np.floor((centres[:, 1] - centres[:, 1].min()) / strip).astype(int)
+    along = np.where((row % 2 == 0) | one_way, centres[:, 0], -centres[:, 0])
+    return np.lexsort((centres[:, 1], along, row))
+
+
+def _relax(
+    frame: Frame, centres: np.ndarray, radii: np.ndarray, progress: Progress | None
+) -> np.ndarray:
+    import_yade()
+    from yade import wrapper
+
+    scene = wrapper.Omega()
+    with _one_thread(), _private_scene(scene):
+        loop = _fill_scene(scene, wrapper, frame, centres, radii)
+        _calm_start(scene)
+        while True:
+            _advance(scene, _BATCH - 1)
+            loop.mirror = True  # for the look at the forces below
+            _advance(scene, 1)
+            loop.mirror = False
+            if progress is not None:
+                progress(scene.iter, max(_EXPECTED_STEPS, scene.iter), "packing")
+            if _is_at_rest(scene):
+                break
+            if scene.iter > _MAX_STEPS:
+                raise SimulationError(
+                    f"packing: steps = {scene.iter}, must come to rest within {_MAX_STEPS}; "
+                    "change the seed or raise the porosity"
+                )
+        relaxed = _positions(scene, len(radii))
+    _require_inside(frame, relaxed)
+    return relaxed
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Run YADE on one thread: with more, its contacts come in another order, and sums with them.
+
+    Engines have a number of threads each, but containers and the collider do not obey it.
+    """
+    openmp = ctypes.CDLL("libgomp.so.1")
+    threads = openmp.omp_get_max_threads()
+    openmp.omp_set_num_threads(1)
+    try:
+        yield
+    finally:
+        openmp.omp_set_num_threads(threads)
+
+
+@contextmanager
+def _private_scene(scene: Any) -> Iterator[None]:
+    """Switch to the scene for packings, and back at the end, whatever happens."""
+    if scene.running:
+        raise SimulationError(
+            "packing: O.running = True, must be stopped while a specimen is made; call O.pause()"
+        )
+    caller = scene.thisScene
+    _enter_scene(scene, caller)
+    try:
+        scene.resetThisScene()
+        yield
+    finally:
+        scene.resetThisScene()
+        scene.tags[_SCENE_TAG] = "1"
+        scene.switchToScene(caller)
+
+
+def _enter_scene(scene: Any, caller: int) -> None:
+    global _scene
+    if _scene is not None and _scene != caller:
+        _switch_quietly(scene, _scene)
+        if scene.thisScene == _scene and scene.tags.has_key(_SCENE_TAG):
+            return
+        scene.switchToScene(caller)
+    _scene = scene.addScene()
+    scene.switchToScene(_scene)
+
+
+def _switch_quietly(scene: Any, number: int) -> None:
+    """Switch to a scene; if it is gone (the caller has reset all) YADE logs an error and stays."""
+    from yade import log
+
+    before = log.getUsedLevels().get("Omega")
+    log.setLevel("Omega", log.FATAL)
+    try:
+        scene.switchToScene(number)
+    finally:
+        if before is None:
+            log.unsetLevel("Omega")
+        else:
+            log.setLevel("Omega", before)
+
+
+def _fill_scene(
+    scene: Any, wrapper: ModuleType, frame: Frame, centres: np.ndarray, radii: np.ndarray
+) -> Any:
+    """Make bodies and engines for discs of unit mass; return the interaction loop."""
+    from yade import utils
+
+    grain, wall = (
+        wrapper.FrictMat(young=1.0, poisson=0.3, frictionAngle=0.0, density=1.0) for _ in range(2)
+    )
+    grain_id, wall_id = scene.materials.append(grain), scene.materials.append(wall)
+    for (x, y), radius in zip(centres, radii, strict=True):
+        body = utils.sphere((x, y, 0.0), radius, material=grain)
+        body.state.blockedDOFs = "zXYZ"
+        body.state.mass = 1.0
+        scene.bodies.append(body)
+    scene.bodies.append(_walls(frame, wall))
+    law = wrapper.Law2_ScGeom_FrictPhys_CundallStrack()
+    bounds = [wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Facet_Aabb()]
+    geometries = [
+        wrapper.Ig2_Sphere_Sphere_ScGeom(),
+        wrapper.Ig2_Wall_Sphere_ScGeom(),
+        wrapper.Ig2_Facet_Sphere_ScGeom(),
+    ]
+    stiff_walls = ((grain_id, wall_id, _WALL_STIFFNESS),)
+    normal = wrapper.MatchMaker(matches=stiff_walls, algo="val", val=_STIFFNESS)
+    shear = wrapper.MatchMaker(algo="val", val=0.0)
+    physics = wrapper.Ip2_FrictMat_FrictMat_FrictPhys(kn=normal, ks=shear)
+    loop = wrapper.DiscLoop(geometries, [physics], [law])
+    loop.mirror = False
+    scene.engines = [
+        wrapper.ForceResetter(),
+        wrapper.InsertionSortCollider(bounds, verletDist=0.1),
+        loop,
+        wrapper.NewtonIntegrator(damping=_DAMPING),
+    ]
+    return loop
+
+
+def _walls(frame: Frame, material: Any) -> list[Any]:
+    from yade import utils
+
+    if frame.radius > 0.0:
+        return _ring(frame.radius, material)
+    places = ((0.0, 0, 1), (frame.width, 0, -1), (0.0, 1, 1), (frame.height, 1, -1))
+    return [
+        utils.wall(place, axis, sense=sense, material=material) for place, axis, sense in places
+    ]
+
+
+def _ring(radius: float, material: Any) -> list[Any]:
+    """Facets whose cuts with the plane z = 0 are the chords of a regular polygon."""
+    from yade import utils
+
+    count = max(24, math.ceil(2.0 * math.pi * radius / 0.5))
+    angles = 2.0 * math.pi * np.arange(count) / count
+    corners = radius * np.column_stack((np.cos(angles), np.sin(angles)))
+    facets = []
+    for k in range(count):
+        a, b = corners[k], corners[(k + 1) % count]
+        middle, half = 0.5 * (a + b), b - a  # a triangle twice as wide at its base as half way up
+        vertices = [(*(middle - half), -4.0), (*(middle + half), -4.0), (*middle, 4.0)]
+        facets.append(utils.facet(vertices, material=material))
+    return facets
+
+
+def _advance(scene: Any, steps: int) -> None:
+    for _ in range(steps):
+        scene.step()  # O.run(..., wait=True) polls: 40 ms each time
+
+
+def _calm_start(scene: Any) -> None:
+    """Stop the discs every other step at first: large overlaps would fling them through walls."""
+    from yade import utils
+
+    scene.dt = _START_TIME_STEP
+    for _ in range(30):
+        _advance(scene, 2)
+        utils.calm()
+    scene.dt = _TIME_STEP
+
+
+def _is_at_rest(scene: Any) -> bool:
+    """Whether forces balance, or the packing is so loose that no discs touch."""
+    from yade import utils
+
+    return scene.interactions.countReal() == 0 or utils.unbalancedForce() < _UNBALANCED
+
+
+def _positions(scene: Any, discs: int) -> np.ndarray:
+    places = (scene.bodies[k].state.pos for k in range(discs))
+    return np.array([(place[0], place[1]) for place in places])
+
+
+def _require_inside(frame: Frame, centres: np.ndarray) -> None:
+    outline = frame.kernel_outline()
+    for x, y in centres:
+        if not outline.contains(float(x), float(y)):
+            raise SimulationError(
+                f"packing: disc centre = ({x:.6g}, {y:.6g}) mean diameters, must stay inside the "
+                "outline; change the seed or raise the porosity"
+            )

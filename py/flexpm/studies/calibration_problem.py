@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calibration files: what is to be met, what may change, and the runs that tell. SI units, degrees.
+
+A calibration has targets (measures of a rock), free keys of a material with their bounds, and the
+specimens on which the search is made and on which its best sets are verified.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..files import load_toml
+from ..materials.keys import ELASTIC_KEYS, UNITS, check_name
+from ..results import strength
+from .study import flat
+
+#: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each
+#: confinement.
+MEASURES: dict[str, tuple[str, ...]] = {
+    "youngs_modulus": ("elastic",),
+    "poissons_ratio": ("elastic",),
+    "compressive_strength": ("uniaxial",),
+    "direct_tensile_strength": ("tension",),
+    "indirect_tensile_strength": ("brazilian",),
+    "direct_indirect_ratio": ("tension", "brazilian"),
+    "cohesion": ("envelope",),
+    "friction_angle": ("envelope",),
+    "hoek_brown_strength": ("envelope",),
+    "hoek_brown_m": ("envelope",),
+}
+ELASTIC_MEASURES = ("youngs_modulus", "poissons_ratio")
+_PEAKS = {
+    "compressive_strength": "uniaxial",
+    "direct_tensile_strength": "tension",
+    "indirect_tensile_strength": "brazilian",
+}
+_TABLES = ("calibration", "common", "screen", "verify", "target", "free", "ratio")
+_ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "confinements")
+_DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
+#: Confinements of an envelope [Pa].
+CONFINEMENTS = (0.0, 2e6, 4e6, 8e6, 12e6)
+
+
+@dataclass(frozen=True)
+class Target:
+    """One measure of the rock."""
+
+    name: str
+    value: float
+    tolerance: float = 0.05  #: relative deviation that counts as met [-]
+    weight: float = 1.0  #: of its squared deviation in tolerances [-]
+
+    def residual(self, found: float) -> float:
+        """Weighted deviation in tolerances [-]."""
+        return math.sqrt(self.weight) * (found / self.value - 1.0) / self.tolerance
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """Bounds of the quotient of two free keys."""
+
+    of: str
+    to: str
+    bounds: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """A calibration file."""
+
+    name: str
+    model: str
+    material: str | None  #: preset or file that the search starts from; None for the default
+    base: Path  #: folder that the material's path is relative to
+    targets: Sequence[Target]
+    free: Mapping[str, tuple[float, float]]  #: bounds of each free key
+    ratios: Sequence[Ratio]
+    screen: Mapping[str, Any]  #: options of the runs of the search
+    screen_seeds: Sequence[int]
+    verify: Mapping[str, Any]  #: options of the runs of the verification
+    verify_seeds: Sequence[int]
+    evaluations: int  #: most sets of strengths tried in a round
+    rounds: int
+    candidates: int  #: best sets of a round that are verified
+    confinements: Sequence[float] = field(default=CONFINEMENTS)  #: of an envelope [Pa]
+
+    @property
+    def material_file(self) -> str | None:
+        """Preset, or path of the file, that the search starts from."""
+        if self.material is None or not self.material.endswith(".toml"):
+            return self.material
+        return str(self.base / self.material)
+
+    def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
+        """Targets and free keys that the elastic solve tells, or the others."""
+        targets = [t for t in self.targets if (t.name in ELASTIC_MEASURES) == elastic]
+        return targets, [key for key in self.free if (key in ELASTIC_KEYS) == elastic]
+
+    def tests(self, targets: Sequence[Target]) -> list[tuple[str, float]]:
+        """Tests with their confinements [Pa] that the measures of targets need."""
+        needed: dict[tuple[str, float], None] = {}
+        for target in targets:
+            for test in MEASURES[target.name]:
+                if test != "envelope":
+                    needed[(test, 0.0)] = None
+                    continue
+                for confinement in self.confinements:
+                    needed[("biaxial" if confinement else "uniaxial", confinement)] = None
+        return list(needed)
+
+    def measure(
+        self, target: Target, found: Mapping[tuple[str, float], Mapping[str, Any]]
+    ) -> float | None:
+        """A measure of one packing, from its results by (test, confinement); None if missing."""
+        if target.name in ELASTIC_MEASURES:
+            return found[("elastic", 0.0)].get(target.name)
+        if target.name in _PEAKS:
+            return found[(_PEAKS[target.name], 0.0)].get("peak_stress")
+        if target.name == "direct_indirect_ratio":
+            both = [found[(test, 0.0)].get("peak_stress") for test in ("tension", "brazilian")]
+            return strength.tensile_ratio(*both)
+        tests = [("biaxial" if c else "uniaxial", c) for c in self.confinements]
+        peaks = [found[test].get("peak_stress") for test in tests]
+        if None in peaks:
+            return None
+        try:
+            return _of_envelope(target.name, self.confinements, peaks)
+        except InputError:  # the peaks follow no criterion
+            return None
+
+
+def _of_envelope(name: str, confinements: Sequence[float], peaks: Sequence[float]) -> float:
+    if name.startswith("hoek_brown"):
+        fitted = strength.hoek_brown(confinements, peaks)
+        return fitted.m_i if name == "hoek_brown_m" else fitted.sigma_ci
+    line = strength.mohr_coulomb(confinements, peaks)
+    return line.cohesion if name == "cohesion" else line.friction_angle
+
+
+def read(path: Path | str) -> Calibration:
+    """Read a calibration file.
+
+    Raises:
+        InputError: if it cannot be read, or for an unknown key or a value out of range.
+    """
+    path = Path(path)
+    content = load_toml(path, "calibration")
+    for table in content:
+        check_name("calibration table", table, _TABLES)
+    about = {**_DEFAULTS, **content.get("calibration", {})}
+    for key in about:
+        check_name("calibration [calibration] key", key, _ABOUT)
+    for key in ("evaluations", "rounds", "candidates"):
+        _require(f"[calibration] {key}", about[key], isinstance(about[key], int), "a whole number")
+        _require(f"[calibration] {key}", about[key], about[key] >= 1, ">= 1")
+    targets = [_target(name, entry) for name, entry in _table(content, "target").items()]
+    free = {key: _bounds(f"[free] {key}", b) for key, b in _table(content, "free").items()}
+    for key in free:
+        check_name("calibration [free] key", key, [name for name in UNITS if UNITS[name]])
+    confinements = tuple(about.get("confinements", CONFINEMENTS))
+    screen, screen_seeds = _runs(content, "screen", (1,))
+    verify, verify_seeds = _runs(content, "verify", (11, 12, 13, 14, 15))
+    return Calibration(
+        name=about.get("name", path.stem),
+        model=about["model"],
+        material=about.get("material"),
+        base=path.parent,
+        targets=targets,
+        free=free,
+        ratios=[*_ratios(content.get("ratio", []), free)],
+        screen=screen,
+        screen_seeds=screen_seeds,
+        verify=verify,
+        verify_seeds=verify_seeds,
+        evaluations=about["evaluations"],
+        rounds=about["rounds"],
+        candidates=about["candidates"],
+        confinements=confinements,
+    )
+
+
+def _table(content: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    entries = content.get(name, {})
+    _require(f"[{name}]", entries, isinstance(entries, Mapping) and bool(entries), "a table")
+    return entries
+
+
+def _target(name: str, entry: Any) -> Target:
+    check_name("calibration [target] key", name, list(MEASURES))
+    entry = entry if isinstance(entry, Mapping) else {"value": entry}
+    for key in entry:
+        check_name(f"calibration [target] {name} key", key, ("value", "tolerance", "weight"))
+    _require(f"[target] {name}", dict(entry), "value" in entry, "given a value")
+    for key, number in entry.items():
+        label = f"[target] {name} {key}"
+        _require(label, number, _is_number(number) and number > 0.0, "a number > 0")
+    return Target(name, **{key: float(number) for key, number in entry.items()})
+
+
+def _ratios(entries: Sequence[Mapping[str, Any]], free: Mapping[str, Any]) -> Iterator[Ratio]:
+    for entry in entries:
+        for key in entry:
+            check_name("calibration [[ratio]] key", key, ("of", "to", "bounds"))
+        for key in ("of", "to"):
+            check_name(f"calibration [[ratio]] {key}", entry.get(key), list(free))
+        yield Ratio(entry["of"], entry["to"], _bounds("[[ratio]] bounds", entry.get("bounds")))
+
+
+def _runs(
+    content: Mapping[str, Any], name: str, seeds: Sequence[int]
+) -> tuple[dict[str, Any], list[int]]:
+    """Options and seeds of the runs of ``[screen]`` or ``[verify]``, over those of ``[common]``."""
+    options = {**flat(content.get("common", {})), **flat(content.get(name, {}))}
+    chosen = options.pop("seeds", list(seeds))
+    _require(f"[{name}] seeds", chosen, isinstance(chosen, list) and bool(chosen), "a list")
+    return options, chosen
+
+
+def _bounds(label: str, bounds: Any) -> tuple[float, float]:
+    fits = isinstance(bounds, list) and len(bounds) == 2 and all(map(_is_number, bounds))
+    _require(label, bounds, fits, "two numbers")
+    _require(label, bounds, 0.0 < bounds[0] < bounds[1], "two numbers > 0, the smaller first")
+    return float(bounds[0]), float(bounds[1])
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _require(label: str, value: Any, holds: bool, rule: str) -> None:
+    if not holds:
+        raise InputError(f"calibration {label} = {value!r}, must be {rule}")

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a calibration found: table, picture of targets and results, preset. SI units, degrees."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import tomli_w
+
+from ..files import write_text
+from ..materials import material as materials
+from ..materials.material import Material
+from ..report.curves import drawing
+from .calibration_problem import Calibration
+from .calibration_search import Outcome
+
+#: Digits of the values in a preset.
+_DIGITS = 4
+_UNITS = {
+    "youngs_modulus": (1e-9, "GPa"),
+    "poissons_ratio": (1.0, ""),
+    "friction_angle": (1.0, "degrees"),
+    "hoek_brown_m": (1.0, ""),
+    "direct_indirect_ratio": (1.0, ""),
+}
+
+
+def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
+    """Name and text of each target: result, spread, target, whether it is met."""
+    rows = []
+    for target in plan.targets:
+        factor, unit = _UNITS.get(target.name, (1e-6, "MPa"))
+        mean, spread = outcome.best.mean(target.name), outcome.best.spread(target.name)
+        text = f"{factor * mean:.4g}" + ("" if spread is None else f" +- {factor * spread:.2g}")
+        verdict = "met" if outcome.met[target.name] else "NOT met"
+        wanted = f"{factor * target.value:.4g} {unit}".rstrip()
+        rows.append((target.name.replace("_", " "), f"{text}, target {wanted}: {verdict}"))
+    return rows
+
+
+def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcome) -> Material:
+    """Write the material with the best values as a TOML file and return it."""
+    assignments = [f"{key}={rounded(value)!r}" for key, value in outcome.best.values.items()]
+    found = start.with_set(assignments, plan.model)
+    content = _without_none(dataclasses.asdict(found)) | {"name": plan.name}
+    kinds = content.pop("minerals")
+    if kinds:
+        content["mineral"] = [kind | kind.pop("changes") for kind in map(dict, kinds)]
+    notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]
+    packings = ", ".join(map(str, plan.verify_seeds))
+    head = [
+        "# SPDX-License-Identifier: GPL-3.0-or-later",
+        f"# Calibrated for the {plan.model} model. Mean and standard deviation over the packings",
+        f"# with the seeds {packings}:",
+        *notes,
+    ]
+    write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))
+    return materials.load(path)
+
+
+def rounded(value: float) -> float:
+    """A value with the digits that a calibration can tell."""
+    return float(f"{value:.{_DIGITS}g}")
+
+
+def picture(path: Path, plan: Calibration, outcome: Outcome) -> None:
+    """Draw each result over its target, with the packings' values and the tolerance."""
+    with drawing(path, (5.6, 1.2 + 0.42 * len(plan.targets))) as axes:
+        for row, target in enumerate(plan.targets):
+            found = np.array(outcome.best.measures[target.name], dtype=float) / target.value
+            width = 2.0 * target.tolerance
+            axes.barh(row, width, left=1.0 - target.tolerance, height=0.6, color="#dbe6ee")
+            axes.plot(found, np.full(len(found), row), "o", ms=3.5, mfc="none", mec="#0072b2")
+            axes.plot(np.mean(found), row, "D", ms=5.0, color="black")
+        axes.axvline(1.0, color="0.4", lw=0.8)
+        axes.set_yticks(range(len(plan.targets)), [t.name.replace("_", " ") for t in plan.targets])
+        axes.invert_yaxis()
+        axes.set_xlabel("result over target [-]; circles: packings, band: tolerance")
+        axes.set_title(f"{plan.name}, {plan.model} model", fontsize=9.5, loc="left")
+
+
+def _without_none(content: dict[str, Any]) -> dict[str, Any]:
+    """TOML has no null: keys that are not given are left out."""
+    return {
+        key: _without_none(value) if isinstance(value, dict) else value
+        for key, value in content.items()
+        if value is not None
+    }

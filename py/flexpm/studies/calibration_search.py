@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calibration of a material to the measures of a rock. SI units, degrees.
+
+Elastic keys are fitted first, by the elastic solve. Strength keys follow by DFO-LS, a trust-region
+method for least squares without derivatives, on few packings of a small specimen; the best sets
+are verified on other packings of the full specimen, and what small and full specimens differ by
+corrects the targets of the next round. Strength keys are searched as logarithms.
+
+All runs are jobs of :mod:`flexpm.jobs`: a calibration that was killed does the same search again,
+but finds the runs that were finished.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pandas
+from scipy.optimize import least_squares
+
+from ..errors import InputError, SimulationError
+from ..files import output_folder
+from ..progress import Progress
+from . import jobs
+from .calibration_problem import Calibration, Target
+from .study import Pool, write_table
+
+#: Residual of a measure that a run has not given, in tolerances.
+_MISSING = 20.0
+#: First step of the strength search: change of a key by about this factor less one [-].
+_FIRST_STEP = 0.10
+#: The search ends when its step is below this [-].
+_LAST_STEP = 0.005
+#: The search ends when the root mean square of the residuals is below this, in tolerances.
+_GOOD = 0.2
+#: Relative step for the derivatives of the elastic solve; it is smooth.
+_ELASTIC_STEP = 0.01
+
+Values = dict[str, float]
+
+
+@dataclass
+class Evaluation:
+    """Measures of one set of free keys."""
+
+    round: int
+    stage: str  #: elastic, screen or verify
+    values: Values
+    measures: dict[str, list[float | None]]  #: one a packing
+    targets: dict[str, float]  #: what the measures were compared with
+    cost: float  #: half the sum of the squared residuals [-]
+
+    def mean(self, name: str) -> float | None:
+        """Mean of a measure over the packings, None if one is missing."""
+        found = self.measures[name]
+        return None if None in found else float(np.mean(found))
+
+    def spread(self, name: str) -> float | None:
+        """Standard deviation over the packings."""
+        found = self.measures[name]
+        return None if None in found or len(found) < 2 else float(np.std(found, ddof=1))
+
+
+@dataclass
+class Outcome:
+    """The best verified set and the way to it."""
+
+    best: Evaluation
+    met: dict[str, bool]  #: whether the mean of each target is within its tolerance
+    history: list[Evaluation] = field(default_factory=list)
+
+
+def run(
+    plan: Calibration,
+    out: Path | str,
+    *,
+    start: Mapping[str, float],
+    progress: Progress | None = None,
+    **pool_options: Any,
+) -> Outcome:
+    """Calibrate.
+
+    Args:
+        plan: Targets, free keys and runs.
+        out: Folder; ``runs`` holds the runs, ``history.csv`` all sets that were tried.
+        start: Present values of the free keys in the material.
+        progress: Called when a set has been evaluated.
+        pool_options: ``workers``, ``scheduler``, ``cluster`` as for a study.
+
+    Raises:
+        InputError: if a start lies outside its bounds, or a target has no free key to meet it.
+        SimulationError: if no set gave all measures.
+    """
+    folder = output_folder(out)
+    values = {key: _started(plan, key, start) for key in plan.free}
+    with Pool(folder / "runs", **pool_options) as pool:
+        search = _Search(plan, pool, progress or (lambda *_: None))
+        try:
+            values |= search.elastic(values)
+            best = search.strengths(values)
+        finally:
+            if search.history:
+                write_table(history_table(search.history), folder / "history")
+    met = {t.name: _is_met(t, best.mean(t.name)) for t in plan.targets}
+    return Outcome(best, met, search.history)
+
+
+def history_table(history: Sequence[Evaluation]) -> pandas.DataFrame:
+    """One row an evaluation: round, stage, cost, values, means and spreads of the measures."""
+    return pandas.DataFrame(
+        {
+            "round": e.round,
+            "stage": e.stage,
+            "cost": e.cost,
+            **e.values,
+            **{f"{name} mean": e.mean(name) for name in e.measures},
+            **{f"{name} spread": e.spread(name) for name in e.measures},
+        }
+        for e in history
+    )
+
+
+class _Search:
+    """State of a calibration: the runs' pool, the round, and what has been tried."""
+
+    def __init__(self, plan: Calibration, pool: Pool, progress: Progress) -> None:
+        self._plan, self._pool, self._progress = plan, pool, progress
+        self._round = 1
+        # before the first run: a search that could not go on would have cost minutes
+        self._optimiser = _optimiser() if plan.of_kind(elastic=False)[1] else None
+        self.history: list[Evaluation] = []
+
+    def elastic(self, values: Values) -> Values:
+        """Free elastic keys that meet the elastic targets on the verification's packings."""
+        targets, keys = self._plan.of_kind(elastic=True)
+        if not keys:
+            return {}
+        if not targets:
+            raise InputError(f"calibration [free] {keys[0]}: no elastic target tells it; remove it")
+        start = np.array([values[key] for key in keys])
+        bounds = np.array([self._plan.free[key] for key in keys]).T
+
+        def residuals(factors: np.ndarray) -> np.ndarray:
+            tried = {**values, **dict(zip(keys, (factors * start).tolist(), strict=True))}
+            return self._residuals(self._evaluate("elastic", tried, targets), targets)
+
+        found = least_squares(
+            residuals,
+            np.ones(len(keys)),
+            bounds=tuple(bounds / start),
+            diff_step=_ELASTIC_STEP,
+            xtol=1e-4,
+            ftol=1e-6,
+        )
+        return dict(zip(keys, (found.x * start).tolist(), strict=True))
+
+    def strengths(self, values: Values) -> Evaluation:
+        """The set with the least verified cost of all rounds."""
+        targets, keys = self._plan.of_kind(elastic=False)
+        if not keys or not targets:
+            return self._verify(values)
+        verified: list[Evaluation] = []
+        aims = targets
+        for number in range(1, self._plan.rounds + 1):
+            self._round = number
+            tried = self._screen(values, keys, aims)
+            best = [self._verify(e.values) for e in tried[: self._plan.candidates]]
+            verified += best
+            if self._plan.rounds == 1 or all(_is_met(t, best[0].mean(t.name)) for t in targets):
+                break
+            aims = [_corrected(t, tried[0], best[0]) for t in targets]
+            values = tried[0].values
+        complete = [e for e in verified if all(e.mean(t.name) is not None for t in targets)]
+        if not complete:
+            raise SimulationError("calibrate: no verified set gave all measures; see history.csv")
+        return min(complete, key=lambda e: e.cost)
+
+    def _screen(self, values: Values, keys: list[str], aims: list[Target]) -> list[Evaluation]:
+        """Search on the small specimen; what was tried, best first."""
+        # its restarts draw from here, and a second start must try the same sets
+        np.random.seed(0)  # noqa: NPY002
+        first = len(self.history)
+        values = self._guess(values, keys, aims)
+        bounds = np.log([self._plan.free[key] for key in keys]).T
+        width = bounds[1] - bounds[0]
+
+        def residuals(unit: np.ndarray) -> np.ndarray:
+            logs = bounds[0] + width * unit
+            tried = {**values, **dict(zip(keys, np.exp(logs).tolist(), strict=True))}
+            return self._residuals(self._evaluate("screen", tried, aims), aims)
+
+        start = (np.log([values[key] for key in keys]) - bounds[0]) / width
+        step = math.log1p(_FIRST_STEP) / float(np.median(width))
+        with warnings.catch_warnings():
+            # a start that breaks a ratio is moved, which is what is wanted
+            warnings.filterwarnings("ignore", "x0 not feasible", RuntimeWarning)
+            self._optimiser.solve(
+                residuals,
+                np.clip(start, step, 1.0 - step),
+                bounds=(np.zeros(len(keys)), np.ones(len(keys))),
+                projections=self._projections(keys, bounds),
+                rhobeg=step,
+                rhoend=step * _LAST_STEP / _FIRST_STEP,
+                maxfun=self._plan.evaluations,
+                objfun_has_noise=True,  # strengths of a packing are no smooth functions of the keys
+                user_params={"model.abs_tol": len(aims) * _GOOD**2},
+                do_logging=False,
+                print_progress=False,
+            )
+        return sorted(self.history[first:], key=lambda e: e.cost)
+
+    def _guess(self, values: Values, keys: list[str], aims: list[Target]) -> Values:
+        """Start of the search: tensile strength, cohesion and friction follow what they govern."""
+        governed = {
+            "tensile_strength": ("indirect_tensile_strength", "direct_tensile_strength"),
+            "cohesion": ("compressive_strength", "hoek_brown_strength", "cohesion"),
+            "friction": ("friction_angle",),
+        }
+        found = self._evaluate("screen", values, aims)
+        guess = dict(values)
+        for key, names in governed.items():
+            name = next((n for n in names if n in found.measures), None)
+            if key not in keys or name is None or found.mean(name) is None:
+                continue
+            factor = found.targets[name] / found.mean(name)
+            low, high = self._plan.free[key]
+            guess[key] = float(np.clip(values[key] * factor, low, high))
+        return guess
+
+    def _projections(self, keys: list[str], bounds: np.ndarray) -> list[Callable] | None:
+        """Projections of the unit box on what the ratios allow: half-spaces of logarithms."""
+        width = bounds[1] - bounds[0]
+
+        def projection(normal: np.ndarray, limit: float) -> Callable[[np.ndarray], np.ndarray]:
+            return lambda x: x - max(normal @ x - limit, 0.0) / (normal @ normal) * normal
+
+        made: list[Callable] = []
+        for ratio in self._plan.ratios:
+            if ratio.of not in keys or ratio.to not in keys:
+                continue
+            of, to = keys.index(ratio.of), keys.index(ratio.to)
+            normal = np.zeros(len(keys))
+            normal[of], normal[to] = width[of], -width[to]
+            offset = bounds[0][of] - bounds[0][to]
+            low, high = np.log(ratio.bounds) - offset
+            made += [projection(normal, high), projection(-normal, -low)]
+        return made or None
+
+    def _verify(self, values: Values) -> Evaluation:
+        return self._evaluate("verify", values, self._plan.targets)
+
+    def _evaluate(self, stage: str, values: Values, targets: Sequence[Target]) -> Evaluation:
+        """Run what the targets need with a set of free keys."""
+        plan = self._plan
+        full = stage != "screen"
+        options, seeds = (
+            (plan.verify, plan.verify_seeds) if full else (plan.screen, plan.screen_seeds)
+        )
+        measures = self._measures(options, seeds, values, targets)
+        evaluation = Evaluation(
+            self._round, stage, dict(values), measures, {t.name: t.value for t in targets}, 0.0
+        )
+        evaluation.cost = 0.5 * float(np.sum(self._residuals(evaluation, targets) ** 2))
+        self.history.append(evaluation)
+        return evaluation
+
+    def _measures(
+        self,
+        options: dict[str, Any],
+        seeds: Sequence[int],
+        values: Values,
+        targets: Sequence[Target],
+    ) -> dict[str, list[float | None]]:
+        plan, tests = self._plan, self._plan.tests(targets)
+        material = {} if plan.material is None else {"material": plan.material}
+        common = {
+            **options,
+            **material,
+            "model": plan.model,
+            **{f"set.{key}": value for key, value in values.items()},
+        }
+        try:
+            wanted = [
+                jobs.make(
+                    {**common, "test": test, "confinement": confinement, "seed": seed}, plan.base
+                )
+                for seed in seeds
+                for test, confinement in tests
+            ]
+        except InputError:
+            if not self.history:
+                raise  # wrong from the start
+            return {t.name: [None] * len(seeds) for t in targets}  # keys that do not go together
+        done = len(self.history)
+        outcomes = self._pool.run(
+            wanted,
+            lambda d, n, text: self._progress(
+                done + d / n, self._expected(), f"round {self._round}"
+            ),
+        )
+        results = iter(outcomes)
+        found = [{test: next(results)["result"] for test in tests} for _ in seeds]
+        return {t.name: [plan.measure(t, one) for one in found] for t in targets}
+
+    def _expected(self) -> int:
+        return self._plan.rounds * (self._plan.evaluations + self._plan.candidates + 1) + 10
+
+    @staticmethod
+    def _residuals(evaluation: Evaluation, targets: Sequence[Target]) -> np.ndarray:
+        means = [evaluation.mean(t.name) for t in targets]
+        return np.array(
+            [
+                _MISSING if mean is None else t.residual(mean)
+                for t, mean in zip(targets, means, strict=True)
+            ]
+        )
+
+
+def _optimiser() -> ModuleType:
+    try:
+        return importlib.import_module("dfols")
+    except ImportError:
+        raise ImportError(
+            "calibrate: dfols is missing; run scripts/setup, or install DFO-LS from PyPI"
+        ) from None
+
+
+def _started(plan: Calibration, key: str, start: Mapping[str, float]) -> float:
+    low, high = plan.free[key]
+    value = start.get(key)
+    if value is None or not low <= value <= high:
+        raise InputError(
+            f"calibration [free] {key} = {value} at the start, must lie within its bounds "
+            f"{low:g} and {high:g}; change the bounds or the material"
+        )
+    return float(value)
+
+
+def _is_met(target: Target, mean: float | None) -> bool:
+    return mean is not None and abs(mean / target.value - 1.0) <= target.tolerance
+
+
+def _corrected(target: Target, small: Evaluation, full: Evaluation) -> Target:
+    """The target of the small specimen for which the full one should meet the true one."""
+    there, here = full.mean(target.name), small.mean(target.name)
+    if there is None or here is None:
+        return target
+    return Target(target.name, target.value * here / there, target.tolerance, target.weight)

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several models, or one under several confinements, on the same packing. SI units.
+
+Each run is a complete run in a folder of its own, done one after the other in this process: a run
+resets YADE's scene, so nothing passes from one to the next.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError, SimulationError
+from ..files import output_folder, write_text
+from ..laboratory import protocols
+from ..materials import material as materials
+from ..materials.material import Material
+from ..materials.references import Reference, reference_of
+from ..progress import Progress
+from ..report import comparison as plot_compare
+from ..results import strength
+from ..results.result import Result
+from ..results.strength import HoekBrown, MohrCoulomb
+from ..specimens.specimen import Specimen
+
+_CRITERIA = (strength.mohr_coulomb, strength.hoek_brown)
+#: Columns of compare.csv before the numbers of the result.
+_FIRST = ("model", "material", "confinement", "folder")
+
+
+@dataclass
+class Case:
+    """One run of a comparison."""
+
+    test: str
+    model: str
+    material: Material
+    confinement: float  #: [Pa]
+    folder: Path | None = None
+    result: Result | None = None  #: None if the run failed before it had one
+    error: str = ""  #: why it failed
+
+    def inputs(self) -> dict[str, Any]:
+        """What this run does not share with the others."""
+        names = ("material", "model", "confinement")
+        return {name: getattr(self, name) for name in names} | {"out": self.folder}
+
+    @property
+    def name(self) -> str:
+        """Model, and the confinement of a biaxial test."""
+        pressure = f" {1e-6 * self.confinement:g} MPa" if self.test == "biaxial" else ""
+        return f"{self.model}{pressure}"
+
+    @property
+    def failed(self) -> bool:
+        """Whether there is no strength."""
+        return self.result is None or self.result.failed
+
+
+@dataclass
+class Envelope:
+    """Strength criteria of a model from its peaks under several confinements."""
+
+    model: str
+    confinements: list[float]  #: [Pa]
+    peaks: list[float]  #: sigma_1 [Pa]
+    mohr_coulomb: MohrCoulomb | None
+    hoek_brown: HoekBrown | None
+
+    @classmethod
+    def of(cls, model: str, confinements: list[float], peaks: list[float]) -> Envelope:
+        """Fit both criteria to peaks [Pa] at confinements [Pa]; None for one that fails."""
+        fits = (_fit(one, confinements, peaks) for one in _CRITERIA)
+        return cls(model, confinements, peaks, *fits)
+
+    def as_dict(self) -> dict[str, Any]:
+        """A row of envelope.csv."""
+        line, curve = self.mohr_coulomb, self.hoek_brown
+        names = (
+            ("cohesion", "cohesion_error", "friction_angle", "friction_angle_error"),
+            ("sigma_ci", "sigma_ci_error", "m_i", "m_i_error"),
+        )
+        found = {"model": self.model, "tests": len(self.peaks)}
+        for criterion, keys in zip((line, curve), names, strict=True):
+            found |= {key: getattr(criterion, key, None) for key in keys}
+        return found
+
+
+@dataclass
+class Comparison:
+    """Outcome of a comparison, model by model, each in the order of the confinements."""
+
+    test: str
+    cases: list[Case]
+    envelopes: list[Envelope] = field(default_factory=list)
+
+    @property
+    def reference(self) -> Reference | None:
+        """Measured properties of the rock that the material is named after."""
+        return reference_of(self.cases[0].material.name)
+
+    @property
+    def results(self) -> list[Result]:
+        """Results of all runs that have one."""
+        return [case.result for case in self.cases if case.result is not None]
+
+    def write(self, folder: Path | str) -> None:
+        """Write tables and pictures into `folder`, each whole or not at all."""
+        folder = output_folder(folder)
+        write_text(folder / "compare.csv", _csv([_row(case) for case in self.cases]))
+        shown = [(case.name, case.result) for case in self.cases if case.result]
+        if shown:
+            plot_compare.curves_picture(folder / "compare.png", shown)
+            plot_compare.cracks_picture(folder / "cracks.png", shown)
+        if self.envelopes:
+            write_text(folder / "envelope.csv", _csv([one.as_dict() for one in self.envelopes]))
+            picture = folder / "envelope.png"
+            plot_compare.envelope_picture(picture, self.envelopes, self.reference)
+
+
+def compare(
+    test: str,
+    specimen: Specimen,
+    models: Sequence[str] = ("flexible", "rigid"),
+    material: Material | str | Mapping[str, Material | str] | None = None,
+    *,
+    confinements: Sequence[float] = (0.0,),
+    out: Path | str | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Comparison:
+    """Run a test with several models, or under several confinements, on one packing.
+
+    All inputs are checked before the first run. A run that fails does not stop the others. With
+    `out`, finished and interrupted runs there are taken up as by :func:`flexpm.run`.
+
+    Args:
+        test: As for :func:`flexpm.run`.
+        specimen: The grains.
+        models: Names of models.
+        material: Preset, file, or material, or one for each model by its name; None for the
+            default of each model.
+        confinements: Lateral pressures [Pa], for ``biaxial``; two or more give an envelope.
+        out: Folder for tables and pictures, with a folder for each run; None writes nothing.
+        progress: Called with (steps done, steps expected, text).
+        options: Others of :func:`flexpm.run`, for all runs.
+
+    Returns:
+        The results and the strength envelopes.
+
+    Raises:
+        InputError: for an argument that is wrong for any of the runs.
+    """
+    folder = None if out is None else output_folder(out)
+    cases = _plan(test, models, material, confinements, folder)
+    kept = {name: value for name, value in options.items() if name != "threads"}
+    for case in cases:
+        protocols.plan_run(test, specimen, **case.inputs(), **kept)
+    for number, case in enumerate(cases, 1):
+        name = f"{number}/{len(cases)} {case.name}"
+        _run(case, specimen, _named(progress, name), options)
+    found = Comparison(test, cases, _envelopes(cases))
+    if folder is not None:
+        found.write(folder)
+    return found
+
+
+def _plan(
+    test: str,
+    models: Sequence[str],
+    material: Any,
+    confinements: Sequence[float],
+    folder: Path | None,
+) -> list[Case]:
+    """Runs of a comparison, model by model."""
+    for name, values in (("models", list(models)), ("confinements", list(confinements))):
+        if not values or len(set(values)) != len(values):
+            raise InputError(f"compare: {name} = {values}, must be one or more, each once")
+    by_model = isinstance(material, Mapping) and set(material) <= set(models)
+    cases = []
+    for model in models:
+        of_model = material.get(model) if by_model else material
+        chosen = materials.load(of_model, model)
+        for confinement in confinements:
+            case = Case(test, model, chosen, float(confinement))
+            if folder is not None:
+                pressure = f"{1e-6 * case.confinement:g}MPa" if len(confinements) > 1 else ""
+                case.folder = folder / model / pressure
+            cases.append(case)
+    return cases
+
+
+def _run(
+    case: Case, specimen: Specimen, progress: Progress | None, options: dict[str, Any]
+) -> None:
+    try:
+        case.result = protocols.run(
+            case.test, specimen, **case.inputs(), progress=progress, **options
+        )
+    except SimulationError as error:
+        case.error = str(error)
+
+
+def _envelopes(cases: Sequence[Case]) -> list[Envelope]:
+    found = []
+    for model in dict.fromkeys(case.model for case in cases):
+        peaks = {
+            case.confinement: case.result.peak_stress
+            for case in cases
+            if case.model == model and case.result and case.result.peak_stress is not None
+        }
+        if len(peaks) > 1:
+            found.append(Envelope.of(model, list(peaks), list(peaks.values())))
+    return found
+
+
+def _fit(criterion: Any, confinements: list[float], peaks: list[float]) -> Any:
+    """None for peaks that a criterion cannot describe."""
+    try:
+        return criterion(confinements, peaks)
+    except InputError:
+        return None
+
+
+def _named(progress: Progress | None, name: str) -> Progress | None:
+    if progress is None:
+        return None
+    return lambda done, expected, text: progress(done, expected, f"{name}: {text}")
+
+
+def _row(case: Case) -> dict[str, Any]:
+    """Inputs of a run, then all numbers of its result."""
+    row: dict[str, Any] = {
+        "model": case.model,
+        "material": case.material.name,
+        "confinement": case.confinement,
+        "folder": str(case.folder or ""),
+    }
+    if case.result is None:
+        return row | {"test": case.test, "status": "failed"}
+    numbers = case.result.as_dict()
+    return row | {key: value for key, value in numbers.items() if key not in _FIRST}
+
+
+def _csv(rows: Sequence[dict[str, Any]]) -> str:
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    text = io.StringIO()
+    writer = csv.DictWriter(text, names, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()

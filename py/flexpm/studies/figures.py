@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of studies: a measure over an input, mean and spread over the packings. SI units.
+
+Each table ``[[picture]]`` of a study file makes one: ``file``, ``x`` (an input), ``y`` (a measure),
+``by`` (inputs that make one line each), ``where`` (inputs with the values to draw), ``title``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+
+from ..errors import InputError
+from ..materials.keys import UNITS, check_name
+from ..report.curves import drawing
+from .study import Study
+
+#: Factor and unit of what is drawn in other units than SI's; the rest is drawn as it is.
+_SHOWN = {
+    "youngs_modulus": (1e-9, "GPa"),
+    "peak_stress": (1e-6, "MPa"),
+    "confinement": (1e-6, "MPa"),
+    "peak_strain": (100.0, "%"),
+    "compressive_strength": (1e-6, "MPa"),
+    "cohesion": (1e-6, "MPa"),
+    "direct": (1e-6, "MPa"),
+    "indirect": (1e-6, "MPa"),
+    "friction_angle": (1.0, "degrees"),
+    "poissons_ratio": (1.0, "-"),
+}
+_LARGE = {"Pa": (1e-6, "MPa")}
+_KEYS = ("file", "x", "y", "by", "where", "title")
+#: Colour-blind safe (Okabe and Ito), black first.
+_COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+_MARKERS = "osD^vP*"
+
+
+def draw(study: Study, rows: pandas.DataFrame, folder: Path) -> list[Path]:
+    """Draw the pictures of a study, or one of the strength if the file asks for none.
+
+    Args:
+        study: Its pictures and runs.
+        rows: Its table.
+        folder: For the pictures.
+
+    Returns:
+        The files.
+
+    Raises:
+        InputError: for an unknown key or column.
+    """
+    asked = study.pictures or _default(study, rows)
+    return [_picture(dict(entries), rows, folder, study.name) for entries in asked]
+
+
+def _default(study: Study, rows: pandas.DataFrame) -> list[dict[str, Any]]:
+    """Strength over the first number that varies, a line for each combination of the rest."""
+    inputs = list(dict.fromkeys(key for job in study.jobs for key in job.inputs))
+    varied = [key for key in inputs if key != "seed" and rows[key].nunique(dropna=False) > 1]
+    numeric = [key for key in varied if pandas.api.types.is_numeric_dtype(rows[key])]
+    measure = "peak_stress" if "peak_stress" in rows else "youngs_modulus"
+    x = (numeric or varied or ["seed"])[0]
+    if x not in rows or measure not in rows:
+        return []
+    return [{"x": x, "y": measure, "by": [key for key in varied if key != x]}]
+
+
+def _picture(entries: dict[str, Any], rows: pandas.DataFrame, folder: Path, name: str) -> Path:
+    for key in entries:
+        check_name("study [[picture]] key", key, _KEYS)
+    for key in ("x", "y"):
+        if key not in entries:
+            raise InputError(f"study [[picture]] {key} is missing; give the name of a column")
+    x, y, by = entries["x"], entries["y"], list(entries.get("by", []))
+    where = entries.get("where", {})
+    for column in (x, y, *by, *where):
+        check_name("study [[picture]] column", column, list(rows.columns))
+    chosen = rows
+    for column, value in where.items():
+        chosen = chosen[chosen[column].isin(value if isinstance(value, list) else [value])]
+    path = folder / entries.get("file", f"{y}.png")
+    with drawing(path) as axes:
+        _lines(axes, chosen, x, y, by)
+        axes.set_xlabel(_label(x))
+        axes.set_ylabel(_label(y))
+        axes.set_title(entries.get("title", name), fontsize=9.5, loc="left")
+    return path
+
+
+def _lines(axes: Any, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]) -> None:
+    drawn = rows.dropna(subset=[x, y])
+    numbers = pandas.Series(0, index=drawn.index)
+    if by:
+        numbers = drawn.groupby(list(by), sort=False, dropna=False).ngroup()
+    for number, group in drawn.groupby(numbers):
+        label = ", ".join(_value(key, group[key].iloc[0]) for key in by)
+        found = group.groupby(x)[y].agg(["mean", "std", "count"])
+        places = found.index
+        if pandas.api.types.is_numeric_dtype(group[x]):
+            places = np.asarray(places, dtype=float) * _shown(x)[0]
+        axes.errorbar(
+            places,
+            _shown(y)[0] * found["mean"].to_numpy(dtype=float),
+            _shown(y)[0] * found["std"].fillna(0.0).to_numpy(dtype=float),
+            color=_COLOURS[number % len(_COLOURS)],
+            marker=_MARKERS[number % len(_MARKERS)],
+            ms=4.0,
+            lw=1.2,
+            capsize=2.5,
+            label=label or None,
+        )
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    if by and len(drawn):
+        axes.legend(frameon=False)
+
+
+def _shown(column: str) -> tuple[float, str]:
+    unit = UNITS.get(column.removeprefix("set.")) or ""
+    return _SHOWN.get(column, _LARGE.get(unit, (1.0, unit)))
+
+
+def _label(column: str) -> str:
+    unit = _shown(column)[1]
+    name = column.removeprefix("set.").replace("_", " ")
+    return f"{name} [{unit}]" if unit else name
+
+
+def _value(column: str, value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    factor, unit = _shown(column)
+    name = column.removeprefix("set.").replace("_", " ")
+    return f"{name} {factor * value:g}{' ' + unit if unit not in ('', '-') else ''}"

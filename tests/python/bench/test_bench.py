@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Comparison of step times: turns, ratios, what is timed, and the files it writes."""
+
+import json
+
+import numpy as np
+import pytest
+
+from flexpm.bench import memory as bench_size
+from flexpm.bench import report as bench_report
+from flexpm.bench import timing as bench
+from flexpm.cli import main as cli
+from flexpm.specimens.specimen import Specimen
+
+yade = bench.yade  # importable only once flexpm has been imported
+
+SMALL = ["--width", "0.016", "--height", "0.032", "--quiet"]
+
+
+@pytest.fixture(scope="module")
+def specimen():
+    return Specimen.rectangle(0.016, 0.032, 0.01, seed=2)
+
+
+def timing(**times):
+    cases = [bench.Case(name, name, 0, {}, values, values) for name, values in times.items()]
+    return bench.Timing({}, {}, 1, 3, cases)
+
+
+def test_a_ratio_is_taken_within_each_turn():
+    # the machine halves its speed in the second turn; the model costs a quarter throughout
+    found = timing(refined=[1.0, 2.0, 1.0], jcfpm=[4.0, 8.0, 4.0])
+    assert found.ratio("refined") == 0.25
+    assert found.ratio("jcfpm", "refined") == 4.0
+
+
+def test_a_ratio_is_not_the_ratio_of_medians():
+    found = timing(refined=[1.0, 2.0, 3.0], jcfpm=[2.0, 1.0, 9.0])
+    assert found.ratio("refined") == 0.5
+
+
+@pytest.mark.parametrize("name", ["refined", "fan"])
+def test_own_models_are_timed_with_all_that_a_run_does(specimen, name):
+    bench.BUILDERS[name][1](specimen, 1)
+    kinds = [type(engine).__name__ for engine in yade.O.engines]
+    assert kinds.index("PlatenEngine") < kinds.index("GrainSolver") < kinds.index("AxialRecorder")
+    before = yade.O.bodies[0].state.pos
+    yade.O.run(300, True)
+    recorder = yade.O.engines[kinds.index("AxialRecorder")]
+    assert len(recorder.rows) == 300 // yade.O.engines[kinds.index("GrainSolver")].measurePeriod
+    assert yade.O.bodies[0].state.pos != before
+
+
+def test_rigid_grains_are_timed_between_plates(specimen):
+    bench.BUILDERS["rigid"][1](specimen, 1)
+    assert {"PlateEngine", "AxialRecorder"} <= {type(e).__name__ for e in yade.O.engines}
+    yade.O.run(10, True)
+    assert max(plate["displacement"][1] ** 2 for plate in solver().plates()) > 0.0
+
+
+def solver():
+    return next(e for e in yade.O.engines if type(e).__name__ == "GrainSolver")
+
+
+def test_ratios_stand_beside_those_of_the_paper_for_each_test():
+    found = timing(refined=[2.0, 4.0, 2.0], rigid=[1.0, 2.0, 1.0])
+    assert bench_report.disc_rows(found) == [("refined / rigid, brazilian", "2.00, paper 4.79")]
+    assert "ratio_to_jcfpm" not in found.as_dict()["models"]["rigid"]
+
+
+def test_two_threads_come_with_a_word_when_cores_are_busy():
+    found = {"one": 2.0, "two": 1.0, "gain": 2.0, "load": 0.0, "cores": 2}
+    assert bench_report.threads_rows(found) == [("two threads", "2.00 times as fast as one")]
+    assert "not free (load 3.0)" in bench_report.threads_rows({**found, "load": 3.0})[0][1]
+
+
+def test_set_up_memory_and_file_are_measured(specimen):
+    again, found = bench_size.timed_set_up(0.01, 0.016, 0.032, 2, None)
+    assert np.array_equal(again.discs, specimen.discs)
+    assert found["grains"] == len(specimen.discs)
+    assert all(found[f"{part}_time"] > 0.0 for part in ("specimen", "model", "first_step", "vtu"))
+    assert len(yade.O.bodies) == 0
+
+
+def test_memory_traffic_is_that_of_the_arrays(specimen):
+    counts = bench.BUILDERS["refined"][1](specimen, 1)
+    # arrays of doubles that grow with the nodes: x, y of displacement and velocity, and the mass
+    lower = 5 * 8 * counts["nodes"] + 5 * 8 * counts["triangles"]
+    assert lower < bench_size.bytes_per_step(counts) < 10 * lower
+    assert bench_size.bytes_per_step(dict.fromkeys(counts, 0)) == 0
+
+
+def test_growth_is_drawn_and_described(tmp_path):
+    row = {"specimen_time": 1.0, "model_time": 1.0, "first_step_time": 1.0, "vtu_time": 1.0}
+    row |= {"memory_per_grain": 1024.0, "bandwidth": 1e9, "triad": 4e9}
+    found = [
+        {**row, "grains": n, "step_time": n * cost, "time_per_grain": cost, "steps_together": steps}
+        for n, cost, steps in ((100, 1e-6, 1), (1000, 1.5e-6, 5))
+    ]
+    text = dict(bench_report.scaling_rows(found))
+    assert "1.50 of the first" in text["1000 grains"]
+    assert text["100 grains"].endswith("25% of the triad's")
+    assert text["1000 grains"].endswith("25% of the triad's, 5 steps together")
+    bench_report.scaling_picture(tmp_path / "growth.png", found)
+    assert (tmp_path / "growth.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("name", ["jcfpm", "cohfrict"])
+def test_yade_models_hold_the_bonds_of_the_specimen_and_move(specimen, name):
+    counts = bench.BUILDERS[name][1](specimen, 1)
+    edges = np.array(specimen.tessellation.shared_edges)[:, :2]
+    pairs = {(i.id1, i.id2) for i in yade.O.interactions if i.isReal}
+    assert pairs == {(int(a), int(b)) for a, b in edges}
+    assert counts["contacts"] == len(pairs)
+    yade.O.run(100, True)
+    assert max(np.linalg.norm(yade.O.forces.f(k)) for k in range(counts["grains"])) > 0.0
+
+
+def test_models_take_turns_and_their_scenes_go(specimen):
+    found = bench.compare(specimen, steps=20, names=("fan", "jcfpm"))
+    assert [case.name for case in found.cases] == ["fan", "jcfpm"]
+    assert all(len(case.times) == bench.TURNS for case in found.cases)
+    assert all(time > 0.0 for case in found.cases for time in case.times)
+    assert found.steps == 20
+    assert len(yade.O.bodies) == 0
+
+
+def test_the_command_writes_the_same_numbers(tmp_path, capsys):
+    file = tmp_path / "new" / "bench.json"
+    assert cli.main(["bench", *SMALL, "--steps", "20", "--json", str(file)]) == 0
+    text, data = capsys.readouterr().out, json.loads(file.read_text())
+    assert set(bench.BUILDERS) <= set(data["models"])  # LAMMPS joins where it is installed
+    jcfpm = data["models"]["jcfpm"]
+    assert jcfpm[f"ratio_to_{bench_report.REFERENCE}"] == 1.0
+    assert jcfpm["quartiles"][0] <= jcfpm["step_time"] <= jcfpm["quartiles"][1]
+    assert f"{data['models']['refined']['grains']}, {jcfpm['contacts']}" in text
+    assert f"{1e6 * jcfpm['step_time']:#.4g}".rstrip(".") in text
+    assert data["machine"]["cores"] >= 1
+
+
+@pytest.mark.parametrize("options", [["--steps", "0"], ["--threads", "0"], ["--width", "-1"]])
+def test_wrong_options_are_refused_with_one_line(options, capsys):
+    assert cli.main(["bench", *options]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert options[0].strip("-") in error

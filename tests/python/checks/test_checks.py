@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The checks of the sources accept this tree and find each kind of violation in a broken one."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+CHECKS = ROOT / "scripts" / "checks"
+
+
+def run(check: str, tree: Path) -> tuple[int, str]:
+    command = [sys.executable, str(CHECKS / check), str(tree)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    return done.returncode, done.stdout
+
+
+def write(path: Path, text: str) -> None:
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text)
+
+
+TABLE = """
+[kernel.low]
+uses = []
+libraries = { "CGAL/" = "power_diagram.cpp", "Eigen/" = "*.cpp" }
+[kernel.high]
+uses = ["low"]
+libraries = { "omp.h" = "*.cpp" }
+[yade.abi]
+uses = []
+[yade.bindings]
+uses = ["kernel"]
+[yade.plugin]
+uses = ["kernel.high", "abi", "bindings"]
+[python.errors]
+uses = []
+[python.low]
+uses = ["errors"]
+[python.plot]
+uses = ["low"]
+[python.__init__]
+uses = ["low", "plot"]
+"""
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    folders = ["kernel/low", "kernel/high", "yade/abi", "yade/bindings"]
+    folders = [f"pkg/flexpm/{folder}" for folder in folders]
+    folders += ["tests/kernel/low", "tests/kernel/support", "py/flexpm/low", "scripts/checks"]
+    for folder in folders:
+        (tmp_path / folder).mkdir(parents=True)
+    (tmp_path / "scripts/checks/layers.toml").write_text(TABLE)
+    for file in ("__init__.py", "errors.py", "plot.py", "low/__init__.py", "low/a.py"):
+        (tmp_path / "py/flexpm" / file).touch()
+    return tmp_path
+
+
+@pytest.mark.parametrize("check", ["layering.py", "adapter_length.py"])
+def test_this_tree_passes(check: str) -> None:
+    code, text = run(check, ROOT)
+    assert code == 0, text
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "complaint"),
+    [
+        ("pkg/flexpm/kernel/low/a.hpp", "#include <core/Scene.hpp>\n", "core/Scene.hpp"),
+        ("pkg/flexpm/kernel/low/a.hpp", "#include <boost/python.hpp>\n", "boost/python.hpp"),
+        ("pkg/flexpm/kernel/low/a.hpp", "#include <Eigen/Dense>\n", "only *.cpp"),
+        ("pkg/flexpm/kernel/high/a.cpp", "#include <Eigen/Dense>\n", "the room's libraries"),
+        ("pkg/flexpm/kernel/low/a.cpp", "#include <CGAL/Origin.h>\n", "only power_diagram.cpp"),
+        ("pkg/flexpm/kernel/low/a.cpp", "#include <omp.h>\n", "the room's libraries"),
+        ("pkg/flexpm/kernel/low/a.cpp", "void f()\n{\n#pragma omp parallel\n}\n", "OpenMP"),
+        ("pkg/flexpm/kernel/low/a.cpp", "#include <iostream>\n", "iostream"),
+        ("pkg/flexpm/kernel/low/a.cpp", 'void f() { std::printf("x"); }\n', "prints"),
+        ("pkg/flexpm/kernel/low/a.cpp", 'auto f() { return std::getenv("X"); }\n', "environment"),
+        ("pkg/flexpm/kernel/low/a.hpp", "#include <flexpm/kernel/low/a.hpp>\n", "ring"),
+        (
+            "pkg/flexpm/kernel/low/a.cpp",
+            "#include <flexpm/kernel/high/b.hpp>\n",
+            "uses kernel.high; kernel.low may not",
+        ),
+        ("pkg/flexpm/kernel/a.hpp", "", "stands in no room"),
+        ("pkg/flexpm/kernel/other/a.hpp", "", "stands in no room"),
+        ("pkg/flexpm/yade/abi/A.cpp", "#include <core/Scene.hpp>\n", "yade_lite.hpp"),
+        (
+            "pkg/flexpm/yade/bindings/binding_a.cpp",
+            "#include <flexpm/yade/abi/yade_lite.hpp>\n",
+            "no YADE",
+        ),
+        ("pkg/flexpm/yade/abi/A.cpp", "yade::NewtonIntegrator* n;\n", "layout differs"),
+        ("pkg/flexpm/yade/abi/A.cpp", "#include <Eigen/Dense>\n", "the kernel alone"),
+        (
+            "pkg/flexpm/yade/abi/a.hpp",
+            "#include <flexpm/kernel/low/a.hpp>\n",
+            "uses kernel.low; yade.abi may not",
+        ),
+        (
+            "pkg/flexpm/yade/plugin.cpp",
+            "#include <flexpm/kernel/low/a.hpp>\n",
+            "uses kernel.low; yade.plugin may not",
+        ),
+        ("pkg/flexpm/yade/A.cpp", "", "stands in no room"),
+        ("tests/kernel/low/test_a.cpp", "#include <core/Scene.hpp>\n", "Catch2"),
+        ("tests/kernel/test_a.cpp", "", "the folders are the kernel's"),
+        ("py/flexpm/low/b.py", "import matplotlib.pyplot\n", "curves.py"),
+        ("py/flexpm/low/b.py", "def f():\n    from yade import *\n", "all names of YADE"),
+        ("py/flexpm/low/b.py", "from flexpm import plot\n", "uses python.plot"),
+        ("py/flexpm/low/b.py", "def f():\n    import flexpm.plot\n", "uses python.plot"),
+        ("py/flexpm/low/b.py", "from .. import plot\n", "uses python.plot"),
+        ("py/flexpm/low/b.py", "from ..plot import figure\n", "uses python.plot"),
+        ("py/flexpm/low/b.py", "from flexpm import run\n", "uses python.__init__"),
+        ("py/flexpm/low/b.py", "x = import_module('flexpm.errors')\n", "hides an import"),
+        ("py/flexpm/low/b.py", "x = importlib.import_module(name)\n", "hides an import"),
+        ("py/flexpm/low/b.py", "x = __import__('flexpm')\n", "hides an import"),
+        ("py/flexpm/other.py", "", "stands in no room"),
+    ],
+)
+def test_violation_is_found(tree: Path, name: str, text: str, complaint: str) -> None:
+    write(tree / name, text)
+    code, output = run("layering.py", tree)
+    assert code == 1 and complaint in output and name in output
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("pkg/flexpm/kernel/low/a.cpp", "#include <Eigen/Sparse>\n"),
+        ("pkg/flexpm/kernel/low/power_diagram.cpp", "#include <CGAL/Origin.h>\n"),
+        ("pkg/flexpm/kernel/high/a.cpp", "#include <omp.h>\n#pragma omp parallel\n"),
+        ("pkg/flexpm/kernel/high/a.cpp", "#include <flexpm/kernel/low/a.hpp>\n"),
+        ("pkg/flexpm/kernel/low/a.hpp", "// std::cout is not used\n#include <cmath>\n"),
+        ("pkg/flexpm/yade/abi/A.cpp", "// placed after NewtonIntegrator\n"),
+        ("pkg/flexpm/yade/abi/A.hpp", 'auto s = R"""(after :yref:`NewtonIntegrator`)""";\n'),
+        ("pkg/flexpm/yade/bindings/a.cpp", "#include <flexpm/kernel/low/a.hpp>\n"),
+        ("pkg/flexpm/yade/plugin.cpp", "#include <flexpm/kernel/high/a.hpp>\n"),
+        ("tests/kernel/support/a.hpp", "#include <flexpm/kernel/high/a.hpp>\n"),
+        ("py/flexpm/plot.py", "from flexpm.low import a\n"),
+        ("py/flexpm/low/curves.py", "import matplotlib\n"),
+        ("py/flexpm/low/b.py", "from flexpm import errors\nfrom . import a\n"),
+        ("py/flexpm/low/b.py", "x = importlib.import_module('yade')\n"),
+    ],
+)
+def test_allowed_use_passes(tree: Path, name: str, text: str) -> None:
+    write(tree / name, text)
+    code, output = run("layering.py", tree)
+    assert code == 0, output
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ("[kernel.low]\nuses = []", '[kernel.low]\nuses = ["high"]', "kernel.high, kernel.low"),
+        ('uses = ["low"]', 'uses = ["lower"]', "kernel.lower, which is no room"),
+    ],
+)
+def test_fault_of_the_table_is_found(tree: Path, old: str, new: str, complaint: str) -> None:
+    (tree / "scripts/checks/layers.toml").write_text(TABLE.replace(old, new, 1))
+    code, output = run("layering.py", tree)
+    assert code == 1 and complaint in output and "layers.toml" in output
+
+
+def test_ring_of_modules_within_a_room_is_found(tree: Path) -> None:
+    write(tree / "py/flexpm/low/b.py", "from . import a\n")
+    write(tree / "py/flexpm/low/a.py", "def f():\n    from flexpm.low.b import c\n")
+    code, output = run("layering.py", tree)
+    assert code == 1 and "low/a.py" in output and "low/b.py" in output and "ring" in output
+
+
+@pytest.mark.parametrize("folder", ["pkg/flexpm/kernel/low", "py/flexpm/low", "tests/kernel/low"])
+@pytest.mark.parametrize(("modules", "code"), [(16, 0), (17, 1)])
+def test_crowded_folder_is_found(tree: Path, folder: str, modules: int, code: int) -> None:
+    (tree / "py/flexpm/low/a.py").unlink()
+    for number in range(modules):
+        for ending in ("py",) if folder.startswith("py") else ("hpp", "cpp"):
+            own = f"#include <{folder.removeprefix('pkg/')}/a{number}.hpp>\n"
+            own = own if ending == "cpp" and folder.startswith("pkg") else ""
+            write(tree / folder / f"a{number}.{ending}", own)
+    found, output = run("layering.py", tree)
+    assert found == code and ("17 modules" in output) == bool(code)
+
+
+@pytest.mark.parametrize(("lines", "code"), [(25, 0), (26, 1)])
+@pytest.mark.parametrize("head", ["void A::action()", "bool L::go(int a,\n\tint b)"])
+def test_length_of_adapter_bodies(tree: Path, head: str, lines: int, code: int) -> None:
+    body = "\tif (a) { b(); }\n" * lines
+    write(tree / "pkg/flexpm/yade/abi/A.cpp", f"{head}\n{{\n{body}}}\n\nvoid other() {{ }}\n")
+    assert run("adapter_length.py", tree)[0] == code

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The documentation names what exists: functions, tests, files' columns and arrays, deviations."""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from sample_snapshot import wall
+
+from flexpm.results.record import COLUMNS
+from flexpm.results.result import Crack, Result
+from flexpm.results.vtu import cell_arrays, point_arrays
+
+ROOT = Path(__file__).resolve().parents[3]
+DOC = ROOT / "doc"
+
+
+def text_of(*folders, suffixes):
+    files = (file for folder in folders for file in (ROOT / folder).rglob("*"))
+    return "\n".join(file.read_text() for file in files if file.suffix in suffixes)
+
+
+def literals(text):
+    return set(re.findall(r"``([^`]+)``", text))
+
+
+def theory_table():
+    """Functions and tests named in the table that leads from equation to test."""
+    table = (DOC / "theory.rst").read_text().split("* - Paper")[1].split("Grains\n---")[0]
+    names = literals(table)
+    tests = {name for name in names if name.startswith("test_")}
+    return names - tests, tests
+
+
+def test_functions_and_tests_of_the_theory_exist():
+    functions, tests = theory_table()
+    assert len(functions) > 10
+    assert len(tests) > 5
+    code = text_of("pkg", "py", suffixes={".cpp", ".hpp", ".py"})
+    assert {name for name in functions if not re.search(rf"\b{name}\(", code)} == set()
+    found = {file.name for file in (ROOT / "tests").rglob("test_*")}
+    assert tests - found == set()
+
+
+def test_every_deviation_in_the_code_is_in_the_document():
+    code = text_of("pkg", "py", suffixes={".cpp", ".hpp", ".py"})
+    cited = set(re.findall(r"Deviations? (D\d+)", code))
+    numbered = re.findall(r"^(D\d+), ", (DOC / "deviations.rst").read_text(), re.MULTILINE)
+    assert numbered == sorted(set(numbered), key=lambda name: int(name[1:]))
+    assert cited
+    assert cited - set(numbered) == set()
+
+
+def test_arrays_and_columns_of_the_files_are_documented():
+    documented = literals((DOC / "files.rst").read_text())
+    arrays = {**point_arrays(wall()), **cell_arrays(wall())}
+    assert set(arrays) - documented == set()
+    assert set(COLUMNS) - documented == set()
+    assert set(Crack._fields) - documented == set()
+    result = Result("", "", "", "", {}, 1, 1, 1, 1, 1)
+    assert set(result.as_dict()) - documented == set()
+
+
+def test_documented_arrays_exist():
+    tables = (DOC / "files.rst").read_text().split("Arrays over points")[1]
+    named = set(re.findall(r"^   \* - (``.*``)$", tables, re.MULTILINE))
+    documented = literals("\n".join(named))
+    arrays = {**point_arrays(wall()), **cell_arrays(wall())}
+    assert documented == set(arrays)
+
+
+def test_the_documentation_builds_without_warnings(tmp_path):
+    build = pytest.importorskip("sphinx.cmd.build", reason="needs python3-sphinx")
+    path = list(sys.path)
+    try:
+        assert build.main(["-W", "-q", "-b", "html", str(DOC), str(tmp_path)]) == 0
+    finally:
+        sys.path[:] = path
+    assert (tmp_path / "theory.html").stat().st_size > 5000

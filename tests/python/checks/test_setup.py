@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The set-up says in one line what is missing and how to cure it, and keeps no half-made files."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+VERSION = "2025.2.0"
+
+
+def headers(cache: Path, fakes: Path | None = None) -> subprocess.CompletedProcess[str]:
+    path = os.environ["PATH"] if fakes is None else f"{fakes}:{os.environ['PATH']}"
+    command = [str(ROOT / "scripts/yade-headers"), str(cache)]
+    environment = dict(os.environ, PATH=path)
+    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+
+
+def unreachable_mirror(folder: Path) -> Path:
+    """An apt-get that knows a mirror and delivers nothing, as on a machine without a network."""
+    folder.mkdir()
+    program = folder / "apt-get"
+    program.write_text(
+        '#!/bin/sh\n[ "$1" = indextargets ] && echo "Debian|main|bookworm|mirror:/none" && exit 0\n'
+        'echo "E: Could not resolve the mirror" >&2\nexit 100\n'
+    )
+    program.chmod(0o755)
+    return folder
+
+
+def test_headers_in_the_cache_are_used(tmp_path: Path) -> None:
+    scene = tmp_path / f"yade-{VERSION}" / "core" / "Scene.hpp"
+    scene.parent.mkdir(parents=True)
+    scene.write_text("")
+    done = headers(tmp_path, unreachable_mirror(tmp_path / "bin"))
+    assert (done.returncode, done.stdout.strip()) == (0, str(tmp_path / f"yade-{VERSION}"))
+
+
+def test_unreachable_mirror_names_the_remedy(tmp_path: Path) -> None:
+    done = headers(tmp_path / "cache", unreachable_mirror(tmp_path / "bin"))
+    assert done.returncode == 1 and done.stdout == ""
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("setup: ") and "mirror:/none" in last and "YADE_SOURCE_DIR" in last
+
+
+def test_damaged_archive_is_not_unpacked(tmp_path: Path) -> None:
+    cache = tmp_path / "cache"
+    cache.mkdir()
+    (cache / f"yade_{VERSION}.orig.tar.bz2").write_bytes(b"cut off")
+    done = headers(cache, unreachable_mirror(tmp_path / "bin"))
+    assert done.returncode == 1 and not (cache / f"yade-{VERSION}").exists()
+
+
+def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
+    environment = dict(os.environ, YADE_SOURCE_DIR=str(tmp_path), FLEXPM_BUILD_DIR=str(tmp_path))
+    command = [str(ROOT / "scripts/setup")]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1
+    assert f"YADE_SOURCE_DIR = {tmp_path}" in done.stderr.splitlines()[-1]

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tutorials run as they stand and show what they say."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TUTORIALS = Path(__file__).resolve().parents[3] / "scripts" / "tutorials"
+
+
+def printed(name, package_parent, *arguments):
+    return subprocess.run(
+        [sys.executable, str(TUTORIALS / name), *arguments],
+        env={**os.environ, "PYTHONPATH": str(package_parent), "OMP_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+
+
+@pytest.mark.long
+def test_two_minerals(package_parent, tmp_path):
+    text = printed("two_minerals.py", package_parent, str(tmp_path))
+    found = re.search(r"both .* ([\d.]+) GPa, between ([\d.]+) and (.*)", text)
+    modulus, lower, upper = found.groups()
+    assert float(lower) < float(modulus) < float(upper)
+    cracked = dict(re.findall(r"^(\w+ - \w+) +([\d.]+) % of the points", text, re.MULTILINE))
+    assert float(cracked["quartz - quartz"]) < float(cracked["feldspar - feldspar"])
+    for rock in ("feldspar", "two-minerals"):
+        assert (tmp_path / rock / "cracks.png").stat().st_size > 10000

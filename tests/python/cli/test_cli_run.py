@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command on small specimens, from start to finish: what it prints, writes and returns."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+from sample_snapshot import read_vtu
+
+from flexpm.cli import main as cli
+from flexpm.results import record as curve
+from flexpm.results.record import COLUMNS
+
+SMALL = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01", "--quiet"]
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A small uniaxial test: exit code and folder."""
+    folder = tmp_path_factory.mktemp("run") / "out"
+    return cli.main(["run", "uniaxial", *SMALL, "--out", str(folder)]), folder
+
+
+@pytest.mark.long
+def test_a_run_writes_all_its_files(finished):
+    code, folder = finished
+    assert code == 0
+    names = {file.name for file in folder.iterdir()}
+    assert names >= {
+        "result.json",
+        "curve.csv",
+        "curve.png",
+        "specimen.vtu",
+        "final.vtu",
+        "cracks.csv",
+        "cracks.png",
+    }
+    assert not [name for name in names if name.startswith(".")]
+    assert imread(folder / "curve.png").shape[0] > 300
+
+
+@pytest.mark.long
+def test_the_files_of_a_run_agree(finished):
+    folder = finished[1]
+    result = json.loads((folder / "result.json").read_text())
+    with (folder / "curve.csv").open() as file:
+        rows = [[float(cell) for cell in row] for row in list(csv.reader(file))[1:]]
+    record = curve.Curve.from_columns(COLUMNS, np.array(rows))
+    assert result["youngs_modulus"] == curve.youngs_modulus(record)
+    assert result["poissons_ratio"] == curve.poissons_ratio(record)
+    assert result["peak_stress"] == record["axial_stress"].max()
+    with (folder / "cracks.csv").open() as file:
+        cracks = list(csv.DictReader(file))
+    modes = [crack["mode"] for crack in cracks]
+    assert modes.count("tensile") == result["tensile_cracks"]
+    assert modes.count("shear") == result["shear_cracks"]
+    _, points, cells = read_vtu(folder / "final.vtu")
+    contacts = cells["kind"] == 1
+    touched = np.count_nonzero(contacts) - result["contacts"]  # discs that met later
+    assert touched >= 0
+    assert np.count_nonzero(~contacts) == result["triangles"]
+    assert len(points["displacement"]) == result["nodes"] + 2 * np.count_nonzero(contacts)
+    assert cells["cracked_points"][contacts].sum() == len(cracks)
+
+
+@pytest.mark.long
+def test_a_run_that_passes_no_peak_is_exit_code_3_with_its_files(capsys, tmp_path):
+    folder = tmp_path / "out"
+    arguments = ["run", "uniaxial", *SMALL, "--max-strain", "1e-3", "--out", str(folder)]
+    assert cli.main(arguments) == 3
+    errors = capsys.readouterr().err
+    assert errors.startswith("flexpm: ")
+    assert errors.count("\n") == 1
+    result = json.loads((folder / "result.json").read_text())
+    assert (result["status"], result["peak_stress"]) == ("no_peak", None)
+    assert result["youngs_modulus"] == pytest.approx(24.4e9, rel=0.05)
+
+
+def test_elastic_prints_the_constants(capsys):
+    assert cli.main(["elastic", *SMALL]) == 0
+    output = capsys.readouterr().out
+    assert "Young's modulus" in output
+    assert "GPa" in output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["elastic", "--model", "inner", "--set", "poisson=0.48"], "poisson = 0.48, cannot be met"),
+        (["elastic", "--model", "jcfpm"], "model = 'jcfpm', is not available"),
+    ],
+)
+def test_what_a_model_cannot_do_is_refused_in_one_line(capsys, tmp_path, arguments, message):
+    out = ["--out", str(tmp_path)] if arguments[0] == "run" else []
+    assert cli.main([*arguments, *SMALL, *out]) == 2
+    output, errors = capsys.readouterr()
+    assert output == ""
+    assert errors.count("\n") == 1
+    assert message in errors

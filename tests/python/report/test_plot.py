@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures: the geometry they draw in closed form, and what can be seen in them."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.image import imread
+from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
+
+from flexpm.report import curves as plot
+from flexpm.report import maps as plot_maps
+from flexpm.results.record import COLUMNS, Curve
+from flexpm.results.result import SHEAR, TENSILE, Result
+
+
+def pixels_like(path, colour):
+    """Number of pixels of a picture that have `colour`."""
+    picture = imread(path)[..., :3]
+    return int(np.count_nonzero(np.all(np.abs(picture - to_rgb(colour)) < 0.02, axis=-1)))
+
+
+def area(corners):
+    x, y = corners.T
+    return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def result_with_peak(stresses, cracks=0.0):
+    record = Curve()
+    for step, stress in enumerate(stresses):
+        values = {"step": step, "axial_strain": 1e-5 * step, "axial_stress": stress}
+        values |= {"tensile_cracks": cracks * step, "shear_cracks": cracks * step / 2}
+        record.append(**(dict.fromkeys(COLUMNS, 0.0) | values))
+    result = Result(
+        "0.1", "2023.02a", "uniaxial", "flexible", {"name": "rock"}, 1, 2, 1, 10, 8, curve=record
+    )
+    result.measure()
+    return result
+
+
+def test_grain_corners_are_counter_clockwise_polygons_of_the_right_area():
+    snapshot = wall(columns=3, rows=4)
+    polygons = plot_maps.grain_corners(snapshot["triangles"])
+    assert sorted(tuple(sorted(polygon)) for polygon in polygons) == [
+        tuple(5 * grain + corner for corner in range(4)) for grain in range(12)
+    ]
+    stretched = WIDTH * HEIGHT * np.linalg.det(np.eye(2) + GRADIENT)
+    for polygon in polygons:
+        assert area(snapshot["positions"][polygon]) == pytest.approx(stretched, rel=1e-10)
+
+
+@pytest.mark.parametrize(("points", "share"), [(1, 1.0), (2, 0.5), (3, 1 / 6)])
+def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
+    snapshot = wall(points=points)
+    segments = plot_maps.crack_segments(snapshot)
+    for mode in (TENSILE, SHEAR):
+        contacts = np.flatnonzero(snapshot["crack_mode"][:, 0] == mode)
+        ends = snapshot["contact_ends"][contacts]
+        assert np.array_equal(segments[mode][:, 0], ends[:, 0])
+        expected = share * (ends[:, 1] - ends[:, 0])
+        assert np.allclose(segments[mode][:, 1] - segments[mode][:, 0], expected, atol=1e-15)
+
+
+def test_cracks_appear_in_their_colours(tmp_path):
+    snapshot = wall()
+    plot_maps.crack_picture(tmp_path / "cracks.png", snapshot, "wall")
+    snapshot["crack_mode"] = np.where(snapshot["crack_mode"] == SHEAR, 0, snapshot["crack_mode"])
+    plot_maps.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
+    for mode, colour in plot.COLOURS.items():
+        both = pixels_like(tmp_path / "cracks.png", colour)
+        without_shear = pixels_like(tmp_path / "tensile.png", colour)
+        assert both > 0
+        assert (without_shear < both) == (mode == SHEAR)
+
+
+def test_the_mesh_is_drawn_on_request(tmp_path):
+    snapshot = wall()
+    polygons = [
+        snapshot["positions"][corners] for corners in plot_maps.grain_corners(snapshot["triangles"])
+    ]
+    plot_maps.specimen_picture(tmp_path / "plain.png", polygons, caption="12 grains")
+    mesh = (snapshot["positions"], snapshot["triangles"])
+    plot_maps.specimen_picture(tmp_path / "mesh.png", polygons, mesh)
+    plain, meshed = imread(tmp_path / "plain.png"), imread(tmp_path / "mesh.png")
+    assert min(plain.shape[:2]) > 300
+    rows = slice(int(0.15 * plain.shape[0]), int(0.8 * plain.shape[0]))
+    assert meshed[rows].mean() < plain[rows].mean()
+
+
+def test_curve_shows_cracks_and_peak(tmp_path):
+    rising = np.linspace(0.0, 100e6, 200)
+    loaded = result_with_peak([*rising, *rising[::-4]], cracks=3.0)
+    plot.curve_picture(tmp_path / "curve.png", loaded)
+    for colour in plot.COLOURS.values():
+        assert pixels_like(tmp_path / "curve.png", colour) > 100
+
+
+@pytest.mark.parametrize("stresses", [[], [0.0], [0.0, 1e6], [0.0, np.nan], np.linspace(0, 1, 9)])
+def test_records_without_a_peak_are_drawn_too(tmp_path, stresses):
+    plot.curve_picture(tmp_path / "curve.png", result_with_peak(stresses))
+    assert imread(tmp_path / "curve.png").shape[0] > 300
+
+
+def test_pictures_need_neither_a_display_nor_pyplot():
+    code = (
+        "import sys; from flexpm.report import curves; "
+        "assert 'matplotlib.pyplot' not in sys.modules; "
+        "print('matplotlib' in sys.modules)"
+    )
+    package = str(Path(plot.__file__).parents[2])
+    found = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": package},
+    )
+    assert found.stdout.strip() == "True"

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The .vtu file, read back by VTK's own reader, holds the values of the snapshot."""
+
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from sample_snapshot import GRADIENT, STRESS, read_vtu, wall
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_TRIANGLE
+
+from flexpm.results.vtu import CONTACT, GRAIN, principal_stresses, write_vtu
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    snapshot = wall()
+    path = tmp_path_factory.mktemp("vtu") / "final.vtu"
+    write_vtu(path, snapshot)
+    assert [file.name for file in path.parent.iterdir()] == ["final.vtu"]
+    return snapshot, *read_vtu(path)
+
+
+def test_geometry_is_the_deformed_specimen(written):
+    snapshot, grid, _, cells = written
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    nodes, triangles = len(snapshot["positions"]), len(snapshot["triangles"])
+    contacts = len(snapshot["contact_grains"])
+    assert np.array_equal(points[:nodes, :2], snapshot["positions"])
+    assert np.array_equal(points[nodes:, :2].reshape(-1, 2, 2), snapshot["contact_ends"])
+    assert np.all(points[:, 2] == 0.0)
+    types = [grid.GetCellType(cell) for cell in range(grid.GetNumberOfCells())]
+    assert types == [VTK_TRIANGLE] * triangles + [VTK_LINE] * contacts
+    assert np.array_equal(cells["kind"], np.repeat([GRAIN, CONTACT], [triangles, contacts]))
+    connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    assert np.array_equal(connectivity[: 3 * triangles].reshape(-1, 3), snapshot["triangles"])
+    assert np.array_equal(connectivity[3 * triangles :], nodes + np.arange(2 * contacts))
+
+
+def test_displacement_follows_the_gradient_at_nodes_and_contact_ends(written):
+    _, grid, points, _ = written
+    places = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
+    reference = places @ np.linalg.inv(np.eye(2) + GRADIENT).T
+    assert points["displacement"].shape == (len(places), 3)
+    assert np.allclose(points["displacement"][:, :2], reference @ GRADIENT.T, rtol=0, atol=1e-15)
+    assert np.all(points["velocity"] == [0.0, -1e-8, 0.0])
+
+
+def test_stress_of_the_grains(written):
+    snapshot, _, _, cells = written
+    triangles = len(snapshot["triangles"])
+    xx, yy, xy = STRESS
+    assert np.all(cells["stress"][:triangles] == [xx, yy, 0.0, xy, 0.0, 0.0])
+    assert np.all(np.isnan(cells["stress"][triangles:]))
+    eigenvalues = np.linalg.eigvalsh([[xx, xy], [xy, yy]])
+    assert np.allclose(cells["principal_stress_1"][:triangles], eigenvalues[1], rtol=1e-14)
+    assert np.allclose(cells["principal_stress_2"][:triangles], eigenvalues[0], rtol=1e-14)
+    assert np.array_equal(cells["grain"][:triangles], snapshot["triangle_grain"])
+    assert np.all(cells["grain"][triangles:] == -1)
+
+
+def test_contacts(written):
+    snapshot, grid, _, cells = written
+    triangles = len(snapshot["triangles"])
+    cells = {name: values[triangles:] for name, values in cells.items()}
+    number = np.arange(len(snapshot["contact_grains"]))
+    grains = np.stack([cells["grain_a"], cells["grain_b"]], axis=1)
+    assert np.array_equal(grains, snapshot["contact_grains"])
+    # only the first point carries something, and it stands for a sixth of the contact
+    assert np.allclose(cells["damage"], number / len(number) / 6, rtol=1e-14)
+    assert np.allclose(cells["normal_traction"], 1e3 * number / 6, rtol=1e-14)
+    assert np.allclose(cells["shear_traction"], -1e3 * number / 6, rtol=1e-14)
+    assert np.allclose(cells["opening"], 1e-9 * number, rtol=1e-14)
+    assert np.allclose(cells["slip"], -1e-9 * number, rtol=1e-14)
+    assert np.array_equal(cells["cracked_points"], number % 2)
+    assert np.array_equal(cells["crack_mode"], np.where(number % 2, 1 + number // 2 % 2, 0))
+    for name in ("opening", "slip", "damage"):
+        assert np.array_equal(cells[f"point_{name}"], snapshot[f"point_{name}"])
+    assert np.array_equal(cells["point_normal_traction"], snapshot["point_traction"][..., 0])
+    assert np.array_equal(cells["point_crack_step"], snapshot["crack_step"])
+    assert np.array_equal(cells["point_crack_mode"], snapshot["crack_mode"])
+    array = grid.GetCellData().GetArray("point_damage")
+    assert array.GetComponentName(2) == "point 2"
+
+
+@pytest.mark.parametrize("points", [1, 2, 3])
+def test_any_number_of_points(tmp_path, points):
+    snapshot = wall(points=points)
+    write_vtu(tmp_path / "a.vtu", snapshot)
+    _, _, cells = read_vtu(tmp_path / "a.vtu")
+    assert cells["point_opening"].reshape(len(cells["kind"]), -1).shape[1] == points
+
+
+def test_a_specimen_without_contacts(tmp_path):
+    write_vtu(tmp_path / "a.vtu", wall(columns=1, rows=1))
+    grid, _, cells = read_vtu(tmp_path / "a.vtu")
+    assert grid.GetNumberOfCells() == 4
+    assert np.all(cells["kind"] == GRAIN)
+
+
+def test_plane_strain_carries_its_out_of_plane_stress(tmp_path):
+    snapshot = wall()
+    snapshot["triangle_stress_zz"] = 0.23 * snapshot["triangle_stress"][:, :2].sum(axis=1)
+    write_vtu(tmp_path / "a.vtu", snapshot)
+    _, _, cells = read_vtu(tmp_path / "a.vtu")
+    triangles = len(snapshot["triangles"])
+    assert np.array_equal(cells["stress"][:triangles, 2], snapshot["triangle_stress_zz"])
+
+
+@given(stress=st.tuples(*3 * [st.floats(-1e9, 1e9)]))
+def test_principal_stresses_are_the_eigenvalues(stress):
+    xx, yy, xy = stress
+    largest, smallest = principal_stresses(np.array([stress]))
+    expected = np.linalg.eigvalsh([[xx, xy], [xy, yy]])
+    scale = max(map(abs, stress))
+    # the second term: below 1e-300 Pa there are no digits left to compare
+    assert np.allclose([smallest[0], largest[0]], expected, rtol=0, atol=1e-14 * scale + 1e-300)
+
+
+def test_a_file_of_the_papers_size_takes_a_fraction_of_a_second(tmp_path):
+    snapshot = wall(columns=50, rows=76)  # 19000 nodes
+    start = time.perf_counter()
+    write_vtu(tmp_path / "a.vtu", snapshot)
+    assert time.perf_counter() - start < 2.0  # about 0.1 s on an idle machine
+
+
+def test_a_failed_write_leaves_the_old_file(tmp_path):
+    path = tmp_path / "final.vtu"
+    path.write_text("old")
+    with pytest.raises(KeyError):
+        write_vtu(path, {})
+    assert path.read_text() == "old"

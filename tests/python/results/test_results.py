@@ -1,0 +1,388 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures of records with known answers, and the files of a result."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from sample_snapshot import HEIGHT, WIDTH, wall
+
+from flexpm.errors import InputError
+from flexpm.files import output_folder, whole_file
+from flexpm.results import record as measures
+from flexpm.results.record import COLUMNS, Curve
+from flexpm.results.result import Crack, Result, cracks_csv, cracks_from_snapshot
+
+YOUNG, POISSON, PEAK, SOFTENING = 24.3e9, 0.23, 120e6, -80e9
+KEYS = [
+    "flexpm",
+    "yade",
+    "test",
+    "model",
+    "material",
+    "seed",
+    "grains",
+    "contacts",
+    "nodes",
+    "triangles",
+    "particles",
+    "inner_contacts",
+    "youngs_modulus",
+    "poissons_ratio",
+    "peak_stress",
+    "peak_strain",
+    "confinement",
+    "steps",
+    "step_time",
+    "tensile_cracks",
+    "shear_cracks",
+    "unbalanced_ratio",
+    "end_mismatch",
+    "energy_error",
+    "contact_width",
+    "softening_slope",
+    "late_modulus",
+    "first_tensile_crack_strain",
+    "first_tensile_crack_stress",
+    "first_shear_crack_strain",
+    "first_shear_crack_stress",
+    "tensile_onset_strain",
+    "tensile_onset_stress",
+    "shear_onset_strain",
+    "shear_onset_stress",
+    "fragments",
+    "largest_fragment",
+    "status",
+]
+
+
+def row(**values):
+    return dict.fromkeys(COLUMNS, 0.0) | values
+
+
+def triangular_record(confinement=0.0, last_stress=0.4 * PEAK):
+    """Linear loading to PEAK, then linear softening to `last_stress`."""
+    strain_at_peak = PEAK / YOUNG
+    record = Curve()
+    rising = np.linspace(0.0, strain_at_peak, 401)
+    falling = strain_at_peak + np.linspace(0.0, (last_stress - PEAK) / SOFTENING, 101)[1:]
+    for step, strain in enumerate([*rising, *falling]):
+        past = max(strain - strain_at_peak, 0.0)
+        stress = YOUNG * min(strain, strain_at_peak) + SOFTENING * past
+        record.append(
+            **row(
+                step=10 * step,
+                axial_strain=strain,
+                lateral_strain=POISSON * strain,
+                axial_stress=stress + confinement,
+                confinement=confinement,
+                unbalanced_ratio=0.5 if past or strain < 1e-6 else 1e-3,
+                end_mismatch=0.3 if past or strain < 1e-6 else 0.02,
+                boundary_work=strain,
+                pace=1.0,
+                elastic_energy=0.25 * strain + 7.0,
+                damping_energy=0.75 * strain,
+            )
+        )
+    return record
+
+
+def result_of(record, **values):
+    basic = {
+        "flexpm": "0.1",
+        "yade": "2023.02a",
+        "test": "uniaxial",
+        "model": "flexible",
+        "material": {"name": "m"},
+        "seed": 1,
+        "grains": 4,
+        "contacts": 5,
+        "nodes": 40,
+        "triangles": 30,
+        "curve": record,
+    }
+    return Result(**(basic | values))
+
+
+@pytest.mark.parametrize("confinement", [0.0, 4e6])
+def test_measures_of_a_triangular_record(confinement):
+    result = result_of(triangular_record(confinement))
+    result.measure()
+    assert result.status == "ok"
+    assert result.youngs_modulus == pytest.approx(YOUNG, rel=1e-10)
+    assert result.poissons_ratio == pytest.approx(POISSON, rel=1e-10)
+    assert result.peak_stress == pytest.approx(PEAK + confinement, rel=1e-12)
+    assert result.peak_strain == pytest.approx(PEAK / YOUNG, rel=1e-12)
+    assert result.softening_slope == pytest.approx(SOFTENING, rel=1e-9)
+    assert result.late_modulus == pytest.approx(1.0, rel=1e-9)
+    # neither the first rows nor those after the peak
+    assert (result.unbalanced_ratio, result.end_mismatch) == (1e-3, 0.02)
+    assert result.energy_error == pytest.approx(0.0, abs=1e-12)
+    assert (result.steps, result.confinement) == (5000, confinement)
+
+
+def record_through(*points):
+    """Record whose stress is piecewise linear through (strain, stress) points."""
+    record = Curve()
+    strains, stresses = np.transpose(points)
+    for strain in np.linspace(0.0, strains[-1], 2001):
+        stress = np.interp(strain, strains, stresses)
+        record.append(**row(axial_strain=strain, axial_stress=stress))
+    return record
+
+
+def test_kinks_outside_5_to_25_percent_of_the_peak_do_not_count():
+    outside = record_through((0, 0), (0.02, 4), (0.24, 26), (0.5, 100), (0.9, 10))
+    assert measures.youngs_modulus(outside) == pytest.approx(100.0, rel=1e-9)
+    inside = record_through((0, 0), (0.02, 4), (0.18, 20), (0.5, 100), (0.9, 10))
+    assert measures.youngs_modulus(inside) > 105.0
+
+
+def test_two_slopes_give_their_quotient():
+    kinked = record_through((0, 0), (0.4, 40), (1.6, 100), (2.0, 10))
+    assert measures.late_modulus(kinked) == pytest.approx(0.5, rel=1e-9)
+    assert measures.late_modulus(triangular_record(last_stress=0.95 * PEAK)) is None
+
+
+@given(noise=st.integers(0, 2**31), factor=st.floats(1e-6, 1e6))
+def test_youngs_modulus_scales_with_stress_and_resists_noise(noise, factor):
+    record = triangular_record()
+    record["axial_stress"][:] += 1e-3 * PEAK * np.random.default_rng(noise).normal(size=501)
+    modulus = measures.youngs_modulus(record)
+    assert modulus == pytest.approx(YOUNG, rel=0.02)
+    record["axial_stress"][:] *= factor
+    assert measures.youngs_modulus(record) == pytest.approx(factor * modulus, rel=1e-9)
+
+
+def test_no_peak_while_the_stress_has_not_fallen():
+    result = result_of(triangular_record(last_stress=0.95 * PEAK))
+    result.measure()
+    assert (result.status, result.peak_stress, result.peak_strain) == ("no_peak", None, None)
+    assert result.youngs_modulus == pytest.approx(YOUNG, rel=1e-10)
+    assert result.failed
+
+
+def of_stresses(stresses):
+    record = Curve()
+    for step, stress in enumerate(stresses):
+        record.append(**row(step=step, axial_strain=1e-4 * step, axial_stress=stress))
+    return record
+
+
+@given(
+    st.floats(0.25, 0.9),
+    st.floats(0.2, 0.85),
+    st.floats(1.1, 3.0),
+    st.sampled_from(["brazilian", "uniaxial"]),
+)
+def test_a_disc_is_as_strong_as_when_it_split(first, valley, last, test):
+    """Rise to a peak, fall, and rise to `last` times it, which a disc's halves may carry."""
+    peak = last * first * 1e7
+    up, down, again = np.linspace(0.0, first * 1e7, 40), valley * first * 1e7, peak
+    record = of_stresses(
+        [*up, *np.linspace(up[-1], down, 9)[1:], *np.linspace(down, again, 30)[1:]]
+    )
+    result = result_of(record, test=test)
+    result.measure()
+    if test == "brazilian":
+        assert (result.peak_stress, result.peak_strain) == (up[-1], pytest.approx(39e-4))
+        assert result.steps == len(record) - 1  # counted to the end
+    else:
+        assert result.status == "no_peak"
+
+
+def test_falls_while_the_plates_find_their_place_are_no_splitting():
+    record = of_stresses([0.0, 1e6, 0.5e6, 4e6, 8e6, 2e6])
+    result = result_of(record, test="brazilian")
+    result.measure()
+    assert result.peak_stress == 8e6
+
+
+def test_not_quasistatic_above_the_threshold():
+    result = result_of(triangular_record())
+    result.measure(max_unbalanced=0.9e-3)
+    assert (result.status, result.failed) == ("not_quasistatic", False)
+
+
+def test_diverged_by_flag_and_by_a_stress_that_is_no_number():
+    record = triangular_record()
+    result = result_of(record)
+    result.measure(diverged=True)
+    assert result.status == "diverged"
+    record["axial_stress"][-1] = np.nan
+    result.measure()
+    assert result.status == "diverged"
+
+
+def test_energy_error_is_the_share_of_the_work_that_is_missing():
+    record = triangular_record()
+    record["damping_energy"][:] *= 0.9  # loses 0.9 * 0.75 of the work
+    assert measures.energy_error(record) == pytest.approx(0.075, rel=1e-9)
+    assert measures.energy_error(Curve.from_array(record.array[:1])) is None
+
+
+def test_energy_that_was_lost_before_the_first_row_counts_if_the_start_is_known():
+    record = triangular_record()
+    assert measures.energy_error(record, initial=7.0) == pytest.approx(0.0, abs=1e-12)
+    largest = record["boundary_work"].max()
+    found = measures.energy_error(record, initial=7.0 + 0.02 * largest)
+    assert found == pytest.approx(0.02, rel=1e-9)
+
+
+def test_columns_are_taken_by_name():
+    record = triangular_record()
+    names = ["another", *reversed(COLUMNS)]
+    rows = np.column_stack([np.ones(len(record)), record.array[:, ::-1]])
+    assert np.array_equal(Curve.from_columns(names, rows).array, record.array)
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2])
+def test_short_records_give_none_and_not_zero(rows):
+    result = result_of(Curve.from_array(triangular_record().array[:rows]))
+    result.measure()
+    found = result.as_dict()
+    for key in ("youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"):
+        assert found[key] is None
+    assert result.softening_slope is None
+    assert result.late_modulus is None
+
+
+def test_append_wants_every_column():
+    with pytest.raises(TypeError, match="axial_stress"):
+        Curve().append(**{name: 0.0 for name in COLUMNS if name != "axial_stress"})
+    with pytest.raises(TypeError, match="stres"):
+        Curve().append(**row(stres=1.0))
+
+
+def test_rows_survive_growth():
+    record = Curve()
+    for step in range(1000):
+        record.append(**row(step=step, axial_stress=step / 3))
+    assert np.array_equal(record["step"], np.arange(1000))
+    assert np.array_equal(record["axial_stress"], np.arange(1000) / 3)
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=9))
+def test_csv_numbers_read_back_unchanged(values):
+    record = Curve()
+    for step, value in enumerate(values):
+        record.append(**row(step=step, axial_strain=value, boundary_work=-value))
+    rows = list(csv.DictReader(record.csv().splitlines()))
+    assert list(rows[0]) == list(COLUMNS)
+    assert [float(line["axial_strain"]) for line in rows] == values
+    assert [int(line["step"]) for line in rows] == list(range(len(values)))
+
+
+def test_files_of_a_result(tmp_path):
+    result = result_of(triangular_record(), step_time=float("nan"), grains=np.int64(4))
+    result.cracks = [Crack(7, 0.1 / 3, 0.01, 0.02, 1, 3, 0), Crack(9, 0.2, -0.01, 0.0, 2, 0, 2)]
+    result.measure()
+    result.write(tmp_path / "new" / "folder")
+    folder = tmp_path / "new" / "folder"
+    assert sorted(file.name for file in folder.iterdir()) == [
+        "cracks.csv",
+        "curve.csv",
+        "result.json",
+    ]
+    found = json.loads((folder / "result.json").read_text())
+    assert list(found) == KEYS
+    assert found["step_time"] is None
+    assert found["youngs_modulus"] == result.youngs_modulus
+    cracks = list(csv.DictReader((folder / "cracks.csv").read_text().splitlines()))
+    assert list(cracks[0]) == ["step", "strain", "x", "y", "mode", "contact", "point"]
+    assert [line["mode"] for line in cracks] == ["tensile", "shear"]
+    assert float(cracks[0]["strain"]) == 0.1 / 3
+
+
+def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
+    steps = np.array([[30, -1, 10], [-1, -1, 20]])
+    modes = np.array([[1, 0, 2], [0, 0, 1]])
+    places = np.arange(12.0).reshape(2, 3, 2)
+    record = Curve()
+    for step in (0, 100):
+        record.append(**row(step=step, axial_strain=step / 1000))
+    snapshot = {"crack_step": steps, "crack_mode": modes, "crack_position": places}
+    cracks = cracks_from_snapshot(snapshot, record)
+    assert [(c.step, c.contact, c.point, c.mode) for c in cracks] == [
+        (10, 0, 2, 2),
+        (20, 1, 2, 1),
+        (30, 0, 0, 1),
+    ]
+    assert [c.strain for c in cracks] == pytest.approx([0.01, 0.02, 0.03])
+    assert (cracks[0].x, cracks[0].y) == (4.0, 5.0)
+    assert len(cracks_csv(cracks).splitlines()) == 4
+
+
+@given(
+    steps=st.lists(st.integers(0, 5000), min_size=1, max_size=60),
+    share=st.floats(0.0, 1.0),
+)
+def test_onset_is_when_the_share_of_the_cracks_was_there(steps, share):
+    record = triangular_record()
+    strain, stress = measures.crack_onset(record, steps, share)
+    step = np.interp(strain, record["axial_strain"], record["step"])
+    assert np.count_nonzero(np.array(steps) <= step + 1e-6) >= share * len(steps)
+    assert np.count_nonzero(np.array(steps) < step - 1e-6) < max(1, share * len(steps))
+    assert stress == pytest.approx(
+        np.interp(strain, record["axial_strain"], record["axial_stress"])
+    )
+
+
+def test_first_crack_and_onset_by_mode():
+    result = result_of(triangular_record())
+    tensile = [Crack(step, 0.0, 0.0, 0.0, 1, step, 0) for step in range(1000, 2000, 25)]
+    result.cracks = [*tensile, Crack(3000, 0.0, 0.0, 0.0, 2, 0, 1)]
+    result.measure()
+    at = result.curve["axial_stress"]
+    assert result.first_tensile_crack_stress == pytest.approx(at[100])
+    assert result.tensile_onset_stress == pytest.approx(0.5 * (at[102] + at[103]))  # 2 of 40
+    assert result.first_shear_crack_stress == result.shear_onset_stress == pytest.approx(at[300])
+    result.cracks = tensile
+    result.measure()
+    assert result.first_shear_crack_strain is result.shear_onset_stress is None
+
+
+def test_fragments_of_a_result_and_their_table(tmp_path):
+    snapshot = wall()  # 3 x 4 equal grains
+    result = result_of(triangular_record())
+    result.measure_fragments(snapshot)
+    assert (result.fragments, result.largest_fragment) == (1, pytest.approx(1.0))
+    first_row = snapshot["contact_grains"].min(axis=1) < 3
+    apart = first_row & (snapshot["contact_grains"].max(axis=1) >= 3)
+    snapshot["point_damage"][apart] = 1.0
+    result.measure_fragments(snapshot)
+    assert (result.fragments, result.largest_fragment) == (2, pytest.approx(0.75))
+    result.write(tmp_path)
+    rows = list(csv.DictReader((tmp_path / "fragments.csv").read_text().splitlines()))
+    assert [int(line["grains"]) for line in rows] == [9, 3]
+    assert sum(float(line["area"]) for line in rows) == pytest.approx(12 * WIDTH * HEIGHT)
+
+
+def test_a_file_is_whole_or_keeps_its_old_content(tmp_path):
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+
+    def interrupted():
+        with whole_file(path) as temporary:
+            temporary.write_text("half of the n")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+    with whole_file(path) as temporary:
+        assert temporary.suffix == ".txt"
+        temporary.write_text("new")
+    assert path.read_text() == "new"
+
+
+@pytest.mark.parametrize("name", ["file", "file/below", "/proc/flexpm"])
+def test_a_folder_that_cannot_be_written_to_is_refused_in_one_line(tmp_path, name):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="must be a folder that can be written to") as caught:
+        output_folder(tmp_path / name)
+    assert "\n" not in str(caught.value)

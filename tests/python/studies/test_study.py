@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies: what a file asks for, each run once, tables that do not depend on how they were made."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pandas
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.axes import Axes
+from matplotlib.image import imread
+
+from flexpm.errors import InputError
+from flexpm.studies import figures as study_plot
+from flexpm.studies import jobs, study
+
+ROOT = Path(__file__).resolve().parents[3]
+SMALL = "width = 0.01\nheight = 0.02\nthickness = 0.01\n"
+ELASTIC = f'[common]\ntest = "elastic"\n{SMALL}[grid]\nseed = [1, 2, 3, 4]\n'
+
+
+def file_of(folder: Path, text: str) -> Path:
+    path = folder / "study.toml"
+    path.write_text(text)
+    return path
+
+
+def command(package_parent: Path, *arguments: object) -> list[str]:
+    return ["env", f"PYTHONPATH={package_parent}", "/usr/bin/python3", "-P", "-m", "flexpm"] + [
+        str(argument) for argument in arguments
+    ]
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    st.dictionaries(
+        st.sampled_from(["seed", "rate", "max_strain"]),
+        st.lists(st.integers(1, 9), min_size=1, max_size=3, unique=True),
+        min_size=1,
+    )
+)
+def test_a_grid_is_all_combinations_in_order(grid):
+    content = {"common": {"test": "uniaxial"}, "grid": grid}
+    made = [jobs.make(inputs, Path()) for inputs in study.combinations(content)]
+    found = [tuple(job.inputs[key] for key in grid) for job in made]
+    assert found == list(itertools.product(*grid.values()))
+    assert len({job.name for job in made}) == len(made)
+
+
+def test_cases_change_the_common_options(tmp_path):
+    path = file_of(
+        tmp_path,
+        "[common]\nset.cohesion = 3e7\ndiameter = 0.02\n[grid]\nseed = [1, 2]\n"
+        '[[case]]\ntest = "biaxial"\nconfinement = 4e6\n[[case]]\ntest = "brazilian"\nseed = 7\n',
+    )
+    found = study.read(path).jobs
+    assert [job.inputs["test"] for job in found] == ["biaxial", "biaxial", "brazilian"]
+    assert found[0].inputs == {
+        "test": "biaxial", "set.cohesion": 3e7, "seed": 1, "confinement": 4e6
+    }  # fmt: skip
+    assert found[2].inputs["diameter"] == 0.02 and found[2].inputs["seed"] == 7
+
+
+def test_names_follow_what_is_computed(tmp_path):
+    def name(**inputs):
+        return jobs.make({"test": "uniaxial", **inputs}, tmp_path).name
+
+    assert name() == name(seed=1) == name(width=0.08) == name(material="augig-table7")
+    assert name(diameter=0.1) == name()  # a rectangle has none
+    assert len({name(), name(seed=2), name(**{"set.cohesion": 3e7}), name(model="rigid")}) == 4
+    (tmp_path / "rock.toml").write_text(
+        (ROOT / "py/flexpm/materials/presets/augig-table7.toml").read_text()
+    )
+    before = name(material="rock.toml")
+    text = (tmp_path / "rock.toml").read_text().replace("0.40", "0.41")
+    (tmp_path / "rock.toml").write_text(text)
+    assert name(material="rock.toml") != before
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("[commom]\n", "did you mean common?"),
+        ('[common]\ntest = "uniaxal"\n', "did you mean uniaxial?"),
+        ("[common]\nseed = 1\n", "test is missing"),
+        ('[common]\ntest = "uniaxial"\nsed = 1\n', "did you mean seed?"),
+        ('[common]\ntest = "uniaxial"\nset.cohesoin = 1\n', "did you mean set.cohesion?"),
+        ('[common]\ntest = "uniaxial"\n[grid]\nset.cohesion = [-1.0]\n', "must be > 0"),
+        ('[common]\ntest = "uniaxial"\nout = "x"\n', "out"),
+        ('[common]\ntest = "uniaxial"\n[grid]\nseed = 1\n', "must be a list"),
+        ('[common]\ntest = "uniaxial"\nset = 3\n', "must be a table"),
+        ("common = [\n", "is no valid TOML"),
+    ],
+)
+def test_wrong_files_are_refused_before_anything_runs(tmp_path, text, says):
+    with pytest.raises(InputError, match="^[^\n]*$") as error:
+        study.read(file_of(tmp_path, text))
+    assert says in str(error.value)
+
+
+@pytest.mark.long
+def test_a_killed_study_repeats_nothing_and_ends_with_the_same_table(tmp_path, package_parent):
+    path = file_of(tmp_path, ELASTIC)
+    whole = study.run(study.read(path), tmp_path / "whole", workers=2)
+    assert list(whole["seed"]) == [1, 2, 3, 4] and set(whole["exit_code"]) == {0}
+    assert whole["youngs_modulus"].nunique() == 4
+
+    cut = tmp_path / "cut"
+    arguments = command(package_parent, "study", path, "--out", cut, "--workers", 1, "--quiet")
+    started = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    while len(list(cut.glob("runs/*/outcome.json"))) < 2:
+        assert started.poll() is None, started.stderr.read()
+        time.sleep(0.02)
+    started.send_signal(signal.SIGKILL)
+    started.wait()
+    finished = {file: file.stat().st_mtime_ns for file in cut.glob("runs/*/outcome.json")}
+    assert 2 <= len(finished) < 4
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert all(file.stat().st_mtime_ns == at for file, at in finished.items())
+    assert (cut / "table.csv").read_bytes() == (tmp_path / "whole/table.csv").read_bytes()
+
+
+@pytest.mark.long
+def test_a_failed_run_is_a_row_and_stops_no_other(tmp_path, package_parent):
+    text = ELASTIC.replace("[1, 2, 3, 4]", "[1]") + "[[case]]\n[[case]]\nwidth = 0.004\n"
+    path = file_of(tmp_path, text)
+    arguments = command(package_parent, "study", path, "--out", tmp_path / "out")
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    assert done.returncode == 3 and len(done.stderr.splitlines()) == 1
+    rows = pandas.read_csv(tmp_path / "out/table.csv")
+    assert list(rows["exit_code"]) == [0, 2]
+    assert "must" in rows["message"][1] and rows["youngs_modulus"].notna().tolist() == [True, False]
+
+
+def test_the_outcome_of_an_interrupted_run_is_not_kept(tmp_path):
+    job = jobs.make({"test": "uniaxial"}, tmp_path)
+    for code, kept in ((0, True), (2, True), (3, True), (1, False), (143, False), (-9, False)):
+        folder = tmp_path / str(code)
+        folder.mkdir()
+        (folder / "checkpoint-7.bin").write_bytes(b"scene")
+        said = f"warning\nflexpm: status = no_peak; see {folder}\n"
+        done = subprocess.CompletedProcess([], code, "", said)
+        # a path would tell tables of the same runs apart
+        assert jobs.conclude(job, folder, done)["message"] == f"status = no_peak; see {job.name}"
+        assert (jobs.known(folder) is not None) == kept
+        assert (folder / "checkpoint-7.bin").exists() == (not kept)
+    assert jobs.conclude(job, tmp_path, OSError("lost"))["exit_code"] is None
+    (tmp_path / "0" / "outcome.json").write_text('{"cut')
+    assert jobs.known(tmp_path / "0") is None
+
+
+def made_up(folder: Path, **inputs) -> tuple[jobs.Job, dict]:
+    job = jobs.make(inputs, folder)
+    peak = 1e6 * (1 + inputs["seed"]) + inputs["set.cohesion"]
+    return job, {"exit_code": 0, "message": "", "result": {"peak_stress": peak, "status": "ok"}}
+
+
+def test_pictures_show_means_over_packings(tmp_path):
+    pairs = [
+        made_up(tmp_path, test="uniaxial", model=model, seed=seed, **{"set.cohesion": cohesion})
+        for model, seed, cohesion in itertools.product(("rigid", "inner"), (1, 2), (1e7, 2e7))
+    ]
+    made = [job for job, _ in pairs]
+    rows = study.table(made, [outcome for _, outcome in pairs])
+    assert list(rows["peak_stress"][:2]) == [1.2e7, 2.2e7]
+    pictures = study_plot.draw(study.Study("means", made), rows, tmp_path)
+    assert imread(pictures[0]).shape[0] > 300
+    asked = [{"x": "seed", "y": "peak_stress", "by": ["model"], "file": "x.png"}]
+    assert study_plot.draw(study.Study("s", made, asked), rows, tmp_path) == [tmp_path / "x.png"]
+    with pytest.raises(InputError, match="did you mean peak_stress"):
+        study_plot.draw(study.Study("s", made, [{"x": "seed", "y": "peak_stres"}]), rows, tmp_path)
+
+
+def test_lines_are_told_apart_by_text_and_numbers_together(tmp_path, monkeypatch):
+    lines = []
+    monkeypatch.setattr(
+        Axes, "errorbar", lambda *a, **given: lines.append((given["label"], a[1:3]))
+    )
+    monkeypatch.setattr(Axes, "legend", lambda *a, **given: None)
+    rows = pandas.DataFrame(
+        {"model": model, "set.friction": friction, "x": x, "y": x + friction}
+        for model, friction, x in itertools.product(("a", "b"), (0.2, 0.5), (1.0, 2.0))
+    )
+    asked = [{"x": "x", "y": "y", "by": ["model", "set.friction"]}]
+    study_plot.draw(study.Study("s", [], asked), rows, tmp_path)
+    names = [label for label, _ in lines]
+    assert names == [f"{m}, friction {f}" for m in ("a", "b") for f in (0.2, 0.5)]
+    assert [list(drawn[1]) for _, drawn in lines] == 2 * [[1.2, 2.2], [1.5, 2.5]]
+
+
+@pytest.mark.long
+def test_yade_batch_does_the_runs_of_the_study(tmp_path, package_parent):
+    sources = ROOT / "scripts/studies"
+    asked = study.read(sources / "cohesion.toml").jobs
+    lines = (sources / "cohesion.table").read_text().splitlines()
+    columns = [line.split() for line in lines if not line.startswith("#")]
+    table = {(row[1].strip("'"), float(row[2]), int(row[3])) for row in columns[1:]}
+    keys = ("model", "set.cohesion", "seed")
+    assert table == {tuple(job.inputs[key] for key in keys) for job in asked}
+
+    shutil.copy(sources / "cohesion_batch.py", tmp_path)
+    # one job of the table, on a smaller specimen
+    script = (tmp_path / "cohesion_batch.py").read_text().replace("0.02, 0.04", "0.01, 0.02")
+    (tmp_path / "cohesion_batch.py").write_text(script)
+    (tmp_path / "table").write_text("\n".join([lines[1], "1 'rigid' 3e7 2"]) + "\n")
+    batch = ["yade-batch", "-j1", "--job-threads=1", "table", "cohesion_batch.py"]
+    environment = dict(os.environ, PYTHONPATH=str(package_parent))
+    environment.pop("DISPLAY", None)
+    done = subprocess.run(batch, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    # the program's own exit code is 0 even if a job failed
+    assert done.returncode == 0 and "FAILED" not in done.stdout, done.stdout
+    found = json.loads((tmp_path / "batch-rigid-3e+07-2/result.json").read_text())
+    inputs = {**asked[-1].inputs, "width": 0.01, "height": 0.02, "set.cohesion": 3e7, "seed": 2}
+    rows = study.run(study.Study("same", [jobs.make(inputs, tmp_path)]), tmp_path / "study")
+    assert rows["peak_stress"][0] == found["peak_stress"]
+
+
+@pytest.mark.parametrize(
+    "path", sorted(ROOT.glob("scripts/paper/*.toml")), ids=lambda path: path.stem
+)
+def test_the_papers_study_files_are_valid(path):
+    assert len(study.read(path).jobs) > 10
+    assert (path.with_suffix(".py")).exists()
