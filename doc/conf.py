@@ -15,7 +15,7 @@ PACKAGE = Path(__file__).resolve().parent.parent / "py"
 project = "flexpm"
 author = "The flexpm developers"
 copyright = author
-release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "__init__.py").read_text())[1]
+release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "_version.py").read_text())[1]
 exclude_patterns = ["_build"]
 html_theme = "alabaster"
 html_theme_options = {"page_width": "62em", "body_max_width": "48em", "fixed_sidebar": True}
@@ -35,7 +35,7 @@ class CommandHelp(Directive):
         command = " ".join(self.arguments).split()
         text = subprocess.run(
             [sys.executable, "-P", "-m", "flexpm", *command, "--help"],
-            env={**os.environ, "PYTHONPATH": str(PACKAGE), "COLUMNS": "80"},
+            env={**os.environ, "PYTHONPATH": str(PACKAGE), "FLEXPM_DEFER": "1", "COLUMNS": "80"},
             check=True,
             capture_output=True,
             text=True,
@@ -49,7 +49,7 @@ class PresetTable(Directive):
     def run(self) -> list[nodes.Node]:
         """Quote the presets without their licence lines."""
         found = []
-        for path in sorted((PACKAGE / "flexpm" / "presets").glob("*.toml")):
+        for path in sorted((PACKAGE / "flexpm" / "materials" / "presets").glob("*.toml")):
             text = "\n".join(path.read_text().splitlines()[1:])
             found.append(nodes.literal_block(text, text, language="toml"))
         return found

@@ -1,29 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flexible particle model of rock for YADE: importing the package loads the plugin's classes."""
+"""Flexible particle model of rock for YADE: importing the package loads the plugin's classes.
+
+The command `flexpm` sets FLEXPM_DEFER in its environment: the classes are then loaded with the
+first use of one of them or of a public name, so that help and wrong input do not wait for YADE.
+"""
 
 from __future__ import annotations
 
-import importlib
-import sys
+import os
+from typing import TYPE_CHECKING, Any
 
 from ._plugin import load
+from ._version import __version__ as __version__
 
-__version__ = "0.1.0"
+if TYPE_CHECKING:
+    from ._api import (
+        InputError,
+        Material,
+        Model,
+        Result,
+        SimulationError,
+        Specimen,
+        build,
+        compare,
+        elastic,
+        run,
+    )
 
-#: What users call, and the module it is in; imported when first used.
-_PUBLIC = {
-    "InputError": "errors",
-    "Material": "materials.material",
-    "Model": "models.grains",
-    "Result": "results.result",
-    "SimulationError": "errors",
-    "Specimen": "specimens.specimen",
-    "build": "models.grains",
-    "compare": "studies.comparison",
-    "elastic": "models.grains",
-    "run": "laboratory.protocols",
-}
-__all__: list[str] = list(_PUBLIC)
+#: What users call; imported when first used. The classes of the plugin are added as they load.
+__all__ = [
+    "InputError",
+    "Material",
+    "Model",
+    "Result",
+    "SimulationError",
+    "Specimen",
+    "build",
+    "compare",
+    "elastic",
+    "run",
+]
+#: Modules that scripts use as attributes of the package.
+_MODULES = ("export", "materials", "plot", "strength", "study")
 
 
 def _load_classes() -> None:
@@ -36,39 +54,30 @@ def _load_classes() -> None:
             __all__.append(name)
 
 
-def _is_command() -> bool:
-    # `python -m flexpm`: help and wrong input are answered without waiting for YADE
-    if sys.argv[:1] != ["-m"]:
-        return False
-    options = sys.orig_argv
-    return "-m" in options and options[options.index("-m") + 1] == "flexpm"
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used."""
+    if name == "study":  # apart, since pandas takes long to load
+        from .studies import study
 
-
-if not _is_command():
-    _load_classes()
-
-
-#: What scripts use as attributes of the package, and where it is.
-_MODULES = {
-    "export": "results.vtu",
-    "materials": "materials",
-    "plot": "report.curves",
-    "strength": "results.strength",
-    "study": "studies.study",
-}
-
-
-def __getattr__(name: str) -> object:
-    if name in _MODULES:
-        return importlib.import_module(f".{_MODULES[name]}", __name__)
-    if name in _PUBLIC:
+        return study
+    if name in __all__ or name in _MODULES:
         _load_classes()
-        value = getattr(importlib.import_module(f".{_PUBLIC[name]}", __name__), name)
-        globals()[name] = value
-        return value
-    # As a command, the first use of a class of the plugin loads it; modules are not loaded here.
+        from . import _api
+
+        return getattr(_api, name)
+    # if loading was deferred, the first use of a class of the plugin loads all of them
     if name[:1].isupper():
         _load_classes()
-        if name in __all__:
+        if name in globals():
             return globals()[name]
     raise AttributeError(f"module 'flexpm' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    """Names to be completed: also those that are imported later."""
+    return sorted({*globals(), *__all__, *_MODULES})
+
+
+# removed, so that programs started from here load the classes at once
+if os.environ.pop("FLEXPM_DEFER", None) is None:
+    _load_classes()

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import importlib
 import io
 import sys
 import sysconfig
@@ -37,6 +36,12 @@ def load() -> list[str]:
     return list(_classes)
 
 
+def load_kernel() -> ModuleType:
+    """Return the compiled module, loaded with YADE, which it needs."""
+    load()
+    return import_plugin()
+
+
 def import_yade() -> ModuleType:
     """Import YADE as a Python module, without its greeting.
 
@@ -53,7 +58,7 @@ def import_yade() -> ModuleType:
         sys.path.append(folder)
     try:
         with contextlib.redirect_stdout(io.StringIO()):
-            yade = importlib.import_module("yade")
+            import yade
     except ImportError as error:
         raise ImportError(
             f"flexpm: YADE cannot be imported from {folder} ({error}); install the package yade"
@@ -108,11 +113,12 @@ def import_plugin() -> ModuleType:
         ImportError: if it is not built or does not fit YADE's libraries.
     """
     try:
-        return importlib.import_module("flexpm._flexpm")
+        import flexpm._flexpm as module
     except ImportError as error:
         if isinstance(error, ModuleNotFoundError):
             raise ImportError("flexpm: _flexpm is not built; run scripts/setup") from error
         raise ImportError(f"flexpm: _flexpm does not fit YADE ({error}); {REMEDY}") from error
+    return module
 
 
 def _register(yade: ModuleType, module: ModuleType) -> list[str]:

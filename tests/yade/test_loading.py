@@ -102,12 +102,26 @@ def test_loading_again_changes_nothing() -> None:
     assert yade.__all__ == known
 
 
-def test_command_does_not_wait_for_yade(package_parent: Path, tmp_path: Path) -> None:
-    # the modules of the command are imported under `python -m flexpm` before anything needs YADE
+def test_deferred_loading_waits_for_the_first_use(package_parent: Path, tmp_path: Path) -> None:
     code = (
-        "import runpy, sys\nsys.argv = ['-m']\nsys.orig_argv = ['python3', '-m', 'flexpm']\n"
-        "import flexpm\nassert 'yade' not in sys.modules\n"
-        "flexpm.load()\nassert 'yade' in sys.modules\n"
+        "import os, sys\nos.environ['FLEXPM_DEFER'] = '1'\n"
+        "import flexpm, flexpm.cli.main\nassert 'yade' not in sys.modules\n"
+        "assert 'FLEXPM_DEFER' not in os.environ\n"  # else programs started from here had it
+        "flexpm.GrainSolver()\nassert 'yade' in sys.modules\n"
+    )
+    done = run([PYTHON, "-c", code], package_parent, tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
+def test_public_names_can_be_completed(package_parent: Path, tmp_path: Path) -> None:
+    names = (
+        "run build elastic compare Specimen Material Model Result InputError SimulationError "
+        "materials strength study plot export GrainSolver load"
+    )
+    code = (
+        f"import flexpm\nnames = {names.split()}\n"
+        "assert set(names) <= set(dir(flexpm))\n"
+        "for name in names: getattr(flexpm, name)\n"
     )
     done = run([PYTHON, "-c", code], package_parent, tmp_path)
     assert done.returncode == 0, done.stderr

@@ -14,7 +14,7 @@ from typing import Any
 
 import yade
 
-from .. import __version__
+from .._version import __version__
 from ..cli.terminal import scaled
 from ..report import curves as plot
 from .lammps import Worker

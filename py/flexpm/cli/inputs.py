@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .. import __version__, _plugin
+from .. import _plugin
+from .._version import __version__
 from ..errors import InputError
 from ..materials.material import Material, load
 from . import terminal as console

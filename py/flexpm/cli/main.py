@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .. import __version__
+from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import json_text, output_folder, write_text
 from ..materials.keys import check_name, nearest

@@ -13,7 +13,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from .. import __version__
+from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import output_folder
 from ..materials import material as materials

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import yade
 
-from .. import __version__
+from .._version import __version__
 from ..models.sphere_bonds import tributary_lengths
 from ..models.spheres import SphereModel
 from ..results.result import Result

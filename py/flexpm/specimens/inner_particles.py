@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root_scalar
 
+from .._plugin import load_kernel
 from ..errors import InputError
 from ..materials.material import Material
-from . import packing
 from .specimen import Specimen
 
 #: Normals between grains: from the discs' centres, or that of the grains' edge.
@@ -37,7 +37,7 @@ _ACROSS = 14.0
 
 def cells(specimen: Specimen) -> Any:
     """Cut the grains of a specimen into the cells of their inner particles."""
-    return packing.load_kernel().inner_cells(specimen.tessellation, float(PARTICLES))
+    return load_kernel().inner_cells(specimen.tessellation, float(PARTICLES))
 
 
 def edge_options(inner: Any, model: str) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from .._plugin import import_yade, load
+from .._plugin import import_yade, load_kernel
 from ..errors import SimulationError
 from ..progress import Progress
 
@@ -70,14 +70,6 @@ class Frame:
             return kernel.Outline.circle(0.0, 0.0, self.radius)
         w, h = self.width, self.height
         return kernel.Outline.polygon(np.array([[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]))
-
-
-def load_kernel() -> ModuleType:
-    """Return the compiled module, after YADE, which it needs."""
-    load()
-    from .. import _flexpm
-
-    return _flexpm
 
 
 def pack(

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from .._plugin import load_kernel
 from ..errors import InputError
 from ..progress import Progress
 from . import packing
@@ -223,7 +224,7 @@ class Specimen:
             InputError: for an unknown mesh.
         """
         centres, radii = _columns(self.discs)
-        return _call(packing.load_kernel().grain_meshes, self.tessellation, centres, radii, mesh)
+        return _call(load_kernel().grain_meshes, self.tessellation, centres, radii, mesh)
 
     def statistics(self) -> dict[str, float | int | dict[str, float]]:
         """Count and measure grains, contacts, cells and meshes.
@@ -286,7 +287,7 @@ def _generate(
     require_number(where, porosity=porosity)
     require_short_edge(short_edge)
     area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-    kernel = packing.load_kernel()
+    kernel = load_kernel()
     count = _call(kernel.disc_count, area, smallest, largest, float(porosity))
     if count < _FEWEST_DISCS:
         raise InputError(
@@ -311,7 +312,7 @@ def _tessellated(
 ) -> Specimen:
     """Tessellate; drop hidden discs of a generated packing (those with a seed)."""
     require_short_edge(short_edge)
-    kernel = packing.load_kernel()
+    kernel = load_kernel()
     if isinstance(outline, Circle):
         shape = _call(kernel.Outline.circle, outline.x, outline.y, outline.radius)
         kind, dimensions = "disc", {"diameter": 2.0 * outline.radius}

@@ -19,7 +19,7 @@ from typing import Any
 
 import click
 
-from .. import __version__
+from .._version import __version__
 from ..errors import InputError
 from ..files import json_text, write_text
 from ..materials import material as materials
@@ -70,7 +70,7 @@ class Job:
         The process ends with the one that started it, so that a killed study leaves none behind.
         """
         return [
-            *("env", "OMP_NUM_THREADS=1", f"PYTHONPATH={worker_path}"),
+            *("env", "OMP_NUM_THREADS=1", "FLEXPM_DEFER=1", f"PYTHONPATH={worker_path}"),
             *("setpriv", "--pdeathsig", "TERM"),
             *(sys.executable, "-P", "-m", "flexpm", *self.arguments, "--out", str(folder)),
         ]

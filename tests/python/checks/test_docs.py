@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from sample_snapshot import wall
 
+from flexpm import __version__, _flexpm
+from flexpm.materials.material import preset_names
 from flexpm.results.record import COLUMNS
 from flexpm.results.result import Crack, Result
 from flexpm.results.vtu import cell_arrays, point_arrays
@@ -78,3 +80,10 @@ def test_the_documentation_builds_without_warnings(tmp_path):
     finally:
         sys.path[:] = path
     assert (tmp_path / "theory.html").stat().st_size > 5000
+    presets = (tmp_path / "materials.html").read_text()
+    assert presets.count("normal_stiffness") >= len(preset_names())
+
+
+def test_the_version_is_the_same_everywhere():
+    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
+    assert _flexpm.build_info["version"] == __version__

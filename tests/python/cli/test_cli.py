@@ -18,7 +18,13 @@ from flexpm.materials import material as materials
 from flexpm.materials.keys import UNITS
 
 PACKAGE = str(Path(flexpm.__file__).parent.parent)
-ENVIRONMENT = {**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"}
+# as scripts/flexpm has it
+ENVIRONMENT = {
+    **os.environ,
+    "PYTHONPATH": PACKAGE,
+    "OMP_NUM_THREADS": "1",
+    "FLEXPM_DEFER": "1",
+}
 SMALL = ["--width", "0.02", "--height", "0.04", "--thickness", "0.01"]
 
 

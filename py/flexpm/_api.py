@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Public names of the package, each imported from its home.
+
+The package imports this module when the first of these names is used: it needs YADE, numpy, VTK and
+matplotlib, which the classes of the plugin and the command's help do without.
+"""
+
+from . import materials
+from .errors import InputError, SimulationError
+from .laboratory.protocols import run
+from .materials import Material
+from .models.grains import Model, build, elastic
+from .report import curves as plot
+from .results import strength
+from .results import vtu as export
+from .results.result import Result
+from .specimens.specimen import Specimen
+from .studies.comparison import compare
+
+__all__ = [
+    "InputError",
+    "Material",
+    "Model",
+    "Result",
+    "SimulationError",
+    "Specimen",
+    "build",
+    "compare",
+    "elastic",
+    "export",
+    "materials",
+    "plot",
+    "run",
+    "strength",
+]
