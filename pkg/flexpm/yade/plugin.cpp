@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The Python module _flexpm: registers the plugin's classes with YADE and the kernel's functions with Python.
-#include <flexpm/yade/abi.hpp>
-#include <flexpm/yade/bindings.hpp>
-#include <flexpm/yade/yade_lite.hpp>
+#include <flexpm/yade/abi/abi.hpp>
+#include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/bindings.hpp>
 
 namespace py = boost::python;
 
@@ -57,7 +57,7 @@ BOOST_PYTHON_MODULE(_flexpm)
 	py::def("refresh_renderer", refreshRenderer, py::arg("renderer"), "Make an existing renderer know the plugin's shapes.");
 	flexpm_abi::registerBindings();
 	flexpm_bindings::register_geometry_bindings();
-	flexpm_bindings::register_inner_bindings();
+	flexpm_bindings::register_subdivision_bindings();
 	// called by the package once the layout check has passed, not at load
 	py::def("register_classes", registerClasses, "Register the plugin's classes with YADE, once; returns their names.");
 }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Functions that make the kernel known to Python; called once when the module _flexpm is loaded.
+#pragma once
+
+namespace flexpm_bindings {
+
+/// Outline, Tessellation, GrainMeshes; disc_count, disc_radii, insert_discs, tessellate, grain_meshes.
+void register_geometry_bindings();
+
+/// InnerCells; inner_cells.
+void register_subdivision_bindings();
+
+} // namespace flexpm_bindings

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Bounding box of a deformable grain, for YADE's collider.
+#pragma once
+
+#include <flexpm/yade/abi/yade_lite.hpp>
+
+namespace yade {
+
+class Bo1_LaguerreCell_Aabb : public BoundFunctor {
+public:
+	~Bo1_LaguerreCell_Aabb() override;
+	void go(const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*) override;
+	FUNCTOR1D(LaguerreCell);
+	// clang-format off
+	YADE_CLASS_BASE_DOC(Bo1_LaguerreCell_Aabb, BoundFunctor,
+		"Bounding box of a :yref:`LaguerreCell`: its nodes and its disc, as thick as the disc.");
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Bo1_LaguerreCell_Aabb);
+
+} // namespace yade

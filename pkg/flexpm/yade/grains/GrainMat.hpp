@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Material of deformable grains and of the contacts between them, paper Sec. 3.2. SI units.
+#pragma once
+
+#include <flexpm/yade/abi/yade_lite.hpp>
+
+namespace yade {
+
+class GrainMat : public ElastMat {
+public:
+	~GrainMat() override;
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(GrainMat, ElastMat,
+		"Elastic grain with bilinear, frictional contacts [Azevedo2022]_. :yref:`young<ElastMat.young>` and "
+		":yref:`poisson<ElastMat.poisson>` are those of the grain [Pa], [-].",
+		((Real, normalStiffness, 1.8e14,, "Normal stiffness of a contact per area K_n, Eq. 22 [Pa/m]."))
+		((Real, shearRatio, 0.28,, "Shear over normal stiffness eta, Eq. 23 [-]."))
+		((Real, tensileStrength, 8.5e6,, "Tensile strength of a contact point, Eq. 24 [Pa]."))
+		((Real, cohesion, 29.75e6,, "Cohesion of a contact point, Eq. 25 [Pa]."))
+		((Real, friction, 0.4,, "Coefficient of friction mu_c, Eq. 25; it stays after cracking [-]."))
+		((Real, tensileFractureEnergy, 20.,, "Area under the tensile softening curve, Fig. 3a [N/m]."))
+		((Real, shearFractureEnergy, 800.,, "Area under the shear softening curve, Fig. 3b [N/m]."))
+		((bool, planeStrain, false,, "Plane strain instead of plane stress."))
+		, createIndex(); density = 2650;
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(GrainMat, ElastMat);
+};
+REGISTER_SERIALIZABLE(GrainMat);
+
+} // namespace yade

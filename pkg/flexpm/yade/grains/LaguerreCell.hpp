@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Shape of a deformable grain: a handle to its nodes in the solver's packed arrays.
+#pragma once
+
+#include <flexpm/yade/abi/yade_lite.hpp>
+
+namespace yade {
+
+class LaguerreCell : public Shape {
+public:
+	~LaguerreCell() override;
+
+	boost::python::object positions() const;
+	boost::python::object displacements() const;
+	boost::python::object velocities() const;
+	boost::python::object forces() const;
+	boost::python::object held() const;
+	boost::python::list   triangles() const;
+	int                   vertices() const;
+	bool                  rigid() const;
+	int                   aggregate() const;
+	void                  setMotion(Vector3r velocity, Real spin) const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LaguerreCell, Shape,
+		"Grain meshed with constant-strain triangles. Its state lives in :yref:`GrainSolver`; the arrays are views "
+		"of it (no copy), valid until the solver assembles or loads another specimen. Nodes are numbered corners first "
+		"(counter-clockwise), then the centre, then the inner ring.",
+		((int, grain, -1, Attr::readonly, "Number of the grain in the solver [-]."))
+		, createIndex();
+		, .add_property("positions", &LaguerreCell::positions, "Node positions, (n, 2) [m]; read-only.")
+		.add_property("displacements", &LaguerreCell::displacements, "Node displacements from the bonded state, (n, 2) [m].")
+		.add_property("velocities", &LaguerreCell::velocities, "Node velocities, (n, 2) [m/s, or m per step with scaled masses].")
+		.add_property("forces", &LaguerreCell::forces, "Nodal forces of the last step without damping, (n, 2) [N].")
+		.add_property("held", &LaguerreCell::held, "1 where the velocity component is prescribed, (n, 2) [-].")
+		.add_property("triangles", &LaguerreCell::triangles, "Node numbers of each triangle, counter-clockwise.")
+		.add_property("vertices", &LaguerreCell::vertices, "Number of corners; also the number of the centre node [-].")
+		.add_property("rigid", &LaguerreCell::rigid, "The grain moves as one body; its nodes follow the centre.")
+		.add_property("aggregate", &LaguerreCell::aggregate, "Number of the grain of the rock that this is, or is an inner particle of [-].")
+		.def("setMotion", &LaguerreCell::setMotion, (boost::python::arg("velocity"), boost::python::arg("spin")),
+			"Velocity of the centre [m/s, or m per step with scaled masses] and angular velocity [rad/s, or rad per step] of a rigid grain; "
+			"its nodes' velocities follow.")
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(LaguerreCell, Shape);
+};
+REGISTER_SERIALIZABLE(LaguerreCell);
+
+} // namespace yade

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Views of a bond's points.
+#include <flexpm/yade/grains/LobattoContact.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/assembly/snapshot.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+namespace yade {
+
+namespace py = boost::python;
+using flexpm_bindings::Access;
+
+YADE_PLUGIN((LobattoGeom)(LobattoPhys));
+
+namespace {
+
+	/// (points,) view of row `row` of the `rows` rows of each point of a contact.
+	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int row = 0, int rows = 1)
+	{
+		const auto           solver = GrainSolver::ofContact(contact);
+		const auto&          a      = solver->viewed();
+		const std::ptrdiff_t step   = rows * flexpm::lanes * sizeof(T);
+		const T*             first  = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
+		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(solver), Access::readOnly);
+	}
+
+	/// The same for a member of flexpm::PointState.
+	py::object stateView(int contact, int member) { return pointView(contact, &flexpm::Assembly::point_state, member, flexpm::ContactRows::state); }
+
+	/// (points,) or (points, columns) copy of what `value(point)` appends.
+	template <class Value> py::object pointCopy(int contact, int columns, Value value)
+	{
+		const auto&         a = GrainSolver::ofContact(contact)->current();
+		std::vector<double> all;
+		for (int p = 0; p < a.points; ++p)
+			value(a, p, all);
+		return flexpm_bindings::copied(all, columns);
+	}
+
+} // namespace
+
+std::atomic<long>& destroyedContacts()
+{
+	static std::atomic<long> count { 0 };
+	return count;
+}
+
+LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
+
+Vector3r LobattoGeom::normal() const
+{
+	const auto n = flexpm::normal_of(GrainSolver::ofContact(contact)->current(), contact);
+	return Vector3r(n.x, n.y, 0);
+}
+
+Vector3r LobattoGeom::contactPoint() const
+{
+	const auto& a     = GrainSolver::ofContact(contact)->current();
+	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
+	return .5 * Vector3r(start.x + end.x, start.y + end.y, 0);
+}
+
+py::object LobattoGeom::ends() const
+{
+	const auto& a     = GrainSolver::ofContact(contact)->current();
+	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
+	return flexpm_bindings::copied(std::vector<double> { start.x, start.y, end.x, end.y }, 2);
+}
+
+LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
+
+py::object LobattoPhys::opening() const { return stateView(contact, flexpm::ContactRows::opening); }
+
+py::object LobattoPhys::slip() const { return stateView(contact, flexpm::ContactRows::slip); }
+
+py::object LobattoPhys::area() const { return pointView(contact, &flexpm::Assembly::area); }
+
+py::object LobattoPhys::cracked() const { return pointView(contact, &flexpm::Assembly::crack_mode); }
+
+py::object LobattoPhys::damage() const
+{
+	return pointCopy(contact, 0, [this](const auto& a, int p, auto& all) { all.push_back(flexpm::damage_of(a, contact, p)); });
+}
+
+py::object LobattoPhys::traction() const
+{
+	return pointCopy(contact, 2, [this](const auto& a, int p, auto& all) {
+		const auto t = flexpm::point_traction(a, contact, p);
+		all.insert(all.end(), { t.x, t.y });
+	});
+}
+
+} // namespace yade

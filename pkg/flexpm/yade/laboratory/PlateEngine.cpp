@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Driving plates.
+#include <flexpm/yade/laboratory/PlateEngine.hpp>
+
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PlateEngine));
+
+PlateEngine::~PlateEngine() = default;
+
+void PlateEngine::action()
+{
+	auto& assembly = GrainSolver::ofScene(*scene)->current();
+	for (int plate : plates) {
+		if (loaded)
+			flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
+		else
+			flexpm::set_velocity(assembly, plate, { velocity[0], velocity[1] });
+	}
+	if (elasticStart && !started) flexpm::start_elastically(assembly);
+	started = true;
+}
+
+} // namespace yade

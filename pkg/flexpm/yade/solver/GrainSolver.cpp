@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One step, and what YADE's objects see of it.
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/motion/centre_motion.hpp>
+#include <flexpm/yade/grains/LobattoContact.hpp>
+
+#include <algorithm>
+
+#include <omp.h>
+
+namespace yade {
+
+CREATE_LOGGER(GrainSolver);
+YADE_PLUGIN((GrainSolver));
+
+GrainSolver::~GrainSolver() = default;
+
+shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene)
+{
+	for (const auto& engine : scene.engines) {
+		if (auto solver = YADE_PTR_DYN_CAST<GrainSolver>(engine)) return solver;
+	}
+	throw std::runtime_error("GrainSolver: O.engines holds none; build the specimen first (flexpm.build)");
+}
+
+shared_ptr<GrainSolver> GrainSolver::ofGrain(int grain)
+{
+	const auto solver = ofScene(*Omega::instance().getScene());
+	if (grain >= 0 && grain < solver->assembly.grains) return solver;
+	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
+}
+
+shared_ptr<GrainSolver> GrainSolver::ofContact(int contact)
+{
+	const auto solver = ofScene(*Omega::instance().getScene());
+	if (contact >= 0 && contact < solver->assembly.contacts) return solver;
+	throw std::runtime_error("contact = " + std::to_string(contact) + ", is no contact of the solver; build the specimen first (flexpm.build)");
+}
+
+namespace {
+
+	void requirePeriod(const char* name, int steps)
+	{
+		if (steps < 1) throw std::runtime_error("GrainSolver." + std::string(name) + " = " + std::to_string(steps) + ", must be at least 1 step");
+	}
+
+} // namespace
+
+flexpm::Assembly& GrainSolver::current()
+{
+	if (waiting > 0) {
+		const std::lock_guard<std::mutex> lock(stepping);
+		doWaiting();
+	}
+	return assembly;
+}
+
+bool GrainSolver::measured() const { return (assembly.step + waiting) % measurePeriod == 0; }
+
+flexpm::Assembly& GrainSolver::viewed()
+{
+	hasViews = true;
+	return current();
+}
+
+int GrainSolver::threads() const { return ompThreads > 0 ? ompThreads : omp_get_max_threads(); }
+
+int GrainSolver::stepsTogether() const { return hasViews ? 1 : flexpm::steps_together(assembly, threads()); }
+
+void GrainSolver::preSave(GrainSolver&) { current(); }
+
+void GrainSolver::doWaiting()
+{
+	flexpm::step_several(assembly, waitingOptions, waiting);
+	waiting = 0;
+}
+
+void GrainSolver::takeStep()
+{
+	const std::lock_guard<std::mutex> lock(stepping);
+	if (destroyedContacts() != seenDestroyed) {
+		doWaiting();
+		retireErased();
+	}
+	if (assembly.step + waiting == 0) flexpm::open_books(assembly);
+	flexpm::StepOptions options;
+	options.dt      = scene->dt;
+	options.damping = damping;
+	options.threads = threads();
+	const auto& o   = waitingOptions;
+	if (options.dt != o.dt || options.damping != o.damping || options.threads != o.threads) doWaiting();
+	const auto after  = assembly.step + waiting + 1;
+	const auto isDue  = [&](int period) { return after % period == 0; };
+	options.measure   = isDue(measurePeriod);
+	waitingOptions    = options;
+	const bool isSeen = options.measure || isDue(mirrorPeriod) || isDue(touchPeriod) || isDue(checkPeriod);
+	if (++waiting >= stepsTogether() || isSeen) doWaiting();
+}
+
+void GrainSolver::action()
+{
+	requirePeriod("measurePeriod", measurePeriod);
+	requirePeriod("mirrorPeriod", mirrorPeriod);
+	requirePeriod("touchPeriod", touchPeriod);
+	requirePeriod("checkPeriod", checkPeriod);
+	takeStep();
+	if (waiting > 0) return;
+	if (assembly.step % mirrorPeriod == 0) mirrorBodies();
+	if (assembly.step % touchPeriod == 0) changeContacts();
+	if (assembly.step % checkPeriod == 0) check();
+}
+
+namespace {
+
+	/// A node has used up half of the way that its grain's bound leaves it; what is left is for the steps until the next look.
+	bool nearBound(const flexpm::Assembly& a, int grain, const Bound& bound)
+	{
+		const Real margin = .5 * bound.sweepLength;
+		for (int n = 0; n < a.nodes_of(grain); ++n) {
+			const auto p = a.position(a.node(grain, n));
+			if (p.x < bound.min[0] + margin || p.x > bound.max[0] - margin || p.y < bound.min[1] + margin || p.y > bound.max[1] - margin)
+				return true;
+		}
+		return false;
+	}
+
+} // namespace
+
+void GrainSolver::check()
+{
+	const std::string bad = flexpm::find_bad_number(assembly);
+	if (!bad.empty()) throw std::runtime_error("GrainSolver: " + bad);
+	retireErased(); // a script that keeps a handle delays its destruction
+	findStates();   // a script may have replaced one
+	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
+	for (int grain = 0; grain < assembly.grains; ++grain) {
+		const auto& b = (*scene->bodies)[bodyIds[grain]];
+		if (b && b->bound && nearBound(assembly, grain, *b->bound)) scene->doSort = true;
+	}
+}
+
+void GrainSolver::findStates()
+{
+	const auto slots  = assembly.slot_grain.size();
+	const auto bodies = Omega::instance().getScene()->bodies; // an engine knows its scene from its first step on
+	states.assign(slots, nullptr);
+	for (std::size_t slot = 0; slot < slots; ++slot) {
+		const int grain = assembly.slot_grain[slot];
+		if (grain < 0) continue;
+		const auto& body = (*bodies)[bodyIds[grain]];
+		if (body) states[slot] = body->state;
+	}
+}
+
+namespace {
+
+	/// States lie scattered in memory: fetch them some blocks ahead, or each would be waited for.
+	constexpr int statesAhead = 2;
+	void          prefetch(const State& state)
+	{
+		__builtin_prefetch(&state.se3, 1);
+		__builtin_prefetch(&state.angVel, 1);
+	}
+
+	void mirror(const flexpm::CentreMotion& motion, int lane, bool rigid, State& state)
+	{
+		// through se3: State::pos and State::ori are references, which would have to be fetched first
+		state.se3.position = Vector3r(motion.x[lane], motion.y[lane], 0);
+		state.vel          = Vector3r(motion.vx[lane], motion.vy[lane], 0);
+		if (!rigid) return;
+		state.se3.orientation = Quaternionr(motion.half_cosine[lane], 0, 0, motion.half_sine[lane]);
+		state.angVel          = Vector3r(0, 0, motion.spin[lane]);
+	}
+
+} // namespace
+
+void GrainSolver::mirrorBodies()
+{
+	current();
+	if (states.size() != assembly.slot_grain.size()) findStates();
+	flexpm::CentreMotion motion;
+	for (int block = 0; block < assembly.blocks(); ++block) {
+		const auto* later = states.data() + std::min(flexpm::lanes * (block + statesAhead), int(states.size()) - flexpm::lanes);
+		const auto* now   = states.data() + flexpm::lanes * block;
+		const bool  rigid = assembly.group(block).rigid;
+		flexpm::find_centre_motion(assembly, block, motion);
+		for (int lane = 0; lane < flexpm::lanes; ++lane) {
+			if (later[lane]) prefetch(*later[lane]);
+			if (now[lane]) mirror(motion, lane, rigid, *now[lane]);
+		}
+	}
+}
+
+} // namespace yade

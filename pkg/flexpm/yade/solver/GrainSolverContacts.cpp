@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Contacts that come and go: the kernel's contacts to interactions.
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/removal.hpp>
+#include <flexpm/yade/grains/LobattoContact.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+bool GrainSolver::hasInteraction(int contact)
+{
+	const Body::id_t id1 = bodyIds[assembly.contact_grains[2 * contact]], id2 = bodyIds[assembly.contact_grains[2 * contact + 1]];
+	auto&            all   = *scene->interactions;
+	auto&            place = places[contact];
+	if (place < all.size()) { // most are where they were: finding costs more
+		const auto& there = all[place];
+		if (there && there->getId1() == id1 && there->getId2() == id2) return there->isReal();
+	}
+	const auto& bond = all.find(id1, id2);
+	if (bond) place = bond->linIx;
+	return bond && bond->isReal();
+}
+
+void GrainSolver::retireErased()
+{
+	seenDestroyed = destroyedContacts();
+	listed        = false;
+	places.resize(assembly.contacts);
+	for (int c = 0; c < assembly.contacts; ++c) {
+		if (hasInteraction(c)) continue;
+		if (flexpm::carries(assembly, c)) nearPairs.forget(); // what was erased may touch again
+		flexpm::retire_contact(assembly, c);
+	}
+	for (int grain = 0; grain < assembly.grains; ++grain) {
+		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::retire_grain(assembly, grain);
+	}
+}
+
+void GrainSolver::listCandidates()
+{
+	candidates          = nearPairs.find(assembly, touchMargin * 2 * assembly.radius[0]);
+	const auto isErased = [&](const flexpm::GrainPair& pair) { return !(*scene->bodies)[bodyIds[pair[0]]] || !(*scene->bodies)[bodyIds[pair[1]]]; };
+	candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isErased), candidates.end());
+	listed = true;
+}
+
+void GrainSolver::changeContacts()
+{
+	vector<int> over;
+	if (!listed) listCandidates(); // also in a scene that was loaded
+	if (assembly.step % checkPeriod == 0) {
+		listCandidates();
+		for (int c = 0; c < assembly.contacts; ++c) {
+			if (flexpm::is_over(assembly, c)) over.push_back(c);
+		}
+		if (flexpm::follow_touches(assembly, damping, scaled ? scene->dt : 0.)) limitStep();
+	}
+	vector<flexpm::GrainPair> touching;
+	for (const auto& pair : candidates) {
+		if (flexpm::is_touching(assembly, pair)) touching.push_back(pair);
+	}
+	if (over.empty() && touching.empty()) return;
+	for (int c : over)
+		scene->interactions->requestErase(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+	flexpm::change_contacts(assembly, over, touching, damping, scaled ? scene->dt : 0.);
+	if (!touching.empty()) limitStep();
+	renumberContacts();
+	nearPairs.forget();
+	listCandidates();
+}
+
+void GrainSolver::limitStep()
+{
+	// scaled masses rise with new contacts; real ones do not, so the step falls
+	if (!scaled) scene->dt = std::min(scene->dt, Real(flexpm::stable_step(assembly, damping)));
+}
+
+void GrainSolver::renumberContacts()
+{
+	for (int c = 0; c < assembly.contacts; ++c) {
+		const Body::id_t id1 = bodyIds[assembly.contact_grains[2 * c]], id2 = bodyIds[assembly.contact_grains[2 * c + 1]];
+		auto             pair = scene->interactions->find(id1, id2);
+		if (assembly.contact_bonded[c] && (!pair || !pair->isReal())) continue; // it has ended
+		if (!pair) {
+			pair = boost::make_shared<Interaction>(id1, id2);
+			scene->interactions->insert(pair);
+		}
+		if (!pair->isReal()) {
+			pair->geom         = boost::make_shared<LobattoGeom>();
+			pair->phys         = boost::make_shared<LobattoPhys>();
+			pair->iterMadeReal = scene->iter;
+		}
+		static_cast<LobattoGeom&>(*pair->geom).contact = c;
+		static_cast<LobattoPhys&>(*pair->phys).contact = c;
+	}
+	seenDestroyed = destroyedContacts();
+}
+
+} // namespace yade

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What Python asks of the solver: energies, counts, arrays.
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/assembly/snapshot.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/statics/elastic_solve.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+using flexpm_bindings::copied;
+
+void GrainSolver::openBooks() { flexpm::open_books(current()); }
+
+py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction)
+{
+	py::list numbers;
+	for (int plate : flexpm::add_side_plates(current(), side, pieces, { 0, friction, bonded }))
+		numbers.append(plate);
+	return numbers;
+}
+
+int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
+{
+	return flexpm::add_touching_plate(current(), { normal[0], normal[1] }, { 0, friction, false });
+}
+
+void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(current(), plate); }
+
+int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
+{
+	return flexpm::add_wall(current(), { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
+}
+
+py::list GrainSolver::plates() const
+{
+	py::list all;
+	for (std::size_t i = 0; i < assembly.plates.size(); ++i) {
+		const flexpm::Plate& p = assembly.plates[i];
+		py::dict             d;
+		d["side"]          = p.side;
+		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
+		d["width"]         = p.width;
+		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);
+		d["velocity"]      = py::make_tuple(p.velocity.x, p.velocity.y);
+		d["force"]         = py::make_tuple(p.force.x, p.force.y);
+		d["contact_width"] = flexpm::contact_width(assembly, static_cast<int>(i));
+		all.append(d);
+	}
+	return all;
+}
+
+py::tuple GrainSolver::elasticConstants()
+{
+	const auto e = flexpm::elastic_constants(current());
+	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
+}
+
+py::dict GrainSolver::energies()
+{
+	const auto e = flexpm::energies(current());
+	py::dict   d;
+	d["kinetic_energy"]   = e.kinetic;
+	d["elastic_energy"]   = e.elastic;
+	d["damage_energy"]    = e.damage;
+	d["friction_energy"]  = e.friction;
+	d["damping_energy"]   = e.damping;
+	d["boundary_work"]    = e.boundary_work;
+	d["potential_energy"] = e.potential;
+	d["initial_energy"]   = e.initial;
+	return d;
+}
+
+py::tuple GrainSolver::cracks()
+{
+	const auto count = flexpm::count_cracks(current());
+	return py::make_tuple(count.tensile, count.shear);
+}
+
+py::dict GrainSolver::counts() const
+{
+	int nodes = 0, triangles = 0;
+	for (int g = 0; g < assembly.grains; ++g) {
+		nodes += assembly.nodes_of(g);
+		triangles += flexpm::triangles_of(assembly, g);
+	}
+	const auto bonded = flexpm::bonded_contacts(assembly);
+	py::dict   d;
+	d["grains"]         = *std::max_element(assembly.aggregate.begin(), assembly.aggregate.end()) + 1;
+	d["particles"]      = assembly.grains;
+	d["contacts"]       = bonded.between; // as in the specimen; others have touched since
+	d["inner_contacts"] = bonded.within;
+	d["touching"]       = assembly.contacts - bonded.between - bonded.within;
+	d["nodes"]          = nodes;
+	d["triangles"]      = triangles;
+	d["groups"]         = assembly.groups.size();
+	d["edges"]          = assembly.edges;
+	return d;
+}
+
+Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
+
+void GrainSolver::clearPressure(int side) { flexpm::set_pressure(current(), side, 0.); }
+
+py::object GrainSolver::sideNodes(int side) const
+{
+	std::vector<std::int32_t> rows;
+	for (int node : flexpm::side_nodes(assembly, side)) {
+		for (int g = 0; g < assembly.grains; ++g) {
+			const int first = assembly.node(g, 0), row = 2 * flexpm::lanes;
+			if (node < first || (node - first) % row != 0 || (node - first) / row >= assembly.nodes_of(g)) continue;
+			rows.insert(rows.end(), { g, (node - first) / row });
+		}
+	}
+	return copied(rows, 2);
+}
+
+py::dict GrainSolver::snapshot()
+{
+	const auto s = flexpm::take_snapshot(current());
+	const int  p = assembly.points;
+	py::dict   d;
+	d["positions"]         = copied(s.positions, 2);
+	d["reference"]         = copied(s.reference, 2);
+	d["velocities"]        = copied(s.velocities, 2);
+	d["forces"]            = copied(s.forces, 2);
+	d["triangles"]         = copied(s.triangles, 3);
+	d["triangle_grain"]    = copied(s.triangle_grain, 0);
+	d["triangle_particle"] = copied(s.triangle_particle, 0);
+	d["triangle_stress"]   = copied(s.triangle_stress, 3);
+	d["contact_grains"]    = copied(s.contact_grains, 2);
+	d["contact_ends"]      = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
+	d["point_opening"]     = copied(s.point_opening, p);
+	d["point_slip"]        = copied(s.point_slip, p);
+	d["point_damage"]      = copied(s.point_damage, p);
+	d["point_traction"]    = copied(s.point_traction, 2).attr("reshape")(-1, p, 2);
+	d["crack_step"]        = copied(s.crack_step, p);
+	d["crack_mode"]        = copied(s.crack_mode, p);
+	d["crack_position"]    = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
+	return d;
+}
+
+} // namespace yade

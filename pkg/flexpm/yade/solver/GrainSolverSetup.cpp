@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  From Python's specimen and materials to the solver's arrays, bodies and interactions.
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/assembly_build.hpp>
+#include <flexpm/yade/bindings/binding_discs.hpp>
+#include <flexpm/yade/grains/GrainMat.hpp>
+#include <flexpm/yade/grains/LaguerreCell.hpp>
+#include <flexpm/yade/grains/LobattoContact.hpp>
+
+namespace yade {
+
+namespace {
+
+	flexpm::ElasticMaterial elasticOf(const GrainMat& m)
+	{
+		return { m.young, m.poisson, m.density, m.planeStrain ? flexpm::Plane::strain : flexpm::Plane::stress };
+	}
+
+	flexpm::ContactMaterial contactOf(const GrainMat& m)
+	{
+		return { m.normalStiffness, m.shearRatio, m.tensileStrength, m.cohesion, m.friction, m.tensileFractureEnergy, m.shearFractureEnergy };
+	}
+
+	vector<shared_ptr<Material>> materialsOf(const py::list& list)
+	{
+		vector<shared_ptr<Material>> all;
+		for (py::ssize_t i = 0; i < py::len(list); ++i)
+			all.push_back(py::extract<shared_ptr<GrainMat>>(list[i])());
+		return all;
+	}
+
+	/// Inner particles: contacts inside a grain are elastic, those between grains may take the normal of the edge.
+	void chooseInner(const py::dict& options, flexpm::AssemblyOptions& o)
+	{
+		const flexpm_bindings::InputArray<int> outer(options["outer"], 1, "outer"), grains(options["aggregate"], 1, "aggregate");
+		o.aggregate.assign(grains.data(), grains.data() + grains.size(0));
+		const bool edgeNormals = py::extract<bool>(options["edge_normals"]);
+		const int  inside      = static_cast<int>(o.laws.size());
+		o.laws.push_back(flexpm::unbreakable(o.laws.front()));
+		for (std::size_t i = 0; i < outer.size(0); ++i) {
+			o.edge_law.push_back(outer.data()[i] != 0 ? 0 : inside);
+			o.edge_normal.push_back(outer.data()[i] != 0 && edgeNormals);
+		}
+	}
+
+} // namespace
+
+void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options)
+{
+	flexpm::AssemblyOptions o;
+	o.thickness         = thickness;
+	o.rigid             = py::extract<bool>(options.get("rigid", false));
+	o.mesh              = py::extract<std::string>(options["mesh"])() == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
+	o.points            = py::extract<int>(options["points"]);
+	o.on_centre_line    = py::extract<bool>(options["centre_line"]);
+	const auto ofGrains = materialsOf(materials);
+	for (const auto& m : ofGrains)
+		o.elastic.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
+	for (const auto& m : options.has_key("pairs") ? materialsOf(py::list(options["pairs"])) : ofGrains)
+		o.laws.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	if (options.has_key("minerals")) {
+		const flexpm_bindings::InputArray<int> minerals(options["minerals"], 1, "minerals");
+		o.grain_material.assign(minerals.data(), minerals.data() + minerals.size(0));
+	}
+	if (options.has_key("outer")) chooseInner(options, o);
+	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
+	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
+	waiting                           = 0; // what waited went with the grains
+}
+
+void GrainSolver::addToScene(py::list materials)
+{
+	insertBodies(materialsOf(materials));
+	insertContacts();
+}
+
+void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
+{
+	bodyIds.clear();
+	const auto& world = Omega::instance().getScene();
+	// bodies and states each in a row: every step walks through them
+	vector<shared_ptr<Body>>  bodies(assembly.grains);
+	vector<shared_ptr<State>> states(assembly.grains);
+	for (auto& body : bodies)
+		body = boost::make_shared<Body>();
+	for (auto& state : states)
+		state = boost::make_shared<State>();
+	for (int grain = 0; grain < assembly.grains; ++grain) {
+		const auto& body = bodies[grain];
+		body->state      = states[grain];
+		auto cell        = boost::make_shared<LaguerreCell>();
+		cell->grain      = grain;
+		body->shape      = cell;
+		body->material   = materials[assembly.grain_material[grain]];
+		const auto p     = assembly.position(assembly.centre(grain));
+		body->state->pos = body->state->refPos = Vector3r(p.x, p.y, 0);
+		body->state->blockedDOFs               = State::DOF_ALL;
+		body->setBounded(true);
+		bodyIds.push_back(world->bodies->insert(body));
+	}
+}
+
+void GrainSolver::insertContacts()
+{
+	const auto& world = Omega::instance().getScene();
+	for (int c = 0; c < assembly.contacts; ++c) {
+		auto bond     = boost::make_shared<Interaction>(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+		auto geom     = boost::make_shared<LobattoGeom>();
+		auto phys     = boost::make_shared<LobattoPhys>();
+		geom->contact = phys->contact = c;
+		bond->geom                    = geom;
+		bond->phys                    = phys;
+		bond->iterMadeReal            = world->iter;
+		world->interactions->insert(bond);
+	}
+	seenDestroyed = destroyedContacts();
+}
+
+void GrainSolver::scaleMasses()
+{
+	scaled = true;
+	flexpm::scale_masses(current(), damping, Omega::instance().getScene()->dt);
+}
+
+Real GrainSolver::useRealMasses()
+{
+	scaled = false;
+	return flexpm::set_real_masses(current(), damping);
+}
+
+Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
+
+void GrainSolver::setGravity(Vector3r acceleration)
+{
+	if (scaled && acceleration != Vector3r::Zero()) {
+		throw std::invalid_argument(
+		        "GrainSolver.gravity = " + std::to_string(acceleration.norm()) + " m/s^2, must be 0 with scaled masses; call useRealMasses() first");
+	}
+	flexpm::set_gravity(current(), { acceleration[0], acceleration[1] });
+}
+
+} // namespace yade
