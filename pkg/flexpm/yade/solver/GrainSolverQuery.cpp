@@ -4,7 +4,6 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/snapshot.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/statics/elastic_solve.hpp>
@@ -14,46 +13,6 @@
 namespace yade {
 
 using flexpm_bindings::copied;
-
-void GrainSolver::openBooks() { flexpm::open_books(current()); }
-
-py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction)
-{
-	py::list numbers;
-	for (int plate : flexpm::add_side_plates(current(), side, pieces, { 0, friction, bonded }))
-		numbers.append(plate);
-	return numbers;
-}
-
-int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
-{
-	return flexpm::add_touching_plate(current(), { normal[0], normal[1] }, { 0, friction, false });
-}
-
-void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(current(), plate); }
-
-int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
-{
-	return flexpm::add_wall(current(), { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
-}
-
-py::list GrainSolver::plates() const
-{
-	py::list all;
-	for (std::size_t i = 0; i < assembly.plates.size(); ++i) {
-		const flexpm::Plate& p = assembly.plates[i];
-		py::dict             d;
-		d["side"]          = p.side;
-		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
-		d["width"]         = p.width;
-		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);
-		d["velocity"]      = py::make_tuple(p.velocity.x, p.velocity.y);
-		d["force"]         = py::make_tuple(p.force.x, p.force.y);
-		d["contact_width"] = flexpm::contact_width(assembly, static_cast<int>(i));
-		all.append(d);
-	}
-	return all;
-}
 
 py::tuple GrainSolver::elasticConstants()
 {
@@ -104,8 +63,6 @@ py::dict GrainSolver::counts() const
 }
 
 Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
-
-void GrainSolver::clearPressure(int side) { flexpm::set_pressure(current(), side, 0.); }
 
 py::object GrainSolver::sideNodes(int side) const
 {

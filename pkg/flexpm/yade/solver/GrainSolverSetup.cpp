@@ -3,6 +3,7 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
 #include <flexpm/yade/bindings/binding_discs.hpp>
@@ -130,6 +131,8 @@ Real GrainSolver::useRealMasses()
 	scaled = false;
 	return flexpm::set_real_masses(current(), damping);
 }
+
+void GrainSolver::openBooks() { flexpm::open_books(current()); }
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
 
