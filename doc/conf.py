@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sphinx settings. The pages build without the plugin, without YADE and without network."""
+"""Sphinx settings. The class reference is read from the built plugin; no network is needed."""
 
 import os
 import re
@@ -12,15 +12,24 @@ from docutils.parsers.rst import Directive
 
 PACKAGE = Path(__file__).resolve().parent.parent / "py"
 
+BUILD = PACKAGE.parent / os.environ.get("FLEXPM_BUILD_DIR", "build")
+sys.path[:0] = [str(Path(__file__).resolve().parent / "extensions"), str(BUILD / "python")]
+
 project = "flexpm"
 author = "The flexpm developers"
 copyright = author
 release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "_version.py").read_text())[1]
+extensions = ["rooms", "yade_classes", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # docstrings say more than types
+graphviz_output_format = "svg"
 exclude_patterns = ["_build"]
 html_theme = "alabaster"
 html_theme_options = {"page_width": "62em", "body_max_width": "48em", "fixed_sidebar": True}
 html_show_sourcelink = False
 nitpicky = True
+# types of Python and numpy are not in these pages
+nitpick_ignore_regex = [("py:(class|exc|obj)", ".*")]
 
 
 class CommandHelp(Directive):

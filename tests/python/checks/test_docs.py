@@ -2,6 +2,7 @@
 """The documentation names what exists: functions, tests, files' columns and arrays, deviations."""
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 from sample_snapshot import wall
 
 from flexpm import __version__, _flexpm
+from flexpm._plugin import load
 from flexpm.materials.material import preset_names
 from flexpm.results.record import COLUMNS
 from flexpm.results.result import Crack, Result
@@ -74,6 +76,8 @@ def test_documented_arrays_exist():
 
 def test_the_documentation_builds_without_warnings(tmp_path):
     build = pytest.importorskip("sphinx.cmd.build", reason="needs python3-sphinx")
+    if shutil.which("dot") is None:
+        pytest.skip("needs graphviz")
     path = list(sys.path)
     try:
         assert build.main(["-W", "-q", "-b", "html", str(DOC), str(tmp_path)]) == 0
@@ -87,3 +91,8 @@ def test_the_documentation_builds_without_warnings(tmp_path):
 def test_the_version_is_the_same_everywhere():
     assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
     assert _flexpm.build_info["version"] == __version__
+
+
+def test_each_class_of_the_plugin_has_its_place_in_the_reference():
+    named = re.findall(r"yade-class:: (\w+)", (DOC / "reference" / "yade.rst").read_text())
+    assert sorted(named) == sorted(load())
