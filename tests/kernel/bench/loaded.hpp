@@ -4,7 +4,8 @@
 #pragma once
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>

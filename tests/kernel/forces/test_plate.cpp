@@ -2,7 +2,9 @@
 /// @file  Rigid plates: stiffness in series, unilateral and bonded contacts, friction, pressure,
 /// energy. SI units; forces on the specimen positive along the plate's normal.
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/elastic_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Pace of a loading: what it follows, how fast it changes, and that a change of the driven
+/// @file  Adaptive loading rate: what it follows, how fast it changes, and that a change of the driven
 /// velocity keeps the energy books. SI units.
 #include <catch2/catch.hpp>
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/elastic_solve.hpp>
@@ -22,15 +23,15 @@ using namespace flexpm;
 
 namespace {
 
-constexpr PaceRule rule = { 8.0, 0.02, 400.0 };
+constexpr LoadingRateRule rule = { 8.0, 0.02, 400.0 };
 constexpr double damping = 0.7;
 
-/// Pace after `steps` steps of 100 at a constant share.
-double pace_after(double pace, double share, int steps)
+/// Velocity factor after `steps` steps of 100 at a constant share.
+double factor_after(double factor, double share, int steps)
 {
     for (int done = 0; done < steps; done += 100)
-        pace = next_pace(pace, share, 100.0, rule);
-    return pace;
+        factor = next_velocity_factor(factor, share, 100.0, rule);
+    return factor;
 }
 
 }  // namespace
@@ -44,21 +45,22 @@ TEST_CASE("The dissipated share is what damage and friction take of the work in 
     CHECK(std::isinf(dissipated_share(before, { 1.5, 2.0, 9.0 })));
 }
 
-TEST_CASE("The pace settles at the share of the rule over the present one, within its limits")
+TEST_CASE(
+    "The velocity factor settles at the share of the rule over the present one, within its limits")
 {
     const double start = GENERATE(1.0, 3.0, 8.0);
-    CHECK(pace_after(start, 0.01, 4000) == Approx(2.0));
-    CHECK(pace_after(start, 0.0, 4000) == Approx(8.0));
-    CHECK(pace_after(start, 0.001, 4000) == Approx(8.0));
-    CHECK(pace_after(start, 0.02, 4000) == Approx(1.0));
-    CHECK(pace_after(start, 0.9, 4000) == Approx(1.0));
-    CHECK(pace_after(start, std::numeric_limits<double>::infinity(), 4000) == Approx(1.0));
+    CHECK(factor_after(start, 0.01, 4000) == Approx(2.0));
+    CHECK(factor_after(start, 0.0, 4000) == Approx(8.0));
+    CHECK(factor_after(start, 0.001, 4000) == Approx(8.0));
+    CHECK(factor_after(start, 0.02, 4000) == Approx(1.0));
+    CHECK(factor_after(start, 0.9, 4000) == Approx(1.0));
+    CHECK(factor_after(start, std::numeric_limits<double>::infinity(), 4000) == Approx(1.0));
 }
 
-TEST_CASE("The pace doubles in a crossing of the wave and halves in a quarter of it")
+TEST_CASE("The velocity factor doubles in a crossing of the wave and halves in a quarter of it")
 {
-    CHECK(pace_after(1.0, 0.0, 400) == Approx(2.0));
-    CHECK(pace_after(8.0, 1.0, 100) == Approx(4.0));
+    CHECK(factor_after(1.0, 0.0, 400) == Approx(2.0));
+    CHECK(factor_after(8.0, 1.0, 100) == Approx(4.0));
 }
 
 TEST_CASE("Changes of the driven velocity leave the books closed")

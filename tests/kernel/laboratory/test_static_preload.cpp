@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/statics/elastic_solve.hpp>
@@ -68,12 +69,13 @@ double utilisation(const Assembly& a)
 
 }  // namespace
 
-TEST_CASE("A specimen led along its elastic solution is in equilibrium at the share asked for")
+TEST_CASE(
+    "A specimen preloaded along its elastic solution is in equilibrium at the share asked for")
 {
     const double velocity = GENERATE(-1e-9, 1e-9);
     Assembly a = driven_grains(velocity);
     const ElasticConstants solved = elastic_constants(a);
-    lead_elastically(a, share, steps, 1.0);
+    preload(a, share, steps, 1.0);
     run(a, steps);
     const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
     const AxialObservation o = observe(a, rectangle_of(a, sense));
@@ -90,12 +92,12 @@ TEST_CASE("After the elastic solution the test goes on without a jolt")
 {
     const double velocity = GENERATE(-1e-9, 1e-9);
     Assembly a = driven_grains(velocity);
-    lead_elastically(a, share, steps, 1.0);
+    preload(a, share, steps, 1.0);
     run(a, steps);
     const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
     const AxialGeometry g = rectangle_of(a, sense);
     const AxialObservation before = observe(a, g);
-    go_on(a, velocity, 1.0);
+    release_preload(a, velocity, 1.0);
     CHECK(unbalanced_ratio(a) == 0.0);  // nothing was free
     double largest = 0.0;
     for (int i = 0; i < 300; ++i) {
@@ -131,7 +133,7 @@ TEST_CASE("The elastic limit follows from the strengths of the point that reache
 TEST_CASE("A start from the elastic solution refuses shares and steps that make no sense")
 {
     Assembly a = driven_grains(-1e-9);
-    CHECK_THROWS_AS(lead_elastically(a, 1.0, steps, 1.0), std::invalid_argument);
-    CHECK_THROWS_AS(lead_elastically(a, 0.0, steps, 1.0), std::invalid_argument);
-    CHECK_THROWS_AS(lead_elastically(a, share, 0, 1.0), std::invalid_argument);
+    CHECK_THROWS_AS(preload(a, 1.0, steps, 1.0), std::invalid_argument);
+    CHECK_THROWS_AS(preload(a, 0.0, steps, 1.0), std::invalid_argument);
+    CHECK_THROWS_AS(preload(a, share, 0, 1.0), std::invalid_argument);
 }

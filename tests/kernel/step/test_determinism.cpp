@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 

@@ -12,13 +12,6 @@ namespace flexpm {
 
 namespace {
 
-double edge_length(const Assembly& a, int edge)
-{
-    const auto n = edge_nodes(a, edge);
-    return std::hypot(a.reference[n[1]] - a.reference[n[0]],
-        a.reference[n[1] + lanes] - a.reference[n[0] + lanes]);
-}
-
 /// Nodes of a rigid grain follow its centre: a hold on one of them would have no effect.
 void need_deformable(const Assembly& a, const std::vector<int>& nodes)
 {
@@ -33,6 +26,13 @@ void need_deformable(const Assembly& a, const std::vector<int>& nodes)
 }
 
 }  // namespace
+
+double edge_length(const Assembly& a, int edge)
+{
+    const auto n = edge_nodes(a, edge);
+    return std::hypot(a.reference[n[1]] - a.reference[n[0]],
+        a.reference[n[1] + lanes] - a.reference[n[0] + lanes]);
+}
 
 std::vector<int> side_nodes(const Assembly& a, int side)
 {

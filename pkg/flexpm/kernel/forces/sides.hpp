@@ -9,6 +9,9 @@
 
 namespace flexpm {
 
+/// Sides of a rectangle, in the order of its outline.
+enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 3 };
+
 /// Offsets of the nodes on one side of the outline, ascending, each once.
 std::vector<int> side_nodes(const Assembly& a, int side);
 
@@ -27,6 +30,9 @@ double reaction(const Assembly& a, const std::vector<int>& nodes, int component)
 
 /// Mean displacement of a side, weighted by edge length [m].
 double side_displacement(const Assembly& a, int side, int component);
+
+/// Reference length of a boundary edge [m].
+double edge_length(const Assembly& a, int edge);
 
 /// Reference length of a side [m].
 double side_length(const Assembly& a, int side);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Axial loading of a rectangle.
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 
-#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,17 +13,8 @@ namespace flexpm {
 
 namespace {
 
-constexpr int lateral = 0, axial = 1;
+constexpr int axial = 1;
 constexpr double pi = 3.14159265358979323846;
-
-void need_sides(const Assembly& a)
-{
-    for (int side : { bottom_side, right_side, top_side, left_side }) {
-        if (std::count(a.edge_side.begin(), a.edge_side.end(), side) > 0) continue;
-        throw std::invalid_argument("specimen side " + std::to_string(side)
-            + " has no edges, an axial test needs a rectangle of four sides; use another outline");
-    }
-}
 
 /// Force on the specimen at its top or bottom: of the plates there, else of what holds the nodes.
 double end_force(const Assembly& a, int side)
@@ -46,14 +35,6 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
     return 0.0;
 }
 
-/// What every test records.
-void add_common(const Assembly& a, AxialObservation& o)
-{
-    o.unbalanced_ratio = unbalanced_ratio(a);
-    o.cracks = count_cracks(a);
-    o.energies = energies(a);
-}
-
 /// Growth of the distance between the outermost left and right grains of a disc [m].
 double disc_widening(const Assembly& a)
 {
@@ -66,24 +47,36 @@ double disc_widening(const Assembly& a)
     return a.displacement[last] - a.displacement[first];
 }
 
-double crossing(const Assembly& a, double height, double width, double dt)
+/// The part of an observation that every test has.
+AxialObservation observe_ends(const Assembly& a, const EndForces& ends, Sense sense, double area)
 {
-    double mass = 0.0;
-    for (double m : a.inverse_mass)
-        mass += m > 0.0 ? 1.0 / m : 0.0;
-    return std::sqrt(mass * height / (series_modulus(a) * width * a.thickness)) / dt;
+    AxialObservation o;
+    o.step = a.step;
+    o.axial_stress = axial_stress(ends, sense, area);
+    o.end_mismatch = end_mismatch(ends);
+    o.unbalanced_ratio = unbalanced_ratio(a);
+    o.cracks = count_cracks(a);
+    o.energies = energies(a);
+    return o;
 }
 
 }  // namespace
 
-TestState judge(const AxialObservation& now, double peak, const AxialEnd& end)
+double axial_stress(const EndForces& ends, Sense sense, double area)
 {
-    if (peak >= end.least_peak && now.axial_stress < end.stop_ratio * peak) {
-        return TestState::past_peak;
-    }
-    return now.axial_strain >= end.largest_strain ? TestState::largest_strain_reached
-                                                  : TestState::running;
+    const double sign = sense == Sense::compression ? -1.0 : 1.0;
+    // Deviation D25: the drag of damping on the moving grains adds to one end what it takes from the
+    // other
+    return sign * 0.5 * (ends.top - ends.bottom) / area;
 }
+
+double end_mismatch(const EndForces& ends)
+{
+    const double larger = std::max(std::fabs(ends.top), std::fabs(ends.bottom));
+    return larger > 0.0 ? std::fabs(ends.top + ends.bottom) / larger : 0.0;
+}
+
+double splitting_area(double diameter, double thickness) { return 0.5 * pi * diameter * thickness; }
 
 AxialGeometry rectangle_of(const Assembly& a, Sense sense)
 {
@@ -94,20 +87,12 @@ AxialGeometry rectangle_of(const Assembly& a, Sense sense)
 AxialObservation observe(const Assembly& a, const AxialGeometry& g)
 {
     const double sign = g.sense == Sense::compression ? -1.0 : 1.0;
-    const double top = end_force(a, top_side);
-    const double bottom = end_force(a, bottom_side);
-    AxialObservation o;
-    o.step = a.step;
+    const EndForces ends = { end_force(a, bottom_side), end_force(a, top_side) };
+    AxialObservation o = observe_ends(a, ends, g.sense, g.width * a.thickness);
     const SpecimenStrain strain = specimen_strain(a);
     o.axial_strain = sign * strain.axial;
     o.lateral_strain = -sign * strain.lateral;
-    // Deviation D25: the drag of damping on the moving grains adds to one end what it takes from the
-    // other
-    o.axial_stress = sign * 0.5 * (top - bottom) / (g.width * a.thickness);
     o.confinement = lateral_pressure(a, g);
-    const double larger = std::max(std::fabs(top), std::fabs(bottom));
-    o.end_mismatch = larger > 0.0 ? std::fabs(top + bottom) / larger : 0.0;
-    add_common(a, o);
     return o;
 }
 
@@ -118,80 +103,11 @@ AxialObservation observe_disc(const Assembly& a, double diameter)
             + ", must be a lower and an upper one; add them first");
     }
     const Plate &lower = a.plates[0], &upper = a.plates[1];
-    const double up = lower.force.y, down = -upper.force.y;
-    AxialObservation o;
-    o.step = a.step;
+    AxialObservation o = observe_ends(a, { lower.force.y, upper.force.y }, Sense::compression,
+        splitting_area(diameter, a.thickness));
     o.axial_strain = (lower.displacement.y - upper.displacement.y) / diameter;
     o.lateral_strain = disc_widening(a) / diameter;
-    o.axial_stress = (up + down) / (pi * diameter * a.thickness);
-    const double larger = std::max(std::fabs(up), std::fabs(down));
-    o.end_mismatch = larger > 0.0 ? std::fabs(up - down) / larger : 0.0;
-    add_common(a, o);
     return o;
-}
-
-void grip_bottom(Assembly& a)
-{
-    need_sides(a);
-    const std::vector<int> bottom = side_nodes(a, bottom_side);
-    drive(a, bottom, axial, 0.0);
-    // the node nearest to the middle: the specimen then bulges evenly
-    double middle = 0.0;
-    for (int n : bottom)
-        middle += a.reference[n] / static_cast<double>(bottom.size());
-    const int nearest = *std::min_element(bottom.begin(), bottom.end(), [&](int m, int n) {
-        return std::fabs(a.reference[m] - middle) < std::fabs(a.reference[n] - middle);
-    });
-    drive(a, { nearest }, lateral, 0.0);
-}
-
-void move_top(Assembly& a, double velocity) { drive(a, side_nodes(a, top_side), axial, velocity); }
-
-double series_modulus(const Assembly& a)
-{
-    double diameter = 0.0;
-    for (double r : a.radius)
-        diameter += 2.0 * r / a.grains;
-    const double of_contacts =
-        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; }) * diameter;
-    if (a.is_rigid(0)) return of_contacts;
-    const double young = grain_mean(a, [&](int g) { return a.elastic[a.grain_material[g]].young; });
-    return 1.0 / (1.0 / young + 1.0 / of_contacts);
-}
-
-double crossing_steps(const Assembly& a, double dt)
-{
-    const AxialGeometry g = rectangle_of(a, Sense::compression);
-    return crossing(a, g.height, g.width, dt);
-}
-
-TestScales rectangle_scales(const Assembly& a, Sense sense, double dt)
-{
-    const AxialGeometry g = rectangle_of(a, sense);
-    return { crossing_steps(a, dt), series_modulus(a), reference_strength(a, sense), g.height,
-        g.width };
-}
-
-TestScales disc_scales(const Assembly& a, double diameter, double dt)
-{
-    return { crossing(a, diameter, 0.25 * pi * diameter, dt), 0.25 * series_modulus(a),
-        reference_strength(a, Sense::tension), diameter, diameter };
-}
-
-double ramp_factor(std::int64_t step, int ramp_steps)
-{
-    return step + 1 < ramp_steps ? static_cast<double>(step + 1) / ramp_steps : 1.0;
-}
-
-double reference_strength(const Assembly& a, Sense sense)
-{
-    if (sense == Sense::tension) {
-        return grain_mean(a, [&](int g) { return own_law(a, g).tensile_strength; });
-    }
-    const double cohesion = grain_mean(a, [&](int g) { return own_law(a, g).cohesion; });
-    const double friction = grain_mean(a, [&](int g) { return own_law(a, g).friction; });
-    // cos(phi) / (1 - sin(phi)) with tan(phi) = mu
-    return 2.0 * cohesion * (std::sqrt(1.0 + friction * friction) + friction);
 }
 
 }  // namespace flexpm

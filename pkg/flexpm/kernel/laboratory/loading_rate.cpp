@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Pace of a loading.
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
 
 #include <algorithm>
@@ -16,12 +15,12 @@ double dissipated_share(const Dissipation& before, const Dissipation& now)
     return work > 0.0 ? taken / work : std::numeric_limits<double>::infinity();
 }
 
-double next_pace(double pace, double share, double steps, const PaceRule& rule)
+double next_velocity_factor(double factor, double share, double steps, const LoadingRateRule& rule)
 {
     const double crossings = steps / rule.crossing;
     const double wanted =
         share > 0.0 ? std::clamp(rule.slow_share / share, 1.0, rule.fastest) : rule.fastest;
-    return std::clamp(wanted, pace * std::exp2(-4.0 * crossings), pace * std::exp2(crossings));
+    return std::clamp(wanted, factor * std::exp2(-4.0 * crossings), factor * std::exp2(crossings));
 }
 
 }  // namespace flexpm

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Leading an assembly along its elastic solution.
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/checks.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/elastic_solve.hpp>
@@ -163,7 +162,7 @@ double elastic_time(const Assembly& a, const Array<double>& velocity)
     return least;
 }
 
-void lead_elastically(Assembly& a, double share, int steps, double dt)
+void preload(Assembly& a, double share, int steps, double dt)
 {
     if (!(share > 0.0 && share < 1.0)) {
         refuse("share of the elastic limit", share, "", "must be above 0 and below 1");
@@ -178,7 +177,7 @@ void lead_elastically(Assembly& a, double share, int steps, double dt)
     });
 }
 
-void go_on(Assembly& a, double velocity, double dt)
+void release_preload(Assembly& a, double velocity, double dt)
 {
     const double now = a.velocity[side_nodes(a, top_side).front() + lanes];
     for_each_component(a, [&](int i) { a.velocity[i] *= velocity / now; });

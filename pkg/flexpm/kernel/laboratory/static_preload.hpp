@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Start of a test from its elastic solution, paper Sec. 4.1: no crack is possible before the
+/// @file  Preload of a test along its elastic solution, paper Sec. 4.1: no crack is possible before the
 /// first contact point reaches its strength, so no slow steps are needed up to there.
 ///
-/// All nodes are led along the elastic solution in a few steps and then set free with its velocities.
+/// All nodes are driven along the elastic solution in a few steps and then released with its velocities.
 /// The contacts' history, the works and the energies are those of these steps. SI units, tension
 /// positive.
 #pragma once
@@ -27,15 +27,15 @@ void start_elastically(Assembly& a);
 /// elastic branch, at small displacements [s]; infinite if none does.
 double elastic_time(const Assembly& a, const Array<double>& velocity);
 
-/// Take hold of all nodes of an unloaded, gripped and driven rectangle, so that `steps` steps lead it
+/// Take hold of all nodes of an unloaded, gripped and driven rectangle, so that `steps` steps take it
 /// along its elastic solution to `share` of the strain at which the first point leaves its branch.
 ///
 /// @throws std::invalid_argument  if the share or the number of steps is out of range, or if no load
 ///         breaks a point
-void lead_elastically(Assembly& a, double share, int steps, double dt);
+void preload(Assembly& a, double share, int steps, double dt);
 
-/// Set the nodes free again; the top goes on at `velocity` [m/s], all others as the elastic solution
-/// does. The kinetic energy that this gives is booked as initial energy.
-void go_on(Assembly& a, double velocity, double dt);
+/// Release the nodes; the top goes on at `velocity` [m/s], all others as the elastic solution
+/// does. The kinetic energy that this gives counts as initial energy.
+void release_preload(Assembly& a, double velocity, double dt);
 
 }  // namespace flexpm

@@ -30,7 +30,8 @@ void PaceEngine::action()
 
 	seen = { now.damage, now.friction, now.boundary_work };
 
-	const Real next   = flexpm::next_pace(pace, flexpm::dissipated_share(before, now), solver->measurePeriod, { fastest, slowShare, crossingSteps });
+	const Real next
+	        = flexpm::next_velocity_factor(pace, flexpm::dissipated_share(before, now), solver->measurePeriod, { fastest, slowShare, crossingSteps });
 	const Real factor = next / pace;
 	for (const auto& engine : scene->engines) {
 		if (const auto platens = YADE_PTR_DYN_CAST<PlatenEngine>(engine)) platens->velocity *= factor;

@@ -3,7 +3,7 @@
 #include <flexpm/yade/laboratory/PlateEngine.hpp>
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 

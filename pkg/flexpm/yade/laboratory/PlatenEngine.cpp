@@ -4,6 +4,8 @@
 
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/end_rule.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/yade/laboratory/PaceEngine.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
@@ -32,7 +34,7 @@ namespace {
 		{ "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
 		{ "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
 		{ "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
-		{ "pace", [](const auto& o) { return o.pace; } },
+		{ "pace", [](const auto& o) { return o.velocity_factor; } },
 		{ "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
 		{ "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
 		{ "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
@@ -67,7 +69,7 @@ void PlatenEngine::lead(Real share, int steps)
 	auto&      assembly = GrainSolver::ofScene(*world)->current();
 	flexpm::grip_bottom(assembly);
 	flexpm::move_top(assembly, velocity);
-	flexpm::lead_elastically(assembly, share, steps, world->dt);
+	flexpm::preload(assembly, share, steps, world->dt);
 	gripped  = true;
 	drivenAt = velocity;
 }
@@ -75,7 +77,7 @@ void PlatenEngine::lead(Real share, int steps)
 void PlatenEngine::goOn()
 {
 	const auto world = Omega::instance().getScene();
-	flexpm::go_on(GrainSolver::ofScene(*world)->current(), velocity, world->dt);
+	flexpm::release_preload(GrainSolver::ofScene(*world)->current(), velocity, world->dt);
 }
 
 ConfinementEngine::~ConfinementEngine() = default;
@@ -101,11 +103,11 @@ void AxialRecorder::action()
 	if (!measured) return;
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
-	now.pace = PaceEngine::ofScene(*scene);
+	now.velocity_factor = PaceEngine::ofScene(*scene);
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
 	peak  = std::max(peak, now.axial_stress);
-	state = static_cast<int>(flexpm::judge(now, peak, { stopRatio, leastPeak, maxStrain }));
+	state = static_cast<int>(flexpm::test_state(now.axial_stress, peak, now.axial_strain, { stopRatio, leastPeak, maxStrain }));
 	if (state != 0) scene->stopAtIter = scene->iter + 1;
 }
 
@@ -123,8 +125,10 @@ py::dict AxialRecorder::scales() const
 {
 	const auto world  = Omega::instance().getScene();
 	const auto solver = GrainSolver::ofScene(*world);
-	const auto s      = diameter > 0 ? flexpm::disc_scales(solver->current(), diameter, world->dt)
-	                                 : flexpm::rectangle_scales(solver->current(), senseOf(tension), world->dt);
+	const auto sense  = senseOf(tension || diameter > 0);
+	const auto inputs = flexpm::scale_inputs(solver->current(), sense, world->dt);
+	const auto size   = diameter > 0 ? flexpm::AxialGeometry() : flexpm::rectangle_of(solver->current(), sense);
+	const auto s      = diameter > 0 ? flexpm::disc_scales(inputs, diameter) : flexpm::rectangle_scales(inputs, size.width, size.height);
 	py::dict   d;
 	d["crossing_steps"] = s.crossing_steps;
 	d["modulus"]        = s.modulus;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
+
+#include <flexpm/kernel/forces/sides.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int lateral = 0, axial = 1;
+
+}  // namespace
+
+void need_sides(const Assembly& a)
+{
+    for (int side : { bottom_side, right_side, top_side, left_side }) {
+        if (std::count(a.edge_side.begin(), a.edge_side.end(), side) > 0) continue;
+        throw std::invalid_argument("specimen side " + std::to_string(side)
+            + " has no edges, an axial test needs a rectangle of four sides; use another outline");
+    }
+}
+
+void grip_bottom(Assembly& a)
+{
+    need_sides(a);
+    const std::vector<int> bottom = side_nodes(a, bottom_side);
+    drive(a, bottom, axial, 0.0);
+    // the node nearest to the middle: the specimen then bulges evenly
+    double middle = 0.0;
+    for (int n : bottom)
+        middle += a.reference[n] / static_cast<double>(bottom.size());
+    const int nearest = *std::min_element(bottom.begin(), bottom.end(), [&](int m, int n) {
+        return std::fabs(a.reference[m] - middle) < std::fabs(a.reference[n] - middle);
+    });
+    drive(a, { nearest }, lateral, 0.0);
+}
+
+void move_top(Assembly& a, double velocity) { drive(a, side_nodes(a, top_side), axial, velocity); }
+
+double ramp_factor(std::int64_t step, int ramp_steps)
+{
+    return step + 1 < ramp_steps ? static_cast<double>(step + 1) / ramp_steps : 1.0;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/laboratory/loading_scales.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double crossing_steps(const ScaleInputs& in, double width, double height)
+{
+    return std::sqrt(in.mass * height / (in.modulus * width * in.thickness)) / in.dt;
+}
+
+ContactStrength mean_strength(const Assembly& a)
+{
+    return { grain_mean(a, [&](int g) { return own_law(a, g).tensile_strength; }),
+        grain_mean(a, [&](int g) { return own_law(a, g).cohesion; }),
+        grain_mean(a, [&](int g) { return own_law(a, g).friction; }) };
+}
+
+double mean_modulus(const Assembly& a)
+{
+    double diameter = 0.0;
+    for (double r : a.radius)
+        diameter += 2.0 * r / a.grains;
+    const double of_contacts = contact_modulus(
+        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; }), diameter);
+    if (a.is_rigid(0)) return of_contacts;
+    return series_modulus(
+        grain_mean(a, [&](int g) { return a.elastic[a.grain_material[g]].young; }), of_contacts);
+}
+
+}  // namespace
+
+double contact_modulus(double normal_stiffness, double mean_diameter)
+{
+    return normal_stiffness * mean_diameter;
+}
+
+double series_modulus(double of_grains, double of_contacts)
+{
+    return 1.0 / (1.0 / of_grains + 1.0 / of_contacts);
+}
+
+double reference_strength(Sense sense, const ContactStrength& contact)
+{
+    if (sense == Sense::tension) return contact.tensile;
+    const double mu = contact.friction;
+    // cos(phi) / (1 - sin(phi)) with tan(phi) = mu
+    return 2.0 * contact.cohesion * (std::sqrt(1.0 + mu * mu) + mu);
+}
+
+TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height)
+{
+    return { crossing_steps(inputs, width, height), inputs.modulus, inputs.strength, height,
+        width };
+}
+
+TestScales disc_scales(const ScaleInputs& inputs, double diameter)
+{
+    return { crossing_steps(inputs, 0.25 * pi * diameter, diameter), 0.25 * inputs.modulus,
+        inputs.strength, diameter, diameter };
+}
+
+ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)
+{
+    ScaleInputs in;
+    in.modulus = mean_modulus(a);
+    in.strength = reference_strength(sense, mean_strength(a));
+    for (double m : a.inverse_mass)
+        in.mass += m > 0.0 ? 1.0 / m : 0.0;
+    in.thickness = a.thickness;
+    in.dt = dt;
+    return in;
+}
+
+}  // namespace flexpm

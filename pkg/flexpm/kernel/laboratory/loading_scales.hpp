@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Scales of a test: modulus, strength and the time of a wave, from which its loading rate and its default end
+/// follow, paper Sec. 4.1. They are functions of plain numbers, for grains and for the bonded spheres of a host
+/// program. SI units.
+/// Deviation D5: the printed velocity of 6.25e-7 m/s is not metres per unit step; the rate follows
+/// from the slowest wave through the scaled masses.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+namespace flexpm {
+
+enum class Sense { compression, tension };
+
+/// Stress over strain of a row of grains that are stiff against their contacts: K_n d [Pa].
+double contact_modulus(double normal_stiffness, double mean_diameter);
+
+/// Stress over strain of grains and contacts in series, 1/E = 1/E_grain + 1/E_contacts [Pa].
+double series_modulus(double of_grains, double of_contacts);
+
+/// Strengths of a contact.
+struct ContactStrength {
+    double tensile = 0.0;   ///< [Pa]
+    double cohesion = 0.0;  ///< [Pa]
+    double friction = 0.0;  ///< coefficient [-]
+};
+
+/// Strength that the contacts alone would give a specimen [Pa]: their tensile strength in tension,
+/// 2 c cos(phi) / (1 - sin(phi)) with tan(phi) the friction in compression. A scale, no prediction.
+double reference_strength(Sense sense, const ContactStrength& contact);
+
+/// What the scales of a test follow from.
+struct ScaleInputs {
+    double modulus = 0.0;    ///< contact_modulus() or series_modulus() [Pa]
+    double strength = 0.0;   ///< reference_strength() [Pa]
+    double mass = 0.0;       ///< of all that moves, scaled or real [kg]
+    double thickness = 0.0;  ///< [m]
+    double dt = 1.0;         ///< of a step [s], 1 with scaled masses
+};
+
+/// Scales of a test, for its loading rate and its default end.
+struct TestScales {
+    double crossing_steps =
+        0.0;                ///< steps in which a wave crosses the height, sqrt(M H / (E A)) / dt
+    double modulus = 0.0;   ///< stress over strain of the record, roughly [Pa]
+    double strength = 0.0;  ///< reference_strength() [Pa]
+    double height = 0.0;    ///< [m]
+    double width = 0.0;     ///< [m]
+};
+TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height);
+
+/// Scales of a disc between two plates, which close about four times as much as a strip of the disc's material
+/// strains under the recorded stress.
+TestScales disc_scales(const ScaleInputs& inputs, double diameter);
+
+/// The inputs of bonded grains, means over all of them; rigid grains have a contact_modulus().
+ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt);
+
+}  // namespace flexpm

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/measure/centre_strain.hpp>
+
+#include <flexpm/kernel/core/checks.hpp>
+
+#include <cmath>
+
+namespace flexpm {
+
+void Station::add(double share, double place, double displacement)
+{
+    weight_ += share;
+    place_ += share * place;
+    displacement_ += share * displacement;
+}
+
+double strain_between(const Station& first, const Station& second)
+{
+    const double u = second.displacement_ / second.weight_ - first.displacement_ / first.weight_;
+    return u / (second.place_ / second.weight_ - first.place_ / first.weight_);
+}
+
+bool in_band(double above, double station, double mean_diameter)
+{
+    // a little more, so that round-off does not choose
+    return std::fabs(above - station) <= 1.001 * mean_diameter;
+}
+
+void need_grains(const Station& station, double height)
+{
+    if (!station.empty()) return;
+    refuse("height of a strain gauge", height, "m", "has no grain near; use smaller grains");
+}
+
+}  // namespace flexpm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  End of a test: stresses are those above the confinement. SI units.
+#include <catch2/catch.hpp>
+
+#include <flexpm/kernel/laboratory/end_rule.hpp>
+
+using namespace flexpm;
+
+namespace {
+
+const TestEnd rule = { 0.5, 20e6, 4e-3 };
+
+}  // namespace
+
+TEST_CASE("A test is over once the stress has fallen below its part of the peak")
+{
+    CHECK(test_state(76e6, 150e6, 1e-3, rule) == TestState::running);
+    CHECK(test_state(74e6, 150e6, 1e-3, rule) == TestState::past_peak);
+    CHECK(test_state(-3e6, 150e6, 1e-3, rule) == TestState::past_peak);
+}
+
+TEST_CASE("A fall from less than the least peak does not count")
+{
+    CHECK(test_state(1e6, 19e6, 1e-3, rule) == TestState::running);
+    CHECK(test_state(1e6, 20e6, 1e-3, rule) == TestState::past_peak);
+}
+
+TEST_CASE("A test is over at its largest strain in any case")
+{
+    CHECK(test_state(150e6, 150e6, 4e-3, rule) == TestState::largest_strain_reached);
+    CHECK(test_state(1e6, 19e6, 4e-3, rule) == TestState::largest_strain_reached);
+    CHECK(test_state(1e6, 150e6, 4e-3, rule) == TestState::past_peak);
+}
