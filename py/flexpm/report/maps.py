@@ -68,7 +68,7 @@ def crack_picture(
 
     Args:
         path: Picture to write.
-        snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
         caption: Line above the picture.
         minerals: Their names, for the legend.
     """
@@ -112,7 +112,7 @@ def fragment_picture(
 
     Args:
         path: Picture to write.
-        snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
         caption: Line above the picture; if empty, the number of fragments.
     """
     found = fragments.of_snapshot(snapshot)
@@ -202,7 +202,7 @@ def _draw_rock(
 
     Args:
         axes: Where to draw.
-        snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
         tints: Colour of each grain.
     """
     outlines = grain_corners(snapshot["triangles"])

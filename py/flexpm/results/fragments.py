@@ -57,7 +57,7 @@ def connected(pairs: np.ndarray, bonded: np.ndarray, areas: np.ndarray) -> Fragm
 
 
 def of_snapshot(snapshot: Mapping[str, np.ndarray]) -> Fragments:
-    """Fragments of a snapshot, whose arrays are those of :func:`flexpm.results.vtu.write_vtu`."""
+    """Fragments of a snapshot, whose arrays are those of :func:`flexpm.export.write_vtu`."""
     bonded = np.any(np.asarray(snapshot["point_damage"]) < 1.0, axis=1)
     return connected(snapshot["contact_grains"], bonded, _grain_areas(snapshot))
 

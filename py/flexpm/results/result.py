@@ -134,7 +134,7 @@ class Result:
         """Keep the final state and count what hangs together in it.
 
         Args:
-            snapshot: Arrays as for :func:`flexpm.results.vtu.write_vtu`.
+            snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
         """
         found = fragments.of_snapshot(snapshot)
         self.snapshot = snapshot
