@@ -26,7 +26,7 @@ def build_own(
     built = models.build(specimen, None, model, threads=threads, **options)
     test = "brazilian" if specimen.kind == "disc" else "uniaxial"
     protocols.load(test, built, protocols.Settings(rate=_RATE, pace="adaptive"))
-    return built.solver.counts() | {"steps_together": built.solver.stepsTogether}
+    return built.solver.counts()
 
 
 def _build_yade(specimen: Specimen, threads: int, model: str) -> dict[str, int | None]:

@@ -22,11 +22,11 @@ from ..progress import Progress
 from ..results import vtu as export
 from ..specimens.specimen import Specimen
 
-#: Bytes that one go through the specimen, of one step or of some together, has to move with the
-#: refined mesh and three points when the arrays exceed the caches: every array once for each time
-#: it is read or written, no write-allocation. A contact between whole shared edges: its rows (nodes
-#: 24, areas 16, span, reach and normal 56, state 216, forces 64) and the places of its forces (24).
-#: What contacts leave in a cache for the grains that follow at once does not count again.
+#: Bytes that a step has to move with the refined mesh and three points when the arrays exceed the
+#: caches: every array once for each time it is read or written, no write-allocation. A contact
+#: between whole shared edges: its rows (nodes 24, areas 16, span, reach and normal 56, state 216,
+#: forces 64) and the places of its forces (24). What contacts leave in a cache for the grains that
+#: follow at once does not count again.
 _PER_CONTACT = 400
 #: A node: displacement and velocity, both ways (64), force (16), mass (8) and held flags (2).
 _PER_NODE = 90
@@ -81,7 +81,7 @@ def timed_set_up(
 
 
 def bytes_per_step(counts: dict[str, int | None]) -> int:
-    """Memory traffic of one go through the specimen, refined mesh and three points [B]."""
+    """Memory traffic of a step, refined mesh and three points [B]."""
     return (
         _PER_CONTACT * counts["contacts"]
         + _PER_NODE * counts["nodes"]

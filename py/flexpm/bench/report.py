@@ -175,15 +175,13 @@ def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
     for row in found:
         name = f"{row['grains']} grains"
         share = row["bandwidth"] / row["triad"]
-        steps = row["steps_together"]
-        together = f", {steps} steps together" if steps > 1 else ""
         rows.append(
             (
                 name,
                 f"{scaled(row['step_time'], 1e6, 'us')}, "
                 f"{scaled(row['time_per_grain'], 1e9, 'ns', 3)} a grain "
                 f"({row['time_per_grain'] / base:.2f} of the first), "
-                f"{row['bandwidth'] * 1e-9:.1f} GB/s, {share:.0%} of the triad's{together}",
+                f"{row['bandwidth'] * 1e-9:.1f} GB/s, {share:.0%} of the triad's",
             )
         )
         rows += [(f"{name}: {label}", text) for label, text in size_rows(row)]

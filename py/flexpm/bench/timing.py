@@ -192,9 +192,7 @@ def grow(
         case = timing.cases[0]
         row["step_time"] = case.step_time
         row["time_per_grain"] = case.step_time / case.counts["grains"]
-        row["steps_together"] = case.counts["steps_together"]
-        moved = bench_size.bytes_per_step(case.counts) / row["steps_together"]
-        row["bandwidth"] = moved / case.step_time
+        row["bandwidth"] = bench_size.bytes_per_step(case.counts) / case.step_time
         row["triad"] = bench_size.triad()
         found.append(row)
     return found

@@ -38,8 +38,6 @@ _BATCH = 50  # steps between two checks
 _EXPECTED_STEPS = 900
 _MAX_STEPS = 50_000
 _STRIP = 2.5  # height of the strips of the disc order, in mean diameters
-_MANY = 6000  # discs whose bonds exceed the caches, so that steps follow each other through them
-_NARROW_STRIP = 1.5  # for them: the nearer in index neighbours are, the closer steps can follow
 _SCENE_TAG = "flexpm-packing"
 
 _scene: int | None = None
@@ -102,27 +100,22 @@ def pack(
     order = spatial_order(centres, _STRIP)
     centres = _relax(unit_frame, centres[order], unit_radii[order], progress)
     radii = radii[order]
-    if len(radii) > _MANY:
-        order = spatial_order(centres, _NARROW_STRIP, one_way=True)
-    else:
-        order = spatial_order(centres, _STRIP)
+    order = spatial_order(centres, _STRIP)
     return centres[order] * mean_diameter, radii[order]
 
 
-def spatial_order(centres: np.ndarray, strip: float, one_way: bool = False) -> np.ndarray:
+def spatial_order(centres: np.ndarray, strip: float) -> np.ndarray:
     """Order points in horizontal strips, walked to the right and to the left in turn.
 
     Args:
         centres: Points, (n, 2) [m].
         strip: Height of a strip [m].
-        one_way: Walk all strips to the right: neighbours are about one strip apart in the order,
-            not up to two, but the ends of strips follow each other.
 
     Returns:
         Indices that sort the points.
     """
     row = np.floor((centres[:, 1] - centres[:, 1].min()) / strip).astype(int)
-    along = np.where((row % 2 == 0) | one_way, centres[:, 0], -centres[:, 0])
+    along = np.where(row % 2 == 0, centres[:, 0], -centres[:, 0])
     return np.lexsort((centres[:, 1], along, row))
 
 

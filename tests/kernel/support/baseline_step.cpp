@@ -9,7 +9,5 @@
 #define FLEXPM_MULTIVERSION
 #define update_contact_blocks baseline_update_contact_blocks
 #define show_positions baseline_show_positions
-#define steps_together baseline_steps_together
-#define step_several baseline_step_several
 #define step(assembly, options) baseline_step(assembly, options)
 #include "../../../pkg/flexpm/kernel/step/step.cpp"

@@ -7,7 +7,6 @@ import sys
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
 
 from flexpm._plugin import load_kernel
 from flexpm.errors import InputError, SimulationError
@@ -273,28 +272,3 @@ def test_spatial_order_keeps_neighbours_close():
     assert sorted(order) == list(range(400))
     steps = np.hypot(*np.diff(points[order], axis=0).T)
     assert steps.mean() < 2.5
-
-
-def test_strips_walked_one_way_bound_the_distance_of_neighbours_in_index():
-    points = np.random.RandomState(0).rand(4000, 2) * np.array([40.0, 100.0])
-    strip = 2.5
-
-    def farthest(one_way):
-        order = packing.spatial_order(points, strip, one_way)
-        assert sorted(order) == list(range(4000))
-        place = np.argsort(order)
-        pairs = cKDTree(points).query_pairs(1.0, output_type="ndarray")
-        return np.abs(place[pairs[:, 0]] - place[pairs[:, 1]]).max()
-
-    assert farthest(one_way=True) < 1.6 * strip * 40.0 < farthest(one_way=False)
-
-
-def test_many_discs_are_walked_one_way(monkeypatch):
-    frame = packing.Frame(width=0.04, height=0.04)
-    few = packing.pack(frame, radii_of(200), UNIT, 1)
-    monkeypatch.setattr(packing, "_MANY", 100)
-    many = packing.pack(frame, radii_of(200), UNIT, 1)
-    assert {tuple(p) for p in few[0]} == {tuple(p) for p in many[0]}, "other positions"
-    assert (few[0] != many[0]).any()
-    order = packing.spatial_order(many[0] / UNIT, packing._NARROW_STRIP, one_way=True)
-    assert (order == np.arange(200)).all()

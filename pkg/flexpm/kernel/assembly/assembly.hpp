@@ -131,12 +131,10 @@ struct Assembly {
     std::vector<std::uint8_t> whole_edges;
 
     // the order of a step, not saved: which blocks of grains have their last contact in each chunk of
-    // contact blocks, the chunk of the first contact of each block of grains, and the last chunk of the
-    // grains that contacts of a chunk touch
+    // contact blocks, and the chunk of the first contact of each block of grains
     std::vector<int> chunk_first;   ///< offset of each chunk in `chunk_blocks`
     std::vector<int> chunk_blocks;  ///< blocks of grains
     std::vector<int> first_chunk;
-    std::vector<int> needs_chunk;
 
     // what contacts ask for ahead, not saved, empty where the caches hold all: for each block of contacts
     // the lines of x values of nodes in `velocity`, and as ~line of centres in `next_centre`, that none of

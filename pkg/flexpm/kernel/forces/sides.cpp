@@ -124,14 +124,6 @@ bool is_pressed(const Assembly& a, int edge)
 
 }  // namespace
 
-bool is_pressed(const Assembly& a)
-{
-    for (int e = 0; e < a.edges; ++e) {
-        if (is_pressed(a, e)) return true;
-    }
-    return false;
-}
-
 double update_edge_block(Assembly& a, int block, double dt)
 {
     double work = 0.0;

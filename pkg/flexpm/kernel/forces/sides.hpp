@@ -40,9 +40,6 @@ double side_length(const Assembly& a, int side);
 /// Pressure on a side, on the deformed edges, compressive positive [Pa].
 void set_pressure(Assembly& a, int side, double pressure);
 
-/// Pressure acts on some boundary edge, or has acted until the last step.
-bool is_pressed(const Assembly& a);
-
 /// Update the pressure forces on block `block` of boundary edges, at the positions reached at the end of
 /// the step `dt`; returns their work [J].
 double update_edge_block(Assembly& a, int block, double dt);

@@ -17,7 +17,6 @@
 #include <flexpm/kernel/step/tiles.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <omp.h>
@@ -235,46 +234,6 @@ void make_ready(Assembly& a)
     if (a.source_pairs.empty()) prepare_step(a);  // loaded
 }
 
-constexpr int most_together = 5;
-
-/// Chunks that each of some steps has done; those before the first step had done all.
-using Progress = std::array<int, most_together + 1>;
-
-/// Does the next chunk of the `number`th step if the step before has moved all grains that it touches.
-bool follow(Assembly& a, Progress& done, int number, const StepOptions& options, bool is_last)
-{
-    const int chunk = done[number];
-    if (chunk == a.chunks() || a.needs_chunk[chunk] >= done[number - 1]) return false;
-    update_contacts(a, chunk, options.dt);
-    visit_grains(a, chunk, [&](int block) {
-        update_grain_block(a, block, options);
-        if (!is_last) predict_centres(a, block, options.dt);
-    });
-    ++done[number];
-    return true;
-}
-
-/// Goes through the specimen once for all of `count` steps: each follows the one before as closely as
-/// contacts allow, and finds in the caches what that one has left.
-void overlap_steps(Assembly& a, const StepOptions& options, int count)
-{
-    make_ready(a);
-    for (int b = 0; b < a.blocks(); ++b)
-        predict_centres(a, b, options.dt);
-    const std::int64_t before = a.step;
-    Progress done = { a.chunks() };
-    while (done[count] < a.chunks()) {
-        for (int number = 1; number <= count; ++number) {
-            const bool is_last = number == count;
-            StepOptions o = options;
-            o.measure = options.measure && is_last;
-            a.step = before + number - 1;
-            while (follow(a, done, number, o, is_last) && number > 1) { }
-        }
-    }
-    a.step = before + count;
-}
-
 }  // namespace
 
 void show_positions(Assembly& a)
@@ -305,23 +264,6 @@ void step(Assembly& a, const StepOptions& options)
         update_shared_grains(a, own, options);
     }
     ++a.step;
-}
-
-int steps_together(const Assembly& a, int threads)
-{
-    const bool overlaps = threads == 1 && exceeds_caches(a) && a.plates.empty() && !is_pressed(a);
-    return overlaps ? most_together : 1;
-}
-
-void step_several(Assembly& a, const StepOptions& options, int count)
-{
-    while (count > 0) {
-        const int some = std::min(count, steps_together(a, options.threads));
-        count -= some;
-        StepOptions o = options;
-        o.measure = options.measure && count == 0;
-        some > 1 ? overlap_steps(a, o, some) : step(a, o);
-    }
 }
 
 }  // namespace flexpm

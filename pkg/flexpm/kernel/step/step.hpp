@@ -19,13 +19,6 @@ struct StepOptions {
 
 void step(Assembly& a, const StepOptions& options);
 
-/// Steps that are faster together than one by one: some where a step's arrays exceed the caches and nothing
-/// needs all of a step before the next, as several threads, plates and pressure do; otherwise 1.
-int steps_together(const Assembly& a, int threads);
-
-/// Do `count` steps, the last of them with `options.measure`. The bits are those of step() one by one.
-void step_several(Assembly& a, const StepOptions& options, int count);
-
 /// Fill `shown_position` and keep it up to date from now on.
 void show_positions(Assembly& a);
 

@@ -17,11 +17,6 @@ void list_chunks(Assembly& a)
         a.first_chunk[block] = std::min(a.first_chunk[block], chunk);
         last_chunk[block] = std::max(last_chunk[block], chunk);
     }
-    a.needs_chunk.assign(chunks, 0);
-    for (int i = 0; i < 2 * a.contacts; ++i) {
-        int& needs = a.needs_chunk[i / 2 / lanes / chunk_length];
-        needs = std::max(needs, last_chunk[a.grain_slot[a.contact_grains[i]] / lanes]);
-    }
     std::vector<std::vector<int>> members(chunks);
     for (int block = 0; block < a.blocks(); ++block)
         members[last_chunk[block]].push_back(block);

@@ -11,8 +11,8 @@ namespace flexpm {
 /// to share a small specimen out to threads.
 constexpr int chunk_length = 64;
 
-/// Fill `chunk_first`, `chunk_blocks`, `first_chunk` and `needs_chunk` from the contacts. Grains without contacts
-/// follow the first chunk.
+/// Fill `chunk_first`, `chunk_blocks` and `first_chunk` from the contacts. Grains without contacts follow the
+/// first chunk.
 void list_chunks(Assembly& a);
 
 }  // namespace flexpm

@@ -19,7 +19,7 @@ namespace {
 	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int row = 0, int rows = 1)
 	{
 		const auto           solver = GrainSolver::ofContact(contact);
-		const auto&          a      = solver->viewed();
+		const auto&          a      = solver->assembly;
 		const std::ptrdiff_t step   = rows * flexpm::lanes * sizeof(T);
 		const T*             first  = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
 		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(solver), Access::readOnly);
@@ -31,7 +31,7 @@ namespace {
 	/// (points,) or (points, columns) copy of what `value(point)` appends.
 	template <class Value> py::object pointCopy(int contact, int columns, Value value)
 	{
-		const auto&         a = GrainSolver::ofContact(contact)->current();
+		const auto&         a = GrainSolver::ofContact(contact)->assembly;
 		std::vector<double> all;
 		for (int p = 0; p < a.points; ++p)
 			value(a, p, all);
@@ -50,20 +50,20 @@ LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
 
 Vector3r LobattoGeom::normal() const
 {
-	const auto n = flexpm::normal_of(GrainSolver::ofContact(contact)->current(), contact);
+	const auto n = flexpm::normal_of(GrainSolver::ofContact(contact)->assembly, contact);
 	return Vector3r(n.x, n.y, 0);
 }
 
 Vector3r LobattoGeom::contactPoint() const
 {
-	const auto& a     = GrainSolver::ofContact(contact)->current();
+	const auto& a     = GrainSolver::ofContact(contact)->assembly;
 	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
 	return .5 * Vector3r(start.x + end.x, start.y + end.y, 0);
 }
 
 py::object LobattoGeom::ends() const
 {
-	const auto& a     = GrainSolver::ofContact(contact)->current();
+	const auto& a     = GrainSolver::ofContact(contact)->assembly;
 	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
 	return flexpm_bindings::copied(std::vector<double> { start.x, start.y, end.x, end.y }, 2);
 }

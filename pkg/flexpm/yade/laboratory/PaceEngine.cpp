@@ -25,7 +25,7 @@ void PaceEngine::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (!solver->measured()) return;
-	const flexpm::Dissipation now    = flexpm::dissipation(solver->current());
+	const flexpm::Dissipation now    = flexpm::dissipation(solver->assembly);
 	const flexpm::Dissipation before = seen.size() == 3 ? flexpm::Dissipation { seen[0], seen[1], seen[2] } : now;
 
 	seen = { now.damage, now.friction, now.boundary_work };

@@ -15,7 +15,7 @@ PlateEngine::~PlateEngine() = default;
 
 void PlateEngine::action()
 {
-	auto& assembly = GrainSolver::ofScene(*scene)->current();
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int plate : plates) {
 		if (loaded)
 			flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));

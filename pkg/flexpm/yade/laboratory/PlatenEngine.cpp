@@ -53,7 +53,7 @@ PlatenEngine::~PlatenEngine() = default;
 void PlatenEngine::action()
 {
 	if (gripped && (!holdTop || velocity == drivenAt)) return;
-	auto& assembly = GrainSolver::ofScene(*scene)->current();
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop) return;
 	flexpm::move_top(assembly, velocity);
@@ -66,7 +66,7 @@ void PlatenEngine::action()
 void PlatenEngine::lead(Real share, int steps)
 {
 	const auto world    = Omega::instance().getScene();
-	auto&      assembly = GrainSolver::ofScene(*world)->current();
+	auto&      assembly = GrainSolver::ofScene(*world)->assembly;
 	flexpm::grip_bottom(assembly);
 	flexpm::move_top(assembly, velocity);
 	flexpm::preload(assembly, share, steps, world->dt);
@@ -77,14 +77,14 @@ void PlatenEngine::lead(Real share, int steps)
 void PlatenEngine::goOn()
 {
 	const auto world = Omega::instance().getScene();
-	flexpm::release_preload(GrainSolver::ofScene(*world)->current(), velocity, world->dt);
+	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, velocity, world->dt);
 }
 
 ConfinementEngine::~ConfinementEngine() = default;
 
 void ConfinementEngine::action()
 {
-	auto& assembly = GrainSolver::ofScene(*scene)->current();
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int side : sides)
 		flexpm::set_pressure(assembly, side, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
 }
@@ -96,8 +96,8 @@ void AxialRecorder::action()
 	const auto solver   = GrainSolver::ofScene(*scene);
 	const bool measured = solver->measured();
 	if (!measured && !fromNow) return;
-	auto now = diameter > 0 ? flexpm::observe_disc(solver->current(), diameter)
-	                        : flexpm::observe(solver->current(), flexpm::rectangle_of(solver->current(), senseOf(tension)));
+	auto now = diameter > 0 ? flexpm::observe_disc(solver->assembly, diameter)
+	                        : flexpm::observe(solver->assembly, flexpm::rectangle_of(solver->assembly, senseOf(tension)));
 	if (fromNow) zero = Vector2r(now.axial_strain, now.lateral_strain);
 	fromNow = false;
 	if (!measured) return;
@@ -126,8 +126,8 @@ py::dict AxialRecorder::scales() const
 	const auto world  = Omega::instance().getScene();
 	const auto solver = GrainSolver::ofScene(*world);
 	const auto sense  = senseOf(tension || diameter > 0);
-	const auto inputs = flexpm::scale_inputs(solver->current(), sense, world->dt);
-	const auto size   = diameter > 0 ? flexpm::AxialGeometry() : flexpm::rectangle_of(solver->current(), sense);
+	const auto inputs = flexpm::scale_inputs(solver->assembly, sense, world->dt);
+	const auto size   = diameter > 0 ? flexpm::AxialGeometry() : flexpm::rectangle_of(solver->assembly, sense);
 	const auto s      = diameter > 0 ? flexpm::disc_scales(inputs, diameter) : flexpm::rectangle_scales(inputs, size.width, size.height);
 	py::dict   d;
 	d["crossing_steps"] = s.crossing_steps;

@@ -48,55 +48,16 @@ namespace {
 
 } // namespace
 
-flexpm::Assembly& GrainSolver::current()
-{
-	if (waiting > 0) {
-		const std::lock_guard<std::mutex> lock(stepping);
-		doWaiting();
-	}
-	return assembly;
-}
-
-bool GrainSolver::measured() const { return (assembly.step + waiting) % measurePeriod == 0; }
-
-flexpm::Assembly& GrainSolver::viewed()
-{
-	hasViews = true;
-	return current();
-}
-
-int GrainSolver::threads() const { return ompThreads > 0 ? ompThreads : omp_get_max_threads(); }
-
-int GrainSolver::stepsTogether() const { return hasViews ? 1 : flexpm::steps_together(assembly, threads()); }
-
-void GrainSolver::preSave(GrainSolver&) { current(); }
-
-void GrainSolver::doWaiting()
-{
-	flexpm::step_several(assembly, waitingOptions, waiting);
-	waiting = 0;
-}
-
 void GrainSolver::takeStep()
 {
-	const std::lock_guard<std::mutex> lock(stepping);
-	if (destroyedContacts() != seenDestroyed) {
-		doWaiting();
-		retireErased();
-	}
-	if (assembly.step + waiting == 0) flexpm::open_books(assembly);
+	if (destroyedContacts() != seenDestroyed) retireErased();
+	if (assembly.step == 0) flexpm::open_books(assembly);
 	flexpm::StepOptions options;
 	options.dt      = scene->dt;
 	options.damping = damping;
-	options.threads = threads();
-	const auto& o   = waitingOptions;
-	if (options.dt != o.dt || options.damping != o.damping || options.threads != o.threads) doWaiting();
-	const auto after  = assembly.step + waiting + 1;
-	const auto isDue  = [&](int period) { return after % period == 0; };
-	options.measure   = isDue(measurePeriod);
-	waitingOptions    = options;
-	const bool isSeen = options.measure || isDue(mirrorPeriod) || isDue(touchPeriod) || isDue(checkPeriod);
-	if (++waiting >= stepsTogether() || isSeen) doWaiting();
+	options.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
+	options.measure = (assembly.step + 1) % measurePeriod == 0;
+	flexpm::step(assembly, options);
 }
 
 void GrainSolver::action()
@@ -106,7 +67,6 @@ void GrainSolver::action()
 	requirePeriod("touchPeriod", touchPeriod);
 	requirePeriod("checkPeriod", checkPeriod);
 	takeStep();
-	if (waiting > 0) return;
 	if (assembly.step % mirrorPeriod == 0) mirrorBodies();
 	if (assembly.step % touchPeriod == 0) changeContacts();
 	if (assembly.step % checkPeriod == 0) check();
@@ -178,7 +138,6 @@ namespace {
 
 void GrainSolver::mirrorBodies()
 {
-	current();
 	if (states.size() != assembly.slot_grain.size()) findStates();
 	flexpm::CentreMotion motion;
 	for (int block = 0; block < assembly.blocks(); ++block) {

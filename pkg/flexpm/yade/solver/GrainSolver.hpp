@@ -8,9 +8,6 @@
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/bindings/assembly_archive.hpp>
 
-#include <atomic>
-#include <mutex>
-
 namespace yade {
 
 namespace py = boost::python;
@@ -26,14 +23,8 @@ public:
 	static shared_ptr<GrainSolver> ofGrain(int grain);
 	static shared_ptr<GrainSolver> ofContact(int contact);
 
-	/// The grains after the last step, once those that wait are done. For all who look at or change `assembly` between steps.
-	flexpm::Assembly& current();
-	/// The same for views that scripts keep and may write to at any time: from now on no step waits.
-	flexpm::Assembly& viewed();
-	/// Whether the last step was measured; unlike current() it does no step.
-	bool measured() const;
-	/// YADE calls it before it saves.
-	void preSave(GrainSolver&);
+	/// Whether the last step was measured.
+	bool measured() const { return assembly.step % measurePeriod == 0; }
 
 	void       assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options);
 	void       addToScene(py::list materials);
@@ -48,16 +39,13 @@ public:
 	Vector3r   gravity() const;
 	void       setGravity(Vector3r acceleration);
 	py::list   plates() const;
-	py::tuple  elasticConstants();
-	py::dict   energies();
-	py::dict   snapshot();
-	py::tuple  cracks();
+	py::tuple  elasticConstants() const;
+	py::dict   energies() const;
+	py::dict   snapshot() const;
+	py::tuple  cracks() const;
 	py::dict   counts() const;
 	py::object sideNodes(int side) const;
-	Real       unbalanced();
-	int        threads() const;
-	int        stepsTogether() const;
-	int        stepsWaiting() const { return waiting; }
+	Real       unbalanced() const;
 	void       clearPressure(int side);
 
 	// clang-format off
@@ -65,12 +53,11 @@ public:
 		"Advances all deformable grains by one step: contact points, triangles, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
 		"gathered per grain in a fixed order, so results do not depend on the number of threads. It mirrors the centres to "
 		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed.",
-		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state, behind by the steps that wait; see current()."))
+		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
 		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
-		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the checks. "
-			"Where arrays exceed the caches, the steps in between are done some at a time, those that wait at any look at a grain, a bond or the solver."))
+		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the checks."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
@@ -99,8 +86,6 @@ public:
 		.def("cracks", &GrainSolver::cracks, "Numbers of cracked points: (tensile, shear).")
 		.def("counts", &GrainSolver::counts, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges.")
 		.def("unbalanced", &GrainSolver::unbalanced, "Largest unbalanced over mean contact force [-], at the last measured step.")
-		.add_property("stepsTogether", &GrainSolver::stepsTogether, "Most steps that are done together [-], see mirrorPeriod: some on one thread where the arrays exceed the caches, without plates and pressure, until a script takes an array of a grain or a bond, which shows each step; otherwise 1.")
-		.add_property("stepsWaiting", &GrainSolver::stepsWaiting, "Steps that wait to be done together, fewer than stepsTogether [-].")
 		.def("clearPressure", &GrainSolver::clearPressure, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", &GrainSolver::sideNodes, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);
@@ -108,17 +93,12 @@ public:
 	DECLARE_LOGGER;
 
 private:
-	std::atomic<int>          waiting { 0 }; // steps that YADE has done and the assembly has not
-	flexpm::StepOptions       waitingOptions;
-	bool                      hasViews = false;
-	std::mutex                stepping; // a look from another thread waits for the steps under way
 	flexpm::NearPairs         nearPairs;
 	vector<flexpm::GrainPair> candidates;     // near pairs without a contact
 	bool                      listed = false; // the candidates are up to date
 	vector<std::size_t>       places;         // of the contacts among the interactions, when last seen
 	vector<shared_ptr<State>> states;         // of the bodies, by slot; kept alive, so that a body may go at any time
 	void                      takeStep();
-	void                      doWaiting();
 	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
 	void                      insertContacts();
 	void                      findStates();

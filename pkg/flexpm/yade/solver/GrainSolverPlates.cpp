@@ -10,21 +10,21 @@ namespace yade {
 py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction)
 {
 	py::list numbers;
-	for (int plate : flexpm::add_side_plates(current(), side, pieces, { 0, friction, bonded }))
+	for (int plate : flexpm::add_side_plates(assembly, side, pieces, { 0, friction, bonded }))
 		numbers.append(plate);
 	return numbers;
 }
 
 int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 {
-	return flexpm::add_touching_plate(current(), { normal[0], normal[1] }, { 0, friction, false });
+	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
 }
 
-void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(current(), plate); }
+void GrainSolver::holdSideways(int plate) { flexpm::hold_sideways(assembly, plate); }
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
 {
-	return flexpm::add_wall(current(), { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
+	return flexpm::add_wall(assembly, { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
 }
 
 py::list GrainSolver::plates() const
@@ -45,6 +45,6 @@ py::list GrainSolver::plates() const
 	return all;
 }
 
-void GrainSolver::clearPressure(int side) { flexpm::set_pressure(current(), side, 0.); }
+void GrainSolver::clearPressure(int side) { flexpm::set_pressure(assembly, side, 0.); }
 
 } // namespace yade

@@ -14,15 +14,15 @@ namespace yade {
 
 using flexpm_bindings::copied;
 
-py::tuple GrainSolver::elasticConstants()
+py::tuple GrainSolver::elasticConstants() const
 {
-	const auto e = flexpm::elastic_constants(current());
+	const auto e = flexpm::elastic_constants(assembly);
 	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
 }
 
-py::dict GrainSolver::energies()
+py::dict GrainSolver::energies() const
 {
-	const auto e = flexpm::energies(current());
+	const auto e = flexpm::energies(assembly);
 	py::dict   d;
 	d["kinetic_energy"]   = e.kinetic;
 	d["elastic_energy"]   = e.elastic;
@@ -35,9 +35,9 @@ py::dict GrainSolver::energies()
 	return d;
 }
 
-py::tuple GrainSolver::cracks()
+py::tuple GrainSolver::cracks() const
 {
-	const auto count = flexpm::count_cracks(current());
+	const auto count = flexpm::count_cracks(assembly);
 	return py::make_tuple(count.tensile, count.shear);
 }
 
@@ -62,7 +62,7 @@ py::dict GrainSolver::counts() const
 	return d;
 }
 
-Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
+Real GrainSolver::unbalanced() const { return flexpm::unbalanced_ratio(assembly); }
 
 py::object GrainSolver::sideNodes(int side) const
 {
@@ -77,9 +77,9 @@ py::object GrainSolver::sideNodes(int side) const
 	return copied(rows, 2);
 }
 
-py::dict GrainSolver::snapshot()
+py::dict GrainSolver::snapshot() const
 {
-	const auto s = flexpm::take_snapshot(current());
+	const auto s = flexpm::take_snapshot(assembly);
 	const int  p = assembly.points;
 	py::dict   d;
 	d["positions"]         = copied(s.positions, 2);

@@ -69,7 +69,6 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 	if (options.has_key("outer")) chooseInner(options, o);
 	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
 	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
-	waiting                           = 0; // what waited went with the grains
 }
 
 void GrainSolver::addToScene(py::list materials)
@@ -123,16 +122,16 @@ void GrainSolver::insertContacts()
 void GrainSolver::scaleMasses()
 {
 	scaled = true;
-	flexpm::scale_masses(current(), damping, Omega::instance().getScene()->dt);
+	flexpm::scale_masses(assembly, damping, Omega::instance().getScene()->dt);
 }
 
 Real GrainSolver::useRealMasses()
 {
 	scaled = false;
-	return flexpm::set_real_masses(current(), damping);
+	return flexpm::set_real_masses(assembly, damping);
 }
 
-void GrainSolver::openBooks() { flexpm::open_books(current()); }
+void GrainSolver::openBooks() { flexpm::open_books(assembly); }
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
 
@@ -142,7 +141,7 @@ void GrainSolver::setGravity(Vector3r acceleration)
 		throw std::invalid_argument(
 		        "GrainSolver.gravity = " + std::to_string(acceleration.norm()) + " m/s^2, must be 0 with scaled masses; call useRealMasses() first");
 	}
-	flexpm::set_gravity(current(), { acceleration[0], acceleration[1] });
+	flexpm::set_gravity(assembly, { acceleration[0], acceleration[1] });
 }
 
 } // namespace yade
