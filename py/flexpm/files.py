@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import contextlib
+import csv
+import io
 import json
 import os
 import tempfile
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +50,20 @@ def write_text(path: Path | str, text: str) -> None:
 def json_text(content: Any) -> str:
     """`content` as readable JSON that ends with a new line; only finite numbers are allowed."""
     return json.dumps(content, indent=2, allow_nan=False) + "\n"
+
+
+def csv_text(names: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
+    """A table as CSV text, numbers so that they read back unchanged.
+
+    Args:
+        names: Of the columns.
+        rows: Cells in the order of the columns; None makes an empty cell.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows(rows)
+    return text.getvalue()
 
 
 def load_toml(path: Path, what: str) -> dict[str, Any]:

@@ -34,7 +34,7 @@ OPENMP = r"#\s*pragma\s+omp\s+(?!simd|declare)"
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
 PYTHON_LIBRARIES = {
-    "matplotlib": {"comparison.py", "curves.py", "maps.py"},
+    "matplotlib": {"comparison.py", "curves.py", "maps.py", "style.py"},
     "vtk": {"vtu.py"},
     "vtkmodules": {"vtu.py"},
 }

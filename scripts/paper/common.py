@@ -23,9 +23,9 @@ from flexpm.errors import InputError
 from flexpm.report import comparison as plot_compare
 from flexpm.results.record import Curve
 from flexpm.results.result import Result
+from flexpm.results.strength import Envelope
 from flexpm.studies import figures as study_plot
 from flexpm.studies import study
-from flexpm.studies.comparison import Envelope
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"

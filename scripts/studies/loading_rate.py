@@ -17,7 +17,7 @@ from typing import Any
 
 import flexpm
 from flexpm.laboratory import loading_rate as rates
-from flexpm.results import record as curve
+from flexpm.results import measures
 
 FIELDS = (
     "scale",
@@ -57,7 +57,7 @@ def row_of(result: Any, seed: int, k: float, scale: float) -> list[Any]:
         "k": k,
         "scale": scale,
         "seed": seed,
-        "unbalanced_median": curve.median_unbalanced_ratio(result.curve),
+        "unbalanced_median": measures.median_unbalanced_ratio(result.curve),
     }
     return [found.get(name, getattr(result, name, None)) for name in FIELDS]
 

@@ -224,7 +224,7 @@ def changed(**changes):
 )
 def test_wrong_minerals_are_refused_in_one_line(data, message):
     with pytest.raises(flexpm.InputError, match=message) as caught:
-        Material.from_dict(data).description("flexible")
+        minerals.description(Material.from_dict(data), "flexible")
     assert "\n" not in str(caught.value)
 
 

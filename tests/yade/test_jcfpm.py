@@ -12,7 +12,7 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.laboratory import protocols
 from flexpm.models import grains as models
-from flexpm.results.record import peak_row
+from flexpm.results.measures import peak_row
 from flexpm.specimens.specimen import Specimen
 
 MODEL = "jcfpm"

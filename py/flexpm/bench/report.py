@@ -15,8 +15,8 @@ from typing import Any
 import yade
 
 from .._version import __version__
-from ..cli.terminal import scaled
-from ..report import curves as plot
+from ..report.style import drawing
+from ..report.tables import scaled
 from .lammps import Worker
 
 #: Model to which the others are compared.
@@ -190,7 +190,7 @@ def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
 
 def scaling_picture(path: Path, found: list[dict[str, float | int]]) -> None:
     """Draw the time per grain and step over the number of grains."""
-    with plot.drawing(path) as axes:
+    with drawing(path) as axes:
         times = [1e9 * row["time_per_grain"] for row in found]
         axes.plot([row["grains"] for row in found], times, "o-", color="black")
         axes.set_xscale("log")

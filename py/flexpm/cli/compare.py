@@ -11,9 +11,10 @@ import click
 from ..errors import InputError, SimulationError
 from ..files import output_folder
 from ..materials.keys import ELASTIC_SET, check_name
+from ..report import tables
 from . import inputs as cli_library
 from . import options as cli_options
-from . import terminal as console
+from . import terminal
 from .options import Each, Name, Quantity
 
 
@@ -66,7 +67,7 @@ def compare(
     for model in models:
         cli_library.require("model", model, MODELS)
         cli_library.require("test", test, protocols.tests_of(model))
-    with console.Progress(quiet) as progress:
+    with terminal.Progress(quiet) as progress:
         found = comparison.compare(
             test,
             cli_library.specimen_for(test, options, progress),
@@ -80,9 +81,9 @@ def compare(
             threads=options["threads"],
             **{name: options[name] for name in cli_options.LOADING},
         )
-    click.echo(console.comparison_table(found.cases))
+    click.echo(comparison.table(found.cases))
     if found.envelopes:
-        click.echo(console.envelope_table(found.envelopes, found.reference))
+        click.echo(tables.envelope_table(found.envelopes, found.reference))
     click.echo(f"  files  {folder}/")
     _report_failures(found.cases)
 

@@ -11,7 +11,8 @@ from .. import _plugin
 from .._version import __version__
 from ..errors import InputError
 from ..materials.material import Material, load
-from . import terminal as console
+from ..materials.mixing import description
+from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 def load_yade() -> None:
     """Load YADE and the plugin's classes."""
     _plugin.load()
-    console.catch_signals()
+    signals.catch_signals()
 
 
 def require(what: str, name: str, available: Any) -> None:
@@ -36,16 +37,16 @@ def material(options: dict[str, Any], model: str | None = None) -> Material:
     """The material with its changes, checked for the model."""
     model = model or options["model"]
     chosen = load(options["material"], model).with_set(options["assignments"], model)
-    chosen.description(model)
+    description(chosen, model)
     return chosen
 
 
-def specimen_for(test: str, options: dict[str, Any], progress: console.Progress) -> Specimen:
+def specimen_for(test: str, options: dict[str, Any], progress: terminal.Progress) -> Specimen:
     """The specimen of a test."""
     return (disc if test == "brazilian" else rectangle)(options, progress)
 
 
-def disc(options: dict[str, Any], progress: console.Progress) -> Specimen:
+def disc(options: dict[str, Any], progress: terminal.Progress) -> Specimen:
     """Pack a disc."""
     _refuse_other_shape("disc", "width", "height")
     load_yade()
@@ -54,7 +55,7 @@ def disc(options: dict[str, Any], progress: console.Progress) -> Specimen:
     return Specimen.disc(diameter=options["diameter"], progress=progress, **_packing(options))
 
 
-def rectangle(options: dict[str, Any], progress: console.Progress) -> Specimen:
+def rectangle(options: dict[str, Any], progress: terminal.Progress) -> Specimen:
     """Pack a rectangle."""
     _refuse_other_shape("rectangle", "diameter")
     width, height = options["width"], options["height"]

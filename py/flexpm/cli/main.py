@@ -19,10 +19,12 @@ from ..errors import InputError, SimulationError
 from ..files import json_text, output_folder, write_text
 from ..materials.keys import check_name, nearest
 from ..materials.material import load
+from ..materials.mixing import description
+from ..report import tables
 from . import compare as cli_compare
 from . import inputs as cli_library
 from . import options as cli_options
-from . import terminal as console
+from . import signals, terminal
 from .options import Count, Quantity
 
 if TYPE_CHECKING:
@@ -86,7 +88,7 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
 
     cli_library.require("model", model, models.MODELS)
     cli_library.require("test", test, protocols.tests_of(model))
-    with console.Progress(quiet) as progress:
+    with terminal.Progress(quiet) as progress:
         specimen = cli_library.specimen_for(test, options, progress)
         result = protocols.run(
             test,
@@ -101,7 +103,7 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
             threads=options["threads"],
             **{name: options[name] for name in cli_options.LOADING},
         )
-    click.echo(console.result_table(result))
+    click.echo(tables.result_table(result))
     click.echo(f"  files                   {folder}/")
     if result.resumed_at is not None:
         again = "was complete" if result.resumed_at >= result.steps else "was taken up"
@@ -133,7 +135,7 @@ def elastic(out: Path | None, **options: Any) -> None:
     from ..models import grains as models
 
     cli_library.require("model", model, models.SOLVER_MODELS)
-    with console.Progress(options["quiet"]) as progress:
+    with terminal.Progress(options["quiet"]) as progress:
         specimen = cli_library.rectangle(options, progress)
         progress.close()
         found = models.elastic(
@@ -141,10 +143,10 @@ def elastic(out: Path | None, **options: Any) -> None:
         )
     if folder is not None:
         about = {"flexpm": __version__, "test": "elastic", "model": model, "seed": options["seed"]}
-        material = {"name": chosen.name, **chosen.description(model)}
+        material = {"name": chosen.name, **description(chosen, model)}
         write_text(folder / "result.json", json_text({**about, "material": material, **found}))
     click.echo(f"{model} model, {chosen.name}, seed {options['seed']}")
-    click.echo(console.elastic_table(found))
+    click.echo(tables.elastic_table(found))
 
 
 @command.group(cls=Commands, short_help="Make a specimen, without a test.")
@@ -161,7 +163,7 @@ def specimen() -> None:
 def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = output_folder(out)
-    with console.Progress(quiet) as progress:
+    with terminal.Progress(quiet) as progress:
         made = cli_library.rectangle(options, progress)
     _describe(made, folder, mesh)
 
@@ -175,7 +177,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = output_folder(out)
-    with console.Progress(quiet) as progress:
+    with terminal.Progress(quiet) as progress:
         made = cli_library.disc(options, progress)
     _describe(made, folder, mesh)
 
@@ -216,9 +218,9 @@ def bench(quiet: bool, **options: Any) -> None:
     cli_library.load_yade()
     from ..bench import timing
 
-    with console.Progress(quiet) as progress:
+    with terminal.Progress(quiet) as progress:
         rows = timing.run(progress=progress, **options)
-    click.echo(console.table(rows))
+    click.echo(tables.table(rows))
 
 
 @command.command(short_help="Many runs from one file.")
@@ -230,7 +232,7 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
 
     plan = studies.read(file)
     folder = output_folder(out or Path(file.stem))
-    with console.Progress(quiet, unit="runs") as progress:
+    with terminal.Progress(quiet, unit="runs") as progress:
         rows = studies.run(plan, folder, progress=progress, **options)
     pictures = figures.draw(plan, rows, folder)
     failed = rows[rows["exit_code"] != 0]
@@ -251,7 +253,7 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
     plan = calibration_problem.read(file)
     start = load(plan.material_file, plan.model)
     folder = output_folder(out or Path(file.stem))
-    with console.Progress(quiet, unit="sets") as progress:
+    with terminal.Progress(quiet, unit="sets") as progress:
         found = calibration_search.run(
             plan, folder, start=start.law(plan.model), progress=progress, **options
         )
@@ -259,9 +261,7 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
     calibration_report.write_preset(preset, start, plan, found)
     calibration_report.picture(picture, plan, found)
     click.echo(
-        console.table(
-            calibration_report.table_rows(plan, found), f"{plan.name}, {plan.model} model"
-        )
+        tables.table(calibration_report.table_rows(plan, found), f"{plan.name}, {plan.model} model")
     )
     click.echo(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
     missed = [name for name, met in found.met.items() if not met]
@@ -287,7 +287,7 @@ command.add_command(cli_compare.compare)
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with `arguments` (the process's own if None) and return its exit code."""
-    console.catch_signals()
+    signals.catch_signals()
     try:
         with command.make_context(
             "flexpm", list(sys.argv[1:] if arguments is None else arguments)
@@ -310,12 +310,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(error, 1)
     except (click.Abort, KeyboardInterrupt):
         return _failed("interrupted; files that were written are whole", 130)
-    except console.Terminated:
+    except signals.Terminated:
         return _failed("terminated; files that were written are whole", 143)
 
 
 def _failed(text: object, code: int) -> int:
-    console.error_line(str(text).removeprefix("flexpm: "))
+    terminal.error_line(str(text).removeprefix("flexpm: "))
     return code
 
 
@@ -329,5 +329,5 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     picture = folder / "specimen.png"
     triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None
     maps.specimen_picture(picture, maps.cell_polygons(made.tessellation), triangles, caption)
-    click.echo(console.statistics_table(found))
+    click.echo(tables.statistics_table(found))
     click.echo(f"  files  {picture}, {folder / 'specimen.json'}")

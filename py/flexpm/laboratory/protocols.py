@@ -18,19 +18,21 @@ from ..errors import InputError, SimulationError
 from ..files import output_folder
 from ..materials import material as materials
 from ..materials.material import Material
+from ..materials.mixing import description
 from ..models import grains as models
 from ..models import spheres as yade_models
 from ..models.grains import Model
 from ..progress import Progress
 from ..report import curves as plot
 from ..report import maps as plot_maps
-from ..results import record as curve
 from ..results import vtu as export
-from ..results.record import Curve
-from ..results.result import Result, cracks_from_snapshot
+from ..results.cracks import cracks_from_snapshot
+from ..results.record import COLUMNS, Curve
+from ..results.result import Result
 from ..specimens.specimen import Specimen
 from .checkpoint import INTERVAL, Checkpoint, inputs_of
 from .grain_loading import loading_of, squeeze_disc
+from .loading_rate import quasistatic_ratio
 from .runner import Course
 from .schedule import Schedule, Settings, schedule
 
@@ -219,7 +221,7 @@ def plan_run(
     chosen = materials.load(material or materials.default_name(model), model)
     inputs = inputs_of(
         specimen,
-        chosen.description(model),
+        description(chosen, model),
         flexpm=__version__,
         yade=yade.config.version,
         test=test,
@@ -451,8 +453,12 @@ def _result(test: str, built: Model, diverged: bool, step_time: float | None) ->
         step_time=step_time,
     )
     names = recorder.names
-    columns = [names.index(name) for name in curve.COLUMNS]
+    columns = [names.index(name) for name in COLUMNS]
     result.curve = Curve.from_array(recorder.rows[:, columns])
     result.cracks = cracks_from_snapshot(built.snapshot(), result.curve)
-    result.measure(diverged=diverged, initial_energy=built.solver.energies()["initial_energy"])
+    result.measure(
+        quasistatic_ratio(result.test, built.name),
+        diverged=diverged,
+        initial_energy=built.solver.energies()["initial_energy"],
+    )
     return result

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import yade
 
 from ..errors import InputError
-from ..results.record import PEAK_DROP
+from ..results.measures import PEAK_DROP
 from .loading_rate import STOP_RATIO, fastest_pace, rate_constant
 
 #: A test ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften

@@ -19,7 +19,7 @@ from .._version import __version__
 from ..models.sphere_bonds import tributary_lengths
 from ..models.spheres import SphereModel
 from ..results.result import Result
-from .loading_rate import rate_constant
+from .loading_rate import quasistatic_ratio, rate_constant
 from .runner import Course
 from .schedule import Schedule, Settings, end_strains
 from .sphere_loading import (
@@ -295,5 +295,5 @@ def _result(test: str, built: SphereModel, recorder: Recorder, step_time: float 
     )
     result.curve = recorder.curve
     result.cracks = built.cracks.cracks(recorder.curve)
-    result.measure(diverged=recorder.diverged)
+    result.measure(quasistatic_ratio(test, built.name), diverged=recorder.diverged)
     return result

@@ -14,7 +14,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..files import load_toml
-from . import mixing as minerals
+from . import mineral
 from .keys import (
     CHOICES,
     COMMON_KEYS,
@@ -27,7 +27,7 @@ from .keys import (
     elastic_set_name,
     nearest,
 )
-from .mixing import Mineral
+from .mineral import Mineral
 
 #: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
 ENERGY_TOLERANCE = 1e-12
@@ -78,7 +78,7 @@ class Material:
             for key in ENERGY_KEYS:
                 if getattr(self, key) is None:
                     raise InputError(f"material {key} is missing; bilinear softening needs it")
-        object.__setattr__(self, "minerals", minerals.checked(self.minerals))
+        object.__setattr__(self, "minerals", mineral.checked(self.minerals))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any], name: str = "custom") -> Material:
@@ -124,7 +124,7 @@ class Material:
             return self
         name = elastic_set_name(model)
         of_minerals = {key: changes.pop(key) for key in list(changes) if "." in key}
-        kinds = minerals.with_values(self.minerals, of_minerals, name)
+        kinds = mineral.with_values(self.minerals, of_minerals, name)
         elastic = dict(self.elastic)
         own = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
         if name == "inner" and own.keys() & {"normal_stiffness", "shear_ratio"}:
@@ -159,30 +159,6 @@ class Material:
         for key, elastic in zip(ENERGY_KEYS, self.elastic_energies(model), strict=True):
             values[key] = self._energy(key, elastic)
         return values
-
-    def description(self, model: str = "flexible") -> dict[str, Any]:
-        """``law`` of `model`, and if grains differ also that of each mineral, by `minerals`.
-
-        Raises:
-            InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
-                several.
-        """
-        values: dict[str, Any] = self.law(model)
-        if not self.minerals:
-            return values
-        if model not in minerals.MODELS:
-            raise InputError(
-                f"material = {self.name!r} has minerals, model {model} takes one kind of grain; "
-                f"use {' or '.join(minerals.MODELS)}"
-            )
-        minerals.pair_materials(self, model)
-        kinds = zip(self.minerals, minerals.mineral_materials(self), strict=True)
-        return values | {
-            "minerals": [
-                {"name": kind.name, "fraction": kind.fraction, **own.law(model)}
-                for kind, own in kinds
-            ]
-        }
 
     def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
         """Energies [N/m] a point has stored at its tensile and at its shear strength."""

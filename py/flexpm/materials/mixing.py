@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Minerals of a heterogeneous rock, and contacts between two of them. SI units, magnitudes.
+"""Materials of the minerals of a rock, and of contacts between two of them. SI units, magnitudes.
 
 The paper has one kind of grain; minerals, their place and the rule of mixing are ours, Deviation
 D27. Half of a contact belongs to each grain: stiffnesses act in series, and what carries least
@@ -12,108 +12,17 @@ gives way first.
 from __future__ import annotations
 
 import dataclasses
-import math
 import operator
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from ..errors import InputError
-from .keys import COMMON_KEYS, ELASTIC_KEYS, ENERGY_KEYS, check_name, elastic_set_name
-
-if TYPE_CHECKING:
-    from .material import ElasticSet, Material
+from .keys import ELASTIC_KEYS, ENERGY_KEYS, check_name, elastic_set_name
+from .material import ElasticSet, Material
+from .mineral import Mineral
 
 #: Models that can have grains of several minerals.
 MODELS = ("flexible", "rigid")
-#: Fractions are to sum up to 1 within this.
-_SUM_TOLERANCE = 1e-6
-_KEYS = tuple(key for key in COMMON_KEYS if key != "plane")
-
-
-@dataclass(frozen=True)
-class Mineral:
-    """A mineral by what it changes of the rock's material."""
-
-    name: str
-    fraction: float  #: of the area [-]
-    changes: Mapping[str, Any]  #: common keys, and `elastic`: changed keys by name of the set
-
-    @classmethod
-    def from_dict(cls, data: Any, number: int) -> Mineral:
-        """Make a mineral from a table `[[mineral]]`.
-
-        Args:
-            data: The table.
-            number: Its place, from 1, for messages.
-
-        Raises:
-            InputError: naming the key that is unknown, missing or out of range.
-        """
-        where = f"material [[mineral]] {number}"
-        if not isinstance(data, Mapping):
-            raise InputError(f"{where} = {data!r}, must be a table with name and fraction")
-        changes = dict(data)
-        for key in ("name", "fraction"):
-            if key not in changes:
-                raise InputError(f"{where} {key} is missing; give the mineral a {key}")
-        name, fraction = str(changes.pop("name")), changes.pop("fraction")
-        if isinstance(fraction, bool) or not isinstance(fraction, int | float):
-            raise InputError(f"{where} fraction = {fraction!r}, must be a number")
-        if not (math.isfinite(fraction) and fraction > 0.0):
-            raise InputError(f"{where} fraction = {fraction}, must be > 0")
-        for key in changes:
-            check_name(f"mineral {name} key", key, [*_KEYS, "name", "fraction", "elastic"])
-        return cls(name, float(fraction), changes)
-
-
-def checked(minerals: Sequence[Any]) -> tuple[Mineral, ...]:
-    """Minerals from tables; their names differ and their fractions sum up to 1."""
-    if not isinstance(minerals, list | tuple):
-        raise InputError(f"material mineral = {minerals!r}, must be tables [[mineral]]")
-    made = tuple(
-        table if isinstance(table, Mineral) else Mineral.from_dict(table, number)
-        for number, table in enumerate(minerals, 1)
-    )
-    names = [mineral.name for mineral in made]
-    for name in names:
-        if names.count(name) > 1:
-            raise InputError(f"mineral = {name!r}, is there twice; give each a name of its own")
-    total = math.fsum(mineral.fraction for mineral in made)
-    if made and abs(total - 1.0) > _SUM_TOLERANCE:
-        raise InputError(f"mineral fractions = {total:.6g} in all, must sum up to 1")
-    return made
-
-
-def with_values(
-    kinds: Sequence[Mineral], values: Mapping[str, Any], elastic_set: str
-) -> tuple[Mineral, ...]:
-    """Minerals with changed values.
-
-    Args:
-        kinds: The minerals.
-        values: By ``MINERAL.KEY``.
-        elastic_set: Name of the set that elastic keys belong to.
-
-    Raises:
-        InputError: for an unknown mineral, or a key that a mineral cannot have.
-    """
-    found = {kind.name: kind for kind in kinds}
-    for name, value in values.items():
-        mineral, _, key = name.rpartition(".")
-        if not found:
-            raise InputError(f"set {name} = {value!r}, needs a material with [[mineral]] tables")
-        check_name("set mineral", mineral, list(found))
-        check_name(f"set {mineral} key", key, [*_KEYS, *ELASTIC_KEYS])
-        changes = dict(found[mineral].changes)
-        if key in ELASTIC_KEYS:
-            sets = dict(changes.get("elastic", {}))
-            sets[elastic_set] = {**sets.get(elastic_set, {}), key: value}
-            changes["elastic"] = sets
-        else:
-            changes[key] = value
-        found[mineral] = dataclasses.replace(found[mineral], changes=changes)
-    return tuple(found.values())
 
 
 def mineral_materials(rock: Material) -> list[Material]:
@@ -135,6 +44,30 @@ def pair_materials(rock: Material, model: str) -> list[Material]:
         except InputError as error:
             raise InputError(f"contact {pair.name}: {error}") from None
     return pairs
+
+
+def description(rock: Material, model: str = "flexible") -> dict[str, Any]:
+    """``rock.law`` of `model`, and if grains differ also that of each mineral, by `minerals`.
+
+    Raises:
+        InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
+            several.
+    """
+    values: dict[str, Any] = rock.law(model)
+    if not rock.minerals:
+        return values
+    if model not in MODELS:
+        raise InputError(
+            f"material = {rock.name!r} has minerals, model {model} takes one kind of grain; "
+            f"use {' or '.join(MODELS)}"
+        )
+    pair_materials(rock, model)
+    kinds = zip(rock.minerals, mineral_materials(rock), strict=True)
+    return values | {
+        "minerals": [
+            {"name": kind.name, "fraction": kind.fraction, **own.law(model)} for kind, own in kinds
+        ]
+    }
 
 
 def _changed(rock: Material, mineral: Mineral) -> Material:

@@ -123,7 +123,7 @@ class Model:
 
     def describe_material(self) -> dict[str, Any]:
         """Name and parameters of the material, of minerals also the area that they have."""
-        found = {"name": self.material.name, **self.material.description(self.name)}
+        found = {"name": self.material.name, **minerals.description(self.material, self.name)}
         if self.minerals is not None:
             kinds = found["minerals"]
             areas = mineral_map.area_fractions(self.specimen, self.minerals, len(kinds))
@@ -261,7 +261,7 @@ def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -
     """The material, with the stiffness of inner particles fitted to the rock's."""
     if model not in inner.NAMES:
         return chosen
-    chosen.description(model)  # refuses a material without the set
+    minerals.description(chosen, model)  # refuses a material without the set
     if specimen.kind == "disc":  # no test of it gives a modulus
         like = inner.rectangle_like(specimen)
         grains = _grains(like, model, POINTS[0], MESHES[0])
@@ -278,7 +278,7 @@ def _constants(solver: Any) -> tuple[float, float]:
 
 def _assembled(grains: _Grains, chosen: Material, model: str) -> Any:
     """Make the solver with the packed arrays of the bonded, unloaded grains."""
-    chosen.description(model)  # refuses minerals that do not go together
+    minerals.description(chosen, model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
     try:
         solver.assemble(

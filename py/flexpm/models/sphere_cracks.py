@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import yade
 
+from ..results.cracks import SHEAR, TENSILE, Crack
 from ..results.record import Curve
-from ..results.result import SHEAR, TENSILE, Crack
 from .sphere_bonds import Bonds
 
 _FOUND = ("steps", "modes", "places")

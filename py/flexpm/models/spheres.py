@@ -22,6 +22,7 @@ from yade import utils, wrapper
 from ..errors import InputError
 from ..materials import material as materials
 from ..materials.material import Material
+from ..materials.mixing import description
 from ..specimens.specimen import Specimen
 from . import sphere_bonds as yade_bonds
 from . import sphere_snapshot as yade_snapshot
@@ -205,7 +206,7 @@ def build(
     if model not in NAMES:
         raise InputError(f"build: model = {model!r}, must be one of {', '.join(NAMES)}")
     chosen = materials.load(material, model)
-    law = chosen.description(model)  # which refuses minerals
+    law = description(chosen, model)  # which refuses minerals
     bonds = yade_bonds.bonds_of(specimen, law)
     radii = specimen.radii if model == "jcfpm" else yade_bonds.separate_radii(specimen)
     sphere, plate = _materials(model, law, bonds, radii)

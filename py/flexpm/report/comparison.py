@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import rc_context
@@ -16,13 +15,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..materials.references import Reference
-from ..results.result import SHEAR, TENSILE, Result
-from ..results.strength import MohrCoulomb
-from . import curves as plot
-from . import maps as plot_maps
-
-if TYPE_CHECKING:
-    from ..studies.comparison import Envelope
+from ..results.cracks import SHEAR, TENSILE
+from ..results.result import Result
+from ..results.strength import Envelope, MohrCoulomb
+from .maps import draw_cracks
+from .style import MODE_NAMES, STYLE, save
 
 Runs = Sequence[tuple[str, Result]]
 
@@ -40,7 +37,7 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
         path: Picture to write.
         runs: Labels and results.
     """
-    with rc_context(plot.STYLE):
+    with rc_context(STYLE):
         figure = Figure(figsize=(6.2, 6.0), layout="constrained")
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1.0))
         for (label, result), (colour, dash) in zip(runs, _styles(runs), strict=True):
@@ -60,7 +57,7 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
         for axes in (upper, lower):
             axes.set_xlim(left=0.0)
             axes.set_ylim(bottom=0.0)
-        plot.save(figure, path)
+        save(figure, path)
 
 
 def cracks_picture(path: Path | str, runs: Runs) -> None:
@@ -76,7 +73,7 @@ def cracks_picture(path: Path | str, runs: Runs) -> None:
     width, height = high - low
     margin = 0.08 * height  # below, for the scale bar
     size = (2.6 * columns, (2.6 * (height + margin) / width + 0.45) * rows + 0.4)
-    with rc_context(plot.STYLE):
+    with rc_context(STYLE):
         figure = Figure(figsize=size, layout="constrained")
         legend = 0.3 / size[1]  # keeps room for it
         figure.get_layout_engine().set(rect=(0.0, legend, 1.0, 0.99 - legend))
@@ -85,12 +82,12 @@ def cracks_picture(path: Path | str, runs: Runs) -> None:
             axes.set_axis_off()
         for axes, (label, result) in zip(grid, drawn, strict=False):
             axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1] - margin, high[1]))
-            handles = plot_maps.draw_cracks(axes, result.snapshot)
+            handles = draw_cracks(axes, result.snapshot)
             counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
             axes.set_title(f"{label}\n{counts}", fontsize=8.5)
-        names = [plot.MODE_NAMES[mode] for mode in (TENSILE, SHEAR)]
+        names = [MODE_NAMES[mode] for mode in (TENSILE, SHEAR)]
         figure.legend(handles, names, loc="lower center", ncols=2, frameon=False)
-        plot.save(figure, path)
+        save(figure, path)
 
 
 def envelope_picture(
@@ -103,7 +100,7 @@ def envelope_picture(
         envelopes: One for each model.
         rock: Measured properties, whose line is drawn, too.
     """
-    with rc_context(plot.STYLE):
+    with rc_context(STYLE):
         figure = Figure(figsize=(5.8, 4.6), layout="constrained")
         axes = figure.add_subplot()
         widest = max(max(one.confinements) for one in envelopes)
@@ -122,7 +119,7 @@ def envelope_picture(
         axes.set_xlim(left=-0.02 * 1e-6 * widest)
         axes.set_ylim(bottom=0.0)
         axes.legend(frameon=False, loc="lower right")
-        plot.save(figure, path)
+        save(figure, path)
 
 
 def _draw_envelope(axes: Axes, one: Envelope, confinements: np.ndarray, number: int) -> None:

@@ -1,13 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures: their style, and the stress-strain curve of a test (paper Figs. 8, 15).
-
-Input in SI units; labels in MPa, % and mm. No window is opened and no display is needed.
-"""
+"""Stress-strain curve of a test (paper Figs. 8, 15). Input in SI units; labels in MPa and %."""
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -15,24 +10,11 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..files import whole_file
-from ..results import record as measures
+from ..results import measures
+from ..results.cracks import SHEAR, TENSILE
 from ..results.record import Curve
-from ..results.result import SHEAR, TENSILE, Result
-
-#: Colours that stay apart for colour-blind readers and in print.
-COLOURS = {TENSILE: "#0072b2", SHEAR: "#d55e00"}
-MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks"}
-#: Settings of all pictures.
-STYLE = {
-    "font.size": 9.0,
-    "axes.labelsize": 9.5,
-    "legend.fontsize": 8.5,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "savefig.dpi": 220,
-    "lines.solid_capstyle": "round",
-}
+from ..results.result import Result
+from .style import COLOURS, MODE_NAMES, STYLE, save
 
 
 def curve_picture(path: Path | str, result: Result) -> None:
@@ -95,23 +77,3 @@ def _caption(result: Result) -> str:
     where = f", confinement {1e-6 * confined:g} MPa" if confined else ""
     caption = f"{result.test}, {result.model} model, {result.material.get('name', '')}{where}"
     return caption if result.status == "ok" else f"{caption} ({result.status.replace('_', ' ')})"
-
-
-@contextlib.contextmanager
-def drawing(path: Path | str, size: tuple[float, float] = (5.6, 3.9)) -> Iterator[Axes]:
-    """Axes to draw in, in the style of all pictures; written to `path` afterwards.
-
-    Args:
-        path: Picture to write.
-        size: Width and height [inch].
-    """
-    with rc_context(STYLE):
-        figure = Figure(figsize=size, layout="constrained")
-        yield figure.add_subplot()
-        save(figure, path)
-
-
-def save(figure: Figure, path: Path | str) -> None:
-    """Write a picture, whole or not at all."""
-    with whole_file(path) as temporary:
-        figure.savefig(temporary)

@@ -20,8 +20,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..results import fragments
-from ..results.result import SHEAR, TENSILE
-from .curves import COLOURS, MODE_NAMES, STYLE, save
+from ..results.cracks import SHEAR, TENSILE
+from .style import COLOURS, MODE_NAMES, STYLE, save
 
 _GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
 #: Fragments by their rank, loose grains; the largest fragment has the first tint of the grains.

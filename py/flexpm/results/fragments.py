@@ -14,6 +14,8 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from ..files import csv_text
+
 
 @dataclass(frozen=True)
 class Fragments:
@@ -28,9 +30,8 @@ class Fragments:
 
     def csv(self) -> str:
         """One line for each fragment: number, grains, area [m2]."""
-        rows = zip(self.grains.tolist(), self.areas.tolist(), strict=True)
-        lines = [f"{number},{grains},{area!r}" for number, (grains, area) in enumerate(rows)]
-        return "\n".join(["fragment,grains,area", *lines]) + "\n"
+        rows = zip(range(len(self)), self.grains.tolist(), self.areas.tolist(), strict=True)
+        return csv_text(("fragment", "grains", "area"), rows)
 
 
 def connected(pairs: np.ndarray, bonded: np.ndarray, areas: np.ndarray) -> Fragments:

@@ -4,36 +4,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..files import json_text, output_folder, write_text
-from ..laboratory.loading_rate import quasistatic_ratio
-from . import fragments
-from . import record as measures
+from . import fragments, measures
+from .cracks import MODES, Crack, cracks_csv
 from .record import Curve
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
-
-TENSILE, SHEAR = 1, 2
-_MODES = {TENSILE: "tensile", SHEAR: "shear"}
-
-
-class Crack(NamedTuple):
-    """One contact point that has lost its bond."""
-
-    step: int
-    strain: float  #: axial strain when it broke [-]
-    x: float  #: position when it broke [m]
-    y: float  #: [m]
-    mode: int  #: TENSILE if the point was opening, else SHEAR
-    contact: int  #: index of the contact
-    point: int  #: index of the point in its contact
 
 
 @dataclass
@@ -93,18 +77,17 @@ class Result:
 
     def measure(
         self,
+        max_unbalanced: float,
         *,
         initial_energy: float | None = None,
         diverged: bool = False,
-        max_unbalanced: float | None = None,
     ) -> None:
         """Fill the measured quantities and the status from `curve`.
 
         Args:
+            max_unbalanced: Largest median unbalanced-force ratio taken as quasi-static [-].
             initial_energy: Energy when the work began to count [J]; if None, from the first row.
             diverged: The simulation met a number that is not finite.
-            max_unbalanced: Largest median unbalanced-force ratio taken as quasi-static [-]; None
-                for that of the test and the model.
         """
         whole = self.curve
         record = measures.until_regained(whole) if self.test == "brazilian" else whole
@@ -125,8 +108,6 @@ class Result:
         if peak is not None:
             self.peak_stress = float(record["axial_stress"][peak])
             self.peak_strain = float(record["axial_strain"][peak])
-        if max_unbalanced is None:
-            max_unbalanced = quasistatic_ratio(self.test, self.model)
         ratio = measures.median_unbalanced_ratio(record)
         self.status = self._status(diverged, peak, ratio is None or ratio > max_unbalanced)
 
@@ -142,7 +123,7 @@ class Result:
         self.largest_fragment = float(found.areas[0] / found.areas.sum())
 
     def _measure_onset(self) -> None:
-        for mode, name in _MODES.items():
+        for mode, name in MODES.items():
             steps = [crack.step for crack in self.cracks if crack.mode == mode]
             labels = {f"first_{name}_crack": 0.0, f"{name}_onset": measures.ONSET_SHARE}
             for label, share in labels.items():
@@ -175,38 +156,6 @@ class Result:
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", fragments.of_snapshot(self.snapshot).csv())
         write_text(folder / "result.json", json_text(self.as_dict()))
-
-
-def cracks_csv(cracks: Sequence[Crack]) -> str:
-    """Cracks as CSV text in the order given; numbers read back unchanged."""
-    lines = [",".join(Crack._fields)]
-    for crack in cracks:
-        step, strain, x, y, mode, contact, point = crack
-        numbers = (repr(float(value)) for value in (strain, x, y))
-        lines.append(",".join([str(int(step)), *numbers, _MODES[mode], str(contact), str(point)]))
-    return "\n".join(lines) + "\n"
-
-
-def cracks_from_snapshot(snapshot: Mapping[str, np.ndarray], curve: Curve) -> list[Crack]:
-    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
-    steps = np.asarray(snapshot["crack_step"])
-    contacts, points = np.nonzero(steps >= 0)
-    order = np.lexsort((points, contacts, steps[contacts, points]))
-    contacts, points = contacts[order], points[order]
-    steps = steps[contacts, points]
-    strains = (
-        np.interp(steps, curve["step"], curve["axial_strain"])
-        if len(curve)
-        else np.full(len(steps), np.nan)
-    )
-    modes = np.asarray(snapshot["crack_mode"])[contacts, points]
-    places = np.asarray(snapshot["crack_position"])[contacts, points]
-    return [
-        Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
-        for step, strain, (x, y), mode, contact, point in zip(
-            steps, strains, places, modes, contacts, points, strict=True
-        )
-    ]
 
 
 def _plain(value: Any) -> Any:

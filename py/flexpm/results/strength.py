@@ -15,13 +15,16 @@ Errors are standard errors of the fit; they say how well the criterion describes
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from scipy import optimize, stats
 
 from ..errors import InputError
+
+Criterion = TypeVar("Criterion", "MohrCoulomb", "HoekBrown")
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,34 @@ class HoekBrown:
     def strength(self, confinement: np.ndarray | float) -> np.ndarray | float:
         """Axial stress at failure [Pa] under a confinement [Pa]."""
         return _hoek_brown(confinement, self.sigma_ci, self.m_i)
+
+
+@dataclass
+class Envelope:
+    """Strength criteria of a model from its peaks under several confinements."""
+
+    model: str
+    confinements: list[float]  #: [Pa]
+    peaks: list[float]  #: sigma_1 [Pa]
+    mohr_coulomb: MohrCoulomb | None
+    hoek_brown: HoekBrown | None
+
+    @classmethod
+    def of(cls, model: str, confinements: list[float], peaks: list[float]) -> Envelope:
+        """Fit both criteria to peaks [Pa] at confinements [Pa]; None for one that fails."""
+        line = _fit(mohr_coulomb, confinements, peaks)
+        return cls(model, confinements, peaks, line, _fit(hoek_brown, confinements, peaks))
+
+    def as_dict(self) -> dict[str, str | float | None]:
+        """A row of envelope.csv."""
+        found: dict[str, str | float | None] = {"model": self.model, "tests": len(self.peaks)}
+        for name in ("cohesion", "friction_angle"):
+            found[name] = getattr(self.mohr_coulomb, name, None)
+            found[f"{name}_error"] = getattr(self.mohr_coulomb, f"{name}_error", None)
+        for name in ("sigma_ci", "m_i"):
+            found[name] = getattr(self.hoek_brown, name, None)
+            found[f"{name}_error"] = getattr(self.hoek_brown, f"{name}_error", None)
+        return found
 
 
 def mohr_coulomb(confinements: Sequence[float], peaks: Sequence[float]) -> MohrCoulomb:
@@ -139,6 +170,18 @@ def hoek_brown(confinements: Sequence[float], peaks: Sequence[float]) -> HoekBro
 def tensile_ratio(direct: float | None, indirect: float | None) -> float | None:
     """Strength in direct tension over that of the Brazilian test [-]; None without one of them."""
     return direct / indirect if direct is not None and indirect else None
+
+
+def _fit(
+    criterion: Callable[[Sequence[float], Sequence[float]], Criterion],
+    confinements: Sequence[float],
+    peaks: Sequence[float],
+) -> Criterion | None:
+    """None for peaks that a criterion cannot describe."""
+    try:
+        return criterion(confinements, peaks)
+    except InputError:
+        return None
 
 
 def _hoek_brown(confinement: np.ndarray | float, sigma_ci: float, m_i: float) -> np.ndarray | float:

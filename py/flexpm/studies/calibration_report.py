@@ -13,7 +13,7 @@ import tomli_w
 from ..files import write_text
 from ..materials import material as materials
 from ..materials.material import Material
-from ..report.curves import drawing
+from ..report.style import drawing
 from .calibration_problem import Calibration
 from .calibration_search import Outcome
 

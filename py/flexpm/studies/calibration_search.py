@@ -30,7 +30,8 @@ from ..files import output_folder
 from ..progress import Progress
 from . import jobs
 from .calibration_problem import Calibration, Target
-from .study import Pool, write_table
+from .pool import Pool
+from .tables import write_table
 
 #: Residual of a measure that a run has not given, in tolerances.
 _MISSING = 20.0

@@ -7,27 +7,24 @@ resets YADE's scene, so nothing passes from one to the next.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, SimulationError
-from ..files import output_folder, write_text
+from ..files import csv_text, output_folder, write_text
 from ..laboratory import protocols
 from ..materials import material as materials
 from ..materials.material import Material
 from ..materials.references import Reference, reference_of
 from ..progress import Progress
 from ..report import comparison as plot_compare
-from ..results import strength
+from ..report.tables import columns, scaled
 from ..results.result import Result
-from ..results.strength import HoekBrown, MohrCoulomb
+from ..results.strength import Envelope
 from ..specimens.specimen import Specimen
 
-_CRITERIA = (strength.mohr_coulomb, strength.hoek_brown)
 #: Columns of compare.csv before the numbers of the result.
 _FIRST = ("model", "material", "confinement", "folder")
 
@@ -62,35 +59,6 @@ class Case:
 
 
 @dataclass
-class Envelope:
-    """Strength criteria of a model from its peaks under several confinements."""
-
-    model: str
-    confinements: list[float]  #: [Pa]
-    peaks: list[float]  #: sigma_1 [Pa]
-    mohr_coulomb: MohrCoulomb | None
-    hoek_brown: HoekBrown | None
-
-    @classmethod
-    def of(cls, model: str, confinements: list[float], peaks: list[float]) -> Envelope:
-        """Fit both criteria to peaks [Pa] at confinements [Pa]; None for one that fails."""
-        fits = (_fit(one, confinements, peaks) for one in _CRITERIA)
-        return cls(model, confinements, peaks, *fits)
-
-    def as_dict(self) -> dict[str, Any]:
-        """A row of envelope.csv."""
-        line, curve = self.mohr_coulomb, self.hoek_brown
-        names = (
-            ("cohesion", "cohesion_error", "friction_angle", "friction_angle_error"),
-            ("sigma_ci", "sigma_ci_error", "m_i", "m_i_error"),
-        )
-        found = {"model": self.model, "tests": len(self.peaks)}
-        for criterion, keys in zip((line, curve), names, strict=True):
-            found |= {key: getattr(criterion, key, None) for key in keys}
-        return found
-
-
-@dataclass
 class Comparison:
     """Outcome of a comparison, model by model, each in the order of the confinements."""
 
@@ -111,13 +79,13 @@ class Comparison:
     def write(self, folder: Path | str) -> None:
         """Write tables and pictures into `folder`, each whole or not at all."""
         folder = output_folder(folder)
-        write_text(folder / "compare.csv", _csv([_row(case) for case in self.cases]))
+        write_text(folder / "compare.csv", _table([_row(case) for case in self.cases]))
         shown = [(case.name, case.result) for case in self.cases if case.result]
         if shown:
             plot_compare.curves_picture(folder / "compare.png", shown)
             plot_compare.cracks_picture(folder / "cracks.png", shown)
         if self.envelopes:
-            write_text(folder / "envelope.csv", _csv([one.as_dict() for one in self.envelopes]))
+            write_text(folder / "envelope.csv", _table([one.as_dict() for one in self.envelopes]))
             picture = folder / "envelope.png"
             plot_compare.envelope_picture(picture, self.envelopes, self.reference)
 
@@ -169,6 +137,28 @@ def compare(
     return found
 
 
+def table(cases: Sequence[Case]) -> str:
+    """One line for each run of a comparison."""
+    header = ("run", "E [GPa]", "nu", "peak [MPa]", "strain [%]", "tensile", "shear", "fragments")
+    rows = []
+    for case in cases:
+        found = case.result
+        if found is None:
+            rows.append((case.name, *["-"] * (len(header) - 1), "failed"))
+            continue
+        numbers = (
+            scaled(found.youngs_modulus, 1e-9, ""),
+            scaled(found.poissons_ratio, 1.0, "", 3),
+            scaled(found.peak_stress, 1e-6, ""),
+            scaled(found.peak_strain, 100.0, "", 3),
+            str(found.tensile_cracks),
+            str(found.shear_cracks),
+            str(found.fragments),
+        )
+        rows.append((case.name, *numbers, found.status))
+    return columns((*header, "status"), rows)
+
+
 def _plan(
     test: str,
     models: Sequence[str],
@@ -218,14 +208,6 @@ def _envelopes(cases: Sequence[Case]) -> list[Envelope]:
     return found
 
 
-def _fit(criterion: Any, confinements: list[float], peaks: list[float]) -> Any:
-    """None for peaks that a criterion cannot describe."""
-    try:
-        return criterion(confinements, peaks)
-    except InputError:
-        return None
-
-
 def _named(progress: Progress | None, name: str) -> Progress | None:
     if progress is None:
         return None
@@ -246,10 +228,6 @@ def _row(case: Case) -> dict[str, Any]:
     return row | {key: value for key, value in numbers.items() if key not in _FIRST}
 
 
-def _csv(rows: Sequence[dict[str, Any]]) -> str:
+def _table(rows: Sequence[dict[str, Any]]) -> str:
     names = list(dict.fromkeys(name for row in rows for name in row))
-    text = io.StringIO()
-    writer = csv.DictWriter(text, names, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+    return csv_text(names, ([row.get(name) for name in names] for row in rows))

@@ -16,7 +16,7 @@ import pandas
 
 from ..errors import InputError
 from ..materials.keys import UNITS, check_name
-from ..report.curves import drawing
+from ..report.style import drawing
 from .study import Study
 
 #: Factor and unit of what is drawn in other units than SI's; the rest is drawn as it is.

@@ -24,6 +24,7 @@ from ..errors import InputError
 from ..files import json_text, write_text
 from ..materials import material as materials
 from ..materials.keys import UNITS, check_name
+from ..materials.mixing import description
 
 #: Tests of a study; `elastic` is the direct solve.
 TESTS = ("uniaxial", "tension", "biaxial", "brazilian", "elastic")
@@ -176,7 +177,7 @@ def _name(command: click.Command, arguments: list[str]) -> str:
     changes = values.pop("assignments")
     material = materials.load(values.pop("material"), model).with_set(changes, model)
     everything = {"flexpm": __version__, "command": command.name, **values}
-    everything["material"] = material.description(model)
+    everything["material"] = description(material, model)
     text = json.dumps(everything, sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -12,8 +12,9 @@ from sample_snapshot import wall
 from flexpm import __version__, _flexpm
 from flexpm._plugin import load
 from flexpm.materials.material import preset_names
+from flexpm.results.cracks import Crack
 from flexpm.results.record import COLUMNS
-from flexpm.results.result import Crack, Result
+from flexpm.results.result import Result
 from flexpm.results.vtu import cell_arrays, point_arrays
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -13,9 +13,9 @@ import pytest
 
 import flexpm
 from flexpm.cli import main as cli
-from flexpm.cli import terminal as console
 from flexpm.materials import material as materials
 from flexpm.materials.keys import UNITS
+from flexpm.report import tables
 
 PACKAGE = str(Path(flexpm.__file__).parent.parent)
 # as scripts/flexpm has it
@@ -188,12 +188,12 @@ def test_doctor_finds_this_installation_sound():
 
 
 def test_numbers_in_tables():
-    assert console.scaled(24.31234e9, 1e-9, "GPa") == "24.31 GPa"
-    assert console.scaled(100e6, 1e-6, "MPa") == "100.0 MPa"
-    assert console.scaled(1e-5, 1.0, "", 2) == "1.0e-05"
-    assert console.scaled(1234567.0, 1.0, "") == "1.235e+06"
-    assert console.scaled(None, 1.0, "Pa") == "-"
-    assert console.scaled(0.0, 1.0, "Pa") == "0.000 Pa"
+    assert tables.scaled(24.31234e9, 1e-9, "GPa") == "24.31 GPa"
+    assert tables.scaled(100e6, 1e-6, "MPa") == "100.0 MPa"
+    assert tables.scaled(1e-5, 1.0, "", 2) == "1.0e-05"
+    assert tables.scaled(1234567.0, 1.0, "") == "1.235e+06"
+    assert tables.scaled(None, 1.0, "Pa") == "-"
+    assert tables.scaled(0.0, 1.0, "Pa") == "0.000 Pa"
 
 
 def test_models_of_the_command_are_those_of_the_materials(capsys):

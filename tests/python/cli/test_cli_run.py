@@ -10,8 +10,8 @@ from matplotlib.image import imread
 from sample_snapshot import read_vtu
 
 from flexpm.cli import main as cli
-from flexpm.results import record as curve
-from flexpm.results.record import COLUMNS
+from flexpm.results import measures
+from flexpm.results.record import COLUMNS, Curve
 
 SMALL = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01", "--quiet"]
 
@@ -47,9 +47,9 @@ def test_the_files_of_a_run_agree(finished):
     result = json.loads((folder / "result.json").read_text())
     with (folder / "curve.csv").open() as file:
         rows = [[float(cell) for cell in row] for row in list(csv.reader(file))[1:]]
-    record = curve.Curve.from_columns(COLUMNS, np.array(rows))
-    assert result["youngs_modulus"] == curve.youngs_modulus(record)
-    assert result["poissons_ratio"] == curve.poissons_ratio(record)
+    record = Curve.from_columns(COLUMNS, np.array(rows))
+    assert result["youngs_modulus"] == measures.youngs_modulus(record)
+    assert result["poissons_ratio"] == measures.poissons_ratio(record)
     assert result["peak_stress"] == record["axial_stress"].max()
     with (folder / "cracks.csv").open() as file:
         cracks = list(csv.DictReader(file))

@@ -21,7 +21,7 @@ from matplotlib.image import imread
 
 from flexpm.errors import InputError
 from flexpm.studies import figures as study_plot
-from flexpm.studies import jobs, study
+from flexpm.studies import jobs, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
 SMALL = "width = 0.01\nheight = 0.02\nthickness = 0.01\n"
@@ -171,7 +171,7 @@ def test_pictures_show_means_over_packings(tmp_path):
         for model, seed, cohesion in itertools.product(("rigid", "inner"), (1, 2), (1e7, 2e7))
     ]
     made = [job for job, _ in pairs]
-    rows = study.table(made, [outcome for _, outcome in pairs])
+    rows = tables.table(made, [outcome for _, outcome in pairs])
     assert list(rows["peak_stress"][:2]) == [1.2e7, 2.2e7]
     pictures = study_plot.draw(study.Study("means", made), rows, tmp_path)
     assert imread(pictures[0]).shape[0] > 300

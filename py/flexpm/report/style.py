@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Style of all pictures and how they are written. No window is opened, no display is needed."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..files import whole_file
+from ..results.cracks import SHEAR, TENSILE
+
+#: Colours that stay apart for colour-blind readers and in print.
+COLOURS = {TENSILE: "#0072b2", SHEAR: "#d55e00"}
+MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks"}
+#: Settings of all pictures.
+STYLE = {
+    "font.size": 9.0,
+    "axes.labelsize": 9.5,
+    "legend.fontsize": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "savefig.dpi": 220,
+    "lines.solid_capstyle": "round",
+}
+
+
+@contextlib.contextmanager
+def drawing(path: Path | str, size: tuple[float, float] = (5.6, 3.9)) -> Iterator[Axes]:
+    """Axes to draw in, in the style of all pictures; written to `path` afterwards.
+
+    Args:
+        path: Picture to write.
+        size: Width and height [inch].
+    """
+    with rc_context(STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        yield figure.add_subplot()
+        save(figure, path)
+
+
+def save(figure: Figure, path: Path | str) -> None:
+    """Write a picture, whole or not at all."""
+    with whole_file(path) as temporary:
+        figure.savefig(temporary)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of text in the units of the laboratory: names and values, or columns with a header."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..materials.references import Reference
+
+if TYPE_CHECKING:  # the command shows its help without numpy
+    from ..results.result import Result
+    from ..results.strength import Envelope
+
+
+def table(rows: Iterable[tuple[str, str]], title: str = "") -> str:
+    """Two columns of text: names and values."""
+    rows = list(rows)
+    width = max((len(name) for name, _ in rows), default=0)
+    lines = [f"  {name:<{width}}  {value}" for name, value in rows]
+    return "\n".join([title, *lines] if title else lines)
+
+
+def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> str:
+    """`value` times `factor` with its unit, or a dash for a missing value."""
+    if value is None:
+        return "-"
+    return f"{factor * value:#.{digits}g}".rstrip(".") + (f" {unit}" if unit else "")
+
+
+def result_table(result: Result) -> str:
+    """Short table of the outcome of a test."""
+    counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
+    rows = [
+        ("grains, contacts", f"{result.grains}, {result.contacts}"),
+        ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
+        ("Poisson's ratio", scaled(result.poissons_ratio, 1.0, "", 3)),
+        ("peak stress", scaled(result.peak_stress, 1e-6, "MPa")),
+        ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
+        ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
+        ("cracked points", counts),
+        ("first tensile, shear crack", _first_cracks(result)),
+        ("fragments", _fragments(result)),
+        ("unbalanced-force ratio", scaled(result.unbalanced_ratio, 1.0, "", 2)),
+        ("energy error", scaled(result.energy_error, 100.0, "%", 2)),
+        ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
+        ("status", result.status),
+    ]
+    if result.confinement:
+        rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
+    name = result.material.get("name", "")
+    return table(rows, f"{result.test}, {result.model} model, {name}, seed {result.seed}")
+
+
+def _first_cracks(result: Result) -> str:
+    stresses = result.first_tensile_crack_stress, result.first_shear_crack_stress
+    return "at " + ", ".join(scaled(stress, 1e-6, "MPa") for stress in stresses)
+
+
+def _fragments(result: Result) -> str:
+    if result.fragments is None:
+        return "-"
+    share = scaled(result.largest_fragment, 100.0, "%", 3)
+    return f"{result.fragments}, the largest with {share} of the area"
+
+
+def columns(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Table with a header; the first column to the left, numbers to the right."""
+    lines = [tuple(header), *map(tuple, rows)]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return "\n".join(
+        "  "
+        + "  ".join(
+            cell.rjust(width) if number else cell.ljust(width)
+            for number, (cell, width) in enumerate(zip(line, widths, strict=True))
+        )
+        for line in lines
+    )
+
+
+def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str:
+    """Cohesion, friction angle and Hoek-Brown constants, each with its standard error."""
+    header = ("criterion", "c [MPa]", "+-", "phi [deg]", "+-", "sigma_ci [MPa]", "+-", "m_i", "+-")
+    factors = {"cohesion": 1e-6, "friction_angle": 1.0, "sigma_ci": 1e-6, "m_i": 1.0}
+    rows = []
+    for one in envelopes:
+        found = one.as_dict()
+        cells = [one.model]
+        for name, factor in factors.items():
+            cells.append(scaled(found[name], factor, ""))
+            cells.append(scaled(found[f"{name}_error"], factor, "", 2))
+        rows.append(cells)
+    if rock is not None:
+        measured = scaled(rock.cohesion, 1e-6, ""), scaled(rock.friction_angle, 1.0, "")
+        rows.append((rock.name, measured[0], "-", measured[1], *["-"] * 5))
+    return columns(header, rows)
+
+
+def statistics_table(found: dict[str, Any]) -> str:
+    """Table of what can be counted and measured in a specimen, SI units and degrees."""
+    rows = []
+    for name, value in found.items():
+        if isinstance(value, dict):
+            rows += [(f"{name} {key}", f"{number:.4g}") for key, number in value.items()]
+        else:
+            rows.append((name, str(value) if isinstance(value, int) else f"{value:.6g}"))
+    return table((name.replace("_", " "), value) for name, value in rows)
+
+
+def elastic_table(found: dict[str, float]) -> str:
+    """Table of the elastic constants found by a direct solve."""
+    rows = [
+        ("Young's modulus", scaled(found["youngs_modulus"], 1e-9, "GPa", 5)),
+        ("Poisson's ratio", scaled(found["poissons_ratio"], 1.0, "", 4)),
+    ]
+    return table(rows)

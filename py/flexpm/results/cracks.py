@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cracks: contact points that have lost their bond, and their table. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..files import csv_text
+from .record import Curve
+
+TENSILE, SHEAR = 1, 2
+#: Name of each mode.
+MODES = {TENSILE: "tensile", SHEAR: "shear"}
+
+
+class Crack(NamedTuple):
+    """One contact point that has lost its bond."""
+
+    step: int
+    strain: float  #: axial strain when it broke [-]
+    x: float  #: position when it broke [m]
+    y: float  #: [m]
+    mode: int  #: TENSILE if the point was opening, else SHEAR
+    contact: int  #: index of the contact
+    point: int  #: index of the point in its contact
+
+
+def cracks_csv(cracks: Sequence[Crack]) -> str:
+    """Cracks as CSV text in the order given; numbers read back unchanged."""
+    rows = (
+        (int(crack.step), *map(float, crack[1:4]), MODES[crack.mode], crack.contact, crack.point)
+        for crack in cracks
+    )
+    return csv_text(Crack._fields, rows)
+
+
+def cracks_from_snapshot(snapshot: Mapping[str, np.ndarray], curve: Curve) -> list[Crack]:
+    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
+    steps = np.asarray(snapshot["crack_step"])
+    contacts, points = np.nonzero(steps >= 0)
+    order = np.lexsort((points, contacts, steps[contacts, points]))
+    contacts, points = contacts[order], points[order]
+    steps = steps[contacts, points]
+    strains = (
+        np.interp(steps, curve["step"], curve["axial_strain"])
+        if len(curve)
+        else np.full(len(steps), np.nan)
+    )
+    modes = np.asarray(snapshot["crack_mode"])[contacts, points]
+    places = np.asarray(snapshot["crack_position"])[contacts, points]
+    return [
+        Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
+        for step, strain, (x, y), mode, contact, point in zip(
+            steps, strains, places, modes, contacts, points, strict=True
+        )
+    ]

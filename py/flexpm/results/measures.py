@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures taken from the record of a test, paper Sec. 4. SI units, signs as in the record."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from .record import Curve
+
+ENERGIES = (
+    "kinetic_energy",
+    "elastic_energy",
+    "damage_energy",
+    "friction_energy",
+    "damping_energy",
+    "potential_energy",
+)
+
+#: E and nu are fitted between these fractions of the peak.
+ELASTIC_WINDOW = (0.05, 0.25)
+#: The largest stress counts as a peak once the stress has fallen by this fraction of it.
+PEAK_DROP = 0.10
+_SEATED = 0.2
+#: Shares of the peak between which the early and the late modulus are taken.
+_EARLY, _LATE = (0.15, 0.25), (0.75, 0.85)
+#: Cracking has set in once this share of all cracked points of a mode have cracked.
+ONSET_SHARE = 0.05
+
+
+def differential_stress(curve: Curve) -> np.ndarray:
+    """Axial stress above the confinement [Pa]; what deforms the specimen axially."""
+    return curve["axial_stress"] - curve["confinement"]
+
+
+def peak_row(curve: Curve) -> int | None:
+    """Row of the largest axial stress, or None while no peak has been passed."""
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.any(np.isfinite(stress)):
+        return None
+    row = int(np.nanargmax(stress))
+    if not stress[row] > 0.0 or not np.nanmin(stress[row:]) <= (1.0 - PEAK_DROP) * stress[row]:
+        return None
+    return row
+
+
+def until_regained(curve: Curve) -> Curve:
+    """The record until the stress regains a peak from which it had fallen by 10 %.
+
+    A disc that has split may carry more than before: its strength is the peak at which it split.
+    Falls below a fifth of the largest stress, while plates find their place, do not count.
+    """
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.all(np.isfinite(stress)):
+        return curve
+    largest = np.maximum.accumulate(stress)
+    fallen = (stress <= (1.0 - PEAK_DROP) * largest) & (largest >= _SEATED * largest[-1])
+    first = int(np.argmax(fallen))
+    regained = np.flatnonzero(fallen[first] & (stress[first:] > largest[first]))
+    return Curve.from_array(curve.array[: first + regained[0]]) if len(regained) else curve
+
+
+def elastic_rows(curve: Curve) -> slice:
+    """Rows of the loading branch between 5 and 25 % of the largest stress."""
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.nanmax(stress, initial=0.0) > 0.0:
+        return slice(0, 0)
+    low, high = (fraction * np.nanmax(stress) for fraction in ELASTIC_WINDOW)
+    end = int(np.argmax(stress > high))  # the first row above the window
+    below = np.flatnonzero(stress[:end] < low)
+    return slice(int(below[-1]) + 1 if len(below) else 0, end)
+
+
+def youngs_modulus(curve: Curve) -> float | None:
+    """Slope of stress over axial strain in the elastic window [Pa], by least squares."""
+    rows = elastic_rows(curve)
+    return _slope(curve["axial_strain"][rows], differential_stress(curve)[rows])
+
+
+def poissons_ratio(curve: Curve) -> float | None:
+    """Slope of lateral over axial strain in the elastic window [-], by least squares."""
+    rows = elastic_rows(curve)
+    return _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
+
+
+def softening_slope(curve: Curve) -> float | None:
+    """Slope of stress over strain from the peak to half of it, or to the end [Pa], negative."""
+    peak = peak_row(curve)
+    if peak is None:
+        return None
+    stress = differential_stress(curve)
+    fallen = np.flatnonzero(stress[peak:] <= 0.5 * stress[peak])
+    rows = slice(peak, peak + int(fallen[0]) + 1 if len(fallen) else len(stress))
+    return _slope(curve["axial_strain"][rows], stress[rows], fewest=2)
+
+
+def late_modulus(curve: Curve) -> float | None:
+    """Tangent modulus around 80 % of the peak over that around 20 % [-], by least squares.
+
+    1 is a straight line up to there; the paper's two slopes (Fig. 9) give less.
+    """
+    peak = peak_row(curve)
+    if peak is None:
+        return None
+    strain, stress = curve["axial_strain"][: peak + 1], differential_stress(curve)[: peak + 1]
+    moduli = []
+    for low, high in (_EARLY, _LATE):
+        rows = (stress >= low * stress[-1]) & (stress <= high * stress[-1])
+        moduli.append(_slope(strain[rows], stress[rows]))
+    early, late = moduli
+    return late / early if early and late is not None else None
+
+
+def crack_onset(
+    curve: Curve, steps: Sequence[int], share: float = ONSET_SHARE
+) -> tuple[float | None, float | None]:
+    """Axial strain [-] and stress [Pa] at which a share of the cracks were there.
+
+    Args:
+        curve: The record; values between its rows are interpolated in the step.
+        steps: Step of each crack, in any order.
+        share: Share of the cracks [-]; the first one counts at least, so 0 is the first crack.
+
+    Returns:
+        Strain and stress; None for both without a crack or a record.
+    """
+    if len(steps) == 0 or len(curve) == 0:
+        return None, None
+    number = max(1, math.ceil(share * len(steps)))
+    step = np.sort(np.asarray(steps))[number - 1]
+    return tuple(
+        float(np.interp(step, curve["step"], curve[name]))
+        for name in ("axial_strain", "axial_stress")
+    )
+
+
+def energy_error(curve: Curve, initial: float | None = None) -> float | None:
+    """Largest |work + initial energy - sum of the energies| over the largest |work| [-].
+
+    Args:
+        curve: The record.
+        initial: Energy when the work began to count [J]; if None, as the first row has it.
+    """
+    work = curve["boundary_work"]
+    total = sum(curve[name] for name in ENERGIES)
+    if len(work) == 0 or not np.all(np.isfinite(total + work)):
+        return None
+    largest = np.max(np.abs(work))
+    if not largest > 0.0:
+        return None
+    if initial is None:
+        initial = total[0] - work[0]
+    return float(np.max(np.abs(work + initial - total)) / largest)
+
+
+def unbalanced_ratio(curve: Curve) -> float | None:
+    """Largest unbalanced-force ratio from 5 % of the peak up to the peak [-].
+
+    Below that the contact forces, which the ratio refers to, are too small to say anything. Each
+    crack unbalances its two grains for a moment at any loading rate, so this says how violently
+    bonds break; `median_unbalanced_ratio` follows the rate.
+    """
+    return _while_loaded(curve, curve["unbalanced_ratio"], np.nanmax)
+
+
+def median_unbalanced_ratio(curve: Curve) -> float | None:
+    """Median of the unbalanced-force ratio over the same rows [-]; proportional to the rate.
+
+    Rows at a faster pace count with the ratio that the slowest would have given: they are driven so
+    where the rate does not matter.
+    """
+    return _while_loaded(curve, curve["unbalanced_ratio"] / curve["pace"], np.nanmedian)
+
+
+def end_mismatch(curve: Curve) -> float | None:
+    """Largest difference of both ends' reactions over the larger one, over the same rows [-]."""
+    return _while_loaded(curve, curve["end_mismatch"], np.nanmax)
+
+
+def _while_loaded(
+    curve: Curve, column: np.ndarray, of: Callable[[np.ndarray], float]
+) -> float | None:
+    """A number from the rows of a column from 5 % of the peak up to the peak."""
+    stress = differential_stress(curve)
+    if len(stress) == 0 or not np.nanmax(stress, initial=0.0) > 0.0:
+        return None
+    peak = int(np.nanargmax(stress))
+    start = int(np.argmax(stress >= ELASTIC_WINDOW[0] * stress[peak]))
+    values = column[start : peak + 1]
+    return float(of(values)) if np.any(np.isfinite(values)) else None
+
+
+def _slope(x: np.ndarray, y: np.ndarray, fewest: int = 3) -> float | None:
+    """Least-squares slope of y over x, or None for too few or coincident points."""
+    if len(x) < fewest or not np.all(np.isfinite(x) & np.isfinite(y)):
+        return None
+    centred = x - np.mean(x)
+    spread = float(centred @ centred)
+    return float(centred @ (y - np.mean(y))) / spread if spread > 0.0 else None

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Workers that run jobs, by Dask: of this machine, a running scheduler or a batch system."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..materials.keys import check_name
+from ..progress import Progress
+from . import jobs
+from .jobs import Job
+
+
+class Pool:
+    """Runs jobs through Dask; a cluster is started when the first job needs it."""
+
+    def __init__(
+        self,
+        folder: Path,
+        workers: int | None = None,
+        scheduler: str | None = None,
+        cluster: str | None = None,
+    ) -> None:
+        """Take the options of a study; `folder` holds the folders of the jobs."""
+        if scheduler is not None and cluster is not None:
+            raise InputError(
+                f"scheduler = {scheduler!r}, must not be given with cluster; leave one out"
+            )
+        self._folder, self._workers = folder.resolve(), workers
+        self._scheduler, self._kind = scheduler, cluster
+        self._client: Any = None
+        self._cluster: Any = None
+
+    def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[dict[str, Any]]:
+        """Outcomes of jobs in their order; those that have ended before are not run again."""
+        outcomes = {job.name: jobs.known(self._folder / job.name) for job in wanted}
+        waiting = [job for job in wanted if outcomes[job.name] is None]
+        report = progress or _silent
+        done, failed = len(wanted) - len(waiting), 0
+        report(done, len(wanted), "runs")
+        for job, ended in self._ended(waiting):
+            outcome = jobs.conclude(job, self._folder / job.name, ended)
+            outcomes[job.name] = outcome
+            done, failed = done + 1, failed + (outcome["exit_code"] != 0)
+            report(done, len(wanted), f"runs, {failed} failed" if failed else "runs")
+        return [outcomes[job.name] for job in wanted]
+
+    def _ended(self, waiting: Sequence[Job]) -> Iterator[tuple[Job, Any]]:
+        """Jobs with the processes they were, or the error of a worker, as they end."""
+        if not waiting:
+            return
+        from distributed import as_completed
+
+        client = self._started()
+        parent = Path(__file__).parents[2].absolute()
+        # a function of the standard library: workers need not import flexpm
+        futures = {
+            client.submit(
+                subprocess.run,
+                job.command(self._folder / job.name, parent),
+                capture_output=True,
+                text=True,
+                stdin=subprocess.DEVNULL,
+                pure=False,
+            ): job
+            for job in waiting
+        }
+        for future in as_completed(futures):
+            error = future.exception()
+            yield futures[future], error if error is not None else future.result()
+
+    def _started(self) -> Any:
+        if self._client is None:
+            from distributed import Client
+
+            self._client = Client(self._scheduler or self._new_cluster())
+        return self._client
+
+    def _new_cluster(self) -> Any:
+        if self._kind is not None:
+            self._cluster = _batch_cluster(self._kind)
+            self._cluster.scale(self._workers or 1)
+            return self._cluster
+        from distributed import LocalCluster
+
+        # workers only wait for processes, so threads do for them
+        self._cluster = LocalCluster(
+            n_workers=self._workers or len(os.sched_getaffinity(0)),
+            threads_per_worker=1,
+            processes=False,
+            # any free port: another study may run on this machine
+            dashboard_address="127.0.0.1:0",
+        )
+        return self._cluster
+
+    def __enter__(self) -> Pool:
+        return self
+
+    def __exit__(self, *details: object) -> None:
+        for part in (self._client, self._cluster):
+            if part is not None:
+                part.close()
+
+
+def _batch_cluster(kind: str) -> Any:
+    try:
+        import dask_jobqueue
+    except ImportError:
+        raise InputError(
+            f"cluster = {kind!r}, needs the package dask-jobqueue; install it with pip"
+        ) from None
+    classes = {
+        name.removesuffix("Cluster").lower(): value
+        for name, value in vars(dask_jobqueue).items()
+        if name.endswith("Cluster")
+    }
+    check_name("cluster", kind, sorted(classes))
+    return classes[kind]()
+
+
+def _silent(done: float, expected: float, text: str) -> None:
+    """Show nothing."""

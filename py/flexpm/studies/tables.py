@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of jobs with their inputs and measures, and the files they go to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas
+
+from ..files import whole_file
+from .jobs import Job
+
+
+def table(wanted: Sequence[Job], outcomes: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
+    """One row a job: hash, inputs, exit code, message, measures."""
+    return pandas.DataFrame(
+        {
+            "hash": job.name,
+            **{key: _cell(value) for key, value in job.inputs.items()},
+            "exit_code": outcome["exit_code"],
+            "message": outcome["message"],
+            **outcome["result"],
+        }
+        for job, outcome in zip(wanted, outcomes, strict=True)
+    ).convert_dtypes(convert_string=False)
+
+
+def write_table(rows: pandas.DataFrame, stem: Path) -> None:
+    """Write a table as CSV, and as Parquet if pandas finds a library for it."""
+    with whole_file(stem.with_suffix(".csv")) as temporary:
+        rows.to_csv(temporary, index=False)
+    try:
+        with whole_file(stem.with_suffix(".parquet")) as temporary:
+            rows.to_parquet(temporary)
+    except ImportError:
+        pass  # neither pyarrow nor fastparquet is in Debian 12
+
+
+def _cell(value: Any) -> Any:
+    return " ".join(map(str, value)) if isinstance(value, list) else value
