@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import astuple, dataclass, field
-from typing import Any
 
 import numpy as np
 import yade
@@ -147,7 +146,7 @@ class Recorder:
             shear_cracks=shear,
             unbalanced_ratio=unbalanced_ratio(self.built),
             kinetic_energy=utils.kineticEnergy(),
-            elastic_energy=elastic_energy(self.built),
+            elastic_energy=self.built.elastic_energy(),
             damage_energy=math.nan,
             friction_energy=math.nan,
             damping_energy=_damping_energy(),
@@ -164,15 +163,6 @@ class Recorder:
         )
 
 
-def elastic_energy(built: SphereModel) -> float:
-    """Elastic energy of unbroken bonds and plates (JCFpm) or of all contacts (CohFrict) [J]."""
-    if built.name == "cohfrict":
-        return float(built.law.elasticEnergy())
-    touching = [contact for plate in built.plates for contact in _contacts_of(plate)]
-    bonds = [bond for bond in built.cracks.contacts if bond is not None and bond.isCohesive]
-    return sum(bond.strainEnergy for bond in (*bonds, *(contact.phys for contact in touching)))
-
-
 def unbalanced_ratio(built: SphereModel) -> float:
     """Largest resultant on what is free to move over the mean contact force [-].
 
@@ -184,10 +174,6 @@ def unbalanced_ratio(built: SphereModel) -> float:
         largest = max(largest, math.hypot(force[0], force[1]))
         free = max(free, math.hypot(*(force[k] if "xy"[k] not in blocked else 0.0 for k in (0, 1))))
     return utils.unbalancedForce(useMaxForce=True) * free / largest if largest > 0.0 else math.nan
-
-
-def _contacts_of(body: int) -> list[Any]:
-    return [contact for contact in yade.O.interactions.withBody(body) if contact.isReal]
 
 
 def _damping_energy() -> float:

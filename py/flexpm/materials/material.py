@@ -10,7 +10,7 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from ..errors import InputError
 from ..files import load_toml
@@ -33,6 +33,23 @@ from .mineral import Mineral
 ENERGY_TOLERANCE = 1e-12
 
 _PRESETS = Path(__file__).with_name("presets")
+
+
+class Law(TypedDict):
+    """Effective parameters of a material for one model, keys as in the TOML files."""
+
+    young: float | None  #: [Pa]
+    poisson: float | None  #: [-]
+    normal_stiffness: float  #: [Pa/m]
+    shear_ratio: float  #: [-]
+    density: float  #: [kg/m3]
+    tensile_strength: float  #: [Pa]
+    cohesion: float  #: [Pa]
+    friction: float  #: [-]
+    tensile_fracture_energy: float  #: [N/m]
+    shear_fracture_energy: float  #: [N/m]
+    softening: str
+    plane: str
 
 
 @dataclass(frozen=True)
@@ -137,7 +154,7 @@ class Material:
         changed.law(model)
         return changed
 
-    def law(self, model: str = "flexible") -> dict[str, float | str | None]:
+    def law(self, model: str = "flexible") -> Law:
         """Effective parameters of `model` as one flat dictionary, keys as in the TOML files.
 
         For brittle softening the fracture energies are the elastic energies sigma_t^2 / (2 K_n)
@@ -154,11 +171,21 @@ class Material:
                     raise InputError(
                         f"material [elastic.flexible] {key} is missing; triangles need it"
                     )
-        values = {key: getattr(chosen, key) for key in ELASTIC_KEYS}
-        values |= {key: getattr(self, key) for key in COMMON_KEYS}
-        for key, elastic in zip(ENERGY_KEYS, self.elastic_energies(model), strict=True):
-            values[key] = self._energy(key, elastic)
-        return values
+        tensile, shear = self.elastic_energies(model)
+        return Law(
+            young=chosen.young,
+            poisson=chosen.poisson,
+            normal_stiffness=chosen.normal_stiffness,
+            shear_ratio=chosen.shear_ratio,
+            density=self.density,
+            tensile_strength=self.tensile_strength,
+            cohesion=self.cohesion,
+            friction=self.friction,
+            tensile_fracture_energy=self._energy("tensile_fracture_energy", tensile),
+            shear_fracture_energy=self._energy("shear_fracture_energy", shear),
+            softening=self.softening,
+            plane=self.plane,
+        )
 
     def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
         """Energies [N/m] a point has stored at its tensile and at its shear strength."""

@@ -13,29 +13,32 @@ import yade
 from ..results.cracks import SHEAR, TENSILE, Crack
 from ..results.record import Curve
 from .sphere_bonds import Bonds
+from .sphere_laws import SphereLaw
 
 _FOUND = ("steps", "modes", "places")
 
 
 class CrackWatch:
-    """Finds bonds that have broken, with step, mode and place.
-
-    JCFpm: tensile if the bond was opened beyond its tensile limit. CohFrict: tensile if its tension
-    was closer to the limit than its shear force.
-    """
+    """Finds bonds that have broken, with step, mode and place."""
 
     def __init__(
-        self, law: Any, interactions: Sequence[Any], bonds: Bonds, bodies: Sequence[int]
+        self,
+        kind: SphereLaw,
+        law: Any,
+        interactions: Sequence[Any],
+        bonds: Bonds,
+        bodies: Sequence[int],
     ) -> None:
         """Watch bonds from the present state on.
 
         Args:
+            kind: What tells that a bond has broken.
             law: The contact law's functor.
             interactions: One for each bond.
             bonds: Their properties.
             bodies: Body of each grain.
         """
-        self._bonds, self._bodies = bonds, bodies
+        self._kind, self._bonds, self._bodies = kind, bonds, bodies
         self.rebind(law, interactions)
         self.steps = np.full(len(bonds), -1)
         self.modes = np.zeros(len(bonds), dtype=int)
@@ -44,10 +47,9 @@ class CrackWatch:
 
     def rebind(self, law: Any, interactions: Sequence[Any]) -> None:
         """Watch the same bonds in a scene that has been loaded; None stands for a lost one."""
-        self._law, self._interactions = law, interactions
+        self._law, self.interactions = law, interactions
         # YADE drops this when the bond is lost; kept here, it still tells how that came
         self.contacts = [None if one is None else one.phys for one in interactions]
-        self._counts_itself = hasattr(law, "nbTensCracks")
 
     def memory(self) -> dict[str, list]:
         """What has been found, as plain values."""
@@ -65,17 +67,13 @@ class CrackWatch:
 
     def look(self) -> None:
         """Take note of the bonds that have broken since the last look."""
-        if self._counts_itself:
-            if self._law.nbTensCracks + self._law.nbShearCracks == np.sum(self.steps >= 0):
-                return
-            broken = [row for row in self._whole() if self.contacts[row].isBroken]
-        else:
-            # an interaction that is not real or has another phys is not the bond any more
-            broken = [
-                row
-                for row in self._whole()
-                if not self._interactions[row].isReal or self._interactions[row].phys.cohesionBroken
-            ]
+        if not self._kind.may_have_broken(self._law, int(np.sum(self.steps >= 0))):
+            return
+        broken = [
+            row
+            for row in np.flatnonzero(self.steps < 0).tolist()
+            if self._kind.has_broken(self.interactions[row], self.contacts[row])
+        ]
         for row in broken:
             self.steps[row] = yade.O.iter
             self.modes[row] = self._mode(row)
@@ -96,18 +94,10 @@ class CrackWatch:
             for row, step, strain, mode in zip(rows, steps, strains, self.modes[rows], strict=True)
         ]
 
-    def _whole(self) -> list[int]:
-        """Bonds that were whole at the last look."""
-        return np.flatnonzero(self.steps < 0).tolist()
-
     def _mode(self, row: int) -> int:
-        bond, strength = self.contacts[row], self._bonds.tensile_strength[row]
-        if self._counts_itself:
-            limit = strength / self._bonds.normal_stiffness[row]
-            return TENSILE if bond.crackJointAperture > limit else SHEAR
         tension = -self._normal_force(row)
-        limit = self._bonds.shear_strength[row] - bond.tangensOfFrictionAngle * tension
-        return TENSILE if tension * max(limit, 0.0) > bond.shearForce.norm() * strength else SHEAR
+        tensile = self._kind.is_tensile(self.contacts[row], tension, self._bonds, row)
+        return TENSILE if tensile else SHEAR
 
     def _normal_force(self, row: int) -> float:
         """Of the last step before the bond broke, compression positive [N]."""

@@ -9,20 +9,29 @@ middle of its edge: its damage is 0 or 1, its slip the elastic one. Tension is p
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 import yade
 
-if TYPE_CHECKING:
-    from .spheres import SphereModel
+from ..specimens.specimen import Specimen
+from .sphere_bonds import Bonds
+from .sphere_cracks import CrackWatch
 
 
-def snapshot(built: SphereModel) -> dict[str, np.ndarray]:
-    """Arrays of N nodes, M triangles and C bonds, as :mod:`flexpm.results.vtu` takes them."""
-    motion = Motion(built)
-    grain_of, reference, triangles, triangle_grain = _fans(built)
-    bonds, cracks = built.bonds, built.cracks
+def snapshot(
+    specimen: Specimen, bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch
+) -> dict[str, np.ndarray]:
+    """Arrays of N nodes, M triangles and C bonds, as :mod:`flexpm.results.vtu` takes them.
+
+    Args:
+        specimen: The grains.
+        bodies: Body of each grain.
+        bonds: Properties of the bonds.
+        cracks: What watches them, just after a look.
+    """
+    motion = Motion(specimen, bodies)
+    grain_of, reference, triangles, triangle_grain = _fans(specimen)
     ends = np.stack(
         [
             0.5 * sum(motion.carry(bonds.grains[:, side], bonds.ends[:, k]) for side in (0, 1))
@@ -30,13 +39,13 @@ def snapshot(built: SphereModel) -> dict[str, np.ndarray]:
         ],
         axis=1,
     )
-    forces = bond_forces(built)
+    forces = bond_forces(bodies, bonds, cracks)
     along, length = motion.branches(bonds.grains)
     normal = np.einsum("ij,ij->i", forces, along)
     shear = along[:, 0] * forces[:, 1] - along[:, 1] * forces[:, 0]
     middle = 0.5 * (ends[:, 0] + ends[:, 1])
-    stress = _grain_stress(built, motion, forces, middle)
-    start = np.hypot(*np.diff(built.specimen.centres[bonds.grains], axis=1)[:, 0].T)
+    stress = _grain_stress(specimen, motion, bonds, forces, middle)
+    start = np.hypot(*np.diff(specimen.centres[bonds.grains], axis=1)[:, 0].T)
     return {
         "positions": motion.carry(grain_of, reference),
         "reference": reference,
@@ -59,9 +68,9 @@ def snapshot(built: SphereModel) -> dict[str, np.ndarray]:
 class Motion:
     """Where the spheres have gone and how they have turned."""
 
-    def __init__(self, built: SphereModel) -> None:
-        states = [yade.O.bodies[body].state for body in built.ids]
-        self._start = np.array(built.specimen.centres)
+    def __init__(self, specimen: Specimen, bodies: Sequence[int]) -> None:
+        states = [yade.O.bodies[body].state for body in bodies]
+        self._start = np.array(specimen.centres)
         self.centres = np.array([(s.pos[0], s.pos[1]) for s in states])
         self._speeds = np.array([(s.vel[0], s.vel[1]) for s in states])
         self._spins = np.array([s.angVel[2] for s in states])
@@ -90,40 +99,40 @@ class Motion:
         return np.column_stack((c * x - s * y, s * x + c * y))
 
 
-def bond_forces(built: SphereModel) -> np.ndarray:
+def bond_forces(bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch) -> np.ndarray:
     """Force of each bond on its second grain [N], (C, 2); of what is left of it once broken."""
-    forces = np.zeros((len(built.bonds), 2))
-    for row, interaction in enumerate(built.interactions):
+    forces = np.zeros((len(bonds), 2))
+    for row, interaction in enumerate(cracks.interactions):
         if interaction is not None and interaction.isReal:
             phys = interaction.phys
             force = phys.normalForce + phys.shearForce
             forces[row] = force[0], force[1]
     # the collider may have named the other sphere first
-    first = np.array(built.ids)[built.bonds.grains[:, 0]]
-    named = [one.id1 if one is not None else -1 for one in built.interactions]
+    first = np.array(bodies)[bonds.grains[:, 0]]
+    named = [one.id1 if one is not None else -1 for one in cracks.interactions]
     forces[np.array(named) != first] *= -1.0
     return forces
 
 
 def _grain_stress(
-    built: SphereModel, motion: Motion, forces: np.ndarray, middle: np.ndarray
+    specimen: Specimen, motion: Motion, bonds: Bonds, forces: np.ndarray, middle: np.ndarray
 ) -> np.ndarray:
     """Mean stress of each grain, rows xx, yy, xy [Pa]."""
-    tensor = np.zeros((len(built.ids), 2, 2))
+    tensor = np.zeros((len(specimen.discs), 2, 2))
     for side, sign in ((0, -1.0), (1, 1.0)):
-        grains = built.bonds.grains[:, side]
+        grains = bonds.grains[:, side]
         arm = middle - motion.centres[grains]
         np.add.at(tensor, grains, sign * arm[:, :, None] * forces[:, None, :])
-    volumes = np.array(built.specimen.tessellation.cell_areas) * built.specimen.thickness
+    volumes = np.array(specimen.tessellation.cell_areas) * specimen.thickness
     tensor /= volumes[:, None, None]
     return np.column_stack(
         (tensor[:, 0, 0], tensor[:, 1, 1], 0.5 * (tensor[:, 0, 1] + tensor[:, 1, 0]))
     )
 
 
-def _fans(built: SphereModel) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _fans(specimen: Specimen) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Grain of each node, nodes, triangles over all nodes, grain of each triangle."""
-    meshes = built.specimen.meshes("fan")
+    meshes = specimen.meshes("fan")
     nodes = np.diff(meshes.node_offsets)
     count = np.diff(meshes.triangle_offsets)
     first = np.repeat(np.array(meshes.node_offsets)[:-1], count)

@@ -2,7 +2,7 @@
 """YADE's own bonded models, JCFpm and CohFrict, on the discs and bonds of a specimen. SI units.
 
 Spheres at the disc centres move in the plane and turn about z; each edge that two cells share is a
-bond whose stiffness and strength follow the rule of ``yade_bonds``. Spheres that meet later touch
+bond whose stiffness and strength follow the rule of ``sphere_bonds``. Spheres that meet later touch
 with friction only. As in the other models masses are scaled for a time step of 1 unless the model
 is dynamic.
 """
@@ -24,18 +24,16 @@ from ..materials import material as materials
 from ..materials.material import Material
 from ..materials.mixing import description
 from ..specimens.specimen import Specimen
-from . import sphere_bonds as yade_bonds
-from . import sphere_snapshot as yade_snapshot
-from .sphere_bonds import MASS_MARGIN, Bonds
+from .sphere_bonds import MASS_MARGIN, Bonds, bonds_of, stiffness_bounds
 from .sphere_cracks import CrackWatch
+from .sphere_laws import LAWS, SphereLaw
+from .sphere_snapshot import snapshot
 
 #: Models of this module.
-NAMES = ("jcfpm", "cohfrict")
+NAMES = tuple(LAWS)
 
 #: Bodies may move this share of the mean diameter before the collider looks again [-].
 _SWEEP = 0.05
-#: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
-_PLATE_STIFFNESS = 1e3
 #: Tag of the scene that holds what YADE does not save.
 _MEMORY = "flexpm"
 
@@ -47,13 +45,12 @@ class SphereModel:
     Attributes:
         specimen: The grains.
         material: Their material.
-        name: ``jcfpm`` or ``cohfrict``.
+        kind: What its contact law does differently.
         bonds: Properties of the bonds.
         law: The contact law's functor.
         engines: All engines of the model.
         material_ids: Ids of the materials of spheres and of plates.
         ids: Body of each grain.
-        interactions: One for each bond; not real any more once it is lost.
         cracks: Bonds that have broken.
         plates: Bodies of the plates.
         loads: Lasting force and moment on bodies, see :meth:`load`.
@@ -62,21 +59,25 @@ class SphereModel:
 
     specimen: Specimen
     material: Material
-    name: str
+    kind: SphereLaw
     bonds: Bonds
     law: Any
     engines: list[Any]
     material_ids: tuple[int, int]
     ids: list[int]
-    interactions: list[Any] = field(init=False)
     cracks: CrackWatch = field(init=False)
     plates: list[int] = field(default_factory=list)
     loads: dict[int, tuple[float, float, float]] = field(default_factory=dict)
     memory: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.interactions = _make_bonds(self)
-        self.cracks = CrackWatch(self.law, self.interactions, self.bonds, self.ids)
+        made = _make_bonds(self)
+        self.cracks = CrackWatch(self.kind, self.law, made, self.bonds, self.ids)
+
+    @property
+    def name(self) -> str:
+        """``jcfpm`` or ``cohfrict``."""
+        return self.kind.name
 
     def run(self, steps: int) -> None:
         """Advance by `steps` and wait for the end."""
@@ -97,14 +98,13 @@ class SphereModel:
     def rebind(self) -> None:
         """Take over a scene that has been loaded, which :meth:`remember` has prepared."""
         self.engines = list(yade.O.engines)
-        self.law = self.engines[2].lawDispatcher.functors[0]
+        self.law = _loop(self.engines).lawDispatcher.functors[0]
         bodies = yade.O.bodies
         self.plates = [body.id for body in bodies if isinstance(body.shape, wrapper.Box)]
         self.memory = json.loads(yade.O.tags[_MEMORY])
         for body, load in self.memory["loads"]:
             self.load(body, *load)
-        self.interactions = _find_bonds(self)
-        self.cracks.rebind(self.law, self.interactions)
+        self.cracks.rebind(self.law, _find_bonds(self))
         self.cracks.recall(self.memory["cracks"])
 
     def set_threads(self, threads: int) -> None:
@@ -124,7 +124,7 @@ class SphereModel:
     def snapshot(self) -> dict[str, np.ndarray]:
         """The present state as plain arrays; their list is in the documentation."""
         self.cracks.look()
-        return yade_snapshot.snapshot(self)
+        return snapshot(self.specimen, self.ids, self.bonds, self.cracks)
 
     def add_plate(self, face: float, sense: int) -> int:
         """Put a fixed, frictionless, horizontal plate beside the specimen.
@@ -160,7 +160,7 @@ class SphereModel:
         for grain, length in tributary.items():
             contact = utils.createInteraction(plate, self.ids[grain])
             contact.phys.kn = stiffness * length
-            self._set_rest(contact, contact.geom.penetrationDepth)
+            self.kind.set_rest(contact, contact.geom.penetrationDepth)
 
     def press(self, plate: int, pressure: float) -> None:
         """Shift the rest of what touches a plate so that it carries a pressure [Pa] at once.
@@ -171,11 +171,18 @@ class SphereModel:
         overlap = pressure / self.material.law(self.name)["normal_stiffness"]
         for contact in yade.O.interactions.withBody(plate):
             if contact.isReal:
-                self._set_rest(contact, contact.geom.penetrationDepth - overlap)
+                self.kind.set_rest(contact, contact.geom.penetrationDepth - overlap)
 
-    def _set_rest(self, contact: Any, overlap: float) -> None:
-        """Set the overlap at which a contact carries no force [m]."""
-        setattr(contact.phys, "initD" if self.name == "jcfpm" else "unp", overlap)
+    def elastic_energy(self) -> float:
+        """Elastic energy of unbroken bonds and plates (JCFpm) or of all contacts (CohFrict) [J]."""
+        bonds = [bond for bond in self.cracks.contacts if bond is not None]
+        touching = [
+            contact.phys
+            for plate in self.plates
+            for contact in yade.O.interactions.withBody(plate)
+            if contact.isReal
+        ]
+        return self.kind.elastic_energy(self.law, bonds, touching)
 
 
 def build(
@@ -207,115 +214,101 @@ def build(
         raise InputError(f"build: model = {model!r}, must be one of {', '.join(NAMES)}")
     chosen = materials.load(material, model)
     law = description(chosen, model)  # which refuses minerals
-    bonds = yade_bonds.bonds_of(specimen, law)
-    radii = specimen.radii if model == "jcfpm" else yade_bonds.separate_radii(specimen)
-    sphere, plate = _materials(model, law, bonds, radii)
+    kind = LAWS[model]
+    bonds, radii = bonds_of(specimen, law), kind.radii(specimen)
+    # new contacts are as stiff as the mean bond
+    young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
+    sphere, plate = kind.materials(chosen.law(model), young)
     material_ids = (yade.O.materials.append(sphere), yade.O.materials.append(plate))
     ids = [
         yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=sphere))
         for (x, y), radius in zip(specimen.centres.tolist(), radii.tolist(), strict=True)
     ]
-    yade.O.dt = _set_masses(specimen, radii, bonds, ids, law, (model, damping, dynamic))
-    functor, engines = _engines(specimen, model, damping)
+    bounds = _touched_bounds(specimen, radii, bonds, law["normal_stiffness"], kind.bending)
+    factor = MASS_MARGIN * (1.0 + damping) / 4.0
+    masses, inertias = factor * bounds[0], factor * bounds[1]
+    yade.O.dt = 1.0
+    if dynamic:
+        real = _real_masses(specimen, law["density"])
+        yade.O.dt = math.sqrt(float(min(np.min(real[0] / masses), np.min(real[1] / inertias))))
+        masses, inertias = real
+    _set_masses(ids, masses, inertias)
+    functor, engines = _engines(specimen, kind, damping)
     yade.O.engines = engines
-    built = SphereModel(specimen, chosen, model, bonds, functor, engines, material_ids, ids)
+    built = SphereModel(specimen, chosen, kind, bonds, functor, engines, material_ids, ids)
     built.set_threads(threads)
     return built
 
 
-def _materials(model: str, law: dict[str, Any], bonds: Bonds, radii: np.ndarray) -> tuple[Any, Any]:
-    """Materials of spheres and plates; new contacts are as stiff as the mean bond."""
-    young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
-    common = {"young": young, "poisson": law["shear_ratio"], "density": law["density"]}
-    rigid = common | {"young": _PLATE_STIFFNESS * young, "frictionAngle": 0.0}
-    common["frictionAngle"] = math.atan(law["friction"])
-    if model == "jcfpm":
-        strengths = {"tensileStrength": law["tensile_strength"], "cohesion": law["cohesion"]}
-        return (
-            wrapper.JCFpmMat(type=0, label="flexpm-jcfpm", **common, **strengths),
-            wrapper.JCFpmMat(type=1, label="flexpm-jcfpm-plate", **rigid),
-        )
-    strengths = {"normalCohesion": law["tensile_strength"], "shearCohesion": law["cohesion"]}
-    moments = {"momentRotationLaw": True, "etaRoll": -1.0, "etaTwist": -1.0}
-    return (
-        wrapper.CohFrictMat(label="flexpm-cohfrict", **common, **strengths, **moments),
-        wrapper.CohFrictMat(label="flexpm-cohfrict-plate", isCohesive=False, **rigid),
-    )
+def _touched_bounds(
+    specimen: Specimen, radii: np.ndarray, bonds: Bonds, stiffness: float, bending: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds of the stiffness of each sphere that a plate may touch, too.
 
+    Args:
+        specimen: The grains.
+        radii: Of the spheres [m].
+        bonds: Properties of the bonds.
+        stiffness: K_n of the material [Pa/m].
+        bending: Whether bonds resist bending.
 
-def _set_masses(
-    specimen: Specimen,
-    radii: np.ndarray,
-    bonds: Bonds,
-    ids: list[int],
-    law: dict[str, Any],
-    how: tuple[str, float, bool],
-) -> float:
-    """Give the spheres scaled or real masses; return the stable time step (1 if scaled)."""
-    model, damping, dynamic = how
-    bending = model == "cohfrict"
-    move, turn = yade_bonds.stiffness_bounds(specimen.centres, radii, bonds, bending)
+    Returns:
+        For translations [N/m] and for rotations [N m].
+    """
+    move, turn = stiffness_bounds(specimen.centres, radii, bonds, bending)
     rim = np.unique(np.array(specimen.tessellation.boundary_edges, dtype=int)[:, 0])
     # a plate touches a sphere of the rim with about the stiffness of its diameter
-    move[rim] += 2.0 * law["normal_stiffness"] * 2.0 * radii[rim] * specimen.thickness
-    factor = MASS_MARGIN * (1.0 + damping) / 4.0
-    masses, inertias, dt = factor * move, factor * turn, 1.0
-    if dynamic:
-        areas = np.array(specimen.tessellation.cell_areas)
-        real = law["density"] * areas * specimen.thickness
-        turning = 0.5 * real * areas / math.pi  # of a disc of the cell's area
-        dt = math.sqrt(float(min(np.min(real / masses), np.min(turning / inertias))))
-        masses, inertias = real, turning
+    move[rim] += 2.0 * stiffness * 2.0 * radii[rim] * specimen.thickness
+    return move, turn
+
+
+def _real_masses(specimen: Specimen, density: float) -> tuple[np.ndarray, np.ndarray]:
+    """Masses [kg] of the cells, and moments of inertia [kg m2] of discs of the cells' areas."""
+    areas = np.array(specimen.tessellation.cell_areas)
+    masses = density * areas * specimen.thickness
+    return masses, 0.5 * masses * areas / math.pi
+
+
+def _set_masses(ids: list[int], masses: np.ndarray, inertias: np.ndarray) -> None:
     for body, mass, inertia in zip(ids, masses.tolist(), inertias.tolist(), strict=True):
         state = yade.O.bodies[body].state
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
         state.blockedDOFs = "zXY"
-    return dt
 
 
-def _engines(specimen: Specimen, model: str, damping: float) -> tuple[Any, list[Any]]:
-    if model == "jcfpm":
-        law = wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()
-        spheres = wrapper.Ig2_Sphere_Sphere_ScGeom()
-        geometries = [spheres, wrapper.Ig2_Box_Sphere_ScGeom()]
-        physics = wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys()
-    else:
-        law = wrapper.Law2_ScGeom6D_CohFrictPhys_CohesionMoment()
-        spheres = wrapper.Ig2_Sphere_Sphere_ScGeom6D()
-        geometries = [spheres, wrapper.Ig2_Box_Sphere_ScGeom6D()]
-        physics = wrapper.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()
+def _engines(specimen: Specimen, kind: SphereLaw, damping: float) -> tuple[Any, list[Any]]:
+    functors = kind.functors()
     # shear displacements then have the levers that the moments have; else YADE scales them by the
     # sum of the radii over the distance, and the bond's shear stiffness with them
-    spheres.avoidGranularRatcheting = False
+    functors.spheres.avoidGranularRatcheting = False
     bounds = [wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_Box_Aabb()]
-    loop = wrapper.InteractionLoop(geometries, [physics], [law])
+    geometries = [functors.spheres, functors.plates]
+    loop = wrapper.InteractionLoop(geometries, [functors.physics], [functors.law])
     newton = wrapper.NewtonIntegrator(damping=damping)
-    reach = _SWEEP * specimen.mean_diameter
-    collider = wrapper.InsertionSortCollider(bounds, verletDist=reach)
-    return law, [wrapper.ForceResetter(), collider, loop, newton]
+    sweep = _SWEEP * specimen.mean_diameter
+    collider = wrapper.InsertionSortCollider(bounds, verletDist=sweep)
+    return functors.law, [wrapper.ForceResetter(), collider, loop, newton]
+
+
+def _loop(engines: list[Any]) -> Any:
+    """The engine that holds the functors."""
+    return next(engine for engine in engines if isinstance(engine, wrapper.InteractionLoop))
 
 
 def _make_bonds(built: SphereModel) -> list[Any]:
     """Make an interaction of each bond, also where its spheres do not touch."""
     made = []
-    physics = built.engines[2].physDispatcher.functors[0]
-    _bonding(physics, True)
+    physics = _loop(built.engines).physDispatcher.functors[0]
+    built.kind.set_bonding(physics, True)
     for row, (first, second) in enumerate(built.bonds.grains.tolist()):
         contact = utils.createInteraction(built.ids[first], built.ids[second])
         bond = contact.phys
         bond.kn = float(built.bonds.normal_stiffness[row])
         bond.ks = float(built.bonds.shear_stiffness[row])
-        strengths = built.bonds.tensile_strength[row], built.bonds.shear_strength[row]
-        if built.name == "jcfpm":
-            bond.crossSection = float(built.bonds.areas[row])
-            bond.FnMax, bond.FsMax = map(float, strengths)
-        else:
-            # nothing twists in the plane, but YADE's energy divides by the stiffness
-            bond.kr = bond.ktw = float(built.bonds.bending_stiffness[row])
-            bond.normalAdhesion, bond.shearAdhesion = map(float, strengths)
-        built._set_rest(contact, contact.geom.penetrationDepth)
+        built.kind.set_strength(bond, built.bonds, row)
+        built.kind.set_rest(contact, contact.geom.penetrationDepth)
         made.append(contact)
-    _bonding(physics, False)
+    built.kind.set_bonding(physics, False)
     return made
 
 
@@ -324,11 +317,3 @@ def _find_bonds(built: SphereModel) -> list[Any]:
     found = {(one.id1, one.id2): one for one in yade.O.interactions}
     pairs = np.array(built.ids)[built.bonds.grains].tolist()
     return [found.get((a, b), found.get((b, a))) for a, b in pairs]
-
-
-def _bonding(physics: Any, on: bool) -> None:
-    """Whether contacts that appear from now on are bonds."""
-    if isinstance(physics, wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys):
-        physics.cohesiveTresholdIteration = -1 if on else 0
-    else:
-        physics.setCohesionOnNewContacts = on

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contact laws of YADE's own bonded models: what each does differently by the bond rule. SI units.
+
+``Jcfpm`` and ``Cohfrict`` differ in their classes, in how a bond is given its strength, and in what
+tells that it has broken. All else of the models is the same, see ``spheres``.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from yade import wrapper
+
+from ..materials.material import Law
+from ..specimens.specimen import Specimen
+from .sphere_bonds import Bonds, separate_radii
+
+#: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
+_PLATE_STIFFNESS = 1e3
+
+
+@dataclass(frozen=True)
+class Functors:
+    """Functors of an interaction loop."""
+
+    spheres: Any  #: geometry of two spheres
+    plates: Any  #: geometry of a plate and a sphere
+    physics: Any
+    law: Any
+
+
+class SphereLaw(ABC):
+    """What the models of bonded spheres do differently."""
+
+    name: ClassVar[str]
+    bending: ClassVar[bool]  #: whether bonds resist bending
+
+    @abstractmethod
+    def radii(self, specimen: Specimen) -> np.ndarray:
+        """Radii of the spheres [m]."""
+
+    @abstractmethod
+    def functors(self) -> Functors:
+        """New functors for an interaction loop."""
+
+    @abstractmethod
+    def materials(self, law: Law, young: float) -> tuple[Any, Any]:
+        """Materials of spheres and of plates.
+
+        Args:
+            law: Effective parameters of the material.
+            young: Stiffness of new contacts over the mean radius [Pa].
+        """
+
+    @abstractmethod
+    def set_bonding(self, physics: Any, on: bool) -> None:
+        """Set whether contacts that appear from now on are bonds."""
+
+    @abstractmethod
+    def set_strength(self, bond: Any, bonds: Bonds, row: int) -> None:
+        """Give a bond the strength of its row."""
+
+    @abstractmethod
+    def set_rest(self, contact: Any, overlap: float) -> None:
+        """Set the overlap at which a contact carries no force [m]."""
+
+    @abstractmethod
+    def may_have_broken(self, law: Any, known: int) -> bool:
+        """Tell whether there may be more broken bonds than the `known` ones."""
+
+    @abstractmethod
+    def has_broken(self, interaction: Any, bond: Any) -> bool:
+        """Tell whether a bond that was whole has broken.
+
+        Args:
+            interaction: That of the bond, which YADE may have used for a new contact since.
+            bond: Properties that the bond had when it was made.
+        """
+
+    @abstractmethod
+    def is_tensile(self, bond: Any, tension: float, bonds: Bonds, row: int) -> bool:
+        """Tell whether a broken bond broke in tension rather than in shear.
+
+        Args:
+            bond: Its properties.
+            tension: Force that the bond carried last, positive in tension [N].
+            bonds: Properties of all bonds.
+            row: Row of the bond.
+        """
+
+    @abstractmethod
+    def elastic_energy(self, law: Any, bonds: Iterable[Any], touching: Sequence[Any]) -> float:
+        """Elastic energy [J].
+
+        Args:
+            law: Functor of the law.
+            bonds: Properties of the bonds that YADE has not dropped.
+            touching: Properties of the contacts with plates.
+        """
+
+
+class Jcfpm(SphereLaw):
+    """JCFpm: whole bonds count in the energy; the law counts its cracks itself."""
+
+    name = "jcfpm"
+    bending = False
+
+    def radii(self, specimen: Specimen) -> np.ndarray:
+        """Radii of the discs [m]."""
+        return specimen.radii
+
+    def functors(self) -> Functors:
+        """New functors for an interaction loop."""
+        return Functors(
+            wrapper.Ig2_Sphere_Sphere_ScGeom(),
+            wrapper.Ig2_Box_Sphere_ScGeom(),
+            wrapper.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(),
+            wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM(),
+        )
+
+    def materials(self, law: Law, young: float) -> tuple[Any, Any]:
+        """Materials of spheres and of plates."""
+        sphere, plate = _common(law, young)
+        strengths = {"tensileStrength": law["tensile_strength"], "cohesion": law["cohesion"]}
+        return (
+            wrapper.JCFpmMat(type=0, label="flexpm-jcfpm", **sphere, **strengths),
+            wrapper.JCFpmMat(type=1, label="flexpm-jcfpm-plate", **plate),
+        )
+
+    def set_bonding(self, physics: Any, on: bool) -> None:
+        """Set whether contacts that appear from now on are bonds."""
+        physics.cohesiveTresholdIteration = -1 if on else 0
+
+    def set_strength(self, bond: Any, bonds: Bonds, row: int) -> None:
+        """Give a bond the strength of its row."""
+        bond.crossSection = float(bonds.areas[row])
+        bond.FnMax = float(bonds.tensile_strength[row])
+        bond.FsMax = float(bonds.shear_strength[row])
+
+    def set_rest(self, contact: Any, overlap: float) -> None:
+        """Set the overlap at which a contact carries no force [m]."""
+        contact.phys.initD = overlap
+
+    def may_have_broken(self, law: Any, known: int) -> bool:
+        """Compare with the cracks that the law has counted."""
+        return bool(law.nbTensCracks + law.nbShearCracks != known)
+
+    def has_broken(self, interaction: Any, bond: Any) -> bool:
+        """Tell whether a bond that was whole has broken."""
+        return bool(bond.isBroken)
+
+    def is_tensile(self, bond: Any, tension: float, bonds: Bonds, row: int) -> bool:
+        """Tell whether the bond was opened beyond its tensile limit."""
+        limit = bonds.tensile_strength[row] / bonds.normal_stiffness[row]
+        return bool(bond.crackJointAperture > limit)
+
+    def elastic_energy(self, law: Any, bonds: Iterable[Any], touching: Sequence[Any]) -> float:
+        """Elastic energy of unbroken bonds and of contacts with plates [J]."""
+        whole = [bond for bond in bonds if bond.isCohesive]
+        return float(sum(bond.strainEnergy for bond in (*whole, *touching)))
+
+
+class Cohfrict(SphereLaw):
+    """CohFrict: bonds that also bend; discs are shrunk until none overlap."""
+
+    name = "cohfrict"
+    bending = True
+
+    def radii(self, specimen: Specimen) -> np.ndarray:
+        """Radii of the discs, shrunk until no two overlap [m]."""
+        return separate_radii(specimen)
+
+    def functors(self) -> Functors:
+        """New functors for an interaction loop."""
+        return Functors(
+            wrapper.Ig2_Sphere_Sphere_ScGeom6D(),
+            wrapper.Ig2_Box_Sphere_ScGeom6D(),
+            wrapper.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(),
+            wrapper.Law2_ScGeom6D_CohFrictPhys_CohesionMoment(),
+        )
+
+    def materials(self, law: Law, young: float) -> tuple[Any, Any]:
+        """Materials of spheres and of plates."""
+        sphere, plate = _common(law, young)
+        strengths = {"normalCohesion": law["tensile_strength"], "shearCohesion": law["cohesion"]}
+        moments = {"momentRotationLaw": True, "etaRoll": -1.0, "etaTwist": -1.0}
+        return (
+            wrapper.CohFrictMat(label="flexpm-cohfrict", **sphere, **strengths, **moments),
+            wrapper.CohFrictMat(label="flexpm-cohfrict-plate", isCohesive=False, **plate),
+        )
+
+    def set_bonding(self, physics: Any, on: bool) -> None:
+        """Set whether contacts that appear from now on are bonds."""
+        physics.setCohesionOnNewContacts = on
+
+    def set_strength(self, bond: Any, bonds: Bonds, row: int) -> None:
+        """Give a bond the strength of its row."""
+        # nothing twists in the plane, but YADE's energy divides by the stiffness
+        bond.kr = bond.ktw = float(bonds.bending_stiffness[row])
+        bond.normalAdhesion = float(bonds.tensile_strength[row])
+        bond.shearAdhesion = float(bonds.shear_strength[row])
+
+    def set_rest(self, contact: Any, overlap: float) -> None:
+        """Set the overlap at which a contact carries no force [m]."""
+        contact.phys.unp = overlap
+
+    def may_have_broken(self, law: Any, known: int) -> bool:
+        """Always true: the law does not count."""
+        return True
+
+    def has_broken(self, interaction: Any, bond: Any) -> bool:
+        """Tell whether a bond that was whole has broken."""
+        # an interaction that is not real or has another phys is not the bond any more
+        return not interaction.isReal or bool(interaction.phys.cohesionBroken)
+
+    def is_tensile(self, bond: Any, tension: float, bonds: Bonds, row: int) -> bool:
+        """Tell whether the tension was closer to its limit than the shear force."""
+        limit = bonds.shear_strength[row] - bond.tangensOfFrictionAngle * tension
+        shear = bond.shearForce.norm() * bonds.tensile_strength[row]
+        return bool(tension * max(limit, 0.0) > shear)
+
+    def elastic_energy(self, law: Any, bonds: Iterable[Any], touching: Sequence[Any]) -> float:
+        """Elastic energy of all contacts [J]."""
+        return float(law.elasticEnergy())
+
+
+#: The laws by name of the model.
+LAWS: dict[str, SphereLaw] = {law.name: law for law in (Jcfpm(), Cohfrict())}
+
+
+def _common(law: Law, young: float) -> tuple[dict[str, float], dict[str, float]]:
+    """Arguments of the materials of spheres and of plates, which have no friction."""
+    common = {"young": young, "poisson": law["shear_ratio"], "density": law["density"]}
+    plate = common | {"young": _PLATE_STIFFNESS * young, "frictionAngle": 0.0}
+    return common | {"frictionAngle": math.atan(law["friction"])}, plate
