@@ -15,7 +15,7 @@ folder = chosen.out / "table4"
 folder.mkdir(parents=True, exist_ok=True)
 timing = folder / "bench.json"
 if not chosen.dry:
-    bench.run(json_file=timing)
+    bench.run(bench.Plan(), timing)
 found = json.loads(timing.read_text(encoding="utf-8"))
 tests = {"uniaxial": found["models"], "brazilian": found["brazilian"]["models"]}
 hours = pandas.DataFrame(

@@ -15,6 +15,7 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
@@ -52,55 +53,65 @@ _WARM_UP = 100
 SCALES = (1, 10, 40)
 
 
-def run(
-    steps: int = 2000,
-    progress: Progress | None = None,
-    *,
-    width: float = 0.08,
-    height: float = 0.16,
-    seed: int = 1,
-    threads: int = 1,
-    json_file: Path | str | None = None,
-    scaling: bool = False,
-    lammps: str | None = None,
-) -> list[tuple[str, str]]:
-    """Time all models and describe the outcome.
+@dataclass(frozen=True)
+class Plan:
+    """What is timed.
 
-    Args:
+    Attributes:
         steps: Steps of each model; multiples of 1000 weigh measured steps evenly.
-        progress: Called with (steps done, steps expected, text).
         width: Of the specimen [m].
         height: Of the specimen [m].
         seed: Of the packing.
         threads: Threads of a step.
-        json_file: Also written there.
-        scaling: Time the flexible model also with 10 and 40 times the grains, and draw it beside
-            `json_file`.
+        scaling: Time the flexible model also with 10 and 40 times the grains.
         lammps: Python that has LAMMPS; None: the present one, if it has.
+    """
+
+    steps: int = 2000
+    width: float = 0.08
+    height: float = 0.16
+    seed: int = 1
+    threads: int = 1
+    scaling: bool = False
+    lammps: str | None = None
+
+
+def run(
+    plan: Plan, json_file: Path | str | None = None, progress: Progress | None = None
+) -> list[tuple[str, str]]:
+    """Time all models and describe the outcome.
+
+    Args:
+        plan: What is timed.
+        json_file: Also written there; a picture of the scaling beside it.
+        progress: Called with (steps done, steps expected, text).
 
     Returns:
         Rows (name, value) for a table.
     """
-    python = bench_lammps.interpreter(lammps)
-    specimen, setup = bench_size.timed_set_up(_PAPER, width, height, seed, progress)
+    python = bench_lammps.interpreter(plan.lammps)
+    steps, threads = plan.steps, plan.threads
+    specimen, setup = bench_size.timed_set_up(_PAPER, plan.width, plan.height, plan.seed, progress)
     timing = compare(specimen, steps=steps, threads=threads, lammps=python, progress=progress)
     data, rows = timing.as_dict(), table_rows(timing)
     if python is None:
         rows.append(("LAMMPS", f"not timed: this Python has none; {bench_lammps.REMEDY}"))
     data["set_up"] = setup
     rows += size_rows(setup)
-    disc = compare(_disc(width, seed), steps=steps, threads=threads, names=_OWN, progress=progress)
+    disc = compare(
+        _disc(plan.width, plan.seed), steps=steps, threads=threads, names=_OWN, progress=progress
+    )
     data["brazilian"] = disc.as_dict()
     rows += disc_rows(disc)
     pair = compare_threads(specimen, steps, progress)
     data["two_threads"] = pair
     rows += threads_rows(pair)
-    if scaling:
-        data["scaling"] = grow(steps, width, height, seed, threads, progress)
+    if plan.scaling:
+        data["scaling"] = grow(plan, progress)
         rows += scaling_rows(data["scaling"])
     if json_file is not None:
         write_text(Path(json_file), json.dumps(data, indent=2) + "\n")
-        if scaling:
+        if plan.scaling:
             scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
     return rows
 
@@ -177,17 +188,16 @@ def compare(
     return Timing(host, described, threads, turns * chunk, cases)
 
 
-def grow(
-    steps: int, width: float, height: float, seed: int, threads: int, progress: Progress | None
-) -> list[dict[str, float | int]]:
+def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
     """Time the flexible model on specimens with more and more grains."""
     found = []
     for scale in SCALES:
         side = math.sqrt(scale)
-        specimen, row = bench_size.timed_set_up(_PAPER, width * side, height * side, seed, progress)
-        share = max(10 * TURNS, steps // scale)
+        width, height = plan.width * side, plan.height * side
+        specimen, row = bench_size.timed_set_up(_PAPER, width, height, plan.seed, progress)
+        steps = max(10 * TURNS, plan.steps // scale)
         timing = compare(
-            specimen, steps=share, threads=threads, names=("refined",), progress=progress
+            specimen, steps=steps, threads=plan.threads, names=("refined",), progress=progress
         )
         case = timing.cases[0]
         row["step_time"] = case.step_time

@@ -208,18 +208,18 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     help="Python that has LAMMPS, to time it, too.  [default: this one, if it has]",
 )
 @cli_options.quiet_option
-def bench(quiet: bool, **options: Any) -> None:
+def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     """Time a step of flexpm's models and of others' bonded spheres on the same specimen.
 
     The others are YADE's JCFpm and CohFrict, and bpm/rotational and bpm/spring of LAMMPS.
     """
-    if options["json_file"] is not None:
-        output_folder(options["json_file"].parent)
+    if json_file is not None:
+        output_folder(json_file.parent)
     cli_library.load_yade()
     from ..bench import timing
 
     with terminal.Progress(quiet) as progress:
-        rows = timing.run(progress=progress, **options)
+        rows = timing.run(timing.Plan(**options), json_file, progress)
     click.echo(tables.table(rows))
 
 
