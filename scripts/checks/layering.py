@@ -251,7 +251,9 @@ def check_kernel(rooms: Rooms) -> Iterator[str]:
                 yield f"{path}:{number}: includes {name}; {reason}"
         header = path.with_suffix(".hpp")
         own = str(header.relative_to(rooms.root / "pkg"))
-        if path.suffix == ".cpp" and header.exists() and (not found or found[0][1] != own):
+        if path.suffix == ".cpp" and not header.exists():
+            yield f"{path}:1: has no header {own}; what it defines is declared in its own room"
+        elif path.suffix == ".cpp" and (not found or found[0][1] != own):
             line, first = found[0] if found else (1, "nothing")
             yield f"{path}:{line}: includes {first} first; its own header comes first"
         text = without_comments(path.read_text())

@@ -9,6 +9,7 @@
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
 
 #include "support/specimens.hpp"
 

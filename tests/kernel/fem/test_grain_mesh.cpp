@@ -10,8 +10,6 @@ using namespace flexpm_test;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 std::vector<Point> regular_polygon(int corners)
 {
     std::vector<Point> polygon;

@@ -13,7 +13,6 @@ using namespace flexpm;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double size = 1e-3;  // about the size of the triangles [m]
 
 using Corners = std::array<Point, 3>;

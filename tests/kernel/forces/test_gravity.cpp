@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Gravity on real masses, and walls that grains fall on. SI units; gravity points down.
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,8 @@
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
+
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include <catch2/catch.hpp>

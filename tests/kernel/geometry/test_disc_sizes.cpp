@@ -2,13 +2,10 @@
 /// @file  Number and radii of discs: the paper's counts, bounds, moments, the generator's standard value.
 #include "support/disc_samples.hpp"
 
+#include <flexpm/kernel/geometry/disc_sizes.hpp>
 #include <flexpm/kernel/geometry/insertion.hpp>
 
 using namespace flexpm_test;
-
-namespace {
-constexpr double pi = 3.14159265358979323846;
-}
 
 TEST_CASE("the paper's specimens have 1630 and 640 discs", "[radii]")
 {

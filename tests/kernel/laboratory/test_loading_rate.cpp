@@ -9,9 +9,10 @@
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
-#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/statics/elastic_constants.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
 
 #include "support/balance.hpp"
 #include "support/specimens.hpp"

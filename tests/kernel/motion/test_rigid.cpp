@@ -3,7 +3,8 @@
 /// elastic solve. SI units, tension positive, rotations counter-clockwise.
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/statics/elastic_constants.hpp>
+#include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 

@@ -2,7 +2,7 @@
 /// @file  Dense matrices of small assemblies, for eigenvalues. SI units.
 #pragma once
 
-#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <Eigen/Dense>
 

@@ -2,7 +2,7 @@
 /// @file  Discs and checks shared by the tests of the geometry.
 #pragma once
 
-#include <flexpm/kernel/geometry/disc_sizes.hpp>
+#include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/geometry/tessellation.hpp>
 
 #include <catch2/catch.hpp>

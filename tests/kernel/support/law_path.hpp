@@ -3,7 +3,7 @@
 /// Opening and tension positive; [m], [Pa], [J/m^2].
 #pragma once
 
-#include <flexpm/kernel/geometry/disc_sizes.hpp>
+#include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/law/bilinear.hpp>
 
 #include "support/specimens.hpp"

@@ -3,7 +3,8 @@
 /// tests. SI units, tension positive.
 #pragma once
 
-#include <flexpm/kernel/geometry/disc_sizes.hpp>
+#include <flexpm/kernel/core/random.hpp>
+#include <flexpm/kernel/geometry/tessellation.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
 
 #include <algorithm>

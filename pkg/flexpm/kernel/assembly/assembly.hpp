@@ -9,7 +9,8 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/plate.hpp>
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/array.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 #include <flexpm/kernel/fem/triangle.hpp>
 #include <flexpm/kernel/law/bilinear.hpp>
 

@@ -3,7 +3,7 @@
 /// normal points from the plate into the specimen, forces are positive along it.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 
 #include <vector>
 

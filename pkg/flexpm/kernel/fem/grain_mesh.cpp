@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Finite element mesh inside each grain, paper Sec. 2.2, Fig. 1 and 4(c).
+/// @file  Choice among the template's turns, flipped edges and a fan, by the smallest angle.
 #include <flexpm/kernel/fem/grain_mesh.hpp>
 
-#include <flexpm/kernel/core/format.hpp>
-#include <flexpm/kernel/geometry/edge_collapse.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/geometry/polygon.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace flexpm {
@@ -22,8 +21,8 @@ double triangle_angle(Point a, Point b, Point c)
     double smallest = 4.0;
     for (int k = 0; k < 3; ++k) {
         const Point o = corner[k], p = corner[(k + 1) % 3], q = corner[(k + 2) % 3];
-        const double ux = p.x - o.x, uy = p.y - o.y, vx = q.x - o.x, vy = q.y - o.y;
-        smallest = std::min(smallest, std::atan2(ux * vy - uy * vx, ux * vx + uy * vy));
+        const Point u = p - o, v = q - o;
+        smallest = std::min(smallest, std::atan2(cross(u, v), dot(u, v)));
     }
     return smallest > 0.0 ? smallest : -1.0;
 }
@@ -39,8 +38,7 @@ std::vector<int> edges_by_length(const std::vector<Point>& polygon)
     const int v = static_cast<int>(polygon.size());
     std::vector<double> length(v);
     for (int k = 0; k < v; ++k) {
-        const Point a = polygon[k], b = polygon[(k + 1) % v];
-        length[k] = std::hypot(b.x - a.x, b.y - a.y);
+        length[k] = norm(polygon[(k + 1) % v] - polygon[k]);
     }
     std::vector<int> order(v);
     std::iota(order.begin(), order.end(), 0);
@@ -148,10 +146,10 @@ void flip_edges(const std::vector<Point>& nodes, std::vector<Triangle>& triangle
 GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshKind kind)
 {
     const PolygonShape shape = polygon_shape(polygon);
-    if (!(shape.area > 0.0) || !is_star_shaped(polygon, shape.centroid, 0.0))
-        throw std::invalid_argument("make_grain_mesh: polygon area = " + number(shape.area)
-            + " m^2, must be positive and star-shaped about its centroid;"
-              " correct the cell");
+    if (!(shape.area > 0.0) || !is_star_shaped(polygon, shape.centroid, 0.0)) {
+        refuse("make_grain_mesh: polygon area", shape.area, "m^2",
+            "must be positive and the polygon star-shaped about its centroid; correct the cell");
+    }
     // A centre closer to an edge's line than round-off would give a triangle without area.
     const bool seen = is_star_shaped(polygon, centre, 1e-9 * shape.area);
     const Point inner = seen ? centre : shape.centroid;

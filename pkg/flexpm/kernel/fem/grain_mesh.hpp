@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/fem/mesh_template.hpp>
-#include <flexpm/kernel/geometry/tessellation.hpp>
+#include <flexpm/kernel/geometry/cells.hpp>
 
 #include <vector>
 

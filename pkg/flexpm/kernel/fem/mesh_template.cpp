@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Fixed connectivities of the finite element mesh inside a grain, paper Sec. 2.2, Fig. 1.
+/// @file  Templates are made when first asked for and kept.
 #include <flexpm/kernel/fem/mesh_template.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
 
 #include <map>
 #include <mutex>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace flexpm {
@@ -51,15 +51,14 @@ MeshTemplate refined(int v)
     return t;
 }
 
-Point between(Point a, Point b) { return { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y) }; }
+Point between(Point a, Point b) { return 0.5 * (a + b); }
 
 }  // namespace
 
 const MeshTemplate& mesh_template(int vertices, MeshKind kind)
 {
     if (vertices < 3)
-        throw std::invalid_argument("mesh_template: vertices = " + std::to_string(vertices)
-            + ", must be >= 3; give a polygon");
+        refuse("mesh_template: vertices", vertices, "", "must be >= 3; give a polygon");
     static std::mutex guard;
     static std::map<std::pair<int, MeshKind>, MeshTemplate> templates;
     const std::lock_guard<std::mutex> lock(guard);

@@ -2,7 +2,7 @@
 /// @file  Fixed connectivities of the finite element mesh inside a grain, paper Sec. 2.2, Fig. 1.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 
 #include <array>
 #include <vector>

@@ -1,38 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Constant-strain triangle: set-up, stress, linear stiffness.
+/// @file  Set-up, true stress and linear stiffness of a triangle; what a step needs is in the header.
 #include <flexpm/kernel/fem/triangle.hpp>
 
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <array>
 
 namespace flexpm {
 
-PlaneStiffness plane_stiffness(const ElasticMaterial& m)
-{
-    check_positive("young", m.young, "Pa");
-    if (!(m.poisson > 0.0 && m.poisson < 0.5)) {
-        refuse("poisson", m.poisson, "", "must lie between 0 and 0.5");
-    }
-    check_positive("density", m.density, "kg/m^3");
-    const double shear = 0.5 * m.young / (1.0 + m.poisson);
-    if (m.plane == Plane::stress) {
-        const double normal = m.young / (1.0 - m.poisson * m.poisson);
-        return { normal, m.poisson * normal, shear };
-    }
-    const double scale = m.young / ((1.0 + m.poisson) * (1.0 - 2.0 * m.poisson));
-    return { (1.0 - m.poisson) * scale, m.poisson * scale, shear };
-}
-
 TriangleShape triangle_shape(Point p0, Point p1, Point p2, double thickness)
 {
-    const double ax = p1.x - p0.x, ay = p1.y - p0.y;
-    const double bx = p2.x - p0.x, by = p2.y - p0.y;
-    const double twice_area = ax * by - ay * bx;
+    const Point a = p1 - p0, b = p2 - p0;
+    const double twice_area = cross(a, b);
     if (!(twice_area > 0.0)) {
         refuse("triangle area", 0.5 * twice_area, "m^2", "nodes must be counter-clockwise");
     }
-    return { by / twice_area, -bx / twice_area, -ay / twice_area, ax / twice_area,
+    return { b.y / twice_area, -b.x / twice_area, -a.y / twice_area, a.x / twice_area,
         0.5 * twice_area * thickness };
 }
 

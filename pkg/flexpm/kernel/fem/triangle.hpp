@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Constant-strain triangle, linear elastic, total Lagrangian: exact under large rotation.
-/// Tension positive. Plane stress or plane strain, paper Sec. 2.1 and 3.1.
+/// @file  Constant-strain triangle, total Lagrangian: exact under large rotation, paper Sec. 2.1.
+/// Tension positive.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/vector.hpp>
+#include <flexpm/kernel/law/elastic.hpp>
 
 namespace flexpm {
-
-enum class Plane { stress, strain };
-
-/// Elastic properties of a grain.
-struct ElasticMaterial {
-    double young = 0.0;    ///< [Pa], > 0
-    double poisson = 0.0;  ///< [-], 0 < nu < 0.5
-    double density = 0.0;  ///< [kg/m^3], > 0
-    Plane plane = Plane::stress;
-};
-
-/// Plane stiffness: S11 = normal E11 + cross E22, S12 = 2 shear E12 [Pa].
-struct PlaneStiffness {
-    double normal;
-    double cross;
-    double shear;
-};
-
-/// @throws std::invalid_argument  if a property is not finite or out of range
-PlaneStiffness plane_stiffness(const ElasticMaterial& material);
 
 /// Reference shape: gradients of the shape functions of nodes 1 and 2, and the volume.
 struct TriangleShape {
@@ -35,11 +16,6 @@ struct TriangleShape {
 
 /// @throws std::invalid_argument  if the triangle is not counter-clockwise
 TriangleShape triangle_shape(Point p0, Point p1, Point p2, double thickness);
-
-/// Symmetric tensor of the plane.
-struct Tensor {
-    double xx, yy, xy;
-};
 
 /// Displacement gradient H: xy is the derivative of the x displacement along y.
 struct Gradient {
@@ -61,13 +37,6 @@ __attribute__((always_inline)) inline Tensor green_strain(const Gradient& h)
 {
     return { h.xx + 0.5 * (h.xx * h.xx + h.yx * h.yx), h.yy + 0.5 * (h.xy * h.xy + h.yy * h.yy),
         0.5 * (h.xy + h.yx + h.xx * h.xy + h.yx * h.yy) };
-}
-
-/// Second Piola-Kirchhoff stress [Pa].
-__attribute__((always_inline)) inline Tensor stress(const PlaneStiffness& c, const Tensor& e)
-{
-    return { c.normal * e.xx + c.cross * e.yy, c.cross * e.xx + c.normal * e.yy,
-        2.0 * c.shear * e.xy };
 }
 
 /// First Piola-Kirchhoff stress (I + H) S [Pa].

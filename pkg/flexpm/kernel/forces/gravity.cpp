@@ -2,7 +2,7 @@
 /// @file  Gravity on real masses.
 #include <flexpm/kernel/forces/gravity.hpp>
 
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 namespace flexpm {
 

@@ -11,7 +11,6 @@ namespace flexpm {
 
 namespace {
 
-double dot(Point p, Point q) { return p.x * q.x + p.y * q.y; }
 Point tangent_of(const Plate& p) { return { -p.normal.y, p.normal.x }; }
 
 /// A value of a node array at a point of an edge.

@@ -3,7 +3,7 @@
 #include <flexpm/kernel/forces/sides.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Single cells of a specimen: their outlines and what follows from them. A source of its own,
-/// so that what only reads a tessellation needs no CGAL.
-#include <flexpm/kernel/geometry/edge_collapse.hpp>
-#include <flexpm/kernel/geometry/tessellation.hpp>
+/// @file  Single cells gathered from the common vertices.
+#include <flexpm/kernel/geometry/cells.hpp>
 
-#include <vector>
+#include <flexpm/kernel/geometry/polygon.hpp>
 
 namespace flexpm {
 

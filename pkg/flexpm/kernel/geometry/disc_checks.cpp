@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What discs must fulfil before they are given Laguerre cells, paper Sec. 3.1.
+/// @file  Single discs are checked one by one; pairs in one place are found by a sweep along x.
 #include <flexpm/kernel/geometry/disc_checks.hpp>
 
-#include <flexpm/kernel/core/format.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 
 namespace flexpm {
 
 void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
 {
-    if (discs.empty())
-        throw std::invalid_argument("tessellate: discs = 0, must be >= 1; give at least one disc");
+    if (discs.empty()) refuse("tessellate: discs", 0.0, "", "must be >= 1; give at least one disc");
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const Disc& d = discs[i];
         const std::string name = "tessellate: disc " + std::to_string(i);
-        if (!std::isfinite(d.centre.x) || !std::isfinite(d.centre.y))
-            throw std::invalid_argument(name + ": centre is not finite; give finite coordinates");
-        if (!(std::isfinite(d.radius) && d.radius > 0.0))
-            throw std::invalid_argument(name + ": radius = " + number(d.radius)
-                + " m, must be finite and > 0; remove or correct the disc");
-        if (!contains(outline, d.centre))
-            throw std::invalid_argument(name + ": centre = (" + number(d.centre.x) + ", "
-                + number(d.centre.y) + ") m, must lie inside the outline; move or remove it");
+        if (!is_finite(d.centre)) {
+            refuse(name + ": centre", place(d.centre), "must be finite; give finite coordinates");
+        }
+        if (!(std::isfinite(d.radius) && d.radius > 0.0)) {
+            refuse(name + ": radius", d.radius, "m",
+                "must be finite and > 0; remove or correct the disc");
+        }
+        if (!contains(outline, d.centre)) {
+            refuse(name + ": centre", place(d.centre),
+                "must lie inside the outline; move or remove it");
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 /// Sec. 3.1. Lengths in mean diameters, stiffness and mass without units.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 
 #include <cmath>
 
@@ -26,8 +26,8 @@ struct PairPush {
 /// the last bit, so that a packing does not depend on which of the two computed it.
 inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
 {
-    const double x = second.x - first.x, y = second.y - first.y;
-    const double square = x * x + y * y;
+    const Point apart = second - first;
+    const double square = dot(apart, apart);
     if (!pair.touching) {
         // pairs within rounding of touching are left to the code that decides
         constexpr double rounding = 1e-12;
@@ -37,7 +37,7 @@ inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
     const double overlap = pair.reach - distance;
     if (overlap < 0.0) return { true, {} };
     const double force = pair.stiffness * overlap;
-    return { false, { force * (x / distance), force * (y / distance) } };
+    return { false, { force * (apart.x / distance), force * (apart.y / distance) } };
 }
 
 }  // namespace flexpm

@@ -3,21 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 namespace flexpm {
-
-/// Seeded random numbers that are the same on every platform (std distributions are not).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : engine(seed) { }
-    /// Uniform in [0, 1), 53 random bits.
-    double next() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
-
-private:
-    std::mt19937_64 engine;
-};
 
 /// Number of discs N = A (1 - n) / (pi R^2), R the mean radius, rounded to the nearest integer.
 ///

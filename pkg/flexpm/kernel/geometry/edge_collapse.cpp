@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Collapse of short edges of a cell complex, paper Sec. 3.1.
+/// @file  Edges in a queue by length; each collapse is tried on copies of the cells that it touches.
 #include <flexpm/kernel/geometry/edge_collapse.hpp>
 
+#include <flexpm/kernel/geometry/polygon.hpp>
+
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -50,11 +51,7 @@ private:
     std::vector<bool> merged;
     std::set<std::tuple<double, int, int>> queue;  ///< (length, smaller vertex, larger vertex)
 
-    double length(int u, int v) const
-    {
-        const Point a = diagram.vertices[u], b = diagram.vertices[v];
-        return std::hypot(b.x - a.x, b.y - a.y);
-    }
+    double length(int u, int v) const { return norm(diagram.vertices[v] - diagram.vertices[u]); }
 
     void offer(int u, int v)
     {
@@ -78,13 +75,10 @@ private:
     Point middle(int u, int v) const
     {
         const Point a = diagram.vertices[u], b = diagram.vertices[v];
-        Point m { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y) };
-        if (outline.is_circle() && diagram.kinds[u] == VertexKind::side) {
-            const double dx = m.x - outline.centre.x, dy = m.y - outline.centre.y;
-            const double scale = outline.radius / std::hypot(dx, dy);
-            m = { outline.centre.x + scale * dx, outline.centre.y + scale * dy };
-        }
-        return m;
+        const Point m = 0.5 * (a + b);
+        if (!outline.is_circle() || diagram.kinds[u] != VertexKind::side) return m;
+        const Point out = m - outline.centre;
+        return outline.centre + (outline.radius / norm(out)) * out;
     }
 
     void collapse(const CellEdge& edge, int u, int v)
@@ -145,39 +139,6 @@ private:
 };
 
 }  // namespace
-
-PolygonShape polygon_shape(const std::vector<Point>& polygon)
-{
-    // Relative to the first corner: a grain is small against its distance from the origin.
-    PolygonShape shape;
-    if (polygon.size() < 3) return shape;
-    const Point o = polygon[0];
-    double sx = 0.0, sy = 0.0;
-    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-        const double ax = polygon[k].x - o.x, ay = polygon[k].y - o.y;
-        const double bx = polygon[k + 1].x - o.x, by = polygon[k + 1].y - o.y;
-        const double twice = ax * by - ay * bx;
-        shape.area += 0.5 * twice;
-        sx += twice * (ax + bx) / 6.0;
-        sy += twice * (ay + by) / 6.0;
-    }
-    shape.centroid = { o.x + sx / shape.area, o.y + sy / shape.area };
-    return shape;
-}
-
-bool is_star_shaped(const std::vector<Point>& polygon, Point from, double smallest)
-{
-    if (polygon.size() < 3) return false;
-    double turn = 0.0;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Point a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-        const double ax = a.x - from.x, ay = a.y - from.y, bx = b.x - from.x, by = b.y - from.y;
-        const double twice = ax * by - ay * bx;
-        if (!(0.5 * twice > smallest)) return false;
-        turn += std::atan2(twice, ax * bx + ay * by);
-    }
-    return std::abs(turn - 6.283185307179586) < 1e-6;
-}
 
 std::vector<bool> collapse_edges(
     PowerDiagram& diagram, const Outline& outline, double threshold, double smallest)

@@ -8,20 +8,7 @@
 
 namespace flexpm {
 
-/// What a polygon looks like from its centroid; see is_star_shaped().
-struct PolygonShape {
-    double area = 0.0;
-    Point centroid;
-};
-
-/// Area (positive counter-clockwise) and centroid of a polygon.
-PolygonShape polygon_shape(const std::vector<Point>& polygon);
-
-/// True if the polygon has three corners or more, winds once round the point, and each triangle
-/// (point, edge) has an area above `smallest`.
-bool is_star_shaped(const std::vector<Point>& polygon, Point from, double smallest);
-
-/// Collapses edges shorter than `threshold`, shortest first, ties by vertex index. Two inner
+/// Collapse edges shorter than `threshold`, shortest first, ties by vertex index. Two inner
 /// vertices meet in the middle; outline corners stay, outline vertices stay on the outline. Cells
 /// without edges (hidden discs) are ignored. A collapse that would spoil a cell is not made.
 ///

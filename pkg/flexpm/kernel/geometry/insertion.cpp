@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Random insertion of shrunken discs, the start of a packing, paper Sec. 3.1.
+/// @file  Random places are tried until one is free; square bins find the discs near it.
 #include <flexpm/kernel/geometry/insertion.hpp>
 
-#include <flexpm/kernel/core/format.hpp>
-#include <flexpm/kernel/geometry/disc_sizes.hpp>
+#include <flexpm/kernel/core/random.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 namespace flexpm {
 namespace {
@@ -54,9 +52,7 @@ public:
         for (int j = std::max(j0 - 1, 0); j <= std::min(j0 + 1, rows - 1); ++j)
             for (int i = std::max(i0 - 1, 0); i <= std::min(i0 + 1, columns - 1); ++i)
                 for (const Disc& e : discs[j * columns + i])
-                    if (std::hypot(e.centre.x - d.centre.x, e.centre.y - d.centre.y)
-                        < e.radius + d.radius)
-                        return false;
+                    if (norm(e.centre - d.centre) < e.radius + d.radius) return false;
         return true;
     }
 
@@ -94,9 +90,10 @@ std::vector<Point> insert_discs(
         Disc d { {}, shrink * radii[i] };
         int tries = 0;
         do {
-            if (++tries > most_tries)
-                throw std::invalid_argument("insert_discs: radius = " + number(radii[i])
-                    + " m, must find a free place in the outline; choose smaller or fewer discs");
+            if (++tries > most_tries) {
+                refuse("insert_discs: radius", radii[i], "m",
+                    "must find a free place in the outline; choose smaller or fewer discs");
+            }
             d.centre.x = box.low.x + (box.high.x - box.low.x) * random.next();
             d.centre.y = box.low.y + (box.high.y - box.low.y) * random.next();
         } while (distance_inside(outline, d.centre) < d.radius || !bins.is_free(d));

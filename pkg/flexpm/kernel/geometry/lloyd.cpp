@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Seeds of inner particles: capacity-constrained Lloyd relaxation in one grain.
-#include <flexpm/kernel/geometry/edge_collapse.hpp>
-#include <flexpm/kernel/geometry/subdivision.hpp>
+/// @file  Capacity-constrained Lloyd relaxation: seeds go to the centroids of their power cells, weights
+/// even out the areas.
+/// The power diagram is made here and not by power_diagram(): that one cuts its cells along a convex
+/// outline, and a grain is star-shaped, not convex. Here each cell starts as the whole grain and is cut
+/// once by every other seed, which is quick for the few seeds of a grain and asks nothing of its shape.
+#include <flexpm/kernel/geometry/lloyd.hpp>
+
+#include <flexpm/kernel/geometry/polygon.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +57,10 @@ std::vector<Point> first_seeds(const std::vector<Point>& polygon, int count)
     return seeds;
 }
 
-/// The part of a cell where `offset + slope . x` is not positive; the new edge gets the tag.
-void clip(Cell& cell, Point slope, double offset, int tag, Cell& scratch)
+/// Cut a cell down to where `offset + slope . x` is not positive; beyond the new edge lies `beyond`.
+void clip(Cell& cell, Point slope, double offset, Beyond beyond, Cell& scratch)
 {
-    const auto value = [&](Point p) { return slope.x * p.x + slope.y * p.y + offset; };
+    const auto value = [&](Point p) { return dot(slope, p) + offset; };
     scratch.clear();
     for (std::size_t i = 0; i < cell.size(); ++i) {
         const InnerCorner &a = cell[i], &b = cell[(i + 1) % cell.size()];
@@ -63,9 +68,7 @@ void clip(Cell& cell, Point slope, double offset, int tag, Cell& scratch)
         if (fa <= 0.0) scratch.push_back(a);
         if ((fa <= 0.0) == (fb <= 0.0)) continue;
         const double t = fa / (fa - fb);
-        const Point cut = { a.point.x + t * (b.point.x - a.point.x),
-            a.point.y + t * (b.point.y - a.point.y) };
-        scratch.push_back({ cut, fa <= 0.0 ? tag : a.tag });
+        scratch.push_back({ a.point + t * (b.point - a.point), fa <= 0.0 ? beyond : a.beyond });
     }
     cell.swap(scratch);
 }
@@ -80,15 +83,16 @@ void cut_cells(
         Cell& cell = packing.cells[i];
         cell.clear();
         for (std::size_t k = 0; k < polygon.size(); ++k) {
-            cell.push_back({ polygon[k], -1 - static_cast<int>(k) });
+            cell.push_back({ polygon[k], { Beyond::Kind::edge, static_cast<int>(k) } });
         }
         const Point s = packing.seeds[i];
         for (int j = 0; j < count; ++j) {
             if (j == i) continue;
             const Point o = packing.seeds[j];
-            clip(cell, { 2.0 * (o.x - s.x), 2.0 * (o.y - s.y) },
-                s.x * s.x + s.y * s.y - o.x * o.x - o.y * o.y + weights[j] - weights[i], j,
-                scratch);
+            // dot(s, s) - dot(o, o) would round otherwise
+            const double offset =
+                s.x * s.x + s.y * s.y - o.x * o.x - o.y * o.y + weights[j] - weights[i];
+            clip(cell, 2.0 * (o - s), offset, { Beyond::Kind::seed, j }, scratch);
         }
     }
 }
@@ -99,10 +103,10 @@ double growth(const InnerPacking& packing, int cell)
     double sum = 0.0;
     const Cell& c = packing.cells[cell];
     for (std::size_t k = 0; k < c.size(); ++k) {
-        if (c[k].tag < 0) continue;
+        if (!c[k].beyond.is_seed()) continue;
         const Point a = c[k].point, b = c[(k + 1) % c.size()].point;
-        const Point s = packing.seeds[cell], o = packing.seeds[c[k].tag];
-        sum += 0.5 * std::hypot(b.x - a.x, b.y - a.y) / std::hypot(o.x - s.x, o.y - s.y);
+        const Point s = packing.seeds[cell], o = packing.seeds[c[k].beyond.index];
+        sum += 0.5 * norm(b - a) / norm(o - s);
     }
     return sum;
 }
@@ -115,7 +119,7 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
     const PolygonShape shape = polygon_shape(polygon);
     std::vector<Point> local;
     for (Point p : polygon)
-        local.push_back({ p.x - shape.centroid.x, p.y - shape.centroid.y });
+        local.push_back(p - shape.centroid);
     InnerPacking packing { first_seeds(local, count), std::vector<Cell>(count) };
     std::vector<double> weights(count, 0.0);
     const double mean = shape.area / count;
@@ -131,19 +135,17 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
             weights[i] += 0.5 * (mean - s.area) / std::max(growth(packing, i), 0.5);
             // an empty cell keeps its seed: its weight brings it back
             if (s.area > 0.0) next[i] = s.centroid;
-            moved = std::max(
-                moved, std::hypot(next[i].x - packing.seeds[i].x, next[i].y - packing.seeds[i].y));
+            moved = std::max(moved, norm(next[i] - packing.seeds[i]));
         }
         if (worst < area_tolerance && moved < 0.01 * std::sqrt(mean)) break;
         packing.seeds = next;
     }
     cut_cells(local, weights, packing);
     for (Point& p : packing.seeds)
-        p = { p.x + shape.centroid.x, p.y + shape.centroid.y };
+        p = p + shape.centroid;
     for (Cell& cell : packing.cells) {
-        for (InnerCorner& c : cell) {
-            c.point = { c.point.x + shape.centroid.x, c.point.y + shape.centroid.y };
-        }
+        for (InnerCorner& c : cell)
+            c.point = c.point + shape.centroid;
     }
     return packing;
 }

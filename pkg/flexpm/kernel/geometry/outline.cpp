@@ -2,31 +2,24 @@
 /// @file  Geometry of a specimen's outline, paper Sec. 3.1.
 #include <flexpm/kernel/geometry/outline.hpp>
 
-#include <flexpm/kernel/core/format.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 namespace flexpm {
 namespace {
 
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-Point operator-(Point a, Point b) { return { a.x - b.x, a.y - b.y }; }
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 Chord clip_by_circle(const Outline& outline, Point on_axis, Point direction)
 {
     const Point rel = on_axis - outline.centre;
-    const double b = rel.x * direction.x + rel.y * direction.y;
+    const double b = dot(rel, direction);
     const double distance = cross(direction, rel);
     const double half_squared = outline.radius * outline.radius - distance * distance;
     const double half = std::sqrt(std::max(half_squared, 0.0));
-    const auto at = [&](double t) {
-        return Point { on_axis.x + t * direction.x, on_axis.y + t * direction.y };
-    };
+    const auto at = [&](double t) { return on_axis + t * direction; };
     return { half_squared > 0.0, { at(-b - half), 0.0 }, { at(-b + half), 0.0 } };
 }
 
@@ -37,7 +30,7 @@ OutlinePoint on_side(const Outline& outline, int side, Point on_axis, Point dire
     const Point c = outline.corners[side], e = outline.corners[(side + 1) % n] - c;
     double s = cross(on_axis - c, direction) / cross(e, direction);
     s = std::clamp(s, 0.0, 1.0);
-    return { { c.x + s * e.x, c.y + s * e.y }, side + std::min(s, 1.0 - 1e-12) };
+    return { c + s * e, side + std::min(s, 1.0 - 1e-12) };
 }
 
 Chord clip_by_polygon(const Outline& outline, Point on_axis, Point direction)
@@ -67,21 +60,22 @@ Outline Outline::polygon(std::vector<Point> corners)
 {
     const std::size_t n = corners.size();
     if (n < 3)
-        throw std::invalid_argument(
-            "outline: corners = " + std::to_string(n) + ", must be >= 3; give a polygon");
+        refuse("outline: corners", static_cast<double>(n), "", "must be >= 3; give a polygon");
     double turn = 0.0;
     for (std::size_t k = 0; k < n; ++k) {
         const Point a = corners[k], b = corners[(k + 1) % n], c = corners[(k + 2) % n];
         const Point u = b - a, v = c - b;
-        if (!finite(a) || !(cross(u, v) > 1e-12 * std::hypot(u.x, u.y) * std::hypot(v.x, v.y)))
-            throw std::invalid_argument("outline: corner " + std::to_string((k + 1) % n)
-                + ", must be finite, counter-clockwise and strictly convex;"
-                  " reverse or correct the polygon");
-        turn += std::atan2(cross(u, v), u.x * v.x + u.y * v.y);
+        if (!is_finite(a) || !(cross(u, v) > 1e-12 * norm(u) * norm(v))) {
+            refuse("outline: corner " + std::to_string((k + 1) % n), place(b),
+                "must be finite and the corners counter-clockwise and strictly convex;"
+                " reverse or correct the polygon");
+        }
+        turn += std::atan2(cross(u, v), dot(u, v));
     }
-    if (turn > 7.0)
-        throw std::invalid_argument("outline: polygon winds more than once, must be simple;"
-                                    " correct the order of its corners");
+    if (turn > 7.0) {
+        refuse("outline: turn of the polygon", turn, "rad",
+            "must be one round of 2 pi; correct the order of its corners");
+    }
     Outline outline;
     outline.corners = std::move(corners);
     return outline;
@@ -89,9 +83,8 @@ Outline Outline::polygon(std::vector<Point> corners)
 
 Outline Outline::circle(Point centre, double radius)
 {
-    if (!finite(centre) || !std::isfinite(radius) || !(radius > 0.0))
-        throw std::invalid_argument(
-            "outline: radius = " + number(radius) + " m, must be finite and > 0; correct it");
+    if (!is_finite(centre)) refuse("outline: centre", place(centre), "must be finite; correct it");
+    check_positive("outline: radius", radius, "m");
     Outline outline;
     outline.centre = centre;
     outline.radius = radius;
@@ -102,7 +95,7 @@ bool contains(const Outline& outline, Point p)
 {
     if (outline.is_circle()) {
         const Point d = p - outline.centre;
-        return d.x * d.x + d.y * d.y <= outline.radius * outline.radius;
+        return dot(d, d) <= outline.radius * outline.radius;
     }
     for (int side = 0; side < outline.sides(); ++side) {
         const Point c = outline.corners[side];
@@ -113,13 +106,12 @@ bool contains(const Outline& outline, Point p)
 
 double distance_inside(const Outline& outline, Point p)
 {
-    if (outline.is_circle())
-        return outline.radius - std::hypot(p.x - outline.centre.x, p.y - outline.centre.y);
+    if (outline.is_circle()) return outline.radius - norm(p - outline.centre);
     double smallest = std::numeric_limits<double>::infinity();
     for (int side = 0; side < outline.sides(); ++side) {
         const Point c = outline.corners[side];
         const Point e = outline.corners[(side + 1) % outline.sides()] - c;
-        smallest = std::min(smallest, cross(e, p - c) / std::hypot(e.x, e.y));
+        smallest = std::min(smallest, cross(e, p - c) / norm(e));
     }
     return smallest;
 }
@@ -133,17 +125,17 @@ BoundingCircle bounding_circle(const Outline& outline)
         box.centre.y += c.y / outline.sides();
     }
     for (Point c : outline.corners)
-        box.radius = std::max(box.radius, std::hypot(c.x - box.centre.x, c.y - box.centre.y));
+        box.radius = std::max(box.radius, norm(c - box.centre));
     return box;
 }
 
 Chord clip_radical_axis(const Outline& outline, const Disc& a, const Disc& b)
 {
     const Point d = b.centre - a.centre;
-    const double length_squared = d.x * d.x + d.y * d.y, length = std::sqrt(length_squared);
+    const double length_squared = dot(d, d), length = std::sqrt(length_squared);
     const double from_a =
         0.5 * (1.0 + (a.radius * a.radius - b.radius * b.radius) / length_squared);
-    const Point on_axis { a.centre.x + from_a * d.x, a.centre.y + from_a * d.y };
+    const Point on_axis = a.centre + from_a * d;
     const Point direction { -d.y / length, d.x / length };
     return outline.is_circle() ? clip_by_circle(outline, on_axis, direction)
                                : clip_by_polygon(outline, on_axis, direction);

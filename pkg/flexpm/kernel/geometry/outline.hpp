@@ -2,7 +2,7 @@
 /// @file  Geometry of a specimen's outline: inside test, and where a radical axis crosses it.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 
 #include <vector>
 

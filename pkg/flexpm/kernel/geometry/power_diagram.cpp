@@ -77,7 +77,7 @@ private:
         const BoundingCircle box = bounding_circle(outline);
         const double far = 20.0 * box.radius;
         for (Point s : { Point { far, 0 }, Point { 0, far }, Point { -far, 0 }, Point { 0, -far } })
-            ghosts.push_back({ { box.centre.x + s.x, box.centre.y + s.y }, 0.0 });
+            ghosts.push_back({ box.centre + s, 0.0 });
         // CGAL may swap handles when a disc hides another, so indices are found again by value.
         std::map<std::pair<double, double>, int> index;
         const std::vector<bool> coincident = find_coincident(discs);
@@ -149,9 +149,7 @@ private:
     /// Distance (times a constant) of p beyond q in the walking direction, a on the left.
     double along(Point p, Point q, int a, int b) const
     {
-        const double dx = discs[b].centre.x - discs[a].centre.x;
-        const double dy = discs[b].centre.y - discs[a].centre.y;
-        return -dy * (p.x - q.x) + dx * (p.y - q.y);
+        return flexpm::cross(discs[b].centre - discs[a].centre, p - q);
     }
 
     Point dual_position(Face f) const

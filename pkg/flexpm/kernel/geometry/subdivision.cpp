@@ -2,7 +2,9 @@
 /// @file  Joining the small cells of all grains into one tessellation.
 #include <flexpm/kernel/geometry/subdivision.hpp>
 
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/geometry/lloyd.hpp>
+#include <flexpm/kernel/geometry/polygon.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +15,6 @@ namespace flexpm {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// Corners nearer than this part of an inner particle's diameter become one.
 constexpr double merge_distance = 0.05;
 
@@ -39,11 +40,7 @@ public:
         parent[std::max(i, j)] = std::min(i, j);
     }
     Point place(int i) const { return places[find(i)]; }
-    double distance(int i, int j) const
-    {
-        const Point a = place(i), b = place(j);
-        return std::hypot(b.x - a.x, b.y - a.y);
-    }
+    double distance(int i, int j) const { return norm(place(j) - place(i)); }
 
 private:
     std::vector<int> parent;
@@ -53,16 +50,16 @@ private:
 /// A corner of a small cell while cells are joined.
 struct Corner {
     int vertex;
-    int tag;  ///< of the edge that starts here: a cell, or -1 - k for edge k of the grain
+    Beyond beyond;  ///< the edge that starts here; seeds are numbered as the cells of all grains
 };
 
 struct Builder {
     const Tessellation& grains;
     double merge;  ///< [m]
     Vertices vertices;
-    std::vector<std::vector<Corner>> cells;  ///< tags name cells of all grains
-    std::vector<int> grain;                  ///< per cell
-    std::vector<int> first_cell;             ///< per grain, and the end
+    std::vector<std::vector<Corner>> cells;
+    std::vector<int> grain;       ///< per cell
+    std::vector<int> first_cell;  ///< per grain, and the end
     std::vector<Disc> discs;
     std::map<std::pair<int, int>, std::pair<int, int>> shared;  ///< cells -> vertices
     std::vector<std::uint8_t> outer;
@@ -78,24 +75,20 @@ void add_grain(Builder& b, int grain, int count)
         std::vector<Point> points;
         const auto& cell = packing.cells[i];
         for (std::size_t k = 0; k < cell.size(); ++k) {
-            const int tag = cell[k].tag, before = cell[(k + cell.size() - 1) % cell.size()].tag;
-            const int corner = b.grains.cell_offsets[grain] + (-1 - tag);
+            Beyond beyond = cell[k].beyond;
+            const Beyond before = cell[(k + cell.size() - 1) % cell.size()].beyond;
             // between two edges of the grain lies a vertex of the coarse tessellation
-            const bool of_grain = tag < 0 && before < 0 && tag != before;
-            const int vertex =
-                of_grain ? b.grains.cell_vertices[corner] : b.vertices.add(cell[k].point);
-            corners.push_back({ vertex, tag < 0 ? tag : first + tag });
+            const bool of_grain = beyond.is_edge() && before.is_edge() && beyond != before;
+            const int vertex = of_grain
+                ? b.grains.cell_vertices[b.grains.cell_offsets[grain] + beyond.index]
+                : b.vertices.add(cell[k].point);
+            if (beyond.is_seed()) beyond.index += first;
+            corners.push_back({ vertex, beyond });
             points.push_back(cell[k].point);
-        }
-        double twice = 0.0;
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            const Point p = points[k], q = points[(k + 1) % points.size()];
-            twice += (p.x - points[0].x) * (q.y - points[0].y)
-                - (p.y - points[0].y) * (q.x - points[0].x);
         }
         b.cells.push_back(corners);
         b.grain.push_back(grain);
-        b.discs.push_back({ packing.seeds[i], std::sqrt(0.5 * twice / pi) });
+        b.discs.push_back({ packing.seeds[i], std::sqrt(polygon_shape(points).area / pi) });
     }
 }
 
@@ -110,12 +103,12 @@ void join_inside(Builder& b)
     for (int i = 0; i < static_cast<int>(b.cells.size()); ++i) {
         const auto& cell = b.cells[i];
         for (std::size_t k = 0; k < cell.size(); ++k) {
-            const int j = cell[k].tag;
+            const Beyond beyond = cell[k].beyond;
             const int p0 = cell[k].vertex, p1 = next_of(cell, k);
-            if (j >= 0 && j > i) {
-                const auto& other = b.cells[j];
+            if (beyond.is_seed() && beyond.index > i) {
+                const auto& other = b.cells[beyond.index];
                 for (std::size_t m = 0; m < other.size(); ++m) {
-                    if (other[m].tag != i) continue;
+                    if (other[m].beyond != Beyond { Beyond::Kind::seed, i }) continue;
                     if (b.vertices.distance(p0, next_of(other, m)) < b.merge) {
                         b.vertices.join(p0, next_of(other, m));
                     }
@@ -141,7 +134,7 @@ std::vector<Stretch> stretches_of(const Builder& b, int grain, int k)
     std::vector<Stretch> found;
     for (int i = b.first_cell[grain]; i < b.first_cell[grain + 1]; ++i) {
         for (std::size_t m = 0; m < b.cells[i].size(); ++m) {
-            if (b.cells[i][m].tag != -1 - k) continue;
+            if (b.cells[i][m].beyond != Beyond { Beyond::Kind::edge, k }) continue;
             const int start = b.vertices.find(b.cells[i][m].vertex);
             const int end = b.vertices.find(next_of(b.cells[i], m));
             if (start != end) found.push_back({ i, start, end });
@@ -183,7 +176,7 @@ void insert_after(std::vector<Corner>& cell, const Builder& b, int start, int en
     for (std::size_t k = 0; k < cell.size(); ++k) {
         if (b.vertices.find(cell[k].vertex) != start) continue;
         if (b.vertices.find(next_of(cell, k)) != end) continue;
-        cell.insert(cell.begin() + static_cast<std::ptrdiff_t>(k) + 1, { vertex, cell[k].tag });
+        cell.insert(cell.begin() + static_cast<std::ptrdiff_t>(k) + 1, { vertex, cell[k].beyond });
         return;
     }
 }
@@ -221,10 +214,11 @@ void share_inside(Builder& b)
 {
     for (int i = 0; i < static_cast<int>(b.cells.size()); ++i) {
         for (std::size_t k = 0; k < b.cells[i].size(); ++k) {
-            const int j = b.cells[i][k].tag;
+            const Beyond beyond = b.cells[i][k].beyond;
             const int start = b.vertices.find(b.cells[i][k].vertex);
             const int end = b.vertices.find(next_of(b.cells[i], k));
-            if (j > i && start != end) b.shared[{ i, j }] = { start, end };
+            if (!beyond.is_seed() || beyond.index <= i || start == end) continue;
+            b.shared[{ i, beyond.index }] = { start, end };
         }
     }
 }

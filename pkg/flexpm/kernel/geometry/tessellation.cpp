@@ -2,12 +2,12 @@
 /// @file  From a power diagram to the cells of a specimen, paper Sec. 3.1.
 #include <flexpm/kernel/geometry/tessellation.hpp>
 
-#include <flexpm/kernel/core/format.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/geometry/edge_collapse.hpp>
+#include <flexpm/kernel/geometry/power_diagram.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 namespace flexpm {
@@ -25,11 +25,10 @@ int count_shared_edges(const PowerDiagram& diagram)
     return twice / 2;
 }
 
-void refuse_hidden(const Disc& d, int i)
+[[noreturn]] void refuse_hidden(const Disc& d, int i)
 {
-    throw std::invalid_argument("tessellate: disc " + std::to_string(i)
-        + ": radius = " + number(d.radius) + " m at (" + number(d.centre.x) + ", "
-        + number(d.centre.y) + ") m is hidden by others, must have a cell; remove or move it");
+    refuse("tessellate: disc " + std::to_string(i) + ": radius", d.radius, "m",
+        "must not be hidden by other discs at " + place(d.centre) + "; remove or move it");
 }
 
 void add_edges(Tessellation& t, const std::vector<CellEdge>& cell, int index,
@@ -85,9 +84,10 @@ Tessellation tessellate(
     const std::vector<Disc>& discs, const Outline& outline, const TessellationOptions& options)
 {
     PowerDiagram diagram = power_diagram(discs, outline);
-    if (!(std::isfinite(options.short_edge) && options.short_edge >= 0.0))
-        throw std::invalid_argument("tessellate: short_edge = " + number(options.short_edge)
-            + " m, must be finite and >= 0; use 0 to keep every edge");
+    if (!(std::isfinite(options.short_edge) && options.short_edge >= 0.0)) {
+        refuse("tessellate: short_edge", options.short_edge, "m",
+            "must be finite and >= 0; use 0 to keep every edge");
+    }
     double mean_diameter = 0.0;
     for (const Disc& d : discs)
         mean_diameter += 2.0 * d.radius / static_cast<double>(discs.size());
@@ -96,9 +96,10 @@ Tessellation tessellate(
 
     for (std::size_t i = 0; i < discs.size(); ++i) {
         auto& cell = diagram.cells[i];
-        if ((cell.size() > 0 && cell.size() < 3) || (cell.empty() && discs.size() == 1))
-            throw std::invalid_argument("tessellate: discs = " + std::to_string(discs.size())
-                + ", must be enough to span an area in a circle; add discs or use a polygon");
+        if ((cell.size() > 0 && cell.size() < 3) || (cell.empty() && discs.size() == 1)) {
+            refuse("tessellate: discs", static_cast<double>(discs.size()), "",
+                "must be enough to span an area in a circle; add discs or use a polygon");
+        }
         if (cell.empty() && !options.allow_hidden) refuse_hidden(discs[i], static_cast<int>(i));
     }
     const int uncollapsed = count_shared_edges(diagram);

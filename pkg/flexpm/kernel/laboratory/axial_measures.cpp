@@ -14,7 +14,6 @@ namespace flexpm {
 namespace {
 
 constexpr int axial = 1;
-constexpr double pi = 3.14159265358979323846;
 
 /// Force on the specimen at its top or bottom: of the plates there, else of what holds the nodes.
 double end_force(const Assembly& a, int side)

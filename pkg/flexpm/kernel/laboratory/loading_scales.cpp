@@ -2,14 +2,13 @@
 #include <flexpm/kernel/laboratory/loading_scales.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 
 #include <cmath>
 
 namespace flexpm {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double crossing_steps(const ScaleInputs& in, double width, double height)
 {

@@ -2,13 +2,13 @@
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/statics/static_solve.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file  Parameters of the bilinear law and their checks.
 #include <flexpm/kernel/law/bilinear.hpp>
 
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 namespace flexpm {
 
@@ -16,6 +16,15 @@ double rate(double critical, double elastic)
 {
     return critical - elastic > brittle_tolerance * elastic ? 1.0 / (critical - elastic)
                                                             : brittle_rate;
+}
+
+/// @param least  elastic energy at the strength [N/m]
+void check_energy(const std::string& quantity, double value, double least)
+{
+    const double accepted = least * (1.0 - brittle_tolerance);
+    if (value >= accepted) return;
+    refuse(quantity, value, "N/m",
+        "below the elastic energy at the strength; give at least " + number(accepted) + " N/m");
 }
 
 }  // namespace
@@ -38,10 +47,8 @@ LawParameters make_law(const ContactMaterial& m)
     p.friction = m.friction;
     const double tensile_least = 0.5 * m.tensile_strength * m.tensile_strength / p.normal_stiffness;
     const double shear_least = 0.5 * m.cohesion * m.cohesion / p.shear_stiffness;
-    check_at_least("tensile_fracture_energy", m.tensile_fracture_energy,
-        tensile_least * (1.0 - brittle_tolerance), "N/m");
-    check_at_least("shear_fracture_energy", m.shear_fracture_energy,
-        shear_least * (1.0 - brittle_tolerance), "N/m");
+    check_energy("tensile_fracture_energy", m.tensile_fracture_energy, tensile_least);
+    check_energy("shear_fracture_energy", m.shear_fracture_energy, shear_least);
 
     p.elastic_opening = m.tensile_strength / p.normal_stiffness;
     p.critical_opening =

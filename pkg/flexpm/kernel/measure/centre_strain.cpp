@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/measure/centre_strain.hpp>
 
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <cmath>
 

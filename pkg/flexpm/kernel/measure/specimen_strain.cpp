@@ -2,7 +2,7 @@
 #include <flexpm/kernel/measure/specimen_strain.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 
 namespace flexpm {

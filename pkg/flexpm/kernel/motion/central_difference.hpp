@@ -3,7 +3,7 @@
 /// books of its energy.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/array.hpp>
 
 #include <algorithm>
 #include <cmath>

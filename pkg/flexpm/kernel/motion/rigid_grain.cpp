@@ -3,7 +3,7 @@
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 
 #include <algorithm>
 #include <cmath>

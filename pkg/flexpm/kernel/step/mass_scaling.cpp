@@ -3,7 +3,7 @@
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 

@@ -3,7 +3,7 @@
 #include <flexpm/kernel/topology/assembly_build.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 
 #include <algorithm>

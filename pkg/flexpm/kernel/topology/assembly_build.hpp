@@ -4,7 +4,7 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/kernel/fem/grain_mesh.hpp>
-#include <flexpm/kernel/geometry/tessellation.hpp>
+#include <flexpm/kernel/geometry/cells.hpp>
 
 #include <cstdint>
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Laying plates against a specimen.
+/// @file  Plates find the edges they may touch and where these begin to.
+#include <flexpm/kernel/topology/plate_build.hpp>
+
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/core/checks.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 
@@ -22,7 +24,7 @@ Point reference_of(const Assembly& a, int node)
 /// Start and end of a boundary edge, the grain on its left.
 struct Edge {
     Point start, end;
-    double length() const { return std::hypot(end.x - start.x, end.y - start.y); }
+    double length() const { return norm(end - start); }
     Point inward() const { return { (start.y - end.y) / length(), (end.x - start.x) / length() }; }
 };
 

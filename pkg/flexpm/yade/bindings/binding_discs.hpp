@@ -2,7 +2,7 @@
 /// @file  Discs from Python's arrays of centres and radii.
 #pragma once
 
-#include <flexpm/kernel/core/types.hpp>
+#include <flexpm/kernel/core/vector.hpp>
 
 #include <boost/python.hpp>
 

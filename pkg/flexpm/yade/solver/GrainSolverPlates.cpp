@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
 
 namespace yade {
 

@@ -6,7 +6,7 @@
 #include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/statics/elastic_solve.hpp>
+#include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Basic types of the kernel: points of the x-y plane, discs, and 64-byte aligned arrays.
-/// SI units everywhere; angles in radians.
+/// @file  Arrays that start on a cache line, and the number of grains or contacts in a block of them.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +11,6 @@ namespace flexpm {
 /// Grains (and contacts) that are stepped together: a block holds this many, one in each lane.
 /// Fixed, so that results do not depend on the instruction set chosen at run time.
 constexpr int lanes = 8;
-
-/// A point or vector of the plane [m].
-struct Point {
-    double x = 0.0;
-    double y = 0.0;
-};
-
-/// A disc of the packing: the seed of one grain.
-struct Disc {
-    Point centre;         ///< [m]
-    double radius = 0.0;  ///< [m]
-};
 
 /// Allocator on cache lines, so that a block of eight doubles never straddles two of them.
 template <class T> struct AlignedAllocator {

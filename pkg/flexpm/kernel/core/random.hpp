@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Seeded random numbers that are the same on every platform.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace flexpm {
+
+/// The engine is that of the standard, the step to floating point is not: std distributions differ.
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : engine(seed) { }
+    /// Uniform in [0, 1), 53 random bits.
+    double next() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
+
+private:
+    std::mt19937_64 engine;
+};
+
+}  // namespace flexpm

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Area, centroid and second moment of simple polygons, corners counter-clockwise.
+#pragma once
+
+#include <flexpm/kernel/core/vector.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+struct PolygonShape {
+    double area = 0.0;  ///< positive counter-clockwise [m^2]
+    Point centroid;
+};
+
+/// Area and centroid of a polygon; zero for less than three corners.
+PolygonShape polygon_shape(const std::vector<Point>& polygon);
+
+/// True if the polygon has three corners or more, winds once round the point, and each triangle
+/// (point, edge) has an area above `smallest` [m^2].
+bool is_star_shaped(const std::vector<Point>& polygon, Point from, double smallest);
+
+}  // namespace flexpm

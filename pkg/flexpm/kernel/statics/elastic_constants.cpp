@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  A strain is given to the ends; forces and widths follow from the solve.
+#include <flexpm/kernel/statics/elastic_constants.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/measure/specimen_strain.hpp>
+#include <flexpm/kernel/statics/static_solve.hpp>
+#include <flexpm/kernel/statics/stiffness_matrix.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
+
+#include <string>
+#include <vector>
+
+namespace flexpm {
+
+namespace {
+
+/// Force on the specimen of a plate at its place, all contacts bonded.
+Point static_force(const Assembly& a, const Plate& plate)
+{
+    Point sum;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const StiffnessBlock k = plate_springs(plate, i);
+        const auto n = edge_nodes(a, p.edge);
+        const double *u0 = &a.displacement[n[0]], *u1 = &a.displacement[n[1]], w = p.weight;
+        const double x = plate.displacement.x - ((1.0 - w) * u0[0] + w * u1[0]);
+        const double y = plate.displacement.y - ((1.0 - w) * u0[lanes] + w * u1[lanes]);
+        sum.x += k.xx * x + k.xy * y;
+        sum.y += k.yx * x + k.yy * y;
+    }
+    return sum;
+}
+
+constexpr double test_strain = 1e-3;  // any value: the solve is linear
+
+/// Prescribe the test: the ends move axially, one point stays laterally.
+std::vector<Prescribed> hold_ends(Assembly& a, double height)
+{
+    const std::vector<int> bottom = side_nodes(a, bottom_side), top = side_nodes(a, top_side);
+    if (a.is_rigid(0)) {
+        const PlateContact smooth = { 0.0, 0.0, true };
+        add_side_plates(a, bottom_side, 1, smooth);
+        const int upper = add_side_plates(a, top_side, 1, smooth).front();
+        a.plates[upper].displacement = { 0.0, test_strain * height };
+        int held = 0;
+        while (a.edge_side[held] != bottom_side)
+            ++held;
+        return { { a.centre(a.edge_grain[held]), 0.0 } };
+    }
+    std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
+    for (int n : bottom)
+        prescribed.push_back({ n + lanes, 0.0 });
+    for (int n : top)
+        prescribed.push_back({ n + lanes, test_strain * height });
+    return prescribed;
+}
+
+}  // namespace
+
+ElasticConstants elastic_constants(const Assembly& a)
+{
+    for (int side = 0; side < 4; ++side) {
+        check_positive(
+            "elastic_constants: length of side " + std::to_string(side), side_length(a, side), "m");
+    }
+    const double width = side_length(a, bottom_side), height = side_length(a, left_side);
+    Assembly solved = a;
+    solved.plates.clear();
+    const std::vector<Prescribed> prescribed = hold_ends(solved, height);
+    StaticSolution s = solve_static(solved, prescribed);
+    solved.displacement = std::move(s.displacement);
+    solved.force = std::move(s.force);
+
+    double top = 0.0;
+    for (const Plate& p : solved.plates) {
+        if (p.side == top_side) top = static_force(solved, p).y;
+    }
+    if (solved.plates.empty()) top = reaction(solved, side_nodes(a, top_side), 1);
+    const SpecimenStrain strain = specimen_strain(solved);
+    return { top / (width * a.thickness * strain.axial), -strain.lateral / strain.axial };
+}
+
+}  // namespace flexpm

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Unknowns, their equations and the sparse factorisation.
+#include <flexpm/kernel/statics/static_solve.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/statics/stiffness_matrix.hpp>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace flexpm {
+
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
+
+/// A pivot below this share of its diagonal term is round-off: the part it belongs to moves freely.
+constexpr double smallest_pivot = 1e-10;
+
+/// Forces on the nodes when the plates are displaced and the grains are not.
+void add_plate_loads(const Assembly& a, Array<double>& loads)
+{
+    for (const Plate& plate : a.plates) {
+        for (int i = 0; i < plate_points(plate); ++i) {
+            const PlatePoint p = plate_point(plate, i);
+            const StiffnessBlock k = plate_springs(plate, i);
+            const Point u = plate.displacement;
+            const auto n = edge_nodes(a, p.edge);
+            const double part[] = { 1.0 - p.weight, p.weight };
+            for (int r = 0; r < 2; ++r) {
+                loads[n[r]] += part[r] * (k.xx * u.x + k.xy * u.y);
+                loads[n[r] + lanes] += part[r] * (k.yx * u.x + k.yy * u.y);
+            }
+        }
+    }
+}
+
+/// What an entry of Assembly::displacement, or the rotation of a slot, is to the solve.
+enum class Kind : std::uint8_t {
+    padding,     ///< belongs to no node
+    unknown,     ///< to be found
+    prescribed,  ///< has its given value
+    follower     ///< follows the centre of its rigid grain
+};
+
+/// A node's displacement in terms of unknowns: itself, or the motion of its rigid grain.
+struct Term {
+    int index;
+    double factor;
+};
+
+/// Entries are those of Assembly::displacement, and behind them the rotation of each slot.
+struct Unknowns {
+    std::vector<Kind> kind;   ///< per entry
+    std::vector<int> number;  ///< per entry that is unknown: its number
+    std::vector<int> index;   ///< per unknown: its entry
+    std::vector<Term> lever;  ///< per entry that follows a rotation: index and arm
+    std::vector<int> leader;  ///< per entry that follows: the same component of the centre
+};
+
+/// Call visit(index, factor) for each entry that this one is made of.
+template <class Visit> void for_each_term(const Unknowns& n, int entry, Visit visit)
+{
+    if (n.kind[entry] != Kind::follower) {
+        visit(entry, 1.0);
+        return;
+    }
+    visit(n.leader[entry], 1.0);
+    visit(n.lever[entry].index, n.lever[entry].factor);
+}
+
+/// The nodes of a rigid grain follow its centre; the rotation becomes an unknown.
+void follow_centre(const Assembly& a, int grain, Unknowns& n)
+{
+    const int centre = a.centre(grain);
+    const int rotation = static_cast<int>(a.displacement.size()) + a.grain_slot[grain];
+    n.kind[rotation] = Kind::unknown;
+    for (int k = 0; k < a.nodes_of(grain); ++k) {
+        const int node = a.node(grain, k);
+        if (node == centre) continue;
+        const double rx = a.reference[node] - a.reference[centre];
+        const double ry = a.reference[node + lanes] - a.reference[centre + lanes];
+        for (int c = 0; c < 2; ++c) {
+            n.kind[node + c * lanes] = Kind::follower;
+            n.leader[node + c * lanes] = centre + c * lanes;
+            n.lever[node + c * lanes] = { rotation, c == 0 ? -ry : rx };
+        }
+    }
+}
+
+[[noreturn]] void refuse_prescribed(const Prescribed& p, const std::string& rule)
+{
+    refuse("solve_static: prescribed displacement " + std::to_string(p.index), p.value, "m", rule);
+}
+
+/// Mark what is prescribed and number the rest, node by node; fill `u` with the given values.
+Unknowns number_unknowns(
+    const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
+{
+    Unknowns n;
+    n.kind.assign(a.displacement.size() + a.slot_grain.size(), Kind::padding);
+    n.number.assign(n.kind.size(), 0);
+    n.leader.assign(a.displacement.size(), 0);
+    n.lever.assign(a.displacement.size(), { 0, 0.0 });
+    for (int g = 0; g < a.grains; ++g) {
+        for (int k = 0; k < a.nodes_of(g); ++k) {
+            for (int c = 0; c < 2; ++c)
+                n.kind[a.node(g, k) + c * lanes] = Kind::unknown;
+        }
+        if (a.is_rigid(g)) follow_centre(a, g, n);
+    }
+    for (const Prescribed& p : prescribed) {
+        if (!std::isfinite(p.value)) refuse_prescribed(p, "must be a finite number");
+        const bool known = p.index >= 0 && p.index < static_cast<int>(u.size())
+            && n.kind[p.index] != Kind::padding;
+        if (!known) refuse_prescribed(p, "its index must name a component of a grain's node");
+        if (n.kind[p.index] == Kind::follower) {
+            refuse_prescribed(p, "belongs to a rigid grain; prescribe its centre");
+        }
+        if (n.kind[p.index] == Kind::prescribed && u[p.index] != p.value) {
+            refuse_prescribed(p, "given before with another value; give it once");
+        }
+        n.kind[p.index] = Kind::prescribed;
+        u[p.index] = p.value;
+    }
+    const auto count = [&n](int i) {
+        if (n.kind[i] != Kind::unknown) return;
+        n.number[i] = static_cast<int>(n.index.size());
+        n.index.push_back(i);
+    };
+    for (int g = 0; g < a.grains; ++g) {
+        for (int k = 0; k < a.nodes_of(g); ++k) {
+            for (int i : { a.node(g, k), a.node(g, k) + lanes })
+                count(i);
+        }
+        count(static_cast<int>(a.displacement.size()) + a.grain_slot[g]);
+    }
+    return n;
+}
+
+/// Lower half of the stiffness of the unknowns; what the prescribed values pull goes into `rhs`.
+SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& n,
+    const Array<double>& u, Eigen::VectorXd& rhs)
+{
+    std::vector<Eigen::Triplet<double>> triplets;
+    triplets.reserve(entries.size());
+    for (const StiffnessEntry& e : entries) {
+        for_each_term(n, e.row, [&](int i, double row_factor) {
+            for_each_term(n, e.column, [&](int j, double column_factor) {
+                if (n.kind[i] != Kind::unknown) return;
+                const int row = n.number[i], column = n.number[j];
+                const double value = row_factor * column_factor * e.value;
+                if (n.kind[j] != Kind::unknown) {
+                    rhs[row] -= value * u[j];
+                } else if (row >= column) {
+                    triplets.emplace_back(row, column, value);
+                }
+            });
+        });
+    }
+    const Eigen::Index size = static_cast<Eigen::Index>(n.index.size());
+    SparseMatrix k(size, size);
+    k.setFromTriplets(triplets.begin(), triplets.end());
+    return k;
+}
+
+[[noreturn]] void report_free_motion(const Assembly& a, int index, double ratio)
+{
+    const int size = static_cast<int>(a.displacement.size());
+    const bool turns = index >= size;
+    const bool along_y = !turns && index % (2 * lanes) >= lanes;  // rows of x and y alternate
+    const Point p = a.position(
+        turns ? a.centre(a.slot_grain[index - size]) : (along_y ? index - lanes : index));
+    const std::string at = " at x, y = " + number(p.x) + ", " + number(p.y) + " m ";
+    const char* motion = turns ? "about z" : along_y ? "along y" : "along x";
+    fail("solve_static: pivot / stiffness", number(ratio) + at + motion,
+        "must be above " + number(smallest_pivot)
+            + "; hold nodes against every rigid motion of this part");
+}
+
+void check_pivots(const Assembly& a, const Unknowns& n, const SparseMatrix& k, const Solver& solver)
+{
+    // a pivot of exactly zero ends the factorisation: it is the first that fails here
+    const Eigen::VectorXd diagonal = k.diagonal(), pivots = solver.vectorD();
+    const auto& original = solver.permutationPinv().indices();
+    for (Eigen::Index i = 0; i < pivots.size(); ++i) {
+        const double ratio = pivots[i] / diagonal[original[i]];
+        // written so that a pivot that is not a number is caught too
+        if (!(ratio > smallest_pivot)) report_free_motion(a, n.index[original[i]], ratio);
+    }
+}
+
+/// Displacements of all nodes from the unknowns.
+void spread(const Unknowns& n, const Eigen::VectorXd& x, Array<double>& displacement)
+{
+    const auto value_of = [&](int index) {
+        return n.kind[index] == Kind::unknown ? x[n.number[index]] : displacement[index];
+    };
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+        if (n.kind[i] == Kind::unknown) displacement[i] = x[n.number[i]];
+    }
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+        if (n.kind[i] != Kind::follower) continue;
+        displacement[i] = value_of(n.leader[i]) + n.lever[i].factor * x[n.number[n.lever[i].index]];
+    }
+}
+
+}  // namespace
+
+StaticSolution solve_static(
+    const Assembly& a, const std::vector<Prescribed>& prescribed, const Array<double>* loads)
+{
+    StaticSolution s;
+    s.displacement.assign(a.displacement.size(), 0.0);
+    s.force.assign(a.displacement.size(), 0.0);
+    const Unknowns n = number_unknowns(a, prescribed, s.displacement);
+    const std::vector<StiffnessEntry> entries = stiffness_entries(a);
+
+    if (loads && loads->size() != s.displacement.size()) {
+        refuse("solve_static: loads", static_cast<double>(loads->size()), "values",
+            "must be " + std::to_string(s.displacement.size()) + ", one per displacement");
+    }
+    add_plate_loads(a, s.force);
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
+    for (std::size_t i = 0; i < s.force.size(); ++i) {
+        const double load = s.force[i] + (loads ? (*loads)[i] : 0.0);
+        check_finite("solve_static: load", load, "N");
+        for_each_term(n, static_cast<int>(i), [&](int j, double factor) {
+            if (n.kind[j] == Kind::unknown) rhs[n.number[j]] += factor * load;
+        });
+    }
+    const SparseMatrix k = reduce(entries, n, s.displacement, rhs);
+    if (k.rows() > 0) {
+        // minimum degree, the default order, fills in least of those that Eigen has
+        const Solver solver(k);
+        check_pivots(a, n, k, solver);
+        spread(n, solver.solve(rhs), s.displacement);
+    }
+    for (const StiffnessEntry& e : entries) {
+        s.force[e.row] -= e.value * s.displacement[e.column];
+    }
+    return s;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Linear elastic equilibrium of a bonded assembly by one sparse direct solve, paper Sec. 4.1.
+/// SI units, tension positive.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// A displacement component with a given value.
+struct Prescribed {
+    int index;     ///< into Assembly::displacement: node offset + component * lanes
+    double value;  ///< [m]
+};
+
+/// Both in the layout of Assembly::displacement, zero in padded lanes.
+struct StaticSolution {
+    Array<double> displacement;  ///< [m]
+    Array<double> force;         ///< of triangles and contacts on the nodes [N]; reactions = -force
+};
+
+/// Displacements at which the nodal forces balance `loads` wherever nothing is prescribed.
+///
+/// @param loads  forces from outside, layout of Assembly::displacement [N]; none if null
+/// @throws std::invalid_argument  if a number is not finite, an index names no component of a grain
+///         or is given twice with two values, or `loads` has another size
+/// @throws std::runtime_error     if a part of the assembly can move freely
+StaticSolution solve_static(const Assembly& a, const std::vector<Prescribed>& prescribed,
+    const Array<double>* loads = nullptr);
+
+}  // namespace flexpm

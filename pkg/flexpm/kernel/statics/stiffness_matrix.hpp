@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Linear stiffness of a bonded assembly: all contact points intact with full stiffness, small
+/// displacements from the bonded state, paper Sec. 2.5 (Eqs. 9-10, 18-19). SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/fem/triangle.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// One term of the stiffness matrix between two entries of Assembly::displacement [N/m].
+struct StiffnessEntry {
+    int row;
+    int column;
+    double value;
+};
+
+/// Terms of the symmetric stiffness at the reference state, of triangles and contact points; terms
+/// of equal row and column are to be summed. Rows of padded lanes do not occur.
+std::vector<StiffnessEntry> stiffness_entries(const Assembly& a);
+
+/// Springs at one point of a plate: stiffness between the plate and the point [N/m].
+StiffnessBlock plate_springs(const Plate& plate, int point);
+
+}  // namespace flexpm
