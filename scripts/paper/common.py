@@ -25,7 +25,7 @@ from flexpm.results.record import Curve
 from flexpm.results.result import Result
 from flexpm.results.strength import Envelope
 from flexpm.studies import figures as study_plot
-from flexpm.studies import study
+from flexpm.studies import jobs, study
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
@@ -55,16 +55,18 @@ def results(
     """
     plan = study.read(HERE / f"{name}.toml")
     table, folder = RESULTS / f"{name}.csv", chosen.out / name
-    known = pandas.read_csv(table) if table.exists() else pandas.DataFrame({"hash": []})
-    done = set(known["hash"])
-    missing = [job for job in plan.jobs if job.name not in done]
+    known = pandas.read_csv(table) if table.exists() else pandas.DataFrame({"key": []})
+    done = set(known["key"])
+    missing = [job for job in plan.jobs if job.key not in done]
     print(f"{name}: {len(plan.jobs)} runs, {len(missing)} of them not in {table.name}")
+    if line := jobs.outdated(missing, done.__contains__):
+        print(f"{name}: {line}")
     curves = [
         job
         for job in plan.jobs
-        if job.name in done
+        if job.key in done
         and drawn(job.inputs)
-        and not (folder / "runs" / job.name / "curve.csv").exists()
+        and not (folder / "runs" / job.key / "curve.csv").exists()
     ]
     if curves:
         print(f"{name}: {len(curves)} runs more, whose curves are not in {folder}")
@@ -75,13 +77,13 @@ def results(
             part = study.Study(plan.name, missing)
             new = study.run(part, folder, workers=chosen.workers, progress=progress)
         known = pandas.concat([known, new[new["exit_code"].isin([0, 3])]], ignore_index=True)
-        known = known.drop_duplicates("hash")
+        known = known.drop_duplicates("key")
         if chosen.keep:
             RESULTS.mkdir(exist_ok=True)
             known.to_csv(table, index=False)
-    order = {job.name: number for number, job in enumerate(plan.jobs)}
-    found = known[known["hash"].isin(order)]
-    return found.sort_values("hash", key=lambda names: names.map(order)), folder
+    order = {job.key: number for number, job in enumerate(plan.jobs)}
+    found = known[known["key"].isin(order)]
+    return found.sort_values("key", key=lambda names: names.map(order)), folder
 
 
 def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:
@@ -161,7 +163,7 @@ def curves_of(rows: pandas.DataFrame, folder: Path) -> list[tuple[str, Result]]:
     """Labels and results, with their curves, of runs whose folders are still there."""
     found = []
     for _, row in rows.iterrows():
-        run = folder / "runs" / row["hash"]
+        run = folder / "runs" / row["key"]
         if not (run / "curve.csv").exists():
             continue
         result = Result(**json.loads((run / "result.json").read_text(encoding="utf-8")))

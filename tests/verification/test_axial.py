@@ -8,7 +8,9 @@ import yade
 import flexpm
 from flexpm.errors import InputError
 from flexpm.laboratory import loading_rate as rates
-from flexpm.laboratory import protocols, schedule
+from flexpm.laboratory.run_spec import LOADINGS, RunSpec
+from flexpm.laboratory.schedule import schedule
+from flexpm.specimens.spec import SpecimenSpec
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]
@@ -72,25 +74,25 @@ def test_a_specimen_has_one_slope_before_its_peak(results):
 
 @pytest.mark.long
 @pytest.mark.parametrize(("model", "saved"), [("flexible", 0.3), ("rigid", 0.1)])
-def test_an_adaptive_pace_gives_the_measures_of_the_steady_one(specimen, model, saved):
-    adaptive, steady = (
-        flexpm.run("uniaxial", specimen, model=model, pace=pace) for pace in schedule.PACES[::-1]
+def test_adaptive_loading_gives_the_measures_of_constant_loading(specimen, model, saved):
+    constant, adaptive = (
+        flexpm.run("uniaxial", specimen, model=model, loading=loading) for loading in LOADINGS
     )
-    # the last cracks before a peak are chaotic: the pace must not alter it by more than halving the
+    # the last cracks before a peak are chaotic: adapting must not alter it by more than halving the
     # rate does
-    assert adaptive.peak_stress == pytest.approx(steady.peak_stress, rel=0.02)
-    assert adaptive.youngs_modulus == pytest.approx(steady.youngs_modulus, rel=5e-3)
-    assert adaptive.poissons_ratio == pytest.approx(steady.poissons_ratio, abs=5e-3)
-    assert (adaptive.status, steady.status) == ("ok", "ok")
+    assert adaptive.peak_stress == pytest.approx(constant.peak_stress, rel=0.02)
+    assert adaptive.youngs_modulus == pytest.approx(constant.youngs_modulus, rel=5e-3)
+    assert adaptive.poissons_ratio == pytest.approx(constant.poissons_ratio, abs=5e-3)
+    assert (adaptive.status, constant.status) == ("ok", "ok")
     assert adaptive.energy_error < 1e-4
-    assert adaptive.steps < (1.0 - saved) * steady.steps
-    pace = adaptive.curve["pace"]
-    assert pace[0] == pytest.approx(rates.fastest_pace("uniaxial", model))
-    assert pace[int(np.argmax(adaptive.curve["axial_stress"]))] == pytest.approx(1.0, abs=0.5)
-    assert set(steady.curve["pace"]) == {1.0}
+    assert adaptive.steps < (1.0 - saved) * constant.steps
+    factor = adaptive.curve["velocity_factor"]
+    assert factor[0] == pytest.approx(rates.fastest_pace("uniaxial", model))
+    assert factor[int(np.argmax(adaptive.curve["axial_stress"]))] == pytest.approx(1.0, abs=0.5)
+    assert set(constant.curve["velocity_factor"]) == {1.0}
 
 
-def test_the_pace_keeps_to_the_fastest_rate_at_any_factor():
+def test_adaptive_loading_keeps_to_the_fastest_rate_at_any_factor():
     k = rates.rate_constant("uniaxial", "flexible")
     for factor in (0.1, 1.0, 2.0, 1e3):
         fastest = rates.fastest_pace("uniaxial", "flexible", factor)
@@ -102,21 +104,21 @@ def test_the_pace_keeps_to_the_fastest_rate_at_any_factor():
 
 
 @pytest.mark.parametrize("options", [{"model": "jcfpm"}, {"dynamic": True}])
-def test_an_adaptive_pace_is_refused_where_time_is_real_or_the_model_yades(specimen, options):
-    with pytest.raises(InputError, match="pace = adaptive, must be steady"):
-        flexpm.run("uniaxial", specimen, pace="adaptive", **options)
+def test_adaptive_loading_is_refused_where_time_is_real_or_the_model_yades(specimen, options):
+    with pytest.raises(InputError, match="loading = adaptive, must be constant"):
+        flexpm.run("uniaxial", specimen, loading="adaptive", **options)
 
 
-def test_an_unknown_pace_is_refused(specimen):
-    with pytest.raises(InputError, match="pace = 'fast', must be one of steady, adaptive"):
-        flexpm.run("uniaxial", specimen, pace="fast")
+def test_an_unknown_loading_is_refused(specimen):
+    with pytest.raises(InputError, match="loading = 'fast', must be one of constant, adaptive"):
+        flexpm.run("uniaxial", specimen, loading="fast")
 
 
 def test_the_rate_scales_with_its_factor_and_the_wave():
     scales = {"strength": 1e8, "modulus": 2e10, "crossing_steps": 500.0, "height": 0.1}
     yade.O.dt = 1.0  # scaled masses
-    one = protocols.schedule(scales, "uniaxial", protocols.Settings())
-    two = protocols.schedule(scales, "uniaxial", protocols.Settings(rate=2.0))
+    one = schedule(scales, RunSpec("uniaxial", SpecimenSpec(), {}))
+    two = schedule(scales, RunSpec("uniaxial", SpecimenSpec(), {}, rate=2.0))
     k = rates.rate_constant("uniaxial", "flexible")
     assert one.velocity == pytest.approx(k * (1e8 / 2e10) * 0.1 / 500.0)
     assert two.velocity == pytest.approx(2.0 * one.velocity)

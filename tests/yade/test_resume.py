@@ -14,7 +14,9 @@ import pytest
 
 import flexpm
 from flexpm.laboratory.checkpoint import Checkpoint
-from flexpm.models.spheres import NAMES as YADE_MODELS
+from flexpm.laboratory.run_spec import RunSpec
+from flexpm.models.options import SPHERE_MODELS
+from flexpm.specimens.spec import SpecimenSpec
 
 PYTHON = "/usr/bin/python3"
 SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
@@ -27,6 +29,7 @@ TESTS = {
 }
 #: On the rate: a step of rigid grains is short, one of inner particles long.
 FACTORS = {"rigid": 0.125, "inner": 4.0, "inner-un": 4.0}
+SPEC = RunSpec("uniaxial", SpecimenSpec(), {})
 #: Stages of flexpm's own models in which a test is killed, one after the other.
 STAGES = {"biaxial": (1, 2)}
 SCRIPT = """
@@ -89,7 +92,7 @@ def cpu_time(process: subprocess.Popen[str]) -> float:
 
 
 def kill_and_resume(test: str, model: str, package_parent: Path, folder: Path) -> None:
-    stages = (1,) if model in YADE_MODELS else STAGES.get(test, (1,))
+    stages = (1,) if model in SPHERE_MODELS else STAGES.get(test, (1,))
     for stage in stages:
         left = kill_after(start(test, folder, package_parent, model), folder, stage)
         assert left["stage"] == stage
@@ -128,7 +131,7 @@ def test_a_killed_run_ends_with_the_same_bits(package_parent, tmp_path, model, t
 
 @pytest.mark.slow
 @pytest.mark.parametrize("test", TESTS)
-@pytest.mark.parametrize("model", ["rigid", "inner", "inner-un", *YADE_MODELS])
+@pytest.mark.parametrize("model", ["rigid", "inner", "inner-un", *SPHERE_MODELS])
 def test_every_killed_run_ends_with_the_same_bits(package_parent, tmp_path, model, test):
     kill_and_resume(test, model, package_parent, tmp_path)
 
@@ -155,7 +158,7 @@ def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
         ({"rate": 4.0, "mesh": "fan"}, "mesh = refined there, fan here"),
         (
             {"rate": 4.0, "material": "augig-table2-brittle"},
-            "strength = 8500000.0 there, 13700000.0",
+            "material tensile_strength = 8500000.0 there, 13700000.0",
         ),
     )
     for settings, message in others:
@@ -198,7 +201,7 @@ def test_an_interrupted_command_saves_a_checkpoint(package_parent, tmp_path, num
 def test_a_file_that_is_no_checkpoint_is_refused_in_one_line(tmp_path, text):
     (tmp_path / "checkpoint.json").write_text(text)
     with pytest.raises(flexpm.InputError, match=r"must be a checkpoint of flexpm") as caught:
-        Checkpoint(tmp_path, {})
+        Checkpoint(tmp_path, SPEC)
     assert "\n" not in str(caught.value)
 
 
@@ -214,4 +217,4 @@ def test_a_damaged_scene_is_refused_in_one_line(small, tmp_path):
 @pytest.mark.parametrize("interval", [0.0, -1.0, float("nan")])
 def test_an_interval_that_is_not_positive_is_refused(tmp_path, interval):
     with pytest.raises(flexpm.InputError, match="checkpoint_interval"):
-        Checkpoint(tmp_path, {}, interval)
+        Checkpoint(tmp_path, SPEC, interval)

@@ -11,6 +11,7 @@ import numpy as np
 import yade
 
 from ..laboratory import protocols
+from ..laboratory.run_spec import RunSpec, described
 from ..models import grains as models
 from ..models import spheres as yade_models
 from ..specimens.specimen import Specimen
@@ -25,7 +26,8 @@ def build_own(
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
     built = models.build(specimen, None, model, threads=threads, **options)
     test = "brazilian" if specimen.kind == "disc" else "uniaxial"
-    protocols.load(test, built, protocols.Settings(rate=_RATE, pace="adaptive"))
+    material = described(built.material, model)
+    protocols.load(built, RunSpec(test, specimen.spec, material, model, rate=_RATE))
     return built.solver.counts()
 
 

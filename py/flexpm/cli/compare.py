@@ -10,19 +10,24 @@ import click
 
 from ..errors import InputError, SimulationError
 from ..files import output_folder
-from ..materials.keys import ELASTIC_SET, check_name
+from ..laboratory.run_spec import TESTS
+from ..materials.keys import check_name
+from ..models.options import MODELS
 from ..report import tables
 from . import inputs as cli_library
 from . import options as cli_options
 from . import terminal
 from .options import Each, Name, Quantity
 
+#: Options that all runs share, as ``flexpm.compare`` has them.
+_SHARED = (*("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "loading"),)
+
 
 @click.command(short_help="Several models on one packing.")
 @click.argument("test", metavar="TEST")
 @click.option(
     "--models",
-    type=Each(Name(*ELASTIC_SET)),
+    type=Each(Name(*MODELS)),
     default="flexible,rigid",
     metavar="NAME,...",
     show_default=True,
@@ -52,34 +57,32 @@ def compare(
     TEST is as for run. Each model takes its default material unless one is given. Each run has a
     folder of its own below the output folder; what is finished there is not run again.
     """
-    check_name("test", test, cli_options.TESTS)
+    check_name("test", test, TESTS)
     if test != "biaxial" and any(confinements):
         raise InputError(
             f"confinements = {max(confinements):g} Pa, must be 0 for {test}; use biaxial"
         )
     chosen = {model: cli_library.material(options, model) for model in models}
+    specs = [
+        cli_library.run_spec(test, options | {"model": model}, material)
+        for model, material in chosen.items()
+    ]
     folder = output_folder(out)
     cli_library.load_yade()
-    from ..laboratory import protocols
-    from ..models.grains import MODELS
     from ..studies import comparison
 
-    for model in models:
-        cli_library.require("model", model, MODELS)
-        cli_library.require("test", test, protocols.tests_of(model))
     with terminal.Progress(quiet) as progress:
         found = comparison.compare(
             test,
-            cli_library.specimen_for(test, options, progress),
+            cli_library.packed(specs[0].specimen, progress),
             models,
             chosen,
             confinements=confinements,
-            points=int(options["points"]),
             out=folder,
             progress=progress,
-            mesh=options["mesh"],
             threads=options["threads"],
-            **{name: options[name] for name in cli_options.LOADING},
+            points=specs[0].points,
+            **{name: options[name] for name in _SHARED},
         )
     click.echo(comparison.table(found.cases))
     if found.envelopes:

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from .. import _plugin
-from .._version import __version__
 from ..errors import InputError
+from ..laboratory.run_spec import RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
+from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
@@ -24,15 +25,6 @@ def load_yade() -> None:
     signals.catch_signals()
 
 
-def require(what: str, name: str, available: Any) -> None:
-    """Raise InputError if this version does not have a test or a model."""
-    if name not in available:
-        raise InputError(
-            f"{what} = {name!r}, is not available in flexpm {__version__}; "
-            f"available are {', '.join(available)}"
-        )
-
-
 def material(options: dict[str, Any], model: str | None = None) -> Material:
     """The material with its changes, checked for the model."""
     model = model or options["model"]
@@ -41,39 +33,32 @@ def material(options: dict[str, Any], model: str | None = None) -> Material:
     return chosen
 
 
-def specimen_for(test: str, options: dict[str, Any], progress: terminal.Progress) -> Specimen:
-    """The specimen of a test."""
-    return (disc if test == "brazilian" else rectangle)(options, progress)
+def run_spec(test: str, options: dict[str, Any], chosen: Material) -> RunSpec:
+    """The run that the options describe."""
+    refuse_other_sizes(shape_of(test))
+    return RunSpec.from_options(test, options | {"points": int(options["points"])}, chosen)
 
 
-def disc(options: dict[str, Any], progress: terminal.Progress) -> Specimen:
-    """Pack a disc."""
-    _refuse_other_shape("disc", "width", "height")
+def specimen_spec(kind: str, options: dict[str, Any]) -> SpecimenSpec:
+    """The specimen that the options describe, which are all for its shape."""
+    names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
+    return SpecimenSpec(kind, **{name: options[name] for name in names})
+
+
+def packed(spec: SpecimenSpec, progress: terminal.Progress) -> Specimen:
+    """Pack a specimen."""
     load_yade()
     from ..specimens.specimen import Specimen
 
-    return Specimen.disc(diameter=options["diameter"], progress=progress, **_packing(options))
+    return Specimen.pack(spec, progress)
 
 
-def rectangle(options: dict[str, Any], progress: terminal.Progress) -> Specimen:
-    """Pack a rectangle."""
-    _refuse_other_shape("rectangle", "diameter")
-    width, height = options["width"], options["height"]
-    load_yade()
-    from ..specimens.specimen import Specimen
-
-    return Specimen.rectangle(width=width, height=height, progress=progress, **_packing(options))
-
-
-def _packing(options: dict[str, Any]) -> dict[str, Any]:
-    return {name: options[name] for name in ("thickness", "diameters", "porosity", "seed")}
-
-
-def _refuse_other_shape(shape: str, *names: str) -> None:
-    """Sizes that were given for another shape than the specimen's would be ignored silently."""
+def refuse_other_sizes(shape: str) -> None:
+    """Refuse sizes of another shape than the specimen's, which would be ignored silently."""
     context = click.get_current_context()
-    for name in names:
-        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+    for name in (size for sizes in SIZES.values() for size in sizes):
+        given = context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
+        if given and name not in SIZES[shape]:
             raise InputError(
                 f"{name} = {context.params.get(name)} m, must not be given for a {shape}; "
                 "leave it out"

@@ -17,9 +17,9 @@ import click
 from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import json_text, output_folder, write_text
+from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
 from ..materials.keys import check_name, nearest
 from ..materials.material import load
-from ..materials.mixing import description
 from ..report import tables
 from . import compare as cli_compare
 from . import inputs as cli_library
@@ -63,7 +63,7 @@ def command() -> None:
 @click.option(
     "--confinement",
     type=Quantity("Pa", at_least=0.0),
-    default=0.0,
+    default=RunSpec.confinement,
     metavar="PA",
     show_default=True,
     help="Lateral pressure [Pa].",
@@ -78,31 +78,17 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
     compression of a disc of the given diameter.
     """
-    check_name("test", test, cli_options.TESTS)
-    model = options["model"]
+    check_name("test", test, TESTS)
     chosen = cli_library.material(options)
+    spec = cli_library.run_spec(test, options, chosen)
     folder = output_folder(out)
     cli_library.load_yade()
     from ..laboratory import protocols
-    from ..models import grains as models
 
-    cli_library.require("model", model, models.MODELS)
-    cli_library.require("test", test, protocols.tests_of(model))
     with terminal.Progress(quiet) as progress:
-        specimen = cli_library.specimen_for(test, options, progress)
-        result = protocols.run(
-            test,
-            specimen,
-            material=chosen,
-            model=model,
-            points=int(options["points"]),
-            mesh=options["mesh"],
-            out=folder,
-            progress=progress,
-            confinement=options["confinement"],
-            threads=options["threads"],
-            **{name: options[name] for name in cli_options.LOADING},
-        )
+        specimen = cli_library.packed(spec.specimen, progress)
+        plan = protocols.plan_run(spec, specimen, chosen, folder)
+        result = protocols.carry_out(plan, threads=options["threads"], progress=progress)
     click.echo(tables.result_table(result))
     click.echo(f"  files                   {folder}/")
     if result.resumed_at is not None:
@@ -128,24 +114,24 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
 @cli_options.quiet_option
 def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
-    model = options["model"]
     chosen = cli_library.material(options)
+    spec = cli_library.run_spec(ELASTIC, options, chosen)
     folder = None if out is None else output_folder(out)
     cli_library.load_yade()
     from ..models import grains as models
 
-    cli_library.require("model", model, models.SOLVER_MODELS)
     with terminal.Progress(options["quiet"]) as progress:
-        specimen = cli_library.rectangle(options, progress)
+        specimen = cli_library.packed(spec.specimen, progress)
         progress.close()
         found = models.elastic(
-            specimen, chosen, model=model, points=int(options["points"]), mesh=options["mesh"]
+            specimen, chosen, model=spec.model, points=spec.points, mesh=spec.mesh
         )
     if folder is not None:
-        about = {"flexpm": __version__, "test": "elastic", "model": model, "seed": options["seed"]}
-        material = {"name": chosen.name, **description(chosen, model)}
-        write_text(folder / "result.json", json_text({**about, "material": material, **found}))
-    click.echo(f"{model} model, {chosen.name}, seed {options['seed']}")
+        inputs = spec.to_json()
+        about = {name: inputs[name] for name in ("test", "model", "material")}
+        about |= {"flexpm": __version__, "seed": spec.specimen.seed}
+        write_text(folder / "result.json", json_text({**about, **found, "inputs": inputs}))
+    click.echo(f"{spec.model} model, {chosen.name}, seed {spec.specimen.seed}")
     click.echo(tables.elastic_table(found))
 
 
@@ -164,7 +150,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = output_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = cli_library.rectangle(options, progress)
+        made = cli_library.packed(cli_library.specimen_spec("rectangle", options), progress)
     _describe(made, folder, mesh)
 
 
@@ -178,7 +164,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = output_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = cli_library.disc(options, progress)
+        made = cli_library.packed(cli_library.specimen_spec("disc", options), progress)
     _describe(made, folder, mesh)
 
 
@@ -237,7 +223,7 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     pictures = figures.draw(plan, rows, folder)
     failed = rows[rows["exit_code"] != 0]
     for _, row in failed.iterrows():
-        click.echo(f"failed: runs/{row['hash']}: {row['message']}")
+        click.echo(f"failed: runs/{row['key']}: {row['message']}")
     click.echo(f"{plan.name}: {len(rows)} runs, {len(failed)} failed")
     click.echo(f"  files  {', '.join(map(str, [folder / 'table.csv', *pictures]))}")
     if len(failed):

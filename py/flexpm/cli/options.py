@@ -11,11 +11,10 @@ from typing import Any
 import click
 
 from ..errors import InputError
-from ..laboratory.loading_rate import STOP_RATIO
-from ..materials.keys import ELASTIC_SET, check_name
-
-#: Names of the contract; those that a version does not have yet are refused as such.
-TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+from ..laboratory.run_spec import LOADINGS, STARTS, RunSpec
+from ..materials.keys import check_name
+from ..models.options import MESHES, MODELS, POINTS
+from ..specimens.spec import SIZES, SpecimenSpec
 
 
 class Quantity(click.ParamType):
@@ -162,13 +161,13 @@ def _length(name: str, default: float, help_text: str) -> Callable:
 
 
 rectangle_options = combined(
-    _length("--width", 0.08, "Width"),
-    _length("--height", 0.16, "Height"),
+    _length("--width", SIZES["rectangle"]["width"], "Width"),
+    _length("--height", SIZES["rectangle"]["height"], "Height"),
 )
 seed_option = click.option(
     "--seed",
     type=Count(0),
-    default=1,
+    default=SpecimenSpec.seed,
     metavar="N",
     show_default=True,
     help="Seed of the packing.",
@@ -182,25 +181,25 @@ threads_option = click.option(
     help="Threads of the simulation.",
 )
 packing_options = combined(
-    _length("--thickness", 0.08, "Thickness out of plane"),
+    _length("--thickness", SpecimenSpec.thickness, "Thickness out of plane"),
     click.option(
         "--diameters",
         type=Range(),
-        default=(2e-3, 4e-3),
+        default=SpecimenSpec.diameters,
         metavar="DMIN,DMAX",
         help="Smallest and largest diameter of the grains [m].  [default: 0.002,0.004]",
     ),
     click.option(
         "--porosity",
         type=Quantity("", at_least=0.0, below=1.0),
-        default=0.10,
+        default=SpecimenSpec.porosity,
         metavar="N",
         show_default=True,
         help="Sets the number of grains [-].",
     ),
     seed_option,
 )
-disc_options = _length("--diameter", 0.08, "Diameter of the disc")
+disc_options = _length("--diameter", SIZES["disc"]["diameter"], "Diameter of the disc")
 material_options = combined(
     click.option(
         "--material",
@@ -216,16 +215,16 @@ material_options = combined(
     ),
     click.option(
         "--points",
-        type=Name("1", "2", "3"),
-        default="3",
+        type=Name(*map(str, POINTS)),
+        default=str(RunSpec.points),
         metavar="1|2|3",
         show_default=True,
         help="Points in each contact.",
     ),
     click.option(
         "--mesh",
-        type=Name("fan", "refined"),
-        default="refined",
+        type=Name(*MESHES),
+        default=RunSpec.mesh,
         metavar="fan|refined",
         show_default=True,
         help="Triangles in each grain.",
@@ -234,21 +233,19 @@ material_options = combined(
 model_options = combined(
     click.option(
         "--model",
-        type=Name(*ELASTIC_SET),
-        default="flexible",
+        type=Name(*MODELS),
+        default=RunSpec.model,
         metavar="NAME",
         show_default=True,
         help="Model of the grains.",
     ),
     material_options,
 )
-#: Names of these options, as ``flexpm.run`` has them.
-LOADING = ("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "pace")
 loading_options = combined(
     click.option(
         "--rate",
         type=Quantity("", above=0.0),
-        default=1.0,
+        default=RunSpec.rate,
         metavar="F",
         show_default=True,
         help="Factor on the loading rate [-].",
@@ -263,7 +260,7 @@ loading_options = combined(
     click.option(
         "--stop-ratio",
         type=Quantity("", above=0.0),
-        default=STOP_RATIO,
+        default=RunSpec.stop_ratio,
         metavar="F",
         show_default=True,
         help="The test ends once the stress has fallen to this part of its peak [-].",
@@ -272,29 +269,29 @@ loading_options = combined(
     click.option(
         "--gravity",
         type=Quantity("m/s2", at_least=0.0),
-        default=0.0,
+        default=RunSpec.gravity,
         metavar="G",
         show_default=True,
         help="Acceleration downwards, with --dynamic only [m/s2].",
     ),
     click.option(
         "--start",
-        type=Name("rest", "static"),
+        type=Name(*STARTS),
         metavar="rest|static",
         help="static: from the elastic solution below the first crack, for the flexible model in "
         "uniaxial and tension; it is the default of tension.",
     ),
     click.option(
-        "--pace",
-        type=Name("steady", "adaptive"),
-        metavar="steady|adaptive",
+        "--loading",
+        type=Name(*LOADINGS),
+        metavar="constant|adaptive",
         help="adaptive: load faster while the specimen is elastic; the default of the grain models "
         "with scaled masses.",
     ),
 )
 drawn_mesh_option = click.option(
     "--mesh",
-    type=Name("fan", "refined"),
+    type=Name(*MESHES),
     metavar="fan|refined",
     help="Draw this mesh in the grains.",
 )

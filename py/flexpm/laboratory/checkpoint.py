@@ -8,18 +8,18 @@ with it. It is replaced after that file is whole, so a kill at any time leaves a
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import json
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import yade
 
+from .._version import __version__
 from ..errors import InputError
 from ..files import json_text, whole_file, write_text
-from ..specimens.specimen import Circle, Specimen
+from .run_spec import RESULTS, RunSpec
 
 #: Wall time between two checkpoints [s].
 INTERVAL = 30.0
@@ -38,14 +38,12 @@ class Checkpoint:
         resumed_at: Step at which an earlier run was taken up, or None.
     """
 
-    def __init__(
-        self, folder: Path | None, inputs: dict[str, Any], interval: float = INTERVAL
-    ) -> None:
+    def __init__(self, folder: Path | None, spec: RunSpec, interval: float = INTERVAL) -> None:
         """Look for a checkpoint in `folder`; None keeps none.
 
         Args:
             folder: Folder of the run's files; it exists.
-            inputs: All that determines the run, see ``inputs_of``.
+            spec: All that determines the run.
             interval: Wall time between two checkpoints [s], > 0.
 
         Raises:
@@ -53,7 +51,8 @@ class Checkpoint:
         """
         if not interval > 0.0:
             raise InputError(f"run: checkpoint_interval = {interval} s, must be above 0")
-        self._folder, self._inputs, self._interval = folder, inputs, interval
+        self._folder, self._interval = folder, interval
+        self._made = _versions() | {"inputs": spec.to_json()}
         self._saved = time.monotonic()
         self._scene: Path | None = None
         self.stage, self.stage_start = 0, 0
@@ -100,27 +99,26 @@ class Checkpoint:
             "stage": self.stage,
             "stage_start": self.stage_start,
             "step_time": self.step_time,
-            "hash": _hash(self._inputs),
-            "inputs": self._inputs,
+            **self._made,
         }
         write_text(self._folder / _NAME, json_text(content))
 
     def _read(self, file: Path) -> None:
         try:
             content = json.loads(file.read_text(encoding="utf-8"))
-            known, scene = content["inputs"], file.parent / content["scene"]
+            there = _flat({name: content[name] for name in self._made})
+            scene = file.parent / content["scene"]
             stage, start, step_time = (
                 content[key] for key in ("stage", "stage_start", "step_time")
             )
-        except (ValueError, KeyError, TypeError) as error:
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise InputError(
                 f"run: {file} = {type(error).__name__}, must be a checkpoint of flexpm; "
                 "choose another folder"
             ) from None
         if not scene.exists():
             return  # someone has removed it: there is nothing to go on from, and nothing to lose
-        if content.get("hash") != _hash(self._inputs):
-            raise InputError(_difference(file.parent, known, self._inputs))
+        _refuse_differences(file.parent, there, _flat(self._made))
         self._scene = scene
         self.stage, self.stage_start, self.step_time = stage, start, step_time
 
@@ -133,46 +131,25 @@ class Checkpoint:
                         other.unlink()
 
 
-def inputs_of(specimen: Specimen, law: dict[str, Any], **settings: Any) -> dict[str, Any]:
-    """All that determines a run, as plain values by name.
-
-    Args:
-        specimen: The grains; their discs are represented by a checksum.
-        law: Parameters of the material.
-        settings: The other inputs.
-    """
-    outline = specimen.outline
-    if isinstance(outline, Circle):
-        outline = [outline.x, outline.y, outline.radius]
-    found = {
-        **settings,
-        "seed": specimen.seed,
-        **specimen.dimensions,
-        "thickness": specimen.thickness,
-        "short_edge": specimen.short_edge,
-        "grains": len(specimen.discs),
-        "discs": _checksum(specimen.discs),
-        "minerals": None if specimen.minerals is None else _checksum(specimen.minerals),
-        "outline": _checksum(outline),
-        **{f"material {key}": value for key, value in law.items()},
-    }
-    return json.loads(json.dumps(found, default=float))
+def _versions() -> dict[str, Any]:
+    """What a scene depends on beside the inputs of its run."""
+    return {"flexpm": __version__, "yade": yade.config.version, "results": RESULTS}
 
 
-def _checksum(numbers: Any) -> str:
-    values = np.ascontiguousarray(numbers, dtype=float)
-    return hashlib.sha256(values.tobytes()).hexdigest()[:16]
+def _flat(made: Mapping[str, Any]) -> dict[str, Any]:
+    """Inputs by one name each: that of the field, or ``material`` and the name of the parameter."""
+    plain = {name: value for name, value in made.items() if name != "inputs"}
+    inputs = dict(made["inputs"])
+    specimen, material = inputs.pop("specimen"), inputs.pop("material")
+    # a name changes no result
+    law = {f"material {key}": value for key, value in material.items() if key != "name"}
+    return {**plain, **inputs, **specimen, **law}
 
 
-def _hash(inputs: dict[str, Any]) -> str:
-    text = json.dumps(inputs, sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _difference(folder: Path, there: dict[str, Any], here: dict[str, Any]) -> str:
-    names = [name for name in {**here, **there} if there.get(name) != here.get(name)]
-    name = names[0] if names else "hash"
-    return (
-        f"out = {str(folder)!r}, holds a checkpoint of another run "
-        f"({name} = {there.get(name)} there, {here.get(name)} here); choose another folder"
-    )
+def _refuse_differences(folder: Path, there: dict[str, Any], here: dict[str, Any]) -> None:
+    for name in {**here, **there}:
+        if there.get(name) != here.get(name):
+            raise InputError(
+                f"out = {str(folder)!r}, holds a checkpoint of another run "
+                f"({name} = {there.get(name)} there, {here.get(name)} here); choose another folder"
+            )

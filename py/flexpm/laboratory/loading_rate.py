@@ -32,6 +32,8 @@ QUASISTATIC_RATIO = {
 }
 #: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
 STOP_RATIO = 0.5
+#: Largest part that can be asked for [-]: a smaller fall makes no peak (``measures.PEAK_DROP``).
+LARGEST_STOP_RATIO = 0.9
 #: Models that are driven like another one.
 _LIKE = {"inner-un": "inner"}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +14,14 @@ import yade
 from yade import wrapper
 
 from .._version import __version__
-from ..errors import InputError, SimulationError
+from ..errors import SimulationError
 from ..files import output_folder
 from ..materials import material as materials
+from ..materials.keys import check_name
 from ..materials.material import Material
-from ..materials.mixing import description
 from ..models import grains as models
-from ..models import spheres as yade_models
 from ..models.grains import Model
+from ..models.options import SPHERE_MODELS
 from ..progress import Progress
 from ..report import curves as plot
 from ..report import maps as plot_maps
@@ -30,11 +30,12 @@ from ..results.cracks import cracks_from_snapshot
 from ..results.record import COLUMNS, Curve
 from ..results.result import Result
 from ..specimens.specimen import Specimen
-from .checkpoint import INTERVAL, Checkpoint, inputs_of
+from .checkpoint import INTERVAL, Checkpoint
 from .grain_loading import loading_of, squeeze_disc
 from .loading_rate import quasistatic_ratio
+from .run_spec import RunSpec, described
 from .runner import Course
-from .schedule import Schedule, Settings, schedule
+from .schedule import Schedule, schedule
 
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
@@ -61,9 +62,9 @@ _STATIC_STEPS = 20
 class Plan:
     """A run that can be done."""
 
+    spec: RunSpec
+    specimen: Specimen
     material: Material
-    settings: Settings
-    options: dict[str, Any]  #: of the model, as ``models.build`` takes them
     folder: Path | None
     checkpoint: Checkpoint  #: of an earlier start of the same run, if there was one
 
@@ -79,11 +80,11 @@ def run(
     mesh: str = "refined",
     rate: float = 1.0,
     max_strain: float | None = None,
-    stop_ratio: float = Settings.stop_ratio,
+    stop_ratio: float = RunSpec.stop_ratio,
     dynamic: bool = False,
     gravity: float = 0.0,
     start: str | None = None,
-    pace: str | None = None,
+    loading: str | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -118,9 +119,9 @@ def run(
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
             for uniaxial compression and tension of the flexible model. None: ``static`` for its
             tension with scaled masses, else ``rest``.
-        pace: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate as
-            damage and friction take the work; ``steady``: at the rate. None: ``adaptive`` for the
-            grain models with scaled masses, else ``steady``.
+        loading: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate
+            as damage and friction take the work; ``constant``: at the rate. None: ``adaptive`` for
+            the grain models with scaled masses, else ``constant``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -132,34 +133,73 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    todo = plan_run(
+    chosen = materials.load(material, model)
+    spec = RunSpec(
         test,
-        specimen,
-        material,
+        specimen.spec,
+        described(chosen, model),
         model,
-        confinement=confinement,
         points=points,
         mesh=mesh,
+        confinement=confinement,
         rate=rate,
         max_strain=max_strain,
         stop_ratio=stop_ratio,
         dynamic=dynamic,
         gravity=gravity,
-        start=start,
-        pace=pace,
-        out=out,
-        checkpoint_interval=checkpoint_interval,
+        start=start or "",
+        loading=loading or "",
     )
-    folder, checkpoint = todo.folder, todo.checkpoint
+    plan = plan_run(spec, specimen, chosen, out, checkpoint_interval)
+    return carry_out(plan, threads=threads, progress=progress)
+
+
+def plan_run(
+    spec: RunSpec,
+    specimen: Specimen,
+    material: Material,
+    out: Path | str | None = None,
+    checkpoint_interval: float = INTERVAL,
+) -> Plan:
+    """Refuse what a run could not do, before YADE's scene is touched.
+
+    Args:
+        spec: The run.
+        specimen: The grains that `spec` describes.
+        material: The material that `spec` describes.
+        out: Folder for the files of the result; None writes nothing.
+        checkpoint_interval: Wall time between two checkpoints [s], > 0.
+
+    Raises:
+        InputError: for a test that is no simulation, or a checkpoint of other inputs in `out`.
+    """
+    check_name("run: test", spec.test, list(TESTS))
+    folder = None if out is None else output_folder(out)
+    return Plan(spec, specimen, material, folder, Checkpoint(folder, spec, checkpoint_interval))
+
+
+def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None) -> Result:
+    """Do a run; arguments and outcome as for ``run``."""
+    spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     yade.O.reset()
-    built = models.build(specimen, todo.material, model, threads=threads, **todo.options)
+    built = models.build(
+        plan.specimen,
+        plan.material,
+        spec.model,
+        points=spec.points,
+        mesh=spec.mesh,
+        dynamic=spec.dynamic,
+        gravity=spec.gravity,
+        threads=threads,
+    )
     if checkpoint.found:
         checkpoint.restore()
         built.rebind()
         built.set_threads(threads)
     elif folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = tests_of(model)[test](built, todo.settings, Course(checkpoint, progress))
+    result = tests_of(spec.model)[spec.test](built, spec, Course(checkpoint, progress))
+    result.inputs = spec.to_json()
     result.resumed_at = checkpoint.resumed_at
     result.measure_fragments(built.snapshot())
     if folder is not None:
@@ -167,82 +207,17 @@ def run(
     return result
 
 
-def plan_run(
-    test: str,
-    specimen: Specimen,
-    material: Material | str | None = None,
-    model: str = "flexible",
-    *,
-    confinement: float = 0.0,
-    points: int = 3,
-    mesh: str = "refined",
-    rate: float = 1.0,
-    max_strain: float | None = None,
-    stop_ratio: float = Settings.stop_ratio,
-    dynamic: bool = False,
-    gravity: float = 0.0,
-    start: str | None = None,
-    pace: str | None = None,
-    out: Path | str | None = None,
-    checkpoint_interval: float = INTERVAL,
-) -> Plan:
-    """Refuse what a run could not do, before YADE's scene is touched; arguments as for ``run``."""
-    quickly = test == "tension" and model == "flexible" and not dynamic
-    adapts = model in models.SOLVER_MODELS and not dynamic
-    settings = Settings(
-        confinement,
-        rate,
-        max_strain,
-        stop_ratio,
-        start or ("static" if quickly else "rest"),
-        pace or ("adaptive" if adapts else "steady"),
-    )
-    options = {"points": points, "mesh": mesh, "dynamic": dynamic, "gravity": gravity}
-    models.check(model, **options)
-    tests = tests_of(model)
-    if test not in tests:
-        raise InputError(f"run: test = {test!r}, must be one of {', '.join(tests)}")
-    if settings.start == "static" and (model != "flexible" or test not in ("uniaxial", "tension")):
-        raise InputError(
-            f"run: start = static, must be rest for {test} of model {model}; static needs the "
-            "flexible model and uniaxial or tension"
-        )
-    if settings.pace == "adaptive" and not adapts:
-        raise InputError(
-            f"run: pace = adaptive, must be steady for model {model}"
-            f"{' with real masses' if dynamic else ''}; adaptive needs grains and scaled masses"
-        )
-    shape = "disc" if test == "brazilian" else "rectangle"
-    if specimen.kind != shape:
-        raise InputError(f"run: specimen = {specimen.kind}, must be a {shape} for {test}")
-    if test != "biaxial":
-        settings.refuse_confinement(test)
-    folder = None if out is None else output_folder(out)
-    chosen = materials.load(material or materials.default_name(model), model)
-    inputs = inputs_of(
-        specimen,
-        description(chosen, model),
-        flexpm=__version__,
-        yade=yade.config.version,
-        test=test,
-        model=model,
-        **asdict(settings),
-        **options,
-    )
-    return Plan(chosen, settings, options, folder, Checkpoint(folder, inputs, checkpoint_interval))
-
-
-def run_uniaxial(built: Model, settings: Settings, course: Course) -> Result:
+def run_uniaxial(built: Model, spec: RunSpec, course: Course) -> Result:
     """Compress a built specimen axially without lateral pressure."""
-    return _run_axial("uniaxial", built, settings, course)
+    return _run_axial(built, spec, course)
 
 
-def run_tension(built: Model, settings: Settings, course: Course) -> Result:
+def run_tension(built: Model, spec: RunSpec, course: Course) -> Result:
     """Pull a built specimen axially."""
-    return _run_axial("tension", built, settings, course)
+    return _run_axial(built, spec, course)
 
 
-def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
+def run_biaxial(built: Model, spec: RunSpec, course: Course) -> Result:
     """Press a built specimen from all sides, then compress it axially under lateral pressure.
 
     Strains count from the isotropic state.
@@ -252,38 +227,35 @@ def run_biaxial(built: Model, settings: Settings, course: Course) -> Result:
 
     def prepare() -> None:
         crossing = math.ceil(wrapper.AxialRecorder().scales()["crossing_steps"])
-        loading.confine(built, settings.confinement, _RAMP_CROSSINGS * crossing)
+        loading.confine(built, spec.confinement, _RAMP_CROSSINGS * crossing)
 
     course.stage(prepare, lambda: _settle(built, course, loading.ramp(built)))
-    return _run_axial("biaxial", built, settings, course, lambda: loading.hold(built), fromNow=True)
+    return _run_axial(built, spec, course, lambda: loading.hold(built), fromNow=True)
 
 
-def run_brazilian(built: Model, settings: Settings, course: Course) -> Result:
+def run_brazilian(built: Model, spec: RunSpec, course: Course) -> Result:
     """Press a built disc between two plates; stress 2 P / (pi D t), strain closure / D."""
-    result = _finish(
-        "brazilian", built, settings, course, lambda: load("brazilian", built, settings)
-    )
+    result = _finish(built, spec, course, lambda: load(built, spec))
     result.youngs_modulus = None  # the slope of the plates' closure is no modulus of the rock
     result.poissons_ratio = None
     result.contact_width = float(np.mean([p["contact_width"] for p in built.solver.plates()]))
     return result
 
 
-def load(test: str, built: Model, settings: Settings, **options: Any) -> None:
+def load(built: Model, spec: RunSpec, **options: Any) -> None:
     """Put the engines that load and record a test into the scene.
 
     Args:
-        test: Name of the test.
         built: The specimen; for ``biaxial`` already under its lateral pressure.
-        settings: Rate, pace and end.
+        spec: Test, rate, loading and end.
         options: Attributes of the ``AxialRecorder``.
     """
-    disc, tension = test == "brazilian", test == "tension"
+    disc, tension = spec.test == "brazilian", spec.test == "tension"
     diameter = built.specimen.dimensions["diameter"] if disc else 0.0
     recorder = wrapper.AxialRecorder(diameter=diameter, tension=tension, **options)
     built.add_engines(after=(recorder,))
-    plan = _limit(recorder, test, built, settings)
-    # the elastic velocities raise no wave, so a test that has them may begin at the fastest pace
+    plan = _limit(recorder, built, spec)
+    # the elastic velocities raise no wave, so a test that has them may begin at the fastest rate
     pace = 1.0 if disc else plan.fastest_pace
     velocity = pace * plan.velocity
     if disc:
@@ -306,7 +278,7 @@ TESTS: dict[str, Callable[..., Result]] = {
 
 def tests_of(model: str) -> dict[str, Callable[..., Result]]:
     """Tests that a model can do, by name."""
-    if model in yade_models.NAMES:
+    if model in SPHERE_MODELS:
         from . import sphere_protocols as yade_protocols  # which needs this module
 
         return yade_protocols.TESTS
@@ -314,9 +286,8 @@ def tests_of(model: str) -> dict[str, Callable[..., Result]]:
 
 
 def _run_axial(
-    test: str,
     built: Model,
-    settings: Settings,
+    spec: RunSpec,
     course: Course,
     before: Callable[[], None] = bool,
     **options: Any,
@@ -325,9 +296,9 @@ def _run_axial(
 
     def prepare() -> None:
         before()
-        load(test, built, settings, **options)
+        load(built, spec, **options)
 
-    if settings.start == "static":
+    if spec.start == "static":
         course.stage(
             lambda: _lead(built, prepare),
             lambda: course.run_to(
@@ -336,8 +307,8 @@ def _run_axial(
                 over=lambda: built.engine("AxialRecorder").state != 0,
             ),
         )
-        return _finish(test, built, settings, course, lambda: _go_on(built))
-    return _finish(test, built, settings, course, prepare)
+        return _finish(built, spec, course, lambda: _go_on(built))
+    return _finish(built, spec, course, prepare)
 
 
 def _lead(built: Model, prepare: Callable[[], None]) -> None:
@@ -357,28 +328,26 @@ def _row_period(scales: dict[str, float]) -> int:
     return min(math.ceil(scales["crossing_steps"] / _ROWS_A_CROSSING), _LONGEST_PERIOD)
 
 
-def _limit(recorder: Any, test: str, built: Model, settings: Settings) -> Schedule:
+def _limit(recorder: Any, built: Model, spec: RunSpec) -> Schedule:
     """Tell the recorder when the test is over."""
     scales = recorder.scales()
-    plan = schedule(scales, test, settings, built.name)
+    plan = schedule(scales, spec)
     built.solver.measurePeriod = _row_period(scales)
     built.solver.mirrorPeriod = built.solver.checkPeriod  # nothing in a test reads the bodies
     recorder.maxStrain = plan.max_strain
     recorder.stopRatio = plan.stop_ratio
-    recorder.leastPeak = settings.confinement + _LEAST_PEAK * scales["strength"]
+    recorder.leastPeak = spec.confinement + _LEAST_PEAK * scales["strength"]
     return plan
 
 
-def _finish(
-    test: str, built: Model, settings: Settings, course: Course, prepare: Callable[[], None]
-) -> Result:
+def _finish(built: Model, spec: RunSpec, course: Course, prepare: Callable[[], None]) -> Result:
     """Do the last stage of a test, in which its recorder works."""
     diverged = False
 
     def advance() -> None:
         nonlocal diverged
         recorder = built.engine("AxialRecorder")
-        plan = schedule(recorder.scales(), test, settings, built.name)
+        plan = schedule(recorder.scales(), spec)
         diverged = _drive(plan, recorder, course)
 
     course.stage(prepare, advance)
@@ -386,7 +355,7 @@ def _finish(
     built.solver.mirrorBodies()
     if not diverged:
         course.finish()
-    return _result(test, built, diverged, course.step_time)
+    return _result(spec.test, built, diverged, course.step_time)
 
 
 def _settle(built: Model, course: Course, ramp: int) -> None:

@@ -20,8 +20,9 @@ from ..models.sphere_bonds import tributary_lengths
 from ..models.spheres import SphereModel
 from ..results.result import Result
 from .loading_rate import quasistatic_ratio, rate_constant
+from .run_spec import RunSpec
 from .runner import Course
-from .schedule import Schedule, Settings, end_strains
+from .schedule import Schedule, end_strains
 from .sphere_loading import (
     BOTTOM,
     LEFT,
@@ -50,9 +51,9 @@ _MOST_HOLDING = 200  #: crossings
 _DIAMETRAL = 5.0
 
 
-def run_uniaxial(built: SphereModel, settings: Settings, course: Course) -> Result:
+def run_uniaxial(built: SphereModel, spec: RunSpec, course: Course) -> Result:
     """Compress a built rectangle axially without lateral pressure."""
-    plan = _schedule(built, "uniaxial", settings)
+    plan = _schedule(built, spec)
     area = _area(built)
 
     def prepare() -> None:
@@ -72,9 +73,9 @@ def run_uniaxial(built: SphereModel, settings: Settings, course: Course) -> Resu
     return _run("uniaxial", built, plan, area, Steps(prepare, sampler), course)
 
 
-def run_tension(built: SphereModel, settings: Settings, course: Course) -> Result:
+def run_tension(built: SphereModel, spec: RunSpec, course: Course) -> Result:
     """Pull the outermost layers of spheres of a built rectangle apart."""
-    plan = _schedule(built, "tension", settings)
+    plan = _schedule(built, spec)
     grips, area = Grips(built), _area(built)
 
     def prepare() -> None:
@@ -96,13 +97,13 @@ def run_tension(built: SphereModel, settings: Settings, course: Course) -> Resul
     return _run("tension", built, plan, area, Steps(prepare, sampler), course)
 
 
-def run_biaxial(built: SphereModel, settings: Settings, course: Course) -> Result:
+def run_biaxial(built: SphereModel, spec: RunSpec, course: Course) -> Result:
     """Press a built rectangle isotropically, then compress it axially at constant pressure.
 
     Strains count from the isotropic state.
     """
-    confinement = settings.confinement
-    plan = _schedule(built, "biaxial", settings)
+    confinement = spec.confinement
+    plan = _schedule(built, spec)
     sides, area = Pressure(built, (LEFT, RIGHT)), _area(built)
 
     def prepare() -> None:
@@ -130,9 +131,9 @@ def run_biaxial(built: SphereModel, settings: Settings, course: Course) -> Resul
     return _run("biaxial", built, plan, area, Steps(prepare, sampler), course)
 
 
-def run_brazilian(built: SphereModel, settings: Settings, course: Course) -> Result:
+def run_brazilian(built: SphereModel, spec: RunSpec, course: Course) -> Result:
     """Squeeze a built disc between two plates; stress is 2P / (pi D t), strain travel / D."""
-    plan = _schedule(built, "brazilian", settings)
+    plan = _schedule(built, spec)
     area = 0.5 * math.pi * plan.height * built.specimen.thickness
 
     def prepare() -> None:
@@ -202,16 +203,17 @@ def _press_evenly(built: SphereModel, confinement: float, plan: Schedule, course
             return
 
 
-def _schedule(built: SphereModel, test: str, settings: Settings) -> Schedule:
+def _schedule(built: SphereModel, spec: RunSpec) -> Schedule:
     """Velocity and end as in the other models, from the contacts alone."""
+    test = spec.test
     height = built.specimen.dimensions.get("height", built.specimen.dimensions.get("diameter"))
     modulus = _modulus(built)
     factor = _DIAMETRAL if test == "brazilian" else 1.0
-    reference = factor * (_strength(built, test) + settings.confinement) / modulus
+    reference = factor * (_strength(built, test) + spec.confinement) / modulus
     crossing = _crossing_steps(built) * yade.O.dt
-    velocity = settings.rate * rate_constant(test, built.name) * reference * height / crossing
-    largest = settings.max_strain or end_strains(test) * reference
-    return Schedule(velocity, reference, largest, height, yade.O.dt, settings.stop_ratio)
+    velocity = spec.rate * rate_constant(test, built.name) * reference * height / crossing
+    largest = spec.max_strain or end_strains(test) * reference
+    return Schedule(velocity, reference, largest, height, yade.O.dt, spec.stop_ratio)
 
 
 def _modulus(built: SphereModel) -> float:

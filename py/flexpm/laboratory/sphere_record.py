@@ -153,7 +153,7 @@ class Recorder:
             potential_energy=0.0,
             boundary_work=self.work + now.other_work,
             end_mismatch=now.mismatch,
-            pace=1.0,
+            velocity_factor=1.0,
         )
         above = now.stress - now.confinement
         self.peak = max(self.peak, above)

@@ -7,7 +7,6 @@ per step, and only slow loading means anything.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,13 +22,15 @@ from ..specimens import inner_particles as inner
 from ..specimens import mineral_map
 from ..specimens.specimen import Specimen
 from . import spheres as yade_models
-
-#: Models of this module's own solver.
-SOLVER_MODELS = ("flexible", "rigid", *inner.NAMES)
-#: All models that this version has.
-MODELS = (*SOLVER_MODELS, *yade_models.NAMES)
-MESHES = ("refined", "fan")
-POINTS = (1, 2, 3)
+from .options import (
+    GRAIN_MODELS,
+    INNER_MODELS,
+    MESHES,
+    POINTS,
+    SPHERE_MODELS,
+    check_options,
+    require_one_of,
+)
 
 #: Local damping of all tests [-], paper Sec. 4.1.
 DAMPING = 0.7
@@ -166,9 +167,9 @@ def build(
     Raises:
         InputError: for an argument or a material property out of range.
     """
-    check(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
+    check_options(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
     _require_damping(damping)
-    if model in yade_models.NAMES:
+    if model in SPHERE_MODELS:
         return yade_models.build(
             specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
         )
@@ -186,21 +187,6 @@ def build(
     built.set_threads(threads)
     built.set_masses()
     return built
-
-
-def check(
-    model: str, *, points: int, mesh: str, dynamic: bool = False, gravity: float = 0.0
-) -> None:
-    """Raise InputError for an unknown model, or for an option that it cannot have."""
-    _require_one_of("model", model, MODELS)
-    if model in yade_models.NAMES:
-        _require_one_of(f"points of model {model}", points, (POINTS[-1],))
-        _require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
-        _require_one_of(f"gravity of model {model}", gravity, (0.0,))
-    else:
-        _require_one_of("points", points, POINTS)
-        _require_one_of("mesh", mesh, MESHES)
-        _require_gravity(gravity, dynamic)
 
 
 def elastic(
@@ -226,7 +212,7 @@ def elastic(
     Raises:
         InputError: for an argument out of range or a specimen that is no rectangle.
     """
-    _require_one_of("model", model, SOLVER_MODELS)
+    require_one_of("model", model, GRAIN_MODELS)
     grains = _grains(specimen, model, points, mesh)
     chosen = _fitted(specimen, grains, materials.load(material, model), model)
     solver = _assembled(grains, chosen, model)
@@ -246,10 +232,10 @@ class _Grains:
 
 def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
     """The grains of a specimen, or the inner particles of all of them."""
-    _require_one_of("points", points, POINTS)
-    _require_one_of("mesh", mesh, MESHES)
+    require_one_of("points", points, POINTS)
+    require_one_of("mesh", mesh, MESHES)
     options = {"rigid": model != "flexible", "mesh": mesh, "points": points, "centre_line": False}
-    if model not in inner.NAMES:
+    if model not in INNER_MODELS:
         discs = np.asarray(specimen.discs, dtype=float)
         return _Grains(specimen, specimen.tessellation, discs, options)
     cells = inner.cells(specimen)
@@ -259,7 +245,7 @@ def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
 
 def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -> Material:
     """The material, with the stiffness of inner particles fitted to the rock's."""
-    if model not in inner.NAMES:
+    if model not in INNER_MODELS:
         return chosen
     minerals.description(chosen, model)  # refuses a material without the set
     if specimen.kind == "disc":  # no test of it gives a modulus
@@ -337,21 +323,6 @@ def _idle_newton() -> Any:
     return wrapper.NewtonIntegrator(dead=True, maxVelocitySq=0.5, label="")
 
 
-def _require_one_of(name: str, value: Any, known: tuple[Any, ...]) -> None:
-    if value not in known:
-        choices = ", ".join(str(choice) for choice in known)
-        raise InputError(f"build: {name} = {value!r}, must be one of {choices}")
-
-
 def _require_damping(damping: float) -> None:
     if not 0.0 <= damping < 1.0:
         raise InputError(f"build: damping = {damping}, must be at least 0 and below 1")
-
-
-def _require_gravity(gravity: float, dynamic: bool) -> None:
-    if not (math.isfinite(gravity) and gravity >= 0.0):
-        raise InputError(f"build: gravity = {gravity} m/s2, must not be below 0")
-    if gravity != 0.0 and not dynamic:
-        raise InputError(
-            f"build: gravity = {gravity} m/s2, must be 0 with scaled masses; use dynamic"
-        )

@@ -19,18 +19,15 @@ import numpy as np
 import yade
 from yade import utils, wrapper
 
-from ..errors import InputError
 from ..materials import material as materials
 from ..materials.material import Material
 from ..materials.mixing import description
 from ..specimens.specimen import Specimen
+from .options import SPHERE_MODELS, require_one_of
 from .sphere_bonds import MASS_MARGIN, Bonds, bonds_of, stiffness_bounds
 from .sphere_cracks import CrackWatch
 from .sphere_laws import LAWS, SphereLaw
 from .sphere_snapshot import snapshot
-
-#: Models of this module.
-NAMES = tuple(LAWS)
 
 #: Bodies may move this share of the mean diameter before the collider looks again [-].
 _SWEEP = 0.05
@@ -210,8 +207,7 @@ def build(
     Raises:
         InputError: for an unknown model or a material without what it needs.
     """
-    if model not in NAMES:
-        raise InputError(f"build: model = {model!r}, must be one of {', '.join(NAMES)}")
+    require_one_of("model", model, SPHERE_MODELS)
     chosen = materials.load(material, model)
     law = description(chosen, model)  # which refuses minerals
     kind = LAWS[model]

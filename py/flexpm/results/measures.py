@@ -168,10 +168,10 @@ def unbalanced_ratio(curve: Curve) -> float | None:
 def median_unbalanced_ratio(curve: Curve) -> float | None:
     """Median of the unbalanced-force ratio over the same rows [-]; proportional to the rate.
 
-    Rows at a faster pace count with the ratio that the slowest would have given: they are driven so
+    Rows at a faster rate count with the ratio that the slowest would have given: they are driven so
     where the rate does not matter.
     """
-    return _while_loaded(curve, curve["unbalanced_ratio"] / curve["pace"], np.nanmedian)
+    return _while_loaded(curve, curve["unbalanced_ratio"] / curve["velocity_factor"], np.nanmedian)
 
 
 def end_mismatch(curve: Curve) -> float | None:

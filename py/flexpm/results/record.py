@@ -32,7 +32,7 @@ COLUMNS = (
     "potential_energy",
     "boundary_work",
     "end_mismatch",
-    "pace",
+    "velocity_factor",
 )
 INTEGERS = ("step", "tensile_cracks", "shear_cracks")
 

@@ -65,6 +65,7 @@ class Result:
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
+    inputs: dict[str, Any] | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
     snapshot: Mapping[str, np.ndarray] | None = field(default=None, repr=False)  #: final state

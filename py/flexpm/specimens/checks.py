@@ -4,41 +4,13 @@
 from __future__ import annotations
 
 import math
+import numbers
 from typing import Any
 
-import numpy as np
-
 from ..errors import InputError
-from .packing import Frame
 
 #: Edges of cells below this share of the mean diameter are collapsed: 0.35 mm for discs of 2-4 mm.
 SHORT_EDGE = 0.35 / 3.0
-
-
-def disc_rows(centres: Any, radii: Any) -> np.ndarray:
-    """Rows x, y, radius of discs given as centres and radii [m]."""
-    points = rows("Specimen.from_discs: centres", centres)
-    try:
-        sizes = np.array(radii, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
-    if sizes.shape != (len(points),):
-        raise InputError(
-            f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
-            f"{len(points)}; complete them"
-        )
-    return np.column_stack((points, sizes))
-
-
-def rows(name: str, values: Any) -> np.ndarray:
-    """Rows x, y of numbers; `name` is named in the message."""
-    try:
-        rows = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: not numbers, must be rows x, y; correct them") from None
-    if rows.ndim != 2 or rows.shape[1] != 2:
-        raise InputError(f"{name} = array of shape {rows.shape}, must be rows x, y; correct it")
-    return rows
 
 
 def require_positive(where: str, **values: float) -> None:
@@ -48,17 +20,15 @@ def require_positive(where: str, **values: float) -> None:
             raise InputError(f"{where}: {name} = {value} m, must be finite and > 0; correct it")
 
 
-def require_number(where: str, **values: float) -> None:
-    """Refuse what is not a finite number [-]."""
-    for name, value in values.items():
-        if not _is_number(value):
-            raise InputError(f"{where}: {name} = {value}, must be a finite number; correct it")
+def require_porosity(where: str, porosity: Any) -> float:
+    """Return a porosity [-], which must be at least 0 and below 1."""
+    if not _is_number(porosity) or not 0.0 <= porosity < 1.0:
+        raise InputError(f"{where}: porosity = {porosity}, must be >= 0 and < 1; correct it")
+    return float(porosity)
 
 
-def require_diameters(
-    where: str, diameters: tuple[float, float], frame: Frame
-) -> tuple[float, float]:
-    """Return smallest and largest diameter [m], which must be in order and fit the frame."""
+def require_diameters(where: str, diameters: Any, room: float) -> tuple[float, float]:
+    """Return smallest and largest diameter [m], which must be in order and fit the room [m]."""
     try:
         smallest, largest = diameters
     except (TypeError, ValueError):
@@ -71,7 +41,6 @@ def require_diameters(
             f"{where}: diameters = {smallest}, {largest} m, smallest must not exceed largest; "
             "swap them"
         )
-    room = 2.0 * frame.radius if frame.radius else min(frame.width, frame.height)
     if largest > 0.5 * room:
         raise InputError(
             f"{where}: largest diameter = {largest} m, must be <= half the specimen's smallest "
@@ -80,12 +49,14 @@ def require_diameters(
     return float(smallest), float(largest)
 
 
-def require_seed(where: str, seed: int) -> None:
-    """Refuse what is not an integer of 64 bits."""
-    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed < 2**64:
+def require_seed(where: str, seed: Any) -> int:
+    """Return a seed, which must be a whole number of 64 bits."""
+    whole = isinstance(seed, numbers.Integral) and not isinstance(seed, bool)
+    if not whole or not 0 <= seed < 2**64:
         raise InputError(
             f"{where}: seed = {seed}, must be a whole number >= 0 and < 2**64; change it"
         )
+    return int(seed)  # numpy's integers do not convert
 
 
 def require_short_edge(share: float) -> None:
@@ -98,4 +69,5 @@ def require_short_edge(share: float) -> None:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float, np.number)) and math.isfinite(value)
+    number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    return number and math.isfinite(value)

@@ -20,9 +20,6 @@ from ..errors import InputError
 from ..materials.material import Material
 from .specimen import Specimen
 
-#: Normals between grains: from the discs' centres, or that of the grains' edge.
-NAMES = ("inner", "inner-un")
-
 #: Inner particles on average in a grain, paper Sec. 4.1.
 PARTICLES = 26
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,16 +16,8 @@ from .._plugin import load_kernel
 from ..errors import InputError
 from ..progress import Progress
 from . import packing
-from .checks import (
-    SHORT_EDGE,
-    disc_rows,
-    require_diameters,
-    require_number,
-    require_positive,
-    require_seed,
-    require_short_edge,
-    rows,
-)
+from .checks import SHORT_EDGE, require_positive, require_short_edge
+from .spec import SpecimenSpec
 
 _FEWEST_DISCS = 8
 
@@ -51,24 +44,16 @@ class Specimen:
     Attributes:
         discs: Rows x, y, radius [m], one per grain.
         outline: Corners, counter-clockwise, (n, 2) [m], or a circle.
-        thickness: Out of plane [m].
         tessellation: Cells of the grains; cell i belongs to disc i.
-        kind: ``rectangle``, ``disc`` or ``polygon``.
-        dimensions: ``width`` and ``height``, or ``diameter`` [m]; empty for a polygon.
-        seed: Seed of a generated packing, else None.
-        short_edge: Edges of cells below this share of the mean diameter were collapsed [-].
+        spec: What it was made from.
         removed_discs: Generated discs that had no cell and were left out.
         minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
     """
 
     discs: np.ndarray
     outline: np.ndarray | Circle
-    thickness: float
     tessellation: Any
-    kind: str
-    dimensions: dict[str, float]
-    seed: int | None
-    short_edge: float
+    spec: SpecimenSpec
     removed_discs: int = 0
     minerals: np.ndarray | None = None
 
@@ -103,12 +88,17 @@ class Specimen:
         Raises:
             InputError: for a value out of range, or discs that do not fit.
         """
-        require_positive("Specimen.rectangle", width=width, height=height)
-        frame = packing.Frame(width=width, height=height)
-        corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
-        return _generate(
-            cls, frame, corners, thickness, diameters, porosity, seed, short_edge, progress
+        spec = SpecimenSpec(
+            "rectangle",
+            width=width,
+            height=height,
+            thickness=thickness,
+            diameters=diameters,
+            porosity=porosity,
+            seed=seed,
+            short_edge=short_edge,
         )
+        return cls.pack(spec, progress)
 
     @classmethod
     def disc(
@@ -139,12 +129,43 @@ class Specimen:
         Raises:
             InputError: for a value out of range, or discs that do not fit.
         """
-        require_positive("Specimen.disc", diameter=diameter)
-        frame = packing.Frame(radius=0.5 * diameter)
-        outline = Circle(0.0, 0.0, 0.5 * diameter)
-        return _generate(
-            cls, frame, outline, thickness, diameters, porosity, seed, short_edge, progress
+        spec = SpecimenSpec(
+            "disc",
+            diameter=diameter,
+            thickness=thickness,
+            diameters=diameters,
+            porosity=porosity,
+            seed=seed,
+            short_edge=short_edge,
         )
+        return cls.pack(spec, progress)
+
+    @classmethod
+    def pack(cls, spec: SpecimenSpec, progress: Progress | None = None) -> Specimen:
+        """Pack the specimen that `spec` describes, as ``rectangle`` and ``disc`` do.
+
+        Raises:
+            InputError: for discs that do not fit, or that were given instead of packed.
+        """
+        where = f"Specimen.{spec.kind}"
+        if spec.diameters is None or spec.porosity is None or spec.seed is None:
+            raise InputError(f"{where}: discs = {spec.discs}, cannot be packed; use from_discs")
+        smallest, largest = spec.diameters
+        frame, outline = _frame_of(spec), _outline_of(spec)
+        area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
+        kernel = load_kernel()
+        count = _call(kernel.disc_count, area, smallest, largest, spec.porosity)
+        if count < _FEWEST_DISCS:
+            raise InputError(
+                f"{where}: discs = {count}, must be >= {_FEWEST_DISCS} to fill the specimen; "
+                "choose smaller diameters"
+            )
+        radii = _call(kernel.disc_radii, count, smallest, largest, spec.seed)
+        mean = 0.5 * (smallest + largest)
+        centres, radii = _call(packing.pack, frame, radii, mean, spec.seed, progress)
+        given = np.column_stack((centres, radii))
+        discs, cells = _tessellated(given, outline, spec.short_edge, drop_hidden=True)
+        return cls(discs, outline, cells, spec, removed_discs=len(given) - len(discs))
 
     @classmethod
     def from_discs(
@@ -172,10 +193,24 @@ class Specimen:
             InputError: for a value out of range, a disc outside the outline or hidden by others.
         """
         require_positive("Specimen.from_discs", thickness=thickness)
-        discs = disc_rows(centres, radii)
+        require_short_edge(short_edge)
+        discs = _disc_rows(centres, radii)
         if not isinstance(outline, Circle):
-            outline = rows("Specimen.from_discs: outline", outline)
-        return _tessellated(cls, discs, outline, thickness, seed=None, short_edge=short_edge)
+            outline = _rows("Specimen.from_discs: outline", outline)
+        discs, cells = _tessellated(discs, outline, short_edge, drop_hidden=False)
+        kind, sizes = _kind_of(outline)
+        spec = SpecimenSpec(
+            kind,
+            **sizes,
+            thickness=thickness,
+            diameters=None,
+            porosity=None,
+            seed=None,
+            short_edge=short_edge,
+            discs=_checksum(discs),
+            outline=_checksum(outline),
+        )
+        return cls(discs, outline, cells, spec)
 
     def with_minerals(self, minerals: Sequence[int] | np.ndarray) -> Specimen:
         """Return the same grains, each of a given mineral.
@@ -194,7 +229,33 @@ class Specimen:
             )
         given = given.astype(np.int32)
         given.setflags(write=False)
-        return dataclasses.replace(self, minerals=given)
+        spec = dataclasses.replace(self.spec, minerals=_checksum(given))
+        return dataclasses.replace(self, minerals=given, spec=spec)
+
+    @property
+    def kind(self) -> str:
+        """``rectangle``, ``disc`` or ``polygon``."""
+        return self.spec.kind
+
+    @property
+    def dimensions(self) -> dict[str, float]:
+        """``width`` and ``height``, or ``diameter`` [m]; empty for a polygon."""
+        return self.spec.sizes
+
+    @property
+    def thickness(self) -> float:
+        """Out of plane [m]."""
+        return self.spec.thickness
+
+    @property
+    def seed(self) -> int | None:
+        """Seed of a packing, None for given discs."""
+        return self.spec.seed
+
+    @property
+    def short_edge(self) -> float:
+        """Edges of cells below this share of the mean diameter were collapsed [-]."""
+        return self.spec.short_edge
 
     @property
     def centres(self) -> np.ndarray:
@@ -268,85 +329,57 @@ class Specimen:
         return np.hypot(*(ends[:, 1] - ends[:, 0]).T)
 
 
-def _generate(
-    cls: type[Specimen],
-    frame: packing.Frame,
-    outline: np.ndarray | Circle,
-    thickness: float,
-    diameters: tuple[float, float],
-    porosity: float,
-    seed: int,
-    short_edge: float,
-    progress: Progress | None,
-) -> Specimen:
-    where = "Specimen.disc" if isinstance(outline, Circle) else "Specimen.rectangle"
-    require_positive(where, thickness=thickness)
-    smallest, largest = require_diameters(where, diameters, frame)
-    require_seed(where, seed)
-    seed = int(seed)  # numpy's integers do not convert
-    require_number(where, porosity=porosity)
-    require_short_edge(short_edge)
-    area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-    kernel = load_kernel()
-    count = _call(kernel.disc_count, area, smallest, largest, float(porosity))
-    if count < _FEWEST_DISCS:
-        raise InputError(
-            f"{where}: discs = {count}, must be >= {_FEWEST_DISCS} to fill the specimen; "
-            "choose smaller diameters"
-        )
-    radii = _call(kernel.disc_radii, count, smallest, largest, seed)
-    mean = 0.5 * (smallest + largest)
-    centres, radii = _call(packing.pack, frame, radii, mean, seed, progress)
-    discs = np.column_stack((centres, radii))
-    return _tessellated(cls, discs, outline, thickness, seed=seed, short_edge=short_edge)
+def _frame_of(spec: SpecimenSpec) -> packing.Frame:
+    sizes = spec.sizes
+    if spec.kind == "disc":
+        return packing.Frame(radius=0.5 * sizes["diameter"])
+    return packing.Frame(width=sizes["width"], height=sizes["height"])
+
+
+def _outline_of(spec: SpecimenSpec) -> np.ndarray | Circle:
+    """Outline of a packing: a rectangle from the origin, or a circle about it."""
+    sizes = spec.sizes
+    if spec.kind == "disc":
+        return Circle(0.0, 0.0, 0.5 * sizes["diameter"])
+    width, height = sizes["width"], sizes["height"]
+    return np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
 
 
 def _tessellated(
-    cls: type[Specimen],
-    discs: np.ndarray,
-    outline: np.ndarray | Circle,
-    thickness: float,
-    *,
-    seed: int | None,
-    short_edge: float,
-) -> Specimen:
-    """Tessellate; drop hidden discs of a generated packing (those with a seed)."""
-    require_short_edge(short_edge)
+    discs: np.ndarray, outline: np.ndarray | Circle, short_edge: float, *, drop_hidden: bool
+) -> tuple[np.ndarray, Any]:
+    """Discs and their cells; hidden discs, which have no cell, are dropped or refused."""
     kernel = load_kernel()
     if isinstance(outline, Circle):
         shape = _call(kernel.Outline.circle, outline.x, outline.y, outline.radius)
-        kind, dimensions = "disc", {"diameter": 2.0 * outline.radius}
     else:
         shape = _call(kernel.Outline.polygon, outline)
-        kind, dimensions = _kind_of(outline)
-    given, generated = len(discs), seed is not None
     while True:
         length = short_edge * 2.0 * float(np.mean(discs[:, 2])) if len(discs) else 0.0
-        cells = _call(kernel.tessellate, *_columns(discs), shape, length, generated)
+        cells = _call(kernel.tessellate, *_columns(discs), shape, length, drop_hidden)
         if len(cells.hidden_discs) == 0:
             break
         discs = np.delete(discs, cells.hidden_discs, axis=0)
     discs.setflags(write=False)
-    return cls(
-        discs=discs,
-        outline=outline,
-        thickness=float(thickness),
-        tessellation=cells,
-        kind=kind,
-        dimensions=dimensions,
-        seed=seed,
-        short_edge=short_edge,
-        removed_discs=given - len(discs),
-    )
+    return discs, cells
 
 
-def _kind_of(corners: np.ndarray) -> tuple[str, dict[str, float]]:
-    """A rectangle starts at its lower left corner and has sides along x and y."""
-    (x0, y0), (x1, y1) = corners.min(axis=0), corners.max(axis=0)
+def _kind_of(outline: np.ndarray | Circle) -> tuple[str, dict[str, float]]:
+    """Shape and sizes; a rectangle starts at its lower left corner, with sides along x and y."""
+    if isinstance(outline, Circle):
+        return "disc", {"diameter": 2.0 * outline.radius}
+    (x0, y0), (x1, y1) = outline.min(axis=0), outline.max(axis=0)
     box = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
-    if corners.shape == (4, 2) and np.array_equal(corners, box):
+    if outline.shape == (4, 2) and np.array_equal(outline, box):
         return "rectangle", {"width": float(x1 - x0), "height": float(y1 - y0)}
     return "polygon", {}
+
+
+def _checksum(given: np.ndarray | Circle) -> str:
+    """Short hash of numbers, by which files name what is too long for them."""
+    plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
+    values = np.ascontiguousarray(plain, dtype=float)
+    return hashlib.sha256(values.tobytes()).hexdigest()[:16]
 
 
 def _call(function: Any, *arguments: Any) -> Any:
@@ -361,3 +394,29 @@ def _call(function: Any, *arguments: Any) -> Any:
 
 def _columns(discs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.ascontiguousarray(discs[:, :2]), np.ascontiguousarray(discs[:, 2])
+
+
+def _disc_rows(centres: Any, radii: Any) -> np.ndarray:
+    """Rows x, y, radius of discs given as centres and radii [m]."""
+    points = _rows("Specimen.from_discs: centres", centres)
+    try:
+        sizes = np.array(radii, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
+    if sizes.shape != (len(points),):
+        raise InputError(
+            f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
+            f"{len(points)}; complete them"
+        )
+    return np.column_stack((points, sizes))
+
+
+def _rows(name: str, values: Any) -> np.ndarray:
+    """Rows x, y of numbers; `name` is named in the message."""
+    try:
+        found = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: not numbers, must be rows x, y; correct them") from None
+    if found.ndim != 2 or found.shape[1] != 2:
+        raise InputError(f"{name} = array of shape {found.shape}, must be rows x, y; correct it")
+    return found

@@ -15,6 +15,8 @@ from typing import Any
 from ..errors import InputError, SimulationError
 from ..files import csv_text, output_folder, write_text
 from ..laboratory import protocols
+from ..laboratory.checkpoint import INTERVAL
+from ..laboratory.run_spec import RunSpec, described
 from ..materials import material as materials
 from ..materials.material import Material
 from ..materials.references import Reference, reference_of
@@ -33,23 +35,26 @@ _FIRST = ("model", "material", "confinement", "folder")
 class Case:
     """One run of a comparison."""
 
-    test: str
-    model: str
+    spec: RunSpec
     material: Material
-    confinement: float  #: [Pa]
     folder: Path | None = None
     result: Result | None = None  #: None if the run failed before it had one
     error: str = ""  #: why it failed
 
-    def inputs(self) -> dict[str, Any]:
-        """What this run does not share with the others."""
-        names = ("material", "model", "confinement")
-        return {name: getattr(self, name) for name in names} | {"out": self.folder}
+    @property
+    def model(self) -> str:
+        """Name of the model."""
+        return self.spec.model
+
+    @property
+    def confinement(self) -> float:
+        """Lateral pressure [Pa]."""
+        return self.spec.confinement
 
     @property
     def name(self) -> str:
         """Model, and the confinement of a biaxial test."""
-        pressure = f" {1e-6 * self.confinement:g} MPa" if self.test == "biaxial" else ""
+        pressure = f" {1e-6 * self.confinement:g} MPa" if self.spec.test == "biaxial" else ""
         return f"{self.model}{pressure}"
 
     @property
@@ -124,13 +129,35 @@ def compare(
         InputError: for an argument that is wrong for any of the runs.
     """
     folder = None if out is None else output_folder(out)
-    cases = _plan(test, models, material, confinements, folder)
-    kept = {name: value for name, value in options.items() if name != "threads"}
-    for case in cases:
-        protocols.plan_run(test, specimen, **case.inputs(), **kept)
-    for number, case in enumerate(cases, 1):
-        name = f"{number}/{len(cases)} {case.name}"
-        _run(case, specimen, _named(progress, name), options)
+    threads, interval = options.pop("threads", 1), options.pop("checkpoint_interval", INTERVAL)
+    shared = {name: value for name, value in options.items() if value is not None}
+    cases = [
+        Case(
+            RunSpec(
+                test,
+                specimen.spec,
+                described(chosen, model),
+                model,
+                confinement=confinement,
+                **shared,
+            ),
+            chosen,
+        )
+        for model, chosen in _materials(models, material).items()
+        for confinement in _each_once("confinements", confinements)
+    ]
+    if folder is not None:
+        _give_folders(cases, folder)
+    plans = [
+        protocols.plan_run(case.spec, specimen, case.material, case.folder, interval)
+        for case in cases
+    ]
+    for number, (case, plan) in enumerate(zip(cases, plans, strict=True), 1):
+        show = _named(progress, f"{number}/{len(cases)} {case.name}")
+        try:
+            case.result = protocols.carry_out(plan, threads=threads, progress=show)
+        except SimulationError as error:
+            case.error = str(error)
     found = Comparison(test, cases, _envelopes(cases))
     if folder is not None:
         found.write(folder)
@@ -159,40 +186,29 @@ def table(cases: Sequence[Case]) -> str:
     return columns((*header, "status"), rows)
 
 
-def _plan(
-    test: str,
-    models: Sequence[str],
-    material: Any,
-    confinements: Sequence[float],
-    folder: Path | None,
-) -> list[Case]:
-    """Runs of a comparison, model by model."""
-    for name, values in (("models", list(models)), ("confinements", list(confinements))):
-        if not values or len(set(values)) != len(values):
-            raise InputError(f"compare: {name} = {values}, must be one or more, each once")
-    by_model = isinstance(material, Mapping) and set(material) <= set(models)
-    cases = []
-    for model in models:
-        of_model = material.get(model) if by_model else material
-        chosen = materials.load(of_model, model)
-        for confinement in confinements:
-            case = Case(test, model, chosen, float(confinement))
-            if folder is not None:
-                pressure = f"{1e-6 * case.confinement:g}MPa" if len(confinements) > 1 else ""
-                case.folder = folder / model / pressure
-            cases.append(case)
-    return cases
+def _materials(models: Sequence[str], material: Any) -> dict[str, Material]:
+    """Material of each model."""
+    names = _each_once("models", models)
+    by_model = isinstance(material, Mapping) and set(material) <= set(names)
+    return {
+        model: materials.load(material.get(model) if by_model else material, model)
+        for model in names
+    }
 
 
-def _run(
-    case: Case, specimen: Specimen, progress: Progress | None, options: dict[str, Any]
-) -> None:
-    try:
-        case.result = protocols.run(
-            case.test, specimen, **case.inputs(), progress=progress, **options
-        )
-    except SimulationError as error:
-        case.error = str(error)
+def _each_once(name: str, values: Sequence[Any]) -> list[Any]:
+    found = list(values)
+    if not found or len(set(found)) != len(found):
+        raise InputError(f"compare: {name} = {found}, must be one or more, each once")
+    return found
+
+
+def _give_folders(cases: Sequence[Case], folder: Path) -> None:
+    """Give each run a folder below that of the comparison."""
+    several = len({case.confinement for case in cases}) > 1
+    for case in cases:
+        pressure = f"{1e-6 * case.confinement:g}MPa" if several else ""
+        case.folder = folder / case.model / pressure
 
 
 def _envelopes(cases: Sequence[Case]) -> list[Envelope]:
@@ -223,9 +239,10 @@ def _row(case: Case) -> dict[str, Any]:
         "folder": str(case.folder or ""),
     }
     if case.result is None:
-        return row | {"test": case.test, "status": "failed"}
+        return row | {"test": case.spec.test, "status": "failed"}
     numbers = case.result.as_dict()
-    return row | {key: value for key, value in numbers.items() if key not in _FIRST}
+    hidden = (*_FIRST, "inputs")
+    return row | {key: value for key, value in numbers.items() if key not in hidden}
 
 
 def _table(rows: Sequence[dict[str, Any]]) -> str:

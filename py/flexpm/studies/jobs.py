@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Jobs of studies and calibrations: one command of flexpm each, named by a hash of its inputs.
+"""Jobs of studies and calibrations: one command of flexpm each, named by the key of its inputs.
 
 A job runs in a process and a folder of its own. Once its outcome is on disk it is never run again.
 SI units.
@@ -7,43 +7,26 @@ SI units.
 
 from __future__ import annotations
 
-import hashlib
-import importlib
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from subprocess import CompletedProcess
 from typing import Any
 
-import click
-
 from .._version import __version__
 from ..errors import InputError
 from ..files import json_text, write_text
+from ..laboratory import run_spec
+from ..laboratory.run_spec import RunSpec
 from ..materials import material as materials
 from ..materials.keys import UNITS, check_name
-from ..materials.mixing import description
 
 #: Tests of a study; `elastic` is the direct solve.
-TESTS = ("uniaxial", "tension", "biaxial", "brazilian", "elastic")
-#: Keys that only some tests have a use for; the others leave them out.
-_ONLY = {
-    "width": ("uniaxial", "tension", "biaxial", "elastic"),
-    "height": ("uniaxial", "tension", "biaxial", "elastic"),
-    "diameter": ("brazilian",),
-    "confinement": ("biaxial",),
-    "rate": ("uniaxial", "tension", "biaxial", "brazilian"),
-    "max_strain": ("uniaxial", "tension", "biaxial", "brazilian"),
-    "stop_ratio": ("uniaxial", "tension", "biaxial", "brazilian"),
-    "start": ("uniaxial", "tension"),
-    "pace": ("uniaxial", "tension", "biaxial", "brazilian"),
-    "dynamic": ("uniaxial", "tension", "biaxial", "brazilian"),
-    "gravity": ("uniaxial", "tension", "biaxial", "brazilian"),
-}
-#: Options of the command that do not change what a job computes.
-_INERT = ("out", "quiet", "threads")
+_TESTS = (*run_spec.TESTS, run_spec.ELASTIC)
+#: Keys that change the material.
+_CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
 _NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
 #: Exit codes of a job that would end the same way again.
@@ -58,12 +41,17 @@ class Job:
     Attributes:
         inputs: What was asked for, flat: ``test``, options by name, ``set.KEY`` for the material.
         arguments: Of the command, without the folder.
-        name: Hash of all that determines the outcome, with the defaults filled in.
+        spec: All that determines the outcome.
     """
 
     inputs: Mapping[str, Any]
     arguments: tuple[str, ...]
-    name: str
+    spec: RunSpec
+
+    @property
+    def key(self) -> str:
+        """Name of the job and of its folder."""
+        return self.spec.key()
 
     def command(self, folder: Path, worker_path: Path) -> list[str]:
         """The command line for a folder; `worker_path` holds the package.
@@ -90,15 +78,19 @@ def make(inputs: Mapping[str, Any], base: Path) -> Job:
     """
     given = {key.replace("-", "_"): value for key, value in inputs.items()}
     if "test" not in given:
-        raise InputError(f"study test is missing; give one of {', '.join(TESTS)}")
+        raise InputError(f"study test is missing; give one of {', '.join(_TESTS)}")
     test = given.pop("test")
-    check_name("study test", test, TESTS)
-    used = {key: value for key, value in given.items() if test in _ONLY.get(key, TESTS)}
+    check_name("study test", test, _TESTS)
+    used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
+    for key in used:
+        check_name("study key", key, [*run_spec.OPTIONS, "material", *_CHANGES])
     if str(used.get("material", "")).endswith(".toml"):
         used["material"] = str(base / used["material"])
-    command = _command(test)
-    arguments = [*([] if test == "elastic" else [test]), *_options(command, used), "--quiet"]
-    return Job({"test": test, **used}, (command.name, *arguments), _name(command, arguments))
+    model = used.get("model", RunSpec.model)
+    changes = [f"{key.removeprefix('set.')}={used[key]}" for key in used if key in _CHANGES]
+    material = materials.load(used.get("material"), model).with_set(changes, model)
+    spec = RunSpec.from_options(test, used, material)
+    return Job({"test": test, **used}, tuple(_arguments(test, used)), spec)
 
 
 def known(folder: Path) -> dict[str, Any] | None:
@@ -107,6 +99,36 @@ def known(folder: Path) -> dict[str, Any] | None:
         return json.loads((folder / _OUTCOME).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
+
+
+def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
+    """Name, in one line, the runs that are finished with results of an older number.
+
+    Args:
+        waiting: Jobs that are not finished.
+        done: Tells whether a job of a key is finished.
+
+    Returns:
+        The line, or an empty text if there are none.
+    """
+    count = sum(any(map(done, job.spec.older_keys())) for job in waiting)
+    if not count:
+        return ""
+    return (
+        f"{count} finished runs are of an older results number than {run_spec.RESULTS} and are "
+        "run again"
+    )
+
+
+def discard_foreign_checkpoint(folder: Path) -> None:
+    """Remove the checkpoint that another version of flexpm has left; it cannot be taken up."""
+    try:
+        content = json.loads((folder / "checkpoint.json").read_text(encoding="utf-8"))
+        foreign = content["flexpm"] != __version__
+    except (OSError, ValueError, KeyError, TypeError):
+        return
+    if foreign:
+        _remove_checkpoint(folder)
 
 
 def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException) -> dict[str, Any]:
@@ -123,7 +145,7 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
         "inputs": dict(job.inputs),
         "exit_code": done.returncode,
         # a table must not depend on where its runs lie
-        "message": lines[-1].removeprefix("flexpm: ").replace(str(folder), job.name)
+        "message": lines[-1].removeprefix("flexpm: ").replace(str(folder), job.key)
         if lines
         else "",
         "result": _measures(folder / "result.json"),
@@ -131,9 +153,13 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
     if done.returncode in _FINAL:
         folder.mkdir(parents=True, exist_ok=True)
         write_text(folder / _OUTCOME, json_text(outcome))
-        for checkpoint in folder.glob("checkpoint*"):
-            checkpoint.unlink(missing_ok=True)  # the largest file, of no use any more
+        _remove_checkpoint(folder)  # the largest file, of no use any more
     return outcome
+
+
+def _remove_checkpoint(folder: Path) -> None:
+    for file in folder.glob("checkpoint*"):
+        file.unlink(missing_ok=True)
 
 
 def _measures(file: Path) -> dict[str, Any]:
@@ -148,40 +174,18 @@ def _measures(file: Path) -> dict[str, Any]:
     }
 
 
-def _options(command: click.Command, used: Mapping[str, Any]) -> list[str]:
-    """The command's options for values that it will check."""
-    known = {option.name: option for option in command.params if option.name not in _INERT}
-    for name in ("test", "assignments"):
-        known.pop(name, None)
-    arguments: list[str] = []
+def _arguments(test: str, used: Mapping[str, Any]) -> Iterator[str]:
+    """The command with its options."""
+    yield from (test,) if test == run_spec.ELASTIC else ("run", test)
     for key, value in used.items():
-        check_name("study key", key, [*known, *(f"set.{name}" for name in UNITS)])
         if key.startswith("set."):
-            arguments += ["--set", f"{key.removeprefix('set.')}={_text(value)}"]
-        elif not getattr(known[key], "is_flag", False):
-            arguments += [known[key].opts[0], _text(value)]
-        elif value is True:
-            arguments.append(known[key].opts[0])
-    return arguments
+            yield from ("--set", f"{key.removeprefix('set.')}={_text(value)}")
+        elif not isinstance(value, bool):
+            yield from (f"--{key.replace('_', '-')}", _text(value))
+        elif value:
+            yield f"--{key.replace('_', '-')}"
+    yield "--quiet"
 
 
 def _text(value: Any) -> str:
-    return ",".join(map(repr, value)) if isinstance(value, list) else str(value)
-
-
-def _name(command: click.Command, arguments: list[str]) -> str:
-    """Hash of the inputs with defaults filled in, after the command has checked them."""
-    context = command.make_context(command.name, list(arguments))
-    values = {key: value for key, value in context.params.items() if key not in _INERT}
-    model = values["model"]
-    changes = values.pop("assignments")
-    material = materials.load(values.pop("material"), model).with_set(changes, model)
-    everything = {"flexpm": __version__, "command": command.name, **values}
-    everything["material"] = description(material, model)
-    text = json.dumps(everything, sort_keys=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _command(test: str) -> click.Command:
-    commands = importlib.import_module("flexpm.cli.main").command.commands
-    return commands["elastic" if test == "elastic" else "run"]
+    return ",".join(map(str, value)) if isinstance(value, list | tuple) else str(value)

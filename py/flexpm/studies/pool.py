@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import subprocess
 from collections.abc import Iterator, Sequence
@@ -14,6 +15,8 @@ from ..materials.keys import check_name
 from ..progress import Progress
 from . import jobs
 from .jobs import Job
+
+_LOG = logging.getLogger("flexpm")
 
 
 class Pool:
@@ -38,17 +41,19 @@ class Pool:
 
     def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[dict[str, Any]]:
         """Outcomes of jobs in their order; those that have ended before are not run again."""
-        outcomes = {job.name: jobs.known(self._folder / job.name) for job in wanted}
-        waiting = [job for job in wanted if outcomes[job.name] is None]
+        outcomes = {job.key: jobs.known(self._folder / job.key) for job in wanted}
+        waiting = [job for job in wanted if outcomes[job.key] is None]
+        if line := jobs.outdated(waiting, lambda key: jobs.known(self._folder / key) is not None):
+            _LOG.warning("flexpm: %s", line)
         report = progress or _silent
         done, failed = len(wanted) - len(waiting), 0
         report(done, len(wanted), "runs")
         for job, ended in self._ended(waiting):
-            outcome = jobs.conclude(job, self._folder / job.name, ended)
-            outcomes[job.name] = outcome
+            outcome = jobs.conclude(job, self._folder / job.key, ended)
+            outcomes[job.key] = outcome
             done, failed = done + 1, failed + (outcome["exit_code"] != 0)
             report(done, len(wanted), f"runs, {failed} failed" if failed else "runs")
-        return [outcomes[job.name] for job in wanted]
+        return [outcomes[job.key] for job in wanted]
 
     def _ended(self, waiting: Sequence[Job]) -> Iterator[tuple[Job, Any]]:
         """Jobs with the processes they were, or the error of a worker, as they end."""
@@ -56,13 +61,15 @@ class Pool:
             return
         from distributed import as_completed
 
+        for job in waiting:
+            jobs.discard_foreign_checkpoint(self._folder / job.key)
         client = self._started()
         parent = Path(__file__).parents[2].absolute()
         # a function of the standard library: workers need not import flexpm
         futures = {
             client.submit(
                 subprocess.run,
-                job.command(self._folder / job.name, parent),
+                job.command(self._folder / job.key, parent),
                 capture_output=True,
                 text=True,
                 stdin=subprocess.DEVNULL,

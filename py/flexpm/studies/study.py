@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Studies: many runs over tests, models, material keys and seeds, spread by Dask. SI units.
 
-Each run is a process in a folder named by a hash of its inputs. A study that was killed goes on
+Each run is a process in a folder named by the key of its inputs. A study that was killed goes on
 where it stopped; what is finished is not repeated, what failed is recorded.
 """
 
@@ -62,7 +62,7 @@ def read(path: Path | str) -> Study:
     for key in about:
         check_name("study [study] key", key, _STUDY_KEYS)
     made = [jobs.make(inputs, path.parent) for inputs in combinations(content)]
-    distinct = {job.name: job for job in made}
+    distinct = {job.key: job for job in made}
     return Study(about.get("name", path.stem), [*distinct.values()], content.get("picture", []))
 
 
@@ -79,7 +79,7 @@ def run(
 
     Args:
         study: The runs.
-        out: Folder of the study; ``runs/HASH`` are those of the runs. On a cluster all machines
+        out: Folder of the study; ``runs/KEY`` are those of the runs. On a cluster all machines
             must see it under this name.
         workers: Runs at a time; None for one per core, or what the scheduler has.
         scheduler: Address of a running Dask scheduler.

@@ -14,10 +14,10 @@ from .jobs import Job
 
 
 def table(wanted: Sequence[Job], outcomes: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
-    """One row a job: hash, inputs, exit code, message, measures."""
+    """One row a job: key, inputs, exit code, message, measures."""
     return pandas.DataFrame(
         {
-            "hash": job.name,
+            "key": job.key,
             **{key: _cell(value) for key, value in job.inputs.items()},
             "exit_code": outcome["exit_code"],
             "message": outcome["message"],

@@ -89,7 +89,7 @@ def test_elastic_prints_the_constants(capsys):
     ("arguments", "message"),
     [
         (["elastic", "--model", "inner", "--set", "poisson=0.48"], "poisson = 0.48, cannot be met"),
-        (["elastic", "--model", "jcfpm"], "model = 'jcfpm', is not available"),
+        (["elastic", "--model", "jcfpm"], "model = 'jcfpm', must be one of flexible"),
     ],
 )
 def test_what_a_model_cannot_do_is_refused_in_one_line(capsys, tmp_path, arguments, message):

@@ -58,6 +58,7 @@ KEYS = [
     "fragments",
     "largest_fragment",
     "status",
+    "inputs",
 ]
 
 
@@ -84,7 +85,7 @@ def triangular_record(confinement=0.0, last_stress=0.4 * PEAK):
                 unbalanced_ratio=0.5 if past or strain < 1e-6 else 1e-3,
                 end_mismatch=0.3 if past or strain < 1e-6 else 0.02,
                 boundary_work=strain,
-                pace=1.0,
+                velocity_factor=1.0,
                 elastic_energy=0.25 * strain + 7.0,
                 damping_energy=0.75 * strain,
             )

@@ -53,7 +53,7 @@ def test_a_grid_is_all_combinations_in_order(grid):
     made = [jobs.make(inputs, Path()) for inputs in study.combinations(content)]
     found = [tuple(job.inputs[key] for key in grid) for job in made]
     assert found == list(itertools.product(*grid.values()))
-    assert len({job.name for job in made}) == len(made)
+    assert len({job.key for job in made}) == len(made)
 
 
 def test_cases_change_the_common_options(tmp_path):
@@ -70,20 +70,20 @@ def test_cases_change_the_common_options(tmp_path):
     assert found[2].inputs["diameter"] == 0.02 and found[2].inputs["seed"] == 7
 
 
-def test_names_follow_what_is_computed(tmp_path):
-    def name(**inputs):
-        return jobs.make({"test": "uniaxial", **inputs}, tmp_path).name
+def test_keys_follow_what_is_computed(tmp_path):
+    def key(**inputs):
+        return jobs.make({"test": "uniaxial", **inputs}, tmp_path).key
 
-    assert name() == name(seed=1) == name(width=0.08) == name(material="augig-table7")
-    assert name(diameter=0.1) == name()  # a rectangle has none
-    assert len({name(), name(seed=2), name(**{"set.cohesion": 3e7}), name(model="rigid")}) == 4
+    assert key() == key(seed=1) == key(width=0.08) == key(material="augig-table7")
+    assert key(diameter=0.1) == key()  # a rectangle has none
+    assert len({key(), key(seed=2), key(**{"set.cohesion": 3e7}), key(model="rigid")}) == 4
     (tmp_path / "rock.toml").write_text(
         (ROOT / "py/flexpm/materials/presets/augig-table7.toml").read_text()
     )
-    before = name(material="rock.toml")
+    before = key(material="rock.toml")
     text = (tmp_path / "rock.toml").read_text().replace("0.40", "0.41")
     (tmp_path / "rock.toml").write_text(text)
-    assert name(material="rock.toml") != before
+    assert key(material="rock.toml") != before
 
 
 @pytest.mark.parametrize(
@@ -132,7 +132,7 @@ def test_a_killed_study_repeats_nothing_and_ends_with_the_same_table(tmp_path, p
 
 @pytest.mark.long
 def test_a_failed_run_is_a_row_and_stops_no_other(tmp_path, package_parent):
-    text = ELASTIC.replace("[1, 2, 3, 4]", "[1]") + "[[case]]\n[[case]]\nwidth = 0.004\n"
+    text = ELASTIC.replace("[1, 2, 3, 4]", "[1]") + "[[case]]\n[[case]]\nporosity = 0.95\n"
     path = file_of(tmp_path, text)
     arguments = command(package_parent, "study", path, "--out", tmp_path / "out")
     done = subprocess.run(arguments, capture_output=True, text=True)
@@ -151,7 +151,7 @@ def test_the_outcome_of_an_interrupted_run_is_not_kept(tmp_path):
         said = f"warning\nflexpm: status = no_peak; see {folder}\n"
         done = subprocess.CompletedProcess([], code, "", said)
         # a path would tell tables of the same runs apart
-        assert jobs.conclude(job, folder, done)["message"] == f"status = no_peak; see {job.name}"
+        assert jobs.conclude(job, folder, done)["message"] == f"status = no_peak; see {job.key}"
         assert (jobs.known(folder) is not None) == kept
         assert (folder / "checkpoint-7.bin").exists() == (not kept)
     assert jobs.conclude(job, tmp_path, OSError("lost"))["exit_code"] is None

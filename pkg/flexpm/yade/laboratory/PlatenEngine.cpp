@@ -34,7 +34,7 @@ namespace {
 		{ "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
 		{ "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
 		{ "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
-		{ "pace", [](const auto& o) { return o.velocity_factor; } },
+		{ "velocity_factor", [](const auto& o) { return o.velocity_factor; } },
 		{ "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
 		{ "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
 		{ "elastic_energy", [](const auto& o) { return o.energies.elastic; } },

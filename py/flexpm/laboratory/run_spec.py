@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What determines a run, as plain values: checked, written to files, named by a key. SI units.
+
+Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import numbers
+from collections.abc import Mapping
+from dataclasses import MISSING, asdict, dataclass, fields
+from typing import Any
+
+from ..errors import InputError
+from ..materials.keys import check_name
+from ..materials.material import Material
+from ..materials.mixing import description
+from ..models.options import GRAIN_MODELS, check_options
+from ..specimens.spec import SIZES, SpecimenSpec
+from .loading_rate import LARGEST_STOP_RATIO, STOP_RATIO
+
+#: Number of the way in which keys are made. A field that gets another default needs another number:
+#: keys leave defaults out.
+SCHEMA = 1
+#: Number of the results. A commit that changes a hash of the reference commands raises it
+#: (scripts/checks/reference.py); runs that were finished before get other keys and are done again.
+RESULTS = 1
+
+#: Tests that are simulated.
+TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+#: The direct solve of a rectangle, which is no simulation.
+ELASTIC = "elastic"
+#: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
+#: where the first contact point is about to leave its elastic branch.
+STARTS = ("rest", "static")
+#: ``constant``: the ends move at one velocity; ``adaptive``: faster while the specimen is elastic.
+LOADINGS = ("constant", "adaptive")
+
+#: Options that a test has no use for.
+UNUSED: dict[str, tuple[str, ...]] = {
+    "uniaxial": ("diameter", "confinement"),
+    "tension": ("diameter", "confinement"),
+    "biaxial": ("diameter", "start"),
+    "brazilian": ("width", "height", "confinement", "start"),
+    ELASTIC: (
+        *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
+        *("dynamic", "gravity", "start", "loading"),
+    ),
+}
+_PACKING = ("thickness", "diameters", "porosity", "seed")
+_SIMULATION = (
+    *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
+    *("dynamic", "gravity", "start", "loading"),
+)
+#: Fields that options of the command set, by their names.
+OPTIONS = (*SIZES["rectangle"], *SIZES["disc"], *_PACKING, *_SIMULATION)
+
+
+@dataclass(frozen=True)
+class RunSpec:
+    """All that determines a run. What it runs on, threads and folders, is no part of it.
+
+    A field that is added later has a default that stands for the runs of before; then no key
+    changes. Start and loading follow from test and model unless they are given.
+
+    Attributes:
+        test: One of ``TESTS``, or ``ELASTIC``.
+        specimen: What the specimen is made from.
+        material: Its ``name`` and the parameters in effect for the model, see ``described``.
+        model: Name of the model.
+        points: Contact points per contact.
+        mesh: Triangles in each grain, ``refined`` or ``fan``.
+        confinement: Lateral pressure [Pa].
+        rate: Factor on the default loading rate [-].
+        max_strain: Axial strain at which the test ends [-]; None for a multiple of that of the
+            reference strength.
+        stop_ratio: Part of its peak to which the stress falls before the test ends [-].
+        dynamic: Real masses and time instead of scaled masses and unit steps.
+        gravity: Acceleration downwards [m/s2].
+        start: How the loading begins, one of ``STARTS``; empty: ``static`` for tension of the
+            flexible model with scaled masses, else ``rest``.
+        loading: How the loading goes on, one of ``LOADINGS``; empty: ``adaptive`` for grain models
+            with scaled masses, else ``constant``.
+    """
+
+    test: str
+    specimen: SpecimenSpec
+    material: Mapping[str, Any]
+    model: str = "flexible"
+    points: int = 3
+    mesh: str = "refined"
+    confinement: float = 0.0
+    rate: float = 1.0
+    max_strain: float | None = None
+    stop_ratio: float = STOP_RATIO
+    dynamic: bool = False
+    gravity: float = 0.0
+    start: str = ""
+    loading: str = ""
+
+    def __post_init__(self) -> None:
+        _require_one_of("test", self.test, (*TESTS, ELASTIC))
+        self._check_numbers()
+        check_options(
+            self.model,
+            points=self.points,
+            mesh=self.mesh,
+            dynamic=self.dynamic,
+            gravity=self.gravity,
+        )
+        self._check_start()
+        self._check_loading()
+        self._check_test()
+        self._set("points", int(self.points))
+        self._set("material", dict(self.material))
+
+    @classmethod
+    def from_options(cls, test: str, options: Mapping[str, Any], material: Material) -> RunSpec:
+        """Describe the run of a packed specimen by options of the command.
+
+        Args:
+            test: Name of the test.
+            options: Values by the names of ``OPTIONS``; None stands for the default. Other names,
+                and sizes of another shape than that of the test, are not looked at.
+            material: The material, with the changes that the options ask for.
+
+        Raises:
+            InputError: for a value out of range.
+        """
+        given = {name: value for name, value in options.items() if value is not None}
+        shape = shape_of(test)
+        packed = [name for name in (*SIZES[shape], *_PACKING) if name in given]
+        specimen = SpecimenSpec(shape, **{name: given[name] for name in packed})
+        others = {name: given[name] for name in _SIMULATION if name in given}
+        model = others.get("model", cls.model)
+        return cls(test, specimen, described(material, model), **others)
+
+    @classmethod
+    def from_json(cls, content: Mapping[str, Any]) -> RunSpec:
+        """Read what ``to_json`` gave; a field that is missing has its default.
+
+        Raises:
+            InputError: for an unknown or missing field or a value out of range.
+        """
+        for name in ("test", "specimen", "material"):
+            if name not in content:
+                raise InputError(f"inputs {name} is missing; give that of the run")
+        plain = _known(cls, content)
+        return cls(**plain | {"specimen": SpecimenSpec(**_known(SpecimenSpec, plain["specimen"]))})
+
+    def to_json(self) -> dict[str, Any]:
+        """All fields as JSON has them: no tuples, finite numbers."""
+        content: dict[str, Any] = json.loads(json.dumps(asdict(self), allow_nan=False))
+        return content
+
+    def key(self, results: int | None = None) -> str:
+        """Name of the run: a short hash of what differs from the defaults.
+
+        Two runs have one key if they must have the same results. Neither the version of flexpm nor
+        an option that did not exist counts.
+
+        Args:
+            results: Number of the results; None for ``RESULTS``.
+        """
+        content = {
+            "schema": SCHEMA,
+            "results": RESULTS if results is None else results,
+            **_changes(self),
+            "specimen": _changes(self.specimen),
+            "material": _material_changes(self.material),
+        }
+        text = json.dumps(content, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def older_keys(self) -> list[str]:
+        """Keys that the run had under earlier numbers of the results."""
+        return [self.key(number) for number in range(1, RESULTS)]
+
+    def _check_numbers(self) -> None:
+        self._set("rate", _positive("rate", self.rate))
+        if self.max_strain is not None:
+            self._set("max_strain", _positive("max_strain", self.max_strain))
+        self._set("stop_ratio", _number("stop_ratio", self.stop_ratio))
+        if not 0.0 < self.stop_ratio <= LARGEST_STOP_RATIO:
+            raise InputError(
+                f"run: stop_ratio = {self.stop_ratio}, must be above 0 and at most "
+                f"{LARGEST_STOP_RATIO:g}"
+            )
+        self._set("confinement", _number("confinement", self.confinement))
+        if not (math.isfinite(self.confinement) and self.confinement >= 0.0):
+            raise InputError(f"run: confinement = {self.confinement} Pa, must not be below 0")
+        self._set("gravity", _number("gravity", self.gravity))
+        self._set("dynamic", bool(self.dynamic))
+
+    def _check_start(self) -> None:
+        if not self.start:
+            tension = (self.test, self.model, self.dynamic) == ("tension", "flexible", False)
+            self._set("start", "static" if tension else "rest")
+        _require_one_of("start", self.start, STARTS)
+        possible = self.model == "flexible" and self.test in ("uniaxial", "tension")
+        if self.start == "static" and not possible:
+            raise InputError(
+                f"run: start = static, must be rest for {self.test} of model {self.model}; static "
+                "needs the flexible model and uniaxial or tension"
+            )
+
+    def _check_loading(self) -> None:
+        adapts = self.model in GRAIN_MODELS and not self.dynamic and self.test != ELASTIC
+        if not self.loading:
+            self._set("loading", "adaptive" if adapts else "constant")
+        _require_one_of("loading", self.loading, LOADINGS)
+        if self.loading == "adaptive" and not adapts:
+            raise InputError(
+                f"run: loading = adaptive, must be constant for model {self.model}"
+                f"{' with real masses' if self.dynamic else ''}; adaptive needs grains and scaled "
+                "masses"
+            )
+
+    def _check_test(self) -> None:
+        if self.test == ELASTIC:
+            _require_one_of("model", self.model, GRAIN_MODELS)
+        shape = shape_of(self.test)
+        if self.specimen.kind != shape:
+            raise InputError(
+                f"run: specimen = {self.specimen.kind}, must be a {shape} for {self.test}"
+            )
+        if self.test != "biaxial" and self.confinement != 0.0:
+            raise InputError(
+                f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}; use biaxial"
+            )
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
+
+
+def shape_of(test: str) -> str:
+    """Shape of the specimen that a test needs."""
+    return "disc" if test == "brazilian" else "rectangle"
+
+
+def described(material: Material, model: str) -> dict[str, Any]:
+    """Name of a material and its parameters in effect for a model; those of minerals, too."""
+    return {"name": material.name, **description(material, model)}
+
+
+def _changes(spec: RunSpec | SpecimenSpec) -> dict[str, Any]:
+    """Fields that have another value than their default."""
+    values = {field.name: (getattr(spec, field.name), field.default) for field in fields(spec)}
+    nested = ("specimen", "material")
+    return {
+        name: value
+        for name, (value, default) in values.items()
+        if name not in nested and value is not None and value != default
+    }
+
+
+def _material_changes(material: Mapping[str, Any]) -> dict[str, Any]:
+    """Parameters that have another value than a material's default; names do not count."""
+    defaults = {field.name: field.default for field in fields(Material)}
+    found: dict[str, Any] = {}
+    for key, value in material.items():
+        if key == "minerals":
+            found[key] = [_material_changes(mineral) for mineral in value]
+        elif key != "name" and value is not None and value != defaults.get(key, MISSING):
+            found[key] = value
+    return found
+
+
+def _known(cls: type, content: Any) -> dict[str, Any]:
+    if not isinstance(content, Mapping):
+        raise InputError(f"inputs = {content!r}, must be fields by name")
+    for name in content:
+        check_name("inputs", name, [field.name for field in fields(cls)])
+    return dict(content)
+
+
+def _require_one_of(name: str, value: object, known: tuple[str, ...]) -> None:
+    if value not in known:
+        raise InputError(f"run: {name} = {value!r}, must be one of {', '.join(known)}")
+
+
+def _number(name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise InputError(f"run: {name} = {value!r}, must be a number")
+    return float(value)
+
+
+def _positive(name: str, value: object) -> float:
+    number = _number(name, value)
+    if not (math.isfinite(number) and number > 0.0):
+        raise InputError(f"run: {name} = {number}, must be above 0")
+    return number

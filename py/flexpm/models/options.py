@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names of the models and what each may be asked for; nothing heavy is loaded here. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ..errors import InputError
+
+#: Grains of inner particles: normals between grains from the discs' centres, or of the edge.
+INNER_MODELS = ("inner", "inner-un")
+#: Models of flexpm's own solver.
+GRAIN_MODELS = ("flexible", "rigid", *INNER_MODELS)
+#: YADE's own models on the discs of a specimen.
+SPHERE_MODELS = ("jcfpm", "cohfrict")
+MODELS = (*GRAIN_MODELS, *SPHERE_MODELS)
+#: Triangles in each grain.
+MESHES = ("refined", "fan")
+#: Points in each contact.
+POINTS = (1, 2, 3)
+
+
+def check_options(
+    model: str, *, points: int, mesh: str, dynamic: bool = False, gravity: float = 0.0
+) -> None:
+    """Raise InputError for an unknown model, or for an option that it cannot have.
+
+    Args:
+        model: Name of the model.
+        points: Contact points per contact.
+        mesh: Triangles in each grain.
+        dynamic: Real masses and time.
+        gravity: Acceleration downwards [m/s2].
+    """
+    require_one_of("model", model, MODELS)
+    if model in SPHERE_MODELS:
+        require_one_of(f"points of model {model}", points, (POINTS[-1],))
+        require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
+        require_one_of(f"gravity of model {model}", gravity, (0.0,))
+    else:
+        require_one_of("points", points, POINTS)
+        require_one_of("mesh", mesh, MESHES)
+        _require_gravity(gravity, dynamic)
+
+
+def require_one_of(name: str, value: object, known: Sequence[object]) -> None:
+    """Raise InputError unless `value` is one of `known`."""
+    if value not in known:
+        choices = ", ".join(str(choice) for choice in known)
+        raise InputError(f"build: {name} = {value!r}, must be one of {choices}")
+
+
+def _require_gravity(gravity: float, dynamic: bool) -> None:
+    if not (math.isfinite(gravity) and gravity >= 0.0):
+        raise InputError(f"build: gravity = {gravity} m/s2, must not be below 0")
+    if gravity != 0.0 and not dynamic:
+        raise InputError(
+            f"build: gravity = {gravity} m/s2, must be 0 with scaled masses; use dynamic"
+        )

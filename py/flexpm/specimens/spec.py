@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a specimen is made from, as plain values that files can hold. SI units.
+
+Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import InputError
+from .checks import (
+    SHORT_EDGE,
+    require_diameters,
+    require_porosity,
+    require_positive,
+    require_seed,
+    require_short_edge,
+)
+
+#: Sizes of each shape and their defaults [m]: the paper's specimens, Sec. 4.1.
+SIZES: dict[str, dict[str, float]] = {
+    "rectangle": {"width": 0.08, "height": 0.16},
+    "disc": {"diameter": 0.08},
+    "polygon": {},
+}
+_ALL_SIZES = ("width", "height", "diameter")
+
+
+@dataclass(frozen=True)
+class SpecimenSpec:
+    """Shape, size and packing of a specimen, or checksums of what was given instead of a packing.
+
+    Attributes:
+        kind: ``rectangle``, ``disc`` or ``polygon``.
+        width: Of a rectangle [m]; if None its default, and None for another shape.
+        height: Of a rectangle, along the axis of the test [m]; None as for `width`.
+        diameter: Of a disc [m]; None as for `width`.
+        thickness: Out of plane [m].
+        diameters: Smallest and largest diameter of the packed discs [m]; None for given discs.
+        porosity: Sets the number of packed discs [-]; None for given discs.
+        seed: Of the packing; None for given discs.
+        short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
+        discs: Checksum of given discs; None for a packing.
+        outline: Checksum of the outline of given discs; None for a packing.
+        minerals: Checksum of given minerals of the grains; None if there are none.
+    """
+
+    kind: str = "rectangle"
+    width: float | None = None
+    height: float | None = None
+    diameter: float | None = None
+    thickness: float = 0.08
+    diameters: tuple[float, float] | None = (2e-3, 4e-3)
+    porosity: float | None = 0.10
+    seed: int | None = 1
+    short_edge: float = SHORT_EDGE
+    discs: str | None = None
+    outline: str | None = None
+    minerals: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind not in SIZES:
+            raise InputError(f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}")
+        where = f"Specimen.{self.kind}"
+        for name in _ALL_SIZES:
+            self._set(name, self._size(where, name))
+        require_positive(where, thickness=self.thickness)
+        self._set("thickness", float(self.thickness))
+        require_short_edge(self.short_edge)
+        self._set("short_edge", float(self.short_edge))
+        if self.discs is None:
+            self._check_packing(where)
+        elif not (self.diameters is None and self.porosity is None and self.seed is None):
+            raise InputError(
+                f"{where}: discs = {self.discs}, must not be given with diameters, porosity or a "
+                "seed, which make a packing; leave these out"
+            )
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """``width`` and ``height``, or ``diameter`` [m]; none of a polygon."""
+        return {name: getattr(self, name) for name in SIZES[self.kind]}
+
+    def _check_packing(self, where: str) -> None:
+        if self.kind == "polygon" or self.outline is not None:
+            raise InputError(f"{where}: discs are missing; only rectangles and discs are packed")
+        room = min(self.sizes.values())
+        self._set("diameters", require_diameters(where, self.diameters, room))
+        self._set("porosity", require_porosity(where, self.porosity))
+        self._set("seed", require_seed(where, self.seed))
+
+    def _size(self, where: str, name: str) -> float | None:
+        """A size that the shape has, or None."""
+        value = getattr(self, name)
+        if name not in SIZES[self.kind]:
+            if value is not None:
+                raise InputError(
+                    f"{name} = {value} m, must not be given for a {self.kind}; leave it out"
+                )
+            return None
+        if value is None:
+            value = SIZES[self.kind][name]
+        require_positive(where, **{name: value})
+        return float(value)
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)

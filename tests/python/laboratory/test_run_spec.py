@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inputs of a run: they read back from JSON, and their key follows what the run computes."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import flexpm
+from flexpm.errors import InputError
+from flexpm.laboratory import run_spec
+from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO
+from flexpm.laboratory.run_spec import ELASTIC, LOADINGS, TESTS, RunSpec, described
+from flexpm.materials import material as materials
+from flexpm.materials.keys import ELASTIC_SET
+from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
+from flexpm.models.sphere_laws import LAWS
+from flexpm.results.measures import PEAK_DROP
+from flexpm.specimens.spec import SpecimenSpec
+
+POSITIVE = st.floats(1e-6, 1e6)
+CHECKSUMS = st.text("0123456789abcdef", min_size=16, max_size=16)
+
+
+@st.composite
+def specimens(draw, kind: str) -> SpecimenSpec:
+    """Packed or given discs in an outline of a kind."""
+    sizes = {"rectangle": ("width", "height"), "disc": ("diameter",)}[kind]
+    values = {name: draw(st.floats(0.01, 1.0)) for name in sizes}
+    values["thickness"] = draw(POSITIVE)
+    values["short_edge"] = draw(st.floats(0.0, 0.4))
+    if draw(st.booleans()):
+        absent = dict.fromkeys(("diameters", "porosity", "seed"))
+        values |= absent | {"discs": draw(CHECKSUMS), "outline": draw(CHECKSUMS)}
+    else:
+        smallest = draw(st.floats(1e-4, 2e-3))
+        values["diameters"] = (smallest, smallest * draw(st.floats(1.0, 2.0)))
+        values["porosity"] = draw(st.floats(0.0, 0.9))
+        values["seed"] = draw(st.integers(0, 2**64 - 1))
+    values["minerals"] = draw(st.none() | CHECKSUMS)
+    return SpecimenSpec(kind, **values)
+
+
+@st.composite
+def specs(draw) -> RunSpec:
+    """Any run that can be asked for."""
+    test = draw(st.sampled_from((*TESTS, ELASTIC)))
+    model = draw(st.sampled_from(GRAIN_MODELS if test == ELASTIC else MODELS))
+    grains = model in GRAIN_MODELS
+    dynamic = draw(st.booleans())
+    cohesion = draw(st.floats(1e7, 3e7))
+    material = materials.load(None, model).with_set([f"cohesion={cohesion!r}"], model)
+    starts = ["", "rest"]
+    if model == "flexible" and test in ("uniaxial", "tension"):
+        starts.append("static")
+    adapts = grains and not dynamic and test != ELASTIC
+    return RunSpec(
+        test,
+        draw(specimens("disc" if test == "brazilian" else "rectangle")),
+        described(material, model),
+        model,
+        points=draw(st.sampled_from(POINTS)) if grains else 3,
+        mesh=draw(st.sampled_from(MESHES)) if grains else "refined",
+        confinement=draw(st.floats(0.0, 1e9)) if test == "biaxial" else 0.0,
+        rate=draw(POSITIVE),
+        max_strain=draw(st.none() | POSITIVE),
+        stop_ratio=draw(st.floats(0.01, LARGEST_STOP_RATIO)),
+        dynamic=dynamic,
+        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic else 0.0,
+        start=draw(st.sampled_from(starts)),
+        loading=draw(st.sampled_from(["", *LOADINGS] if adapts else ["", "constant"])),
+    )
+
+
+def plain(test: str = "uniaxial", **changes: Any) -> RunSpec:
+    kind = "disc" if test == "brazilian" else "rectangle"
+    return RunSpec(test, SpecimenSpec(kind), {"name": "rock", "cohesion": 3e7}, **changes)
+
+
+@given(specs())
+def test_inputs_read_back_from_json_unchanged(spec):
+    read = RunSpec.from_json(json.loads(json.dumps(spec.to_json())))
+    assert read == spec
+    assert (read.key(), read.to_json()) == (spec.key(), spec.to_json())
+
+
+@dataclasses.dataclass(frozen=True)
+class LaterSpecimen(SpecimenSpec):
+    """Inputs of a later version, which has learnt to heat."""
+
+    temperature: float = 20.0
+
+
+@dataclasses.dataclass(frozen=True)
+class LaterSpec(RunSpec):
+    """Inputs of a later version, which has learnt to wet."""
+
+    humidity: float = 0.3
+    path: str | None = None
+
+
+@given(specs())
+def test_a_new_option_leaves_all_keys_as_they_are(spec):
+    def fields(of: Any) -> dict[str, Any]:
+        return {field.name: getattr(of, field.name) for field in dataclasses.fields(of)}
+
+    specimen = LaterSpecimen(**fields(spec.specimen))
+    later = LaterSpec(**fields(spec) | {"specimen": specimen})
+    assert later.key() == spec.key()
+    assert dataclasses.replace(later, humidity=0.4).key() != spec.key()
+    warm = dataclasses.replace(specimen, temperature=80.0)
+    assert dataclasses.replace(later, specimen=warm).key() != spec.key()
+    # inputs that an earlier version has written have the new fields' defaults
+    assert LaterSpec.from_json(spec.to_json()).key() == spec.key()
+
+
+def test_a_new_property_of_materials_leaves_keys_as_they_are():
+    spec = plain()
+    later = dict(spec.material) | {"density": materials.Material.density, "dilation": None}
+    assert dataclasses.replace(spec, material=later).key() == spec.key()
+    heavier = dict(spec.material) | {"density": 2700.0}
+    assert dataclasses.replace(spec, material=heavier).key() != spec.key()
+
+
+def test_a_release_leaves_keys_as_they_are(monkeypatch):
+    before = plain().key()
+    monkeypatch.setattr(flexpm._version, "__version__", "17.0.0")
+    assert plain().key() == before
+
+
+def test_other_results_or_another_schema_change_keys(monkeypatch):
+    spec = plain()
+    before = spec.key()
+    monkeypatch.setattr(run_spec, "RESULTS", run_spec.RESULTS + 1)
+    assert spec.key() != before
+    assert spec.older_keys()[-1] == before
+    monkeypatch.setattr(run_spec, "RESULTS", run_spec.RESULTS - 1)
+    assert spec.key() == before
+    monkeypatch.setattr(run_spec, "SCHEMA", run_spec.SCHEMA + 1)
+    assert spec.key() != before
+
+
+def test_each_input_changes_the_key_but_a_name_does_not():
+    changed = [
+        plain("tension"),
+        plain(model="rigid"),
+        plain(points=2),
+        plain(mesh="fan"),
+        plain("biaxial"),
+        plain("biaxial", confinement=1e6),
+        plain(rate=2.0),
+        plain(max_strain=0.01),
+        plain(stop_ratio=0.8),
+        plain(dynamic=True),
+        plain(dynamic=True, gravity=9.81),
+        plain(start="static"),
+        plain(loading="constant"),
+        *(
+            dataclasses.replace(plain(), specimen=SpecimenSpec(**changes))
+            for changes in (
+                {"width": 0.04},
+                {"height": 0.08},
+                {"thickness": 0.04},
+                {"diameters": (2e-3, 3e-3)},
+                {"porosity": 0.2},
+                {"seed": 2},
+                {"short_edge": 0.0},
+                {"minerals": "0123456789abcdef"},
+            )
+        ),
+        dataclasses.replace(plain(), material={"name": "rock", "cohesion": 2e7}),
+    ]
+    keys = {spec.key() for spec in [plain(), *changed]}
+    assert len(keys) == 1 + len(changed)
+    renamed = dataclasses.replace(plain(), material={"name": "stone", "cohesion": 3e7})
+    assert renamed.key() == plain().key()
+
+
+def test_start_and_loading_follow_from_test_and_model():
+    assert (plain("tension").start, plain("tension", dynamic=True).start) == ("static", "rest")
+    assert (plain("uniaxial").start, plain("tension", model="rigid").start) == ("rest", "rest")
+    assert (plain().loading, plain(model="jcfpm").loading) == ("adaptive", "constant")
+    assert plain("tension", start="static").key() == plain("tension").key()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"test": "shear"}, "test = 'shear', must be one of uniaxial, "),
+        ({"model": "soft"}, "model = 'soft', must be one of"),
+        ({"test": ELASTIC, "model": "jcfpm"}, "model = 'jcfpm', must be one of flexible"),
+        ({"points": 4}, "points = 4, must be one of 1, 2, 3"),
+        ({"model": "jcfpm", "mesh": "fan"}, "mesh of model jcfpm = 'fan'"),
+        ({"rate": 0.0}, "rate = 0.0, must be above 0"),
+        ({"rate": "fast"}, "rate = 'fast', must be a number"),
+        ({"max_strain": float("nan")}, "max_strain = nan, must be above 0"),
+        ({"stop_ratio": 0.95}, "stop_ratio = 0.95, must be above 0 and at most 0.9"),
+        ({"confinement": -1.0}, "confinement = -1.0 Pa, must not be below 0"),
+        ({"confinement": 1e6}, "must be 0 for uniaxial; use biaxial"),
+        ({"gravity": 9.81}, "must be 0 with scaled masses; use dynamic"),
+        ({"start": "moving"}, "start = 'moving', must be one of rest, static"),
+        ({"start": "static", "model": "rigid"}, "start = static, must be rest"),
+        ({"loading": "fast"}, "loading = 'fast', must be one of constant, adaptive"),
+        ({"loading": "adaptive", "dynamic": True}, "must be constant for model flexible with real"),
+    ],
+)
+def test_inputs_out_of_range_are_refused_in_one_line(changes, message):
+    changes = dict(changes)
+    with pytest.raises(InputError) as caught:
+        plain(changes.pop("test", "uniaxial"), **changes)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_test_wants_its_shape():
+    with pytest.raises(InputError, match="specimen = disc, must be a rectangle for uniaxial"):
+        RunSpec("uniaxial", SpecimenSpec("disc"), {})
+    with pytest.raises(InputError, match=r"width = 0.1 m, must not be given for a disc"):
+        SpecimenSpec("disc", width=0.1)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ({}, "inputs test is missing"),
+        ({"test": "uniaxial", "specimen": {}, "material": {}, "pace": "slow"}, "inputs = 'pace'"),
+        ({"test": "uniaxial", "specimen": {"with": 1}, "material": {}}, "did you mean width"),
+        ({"test": "uniaxial", "specimen": 3, "material": {}}, "must be fields by name"),
+    ],
+)
+def test_json_that_is_no_run_is_refused_in_one_line(content, message):
+    with pytest.raises(InputError) as caught:
+        RunSpec.from_json(content)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_names_of_the_models_are_those_of_their_laws_and_elastic_sets():
+    assert tuple(LAWS) == SPHERE_MODELS
+    assert set(MODELS) == set(ELASTIC_SET)
+
+
+def test_the_stress_may_fall_as_far_as_a_peak_needs():
+    assert LARGEST_STOP_RATIO == 1.0 - PEAK_DROP

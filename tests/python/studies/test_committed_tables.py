@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of runs in the repository: the key of each row follows from its inputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas
+import pytest
+
+from flexpm.laboratory.run_spec import OPTIONS
+from flexpm.studies import jobs, study
+
+SCRIPTS = Path(__file__).parents[3] / "scripts"
+TABLES = [
+    path
+    for path in sorted([*SCRIPTS.glob("paper/results/*.csv"), *SCRIPTS.glob("studies/*.csv")])
+    if path.read_text().startswith("key,")
+]
+
+
+def inputs_of(rows: pandas.DataFrame) -> list[dict]:
+    """What each row's run was asked for: the cells that are not empty."""
+    names = ["test", "material", *OPTIONS, *(name for name in rows if name.startswith("set."))]
+    present = rows[[name for name in names if name in rows]].astype(object)
+    return [row.dropna().to_dict() for _, row in present.iterrows()]
+
+
+def test_the_tables_of_all_studies_are_there():
+    assert len(TABLES) == 9
+
+
+@pytest.mark.parametrize("path", TABLES, ids=lambda path: path.stem)
+def test_each_rows_key_follows_from_its_inputs(path):
+    rows = pandas.read_csv(path)
+    assert rows["key"].is_unique
+    for key, inputs in zip(rows["key"], inputs_of(rows), strict=True):
+        job = jobs.make(inputs, path.parent)
+        assert key in (job.key, *job.spec.older_keys())
+
+
+@pytest.mark.parametrize("path", TABLES, ids=lambda path: path.stem)
+def test_a_study_finds_all_its_runs_in_its_table(path):
+    folder = SCRIPTS / "paper" if path.parent.name == "results" else path.parent
+    wanted = study.read(folder / f"{path.stem}.toml").jobs
+    found = set(pandas.read_csv(path)["key"])
+    waiting = [job for job in wanted if job.key not in found]
+    # results of an older number are run again, and said so
+    assert bool(waiting) == bool(jobs.outdated(waiting, found.__contains__))
+    assert len(found) == len(wanted)
