@@ -10,9 +10,9 @@ rigid grains, compression of inner particles, tension of YADE's two models and a
 Each column of curve.csv and cracks.csv has a hash of its numbers: a file's layout may change, and a
 renamed column is renamed in reference.json.
 
-The check only detects change; that results are right is shown by the other tests. Wanted changes
-raise the results number of the run's inputs, by which finished runs are told from outdated ones:
---renew refuses other hashes under the same number.
+The check only detects change; that results are right is shown by the other tests. A wanted change
+raises the results number of its test and model, by which finished runs are told from outdated ones
+(flexpm.laboratory.run_spec): --renew refuses other hashes under the same number.
 """
 
 from __future__ import annotations
@@ -55,6 +55,8 @@ seed = 1
 [grid]
 "set.cohesion" = [2e7, 3e7]
 """
+#: Test and model of the study's runs.
+STUDY_KIND = ("tension", "flexible")
 
 
 def main(arguments: list[str]) -> int:
@@ -66,7 +68,7 @@ def main(arguments: list[str]) -> int:
     package = (Path(folders[0]) if folders else ROOT / "build").resolve() / "python"
     if not (package / "flexpm").is_dir():
         return _fail(f"{package}/flexpm = missing; build first (scripts/setup)")
-    sets, number = ["default"], 1
+    sets = ["default"]
     work = Path(tempfile.mkdtemp(prefix="flexpm-reference-"))
     jobs = [(test, model, name) for name in sets for test, model in RUNS]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -78,10 +80,11 @@ def main(arguments: list[str]) -> int:
         if differing := _differing(first, hashes):
             failed = _fail(f"{test} {model} = other {differing} with {name} than with {sets[0]}")
     found |= _study(package, work)
+    numbers = _numbers(package, list(found))
     if failed == 0:
         shutil.rmtree(work)
     print(f"reference: {len(found)} runs, instruction sets {', '.join(sets)}")
-    return failed or (_renew if "--renew" in arguments else _compare)(number, found)
+    return failed or (_renew if "--renew" in arguments else _compare)(numbers, found)
 
 
 def _run(package: Path, work: Path, test: str, model: str, instruction_set: str) -> dict[str, str]:
@@ -125,36 +128,46 @@ def _canonical(cell: str) -> str:
         return cell
 
 
-def _compare(number: int, found: dict[str, dict[str, str]]) -> int:
+def _numbers(package: Path, names: list[str]) -> dict[str, int]:
+    """Results number of each run."""
+    kinds = [STUDY_KIND if name.startswith("study") else tuple(name.split()) for name in names]
+    script = "from flexpm.laboratory.run_spec import results_number\n"
+    script += f"print(*(results_number(*kind) for kind in {kinds}))"
+    done = _child(package, [PYTHON, "-P", "-c", script])
+    if done.returncode != 0:
+        sys.exit(_fail(f"results numbers = exit code {done.returncode}: {done.stderr}"))
+    return dict(zip(names, map(int, done.stdout.split()), strict=True))
+
+
+def _compare(numbers: dict[str, int], found: dict[str, dict[str, str]]) -> int:
     reference = json.loads(REFERENCE.read_text(encoding="utf-8"))
     failed = 0
-    if number != reference["results"]:
-        failed = _fail(
-            f"results number = {number}, must be {reference['results']} of the reference; "
-            "renew it (--renew) in the commit that changes the number"
-        )
-    for run in {**reference["hashes"], **found}:
-        before, now = reference["hashes"].get(run, {}), found.get(run, {})
-        if differing := _differing(before, now):
+    for run in {**reference, **found}:
+        before = reference.get(run, {"results": None, "hashes": {}})
+        if numbers.get(run) != before["results"]:
+            failed = _fail(
+                f"{run} has results number {numbers.get(run)}, must be {before['results']} of the "
+                "reference; renew it (--renew) in the commit that changes the number"
+            )
+        if differing := _differing(before["hashes"], found.get(run, {})):
             failed = _fail(
                 f"{run} = other {differing}; find out why, or, if it is wanted, raise the results "
-                "number and renew the reference (--renew)"
+                "number of its test and model and renew the reference (--renew)"
             )
     if not failed:
         print("reference: no change")
     return failed
 
 
-def _renew(number: int, found: dict[str, dict[str, str]]) -> int:
-    if REFERENCE.exists():
-        before = json.loads(REFERENCE.read_text(encoding="utf-8"))
-        changed = [run for run in before["hashes"] if _differing(before["hashes"][run], found[run])]
-        if changed and number <= before["results"]:
+def _renew(numbers: dict[str, int], found: dict[str, dict[str, str]]) -> int:
+    reference = json.loads(REFERENCE.read_text(encoding="utf-8")) if REFERENCE.exists() else {}
+    for run, before in reference.items():
+        if _differing(before["hashes"], found.get(run, {})) and numbers[run] <= before["results"]:
             return _fail(
-                f"results number = {number}, must be above {before['results']}, as "
-                f"{', '.join(changed)} changed; raise it in flexpm.laboratory.run_spec"
+                f"{run} has results number {numbers[run]}, must be above {before['results']}, "
+                "since its hashes changed; raise it in flexpm.laboratory.run_spec"
             )
-    content = {"results": number, "hashes": found}
+    content = {run: {"results": numbers[run], "hashes": found[run]} for run in found}
     REFERENCE.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
     print(f"reference: wrote {REFERENCE}")
     return 0

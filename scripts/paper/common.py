@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -80,10 +80,20 @@ def results(
         known = known.drop_duplicates("key")
         if chosen.keep:
             RESULTS.mkdir(exist_ok=True)
-            known.to_csv(table, index=False)
-    order = {job.key: number for number, job in enumerate(plan.jobs)}
+            _in_order(known, plan.jobs).to_csv(table, index=False)
+    return _in_order(known, plan.jobs), folder
+
+
+def _in_order(known: pandas.DataFrame, wanted: Sequence[jobs.Job]) -> pandas.DataFrame:
+    """Row of each run; one of an older results number stands in for a run not done again yet."""
+    there = set(known["key"])
+    keys = [
+        next((key for key in (job.key, *reversed(job.spec.older_keys())) if key in there), None)
+        for job in wanted
+    ]
+    order = {key: number for number, key in enumerate(keys) if key is not None}
     found = known[known["key"].isin(order)]
-    return found.sort_values("key", key=lambda names: names.map(order)), folder
+    return found.sort_values("key", key=lambda names: names.map(order))
 
 
 def macroscopic(rows: pandas.DataFrame, by: list[str]) -> pandas.DataFrame:

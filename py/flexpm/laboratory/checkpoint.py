@@ -19,7 +19,7 @@ import yade
 from .._version import __version__
 from ..errors import InputError
 from ..files import json_text, whole_file, write_text
-from .run_spec import RESULTS, RunSpec
+from .run_spec import RunSpec
 
 #: Wall time between two checkpoints [s].
 INTERVAL = 30.0
@@ -52,7 +52,7 @@ class Checkpoint:
         if not interval > 0.0:
             raise InputError(f"run: checkpoint_interval = {interval} s, must be above 0")
         self._folder, self._interval = folder, interval
-        self._made = _versions() | {"inputs": spec.to_json()}
+        self._made = _versions(spec) | {"inputs": spec.to_json()}
         self._saved = time.monotonic()
         self._scene: Path | None = None
         self.stage, self.stage_start = 0, 0
@@ -131,9 +131,9 @@ class Checkpoint:
                         other.unlink()
 
 
-def _versions() -> dict[str, Any]:
+def _versions(spec: RunSpec) -> dict[str, Any]:
     """What a scene depends on beside the inputs of its run."""
-    return {"flexpm": __version__, "yade": yade.config.version, "results": RESULTS}
+    return {"flexpm": __version__, "yade": yade.config.version, "results": spec.results}
 
 
 def _flat(made: Mapping[str, Any]) -> dict[str, Any]:

@@ -25,9 +25,10 @@ from .loading_rate import LARGEST_STOP_RATIO, STOP_RATIO
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
 SCHEMA = 1
-#: Number of the results. A commit that changes a hash of the reference commands raises it
-#: (scripts/checks/reference.py); runs that were finished before get other keys and are done again.
-RESULTS = 1
+#: Numbers of the results by test and model; 1 for those that have never changed. A commit that
+#: changes a hash of a reference command (scripts/checks/reference.py) raises the number of its test
+#: and model; runs of these that were finished before get other keys and are done again.
+RESULTS: dict[tuple[str, str], int] = {}
 
 #: Tests that are simulated.
 TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
@@ -156,6 +157,11 @@ class RunSpec:
         content: dict[str, Any] = json.loads(json.dumps(asdict(self), allow_nan=False))
         return content
 
+    @property
+    def results(self) -> int:
+        """Number of the results, see ``results_number``."""
+        return results_number(self.test, self.model)
+
     def key(self, results: int | None = None) -> str:
         """Name of the run: a short hash of what differs from the defaults.
 
@@ -163,11 +169,11 @@ class RunSpec:
         an option that did not exist counts.
 
         Args:
-            results: Number of the results; None for ``RESULTS``.
+            results: Number of the results; None for the present one.
         """
         content = {
             "schema": SCHEMA,
-            "results": RESULTS if results is None else results,
+            "results": self.results if results is None else results,
             **_changes(self),
             "specimen": _changes(self.specimen),
             "material": _material_changes(self.material),
@@ -177,7 +183,7 @@ class RunSpec:
 
     def older_keys(self) -> list[str]:
         """Keys that the run had under earlier numbers of the results."""
-        return [self.key(number) for number in range(1, RESULTS)]
+        return [self.key(number) for number in range(1, self.results)]
 
     def _check_numbers(self) -> None:
         self._set("rate", _positive("rate", self.rate))
@@ -234,6 +240,11 @@ class RunSpec:
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
+
+
+def results_number(test: str, model: str) -> int:
+    """Number that tells results of a test and model from those before they changed."""
+    return RESULTS.get((test, model), 1)
 
 
 def shape_of(test: str) -> str:

@@ -114,10 +114,7 @@ def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
     count = sum(any(map(done, job.spec.older_keys())) for job in waiting)
     if not count:
         return ""
-    return (
-        f"{count} finished runs are of an older results number than {run_spec.RESULTS} and are "
-        "run again"
-    )
+    return f"{count} finished runs are of an older results number and are run again"
 
 
 def discard_foreign_checkpoint(folder: Path) -> None:

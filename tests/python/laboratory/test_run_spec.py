@@ -136,10 +136,13 @@ def test_a_release_leaves_keys_as_they_are(monkeypatch):
 def test_other_results_or_another_schema_change_keys(monkeypatch):
     spec = plain()
     before = spec.key()
-    monkeypatch.setattr(run_spec, "RESULTS", run_spec.RESULTS + 1)
+    other = (spec.test, "rigid")
+    monkeypatch.setitem(run_spec.RESULTS, other, run_spec.results_number(*other) + 1)
+    assert spec.key() == before
+    monkeypatch.setitem(run_spec.RESULTS, (spec.test, spec.model), spec.results + 1)
     assert spec.key() != before
     assert spec.older_keys()[-1] == before
-    monkeypatch.setattr(run_spec, "RESULTS", run_spec.RESULTS - 1)
+    monkeypatch.undo()
     assert spec.key() == before
     monkeypatch.setattr(run_spec, "SCHEMA", run_spec.SCHEMA + 1)
     assert spec.key() != before
