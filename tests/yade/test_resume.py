@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import flexpm
+from flexpm.laboratory import checkpoint
 from flexpm.laboratory.checkpoint import Checkpoint
 from flexpm.laboratory.run_spec import RunSpec
 from flexpm.models.options import SPHERE_MODELS
@@ -169,6 +170,13 @@ def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
     other = flexpm.Specimen.rectangle(**{**SIZE, "seed": 2})
     with pytest.raises(flexpm.InputError, match="seed = 1 there, 2 here"):
         flexpm.run("tension", other, rate=4.0, out=tmp_path)
+
+
+def test_a_checkpoint_of_another_version_is_refused(small, tmp_path, monkeypatch):
+    flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
+    monkeypatch.setattr(checkpoint, "__version__", "17.0")
+    with pytest.raises(flexpm.InputError, match=r"flexpm = \S+ there, 17.0 here"):
+        flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
 
 
 @pytest.mark.long

@@ -38,13 +38,13 @@ class Pool:
         self._scheduler, self._kind = scheduler, cluster
         self._client: Any = None
         self._cluster: Any = None
+        self._told = False
 
     def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[dict[str, Any]]:
         """Outcomes of jobs in their order; those that have ended before are not run again."""
         outcomes = {job.key: jobs.known(self._folder / job.key) for job in wanted}
         waiting = [job for job in wanted if outcomes[job.key] is None]
-        if line := jobs.outdated(waiting, lambda key: jobs.known(self._folder / key) is not None):
-            _LOG.warning("flexpm: %s", line)
+        self._tell_outdated(waiting)
         report = progress or _silent
         done, failed = len(wanted) - len(waiting), 0
         report(done, len(wanted), "runs")
@@ -54,6 +54,13 @@ class Pool:
             done, failed = done + 1, failed + (outcome["exit_code"] != 0)
             report(done, len(wanted), f"runs, {failed} failed" if failed else "runs")
         return [outcomes[job.key] for job in wanted]
+
+    def _tell_outdated(self, waiting: Sequence[Job]) -> None:
+        """Say once that there are finished runs of an older results number."""
+        line = jobs.outdated(waiting, lambda key: jobs.known(self._folder / key) is not None)
+        if line and not self._told:
+            self._told = True
+            _LOG.warning("flexpm: %s", line)
 
     def _ended(self, waiting: Sequence[Job]) -> Iterator[tuple[Job, Any]]:
         """Jobs with the processes they were, or the error of a worker, as they end."""

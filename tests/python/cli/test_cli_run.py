@@ -9,9 +9,11 @@ import pytest
 from matplotlib.image import imread
 from sample_snapshot import read_vtu
 
+import flexpm
 from flexpm.cli import main as cli
 from flexpm.results import measures
 from flexpm.results.record import COLUMNS, Curve
+from flexpm.studies import jobs
 
 SMALL = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01", "--quiet"]
 
@@ -76,6 +78,28 @@ def test_a_run_that_passes_no_peak_is_exit_code_3_with_its_files(capsys, tmp_pat
     result = json.loads((folder / "result.json").read_text())
     assert (result["status"], result["peak_stress"]) == ("no_peak", None)
     assert result["youngs_modulus"] == pytest.approx(24.4e9, rel=0.05)
+
+
+def test_python_the_command_and_a_study_describe_a_run_alike(tmp_path):
+    arguments = ["tension", *SMALL, "--max-strain", "1e-5", "--out", str(tmp_path)]
+    assert cli.main(["run", *arguments]) == 3
+    specimen = flexpm.Specimen.rectangle(0.016, 0.032, 0.01)
+    expected = flexpm.run("tension", specimen, max_strain=1e-5).inputs
+    sizes = {"width": 0.016, "height": 0.032, "thickness": 0.01}
+    job = jobs.make({"test": "tension", "max_strain": 1e-5, **sizes}, tmp_path)
+    assert job.spec.to_json() == expected
+    for name in ("result.json", "checkpoint.json"):
+        assert json.loads((tmp_path / name).read_text())["inputs"] == expected
+    assert (expected["start"], expected["specimen"]["seed"]) == ("static", 1)
+
+
+def test_the_elastic_solve_names_its_inputs(tmp_path):
+    assert cli.main(["elastic", *SMALL, "--points", "2", "--out", str(tmp_path)]) == 0
+    found = json.loads((tmp_path / "result.json").read_text())
+    sizes = {"width": 0.016, "height": 0.032, "thickness": 0.01}
+    job = jobs.make({"test": "elastic", "points": 2, **sizes}, tmp_path)
+    assert found["inputs"] == job.spec.to_json()
+    assert found["material"] == found["inputs"]["material"]
 
 
 def test_elastic_prints_the_constants(capsys):

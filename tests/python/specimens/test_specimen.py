@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Specimens: the paper's counts, cells that tile the outline, explicit discs, refused input."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -9,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from flexpm.errors import InputError
+from flexpm.specimens.spec import SpecimenSpec
 from flexpm.specimens.specimen import SHORT_EDGE, Circle, Specimen
 
 SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
@@ -267,3 +269,32 @@ def test_an_unknown_mesh_is_refused():
     specimen = Specimen.from_discs([(0.4, 0.5)], [0.3], SQUARE, 1.0)
     with pytest.raises(InputError, match="mesh = coarse"):
         specimen.meshes("coarse")
+
+
+def test_a_specimen_is_made_again_from_its_description():
+    packed = Specimen.disc(0.02, 0.01, (1e-3, 2e-3), seed=np.int64(7))
+    again = Specimen.pack(packed.spec)
+    assert np.array_equal(again.discs, packed.discs)
+    assert packed.spec == SpecimenSpec(
+        "disc", diameter=0.02, thickness=0.01, diameters=(1e-3, 2e-3), seed=7
+    )
+    with pytest.raises(InputError, match="largest diameter"):
+        SpecimenSpec(width=0.004)
+    with pytest.raises(InputError, match="porosity = 1.0, must be >= 0 and < 1"):
+        SpecimenSpec(porosity=1.0)
+
+
+def test_given_discs_and_minerals_are_described_by_checksums():
+    def given(shift):
+        centres = [[0.25 + shift, 0.5], [0.75, 0.5]]
+        return Specimen.from_discs(centres, [0.2, 0.2], SQUARE, 0.1)
+
+    first, same, other = given(0.0).spec, given(0.0).spec, given(1e-9).spec
+    assert first == same
+    assert (first.outline, first.seed, first.width) == (other.outline, None, 1.0)
+    assert first.discs != other.discs
+    with pytest.raises(InputError, match="cannot be packed; use from_discs"):
+        Specimen.pack(first)
+    mixed = given(0.0).with_minerals([0, 1]).spec
+    assert mixed.minerals != given(0.0).with_minerals([1, 0]).spec.minerals
+    assert dataclasses.replace(mixed, minerals=None) == first

@@ -19,9 +19,12 @@ from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.image import imread
 
+from flexpm._version import __version__
+from flexpm.cli import inputs, main
 from flexpm.errors import InputError
+from flexpm.laboratory import run_spec
 from flexpm.studies import figures as study_plot
-from flexpm.studies import jobs, study, tables
+from flexpm.studies import jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
 SMALL = "width = 0.01\nheight = 0.02\nthickness = 0.01\n"
@@ -157,6 +160,49 @@ def test_the_outcome_of_an_interrupted_run_is_not_kept(tmp_path):
     assert jobs.conclude(job, tmp_path, OSError("lost"))["exit_code"] is None
     (tmp_path / "0" / "outcome.json").write_text('{"cut')
     assert jobs.known(tmp_path / "0") is None
+
+
+def test_results_of_an_older_number_are_named_once_and_run_again(tmp_path, monkeypatch, caplog):
+    wanted = [jobs.make({"test": "uniaxial", "seed": seed}, tmp_path) for seed in (1, 2, 3)]
+    for job in wanted[:2]:
+        jobs.conclude(job, tmp_path / job.key, subprocess.CompletedProcess([], 0, "", ""))
+    ran = []
+    monkeypatch.setattr(pool.Pool, "_ended", lambda self, waiting: ran.append(waiting) or [])
+    kept = pool.Pool(tmp_path)
+    kept.run(wanted)
+    assert ran.pop() == wanted[2:] and caplog.messages == []
+    number = run_spec.results_number("uniaxial", "flexible")
+    monkeypatch.setitem(run_spec.RESULTS, ("uniaxial", "flexible"), number + 1)
+    for _ in range(2):
+        kept.run(wanted)
+        assert ran.pop() == wanted
+    assert len(caplog.messages) == 1
+    assert "2 finished runs are of an older results number and are run again" in caplog.messages[0]
+
+
+def test_a_checkpoint_of_another_version_is_no_use_to_a_job(tmp_path):
+    scene = tmp_path / "checkpoint-7.bin"
+    for version, kept in ((__version__, True), ("0.0.1", False)):
+        scene.write_bytes(b"scene")
+        (tmp_path / "checkpoint.json").write_text(json.dumps({"flexpm": version}))
+        jobs.discard_foreign_checkpoint(tmp_path)
+        assert (scene.exists(), (tmp_path / "checkpoint.json").exists()) == (kept, kept)
+    jobs.discard_foreign_checkpoint(tmp_path)
+
+
+def test_a_job_asks_for_what_its_inputs_are(tmp_path):
+    """The command reads the arguments of a job back to the same run."""
+    asked = {"test": "biaxial", "model": "rigid", "confinement": 2e6, "set.cohesion": 3e7 + 0.1}
+    asked |= {"diameters": [1e-3, 2e-3], "dynamic": True, "gravity": 9.81, "points": 2, "rate": 2}
+    job = jobs.make(asked, tmp_path)
+    assert job.arguments[:2] == ("run", "biaxial")
+    context = main.command.commands["run"].make_context("run", list(job.arguments[1:]))
+    with context:
+        material = inputs.material(context.params)
+        assert inputs.run_spec("biaxial", context.params, material) == job.spec
+    names = {option.name for option in main.command.commands["run"].params}
+    inert = {"test", "assignments", "out", "quiet", "threads"}
+    assert names - inert == {*run_spec.OPTIONS, "material"}
 
 
 def made_up(folder: Path, **inputs) -> tuple[jobs.Job, dict]:
