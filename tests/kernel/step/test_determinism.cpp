@@ -5,7 +5,6 @@
 #include <flexpm/kernel/forces/prefetch.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 
-#include "support/baseline_step.hpp"
 #include "support/same_bits.hpp"
 
 using namespace driven;
@@ -89,18 +88,6 @@ TEST_CASE("A run continued from the listed state gives the same bits")
         flexpm::step(second, o);
     }
     CHECK(same_bits::difference(whole, second).empty());
-}
-
-TEST_CASE("The instruction set of this machine gives the bits of the plainest one")
-{
-    Assembly baseline = same_bits::breaking();
-    flexpm::StepOptions o;
-    for (int i = 0; i < steps; ++i) {
-        o.measure = i % 10 == 0;
-        flexpm::baseline_step(baseline, o);
-    }
-    CHECK(baseline.step == steps);
-    CHECK(same_bits::difference(stepped(1), baseline).empty());
 }
 
 TEST_CASE("A difference of one bit is seen")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
 
 namespace flexpm {
 
@@ -16,14 +17,14 @@ struct LawRows {
     void fill(const Assembly& a, int block);
 };
 
-__attribute__((always_inline)) inline LawParameters law_of(const double* rows, int lane)
+FLEXPM_INLINE LawParameters law_of(const double* rows, int lane)
 {
     const double* r = rows + lane;
     return { r[0 * lanes], r[1 * lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes],
         r[6 * lanes], r[7 * lanes], r[8 * lanes], r[9 * lanes] };
 }
 
-__attribute__((always_inline)) inline PointState load_state(const double* rows, int lane)
+FLEXPM_INLINE PointState load_state(const double* rows, int lane)
 {
     const double* r = rows + lane;
     return { r[0], r[lanes], r[2 * lanes], r[3 * lanes], r[4 * lanes], r[5 * lanes], r[6 * lanes] };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
 
 namespace flexpm {
 
@@ -28,26 +29,25 @@ struct TriangleNodes {
     int n0, n1, n2;
 };
 
-__attribute__((always_inline)) inline TriangleNodes nodes_of(const TriangleRows& b, int t)
+FLEXPM_INLINE TriangleNodes nodes_of(const TriangleRows& b, int t)
 {
     const int* n = b.connectivity + 3 * t;
     return { 2 * lanes * n[0], 2 * lanes * n[1], 2 * lanes * n[2] };
 }
 
-__attribute__((always_inline)) inline TriangleShape shape_of(const TriangleRows& b, int t, int lane)
+FLEXPM_INLINE TriangleShape shape_of(const TriangleRows& b, int t, int lane)
 {
     const double* s = b.shape + 5 * lanes * t + lane;
     return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes] };
 }
 
-__attribute__((always_inline)) inline PlaneStiffness stiffness_of(const TriangleRows& b, int lane)
+FLEXPM_INLINE PlaneStiffness stiffness_of(const TriangleRows& b, int lane)
 {
     const double* c = b.stiffness + lane;
     return { c[0], c[lanes], c[2 * lanes] };
 }
 
-__attribute__((always_inline)) inline Point displacement_of(
-    const TriangleRows& b, int node, int lane)
+FLEXPM_INLINE Point displacement_of(const TriangleRows& b, int node, int lane)
 {
     return { b.displacement[node + lane], b.displacement[node + lanes + lane] };
 }

@@ -3,6 +3,7 @@
 /// Tension positive.
 #pragma once
 
+#include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/vector.hpp>
 #include <flexpm/kernel/law/elastic.hpp>
 
@@ -23,8 +24,7 @@ struct Gradient {
 };
 
 /// From the displacements of the three nodes [m]: small strains keep all their digits.
-__attribute__((always_inline)) inline Gradient displacement_gradient(
-    const TriangleShape& s, Point u0, Point u1, Point u2)
+FLEXPM_INLINE Gradient displacement_gradient(const TriangleShape& s, Point u0, Point u1, Point u2)
 {
     const double ax = u1.x - u0.x, ay = u1.y - u0.y;
     const double bx = u2.x - u0.x, by = u2.y - u0.y;
@@ -33,14 +33,14 @@ __attribute__((always_inline)) inline Gradient displacement_gradient(
 }
 
 /// Green-Lagrange strain [-].
-__attribute__((always_inline)) inline Tensor green_strain(const Gradient& h)
+FLEXPM_INLINE Tensor green_strain(const Gradient& h)
 {
     return { h.xx + 0.5 * (h.xx * h.xx + h.yx * h.yx), h.yy + 0.5 * (h.xy * h.xy + h.yy * h.yy),
         0.5 * (h.xy + h.yx + h.xx * h.xy + h.yx * h.yy) };
 }
 
 /// First Piola-Kirchhoff stress (I + H) S [Pa].
-__attribute__((always_inline)) inline Gradient first_stress(const Gradient& h, const Tensor& p)
+FLEXPM_INLINE Gradient first_stress(const Gradient& h, const Tensor& p)
 {
     return { p.xx + h.xx * p.xx + h.xy * p.xy, p.xy + h.xx * p.xy + h.xy * p.yy,
         p.xy + h.yx * p.xx + h.yy * p.xy, p.yy + h.yx * p.xy + h.yy * p.yy };
@@ -52,7 +52,7 @@ struct TriangleForces {
 };
 
 /// @param u0, u1, u2  displacements of the nodes [m]
-__attribute__((always_inline)) inline TriangleForces triangle_forces(
+FLEXPM_INLINE TriangleForces triangle_forces(
     const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
 {
     const Gradient h = displacement_gradient(s, u0, u1, u2);
@@ -62,7 +62,7 @@ __attribute__((always_inline)) inline TriangleForces triangle_forces(
 }
 
 /// Strain energy of the triangle [J].
-__attribute__((always_inline)) inline double triangle_energy(
+FLEXPM_INLINE double triangle_energy(
     const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)
 {
     const Tensor e = green_strain(displacement_gradient(s, u0, u1, u2));

@@ -3,6 +3,8 @@
 #include <flexpm/kernel/forces/contact_forces.hpp>
 
 #include <flexpm/kernel/assembly/contact_rows.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/simd.hpp>
 #include <flexpm/kernel/forces/contact_kinematics.hpp>
 #include <flexpm/kernel/forces/crack_record.hpp>
@@ -14,7 +16,7 @@ namespace {
 constexpr int blocks_ahead = 2;  ///< rows, which follow each other
 constexpr int nodes_ahead = 6;   ///< blocks whose nodes lie anywhere
 
-__attribute__((always_inline)) inline void store_state(const PointState& s, double* rows, int lane)
+FLEXPM_INLINE void store_state(const PointState& s, double* rows, int lane)
 {
     double* r = rows + lane;
     r[0] = s.opening;
@@ -27,10 +29,10 @@ __attribute__((always_inline)) inline void store_state(const PointState& s, doub
 }
 
 /// No point of the block has any damage: true of most blocks.
-template <int Points> __attribute__((always_inline)) inline bool is_intact(const ContactLanes& b)
+template <int Points> FLEXPM_INLINE bool is_intact(const ContactLanes& b)
 {
     alignas(64) std::int64_t damaged[lanes];
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         double opened = 0.0, sheared = 0.0;
         for (int p = 0; p < Points; ++p) {
@@ -51,11 +53,11 @@ struct TractionRows {
 
 /// Slides the points that leave their branch, which shear has used up: `next` holds what an elastic
 /// step would have made of all.
-__attribute__((always_inline)) inline void slide_lanes(
+FLEXPM_INLINE void slide_lanes(
     const ContactLanes& b, int p, const std::int64_t* leaves, double* next, TractionRows traction)
 {
     double* state = b.state + p * ContactRows::state * lanes;
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const PointState s = load_state(state, l);
         const Sliding slide = slide_used_up(
@@ -70,13 +72,13 @@ __attribute__((always_inline)) inline void slide_lanes(
 /// Advances a point of each contact if all stay on their branches or only friction holds them;
 /// otherwise changes no state.
 template <bool Intact>
-__attribute__((always_inline)) inline bool advance_elastic_lanes(
+FLEXPM_INLINE bool advance_elastic_lanes(
     const ContactLanes& b, const PointMotion& motion, int p, TractionRows traction)
 {
     double* state = b.state + p * ContactRows::state * lanes;
     alignas(64) std::int64_t leaves[lanes], needs_law[lanes];
     alignas(64) double next[4 * lanes];  // the members of a state that an elastic step changes
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s;
         Traction t;
@@ -102,12 +104,12 @@ __attribute__((always_inline)) inline bool advance_elastic_lanes(
 }
 
 /// Advances a point of each contact. Returns the lanes that cracked in this step.
-__attribute__((always_inline)) inline int advance_lanes(const ContactLanes& b,
-    const PointMotion& motion, int p, TractionRows traction, std::uint8_t* cracked)
+FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion, int p,
+    TractionRows traction, std::uint8_t* cracked)
 {
     double* state = b.state + p * ContactRows::state * lanes;
     alignas(64) double fresh[lanes];
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s = load_state(state, l);
         const Traction t = advance_point(
@@ -127,8 +129,8 @@ __attribute__((always_inline)) inline int advance_lanes(const ContactLanes& b,
 
 /// Returns the lanes, summed over points, that cracked in this step; `cracked` holds zeros before.
 template <int Points, bool Intact>
-__attribute__((always_inline)) inline int advance_points(const ContactLanes& b,
-    const PointMotion& motion, double* normal, double* shear, std::uint8_t* cracked)
+FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motion, double* normal,
+    double* shear, std::uint8_t* cracked)
 {
     int cracks = 0;
     for (int p = 0; p < Points; ++p) {
@@ -144,8 +146,7 @@ __attribute__((always_inline)) inline int advance_points(const ContactLanes& b,
 }
 
 template <int Points, bool Whole, bool Wide>
-__attribute__((always_inline)) inline int update_lanes(
-    const ContactLanes& b, double dt, std::uint8_t* cracked)
+FLEXPM_INLINE int update_lanes(const ContactLanes& b, double dt, std::uint8_t* cracked)
 {
     PointMotion motion;
     // two calls, not one through a pointer: only a direct call is compiled for each instruction set
@@ -165,15 +166,19 @@ __attribute__((always_inline)) inline int update_lanes(
     return cracks;
 }
 
-FLEXPM_MULTIVERSION_WIDE(int update_1(const ContactLanes& b, double dt, std::uint8_t* cracked),
-                         return update_lanes<1, false, Wide>(b, dt, cracked);)
+template <int Points, bool Wide>
+FLEXPM_INLINE int update_block(const ContactLanes& b, double dt, std::uint8_t* cracked)
+{
+    if constexpr (Points == 3) {
+        if (b.whole_edges) return update_lanes<3, true, Wide>(b, dt, cracked);
+    }
+    return update_lanes<Points, false, Wide>(b, dt, cracked);
+}
 
-FLEXPM_MULTIVERSION_WIDE(int update_2(const ContactLanes& b, double dt, std::uint8_t* cracked),
-                         return update_lanes<2, false, Wide>(b, dt, cracked);)
-
-FLEXPM_MULTIVERSION_WIDE(int update_3(const ContactLanes& b, double dt, std::uint8_t* cracked),
-                         return b.whole_edges ? update_lanes<3, true, Wide>(b, dt, cracked)
-                                              : update_lanes<3, false, Wide>(b, dt, cracked);)
+template <int Points> auto update_for()
+{
+    return variant_of<update_block<Points, false>, update_block<Points, true>>();
+}
 
 ContactLanes rows_from(Assembly& a, int contact, const LawRows& law)
 {
@@ -206,6 +211,9 @@ void update_contact_blocks(Assembly& a, int first, int end, double dt)
 {
     LawRows law;
     ContactLanes rows = rows_from(a, first * lanes, law);
+    const auto update = a.points == 3 ? update_for<3>()
+        : a.points == 2               ? update_for<2>()
+                                      : update_for<1>();
     for (int block = first; block < end; ++block, advance_block(rows, a.points)) {
         law.fill(a, block);
         if (rows.ahead != 0 && block + nodes_ahead < a.contact_blocks()) {
@@ -213,10 +221,7 @@ void update_contact_blocks(Assembly& a, int first, int end, double dt)
         }
         rows.whole_edges = a.whole_edges[block] != 0;
         std::uint8_t cracked[most_points * lanes] = {};
-        const int cracks = a.points == 3 ? update_3(rows, dt, cracked)
-            : a.points == 2              ? update_2(rows, dt, cracked)
-                                         : update_1(rows, dt, cracked);
-        if (cracks > 0) record_cracks(a, block, dt, cracked);
+        if (update(rows, dt, cracked) > 0) record_cracks(a, block, dt, cracked);
     }
 }
 

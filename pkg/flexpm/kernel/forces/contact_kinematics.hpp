@@ -5,6 +5,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/simd.hpp>
 #include <flexpm/kernel/forces/prefetch.hpp>
 
@@ -40,7 +41,7 @@ struct PointMotion {
 };
 
 /// By halves: of a sum over lanes the compiler makes one or two instructions a lane.
-__attribute__((always_inline)) inline bool any_of(const std::int64_t* flags)
+FLEXPM_INLINE bool any_of(const std::int64_t* flags)
 {
     typedef std::int64_t Half __attribute__((vector_size(4 * sizeof(std::int64_t)), may_alias));
     typedef std::int64_t Quarter __attribute__((vector_size(2 * sizeof(std::int64_t)), may_alias));
@@ -52,7 +53,7 @@ __attribute__((always_inline)) inline bool any_of(const std::int64_t* flags)
 }
 
 /// A contact of the block takes its normal from its edges: it has no span, which marks it.
-__attribute__((always_inline)) inline bool any_normal_of_edge(const ContactLanes& b)
+FLEXPM_INLINE bool any_normal_of_edge(const ContactLanes& b)
 {
     alignas(64) std::int64_t of_edge[lanes];
     for (int l = 0; l < lanes; ++l)
@@ -62,8 +63,7 @@ __attribute__((always_inline)) inline bool any_normal_of_edge(const ContactLanes
 
 /// x and y of the nodes of a row, one node after the other, or the compiler runs out of registers for
 /// the addresses. A row is stored at once: a load of it in one register would wait for two halves.
-__attribute__((always_inline)) inline void gather_values(
-    const double* from, const int* nodes, double* to)
+FLEXPM_INLINE void gather_values(const double* from, const int* nodes, double* to)
 {
 #pragma omp simd simdlen(8)
     for (int l = 0; l < lanes; ++l) {
@@ -74,8 +74,7 @@ __attribute__((always_inline)) inline void gather_values(
 
 /// The same where y follows x.
 template <bool Wide>
-__attribute__((always_inline)) inline void gather_pairs(
-    const double* from, const int* pairs, double* to)
+FLEXPM_INLINE void gather_pairs(const double* from, const int* pairs, double* to)
 {
     unzip<Wide>([&](int i) { return *reinterpret_cast<const Two*>(from + pairs[i]); }, to);
 }
@@ -83,8 +82,7 @@ __attribute__((always_inline)) inline void gather_pairs(
 /// A quantity at point `p` of an edge, less its value at the first end, from the difference of the ends.
 /// `Whole`: three points, of weights 0, 1/2 and 1, on both sides.
 template <bool Whole>
-__attribute__((always_inline)) inline double between_edges(
-    const ContactLanes& b, int p, int l, double of_a, double of_b)
+FLEXPM_INLINE double between_edges(const ContactLanes& b, int p, int l, double of_a, double of_b)
 {
     if (Whole) return p == 0 ? 0.0 : p == 1 ? 0.5 * (of_b - of_a) : of_b - of_a;
     const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
@@ -93,14 +91,12 @@ __attribute__((always_inline)) inline double between_edges(
 
 /// Ask for the first rows, or all, of the block ahead of an array with `per_block` rows a block.
 template <class T>
-__attribute__((always_inline)) inline void fetch_ahead(
-    const ContactLanes& b, const T* rows, int per_block, int first)
+FLEXPM_INLINE void fetch_ahead(const ContactLanes& b, const T* rows, int per_block, int first)
 {
     if (b.ahead != 0) fetch_rows(rows + b.ahead * per_block * lanes, first);
 }
 template <class T>
-__attribute__((always_inline)) inline void fetch_ahead(
-    const ContactLanes& b, const T* rows, int per_block)
+FLEXPM_INLINE void fetch_ahead(const ContactLanes& b, const T* rows, int per_block)
 {
     fetch_ahead(b, rows, per_block, per_block);
 }
@@ -108,8 +104,7 @@ __attribute__((always_inline)) inline void fetch_ahead(
 /// A vector along the normal at the end of the step: between the centres, rows of x and y of a and of b,
 /// or, where a contact has no span, across the mean of the two edges.
 template <bool OfEdges>
-__attribute__((always_inline)) inline Point direction(
-    const ContactLanes& b, const double* centres, double dt, int l)
+FLEXPM_INLINE Point direction(const ContactLanes& b, const double* centres, double dt, int l)
 {
     const double dx = b.span[l] + (centres[2 * lanes + l] - centres[l]);
     const double dy = b.span[lanes + l] + (centres[3 * lanes + l] - centres[lanes + l]);
@@ -126,8 +121,7 @@ __attribute__((always_inline)) inline Point direction(
     return { of_edge ? ey : dx, of_edge ? -ex : dy };
 }
 
-template <bool Whole>
-__attribute__((always_inline)) inline double reach_of_b(const ContactLanes& b, int l)
+template <bool Whole> FLEXPM_INLINE double reach_of_b(const ContactLanes& b, int l)
 {
     return b.reach[(Whole ? 0 : lanes) + l];
 }
@@ -139,8 +133,7 @@ __attribute__((always_inline)) inline double reach_of_b(const ContactLanes& b, i
 /// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair that
 /// turns as one body neither opens nor slips.
 template <int Points, bool OfEdges, bool Whole, bool Wide>
-__attribute__((always_inline)) inline void move_points(
-    const ContactLanes& b, double dt, PointMotion& motion)
+FLEXPM_INLINE void move_points(const ContactLanes& b, double dt, PointMotion& motion)
 {
     fetch_ahead(b, b.nodes, ContactRows::nodes);
     fetch_ahead(b, b.span, 2);
@@ -151,7 +144,7 @@ __attribute__((always_inline)) inline void move_points(
         gather_values(b.velocity, b.nodes + n * lanes, ends + 2 * n * lanes);
     for (int side = 0; side < 2; ++side)
         gather_pairs<Wide>(b.centres, b.nodes + (4 + side) * lanes, centres + 2 * side * lanes);
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const double* v = ends + l;
         const Point along_normal = direction<OfEdges>(b, centres, dt, l);
@@ -186,8 +179,7 @@ struct EndShares {
     double a = 0.0, b = 0.0;
 
     template <bool Whole>
-    __attribute__((always_inline)) inline void add(
-        const ContactLanes& rows, int p, int l, double force)
+    FLEXPM_INLINE void add(const ContactLanes& rows, int p, int l, double force)
     {
         if (Whole) {
             if (p > 0) a += p == 1 ? 0.5 * force : force;
@@ -202,11 +194,10 @@ struct EndShares {
 /// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19. They act in the
 /// middle of the gap: each edge takes half of the gap's moment by a couple on its ends.
 template <int Points, bool Whole>
-__attribute__((always_inline)) inline void spread_forces(
-    const ContactLanes& b, const double* normal, const double* shear)
+FLEXPM_INLINE void spread_forces(const ContactLanes& b, const double* normal, const double* shear)
 {
     alignas(64) double rows[ContactRows::forces * lanes];
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const double nx = b.normal[l], ny = b.normal[lanes + l];
         // along the normal and along the tangent

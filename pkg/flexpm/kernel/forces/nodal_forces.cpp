@@ -2,6 +2,8 @@
 /// @file  Lists of forces, and their sums per node.
 #include <flexpm/kernel/forces/nodal_forces.hpp>
 
+#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/simd.hpp>
 
 #include <algorithm>
@@ -36,8 +38,7 @@ int second_force(int source) { return source >= 0 ? source + 2 : ~(~source + 2 *
 
 /// Sums of the two contacts of each outer node, x and y at once.
 template <bool Wide>
-__attribute__((always_inline)) inline void sum_lanes(
-    const double* contact, const int* pairs, double* force, int vertices)
+FLEXPM_INLINE void sum_lanes(const double* contact, const int* pairs, double* force, int vertices)
 {
     const auto at = [&](int source) { return *reinterpret_cast<const Two*>(contact + source); };
     for (int i = 0; i < 2 * lanes * vertices; i += 2 * lanes) {
@@ -45,10 +46,6 @@ __attribute__((always_inline)) inline void sum_lanes(
         unzip<Wide>([&](int l) { return 0.0 + at(first[l]) + at(second[l]); }, force + i);
     }
 }
-
-FLEXPM_MULTIVERSION_WIDE(
-    void sum_pairs(const double* contact, const int* pairs, double* force, int vertices),
-    sum_lanes<Wide>(contact, pairs, force, vertices);)
 
 }  // namespace
 
@@ -104,6 +101,7 @@ void gather_forces(Assembly& a, int block)
     const MeshGroup& group = a.group(block);
     const double *contact = a.contact_force.data(), *edge = a.edge_force.data();
     double* force = a.force.data() + first;
+    const auto sum_pairs = variant_of<sum_lanes<false>, sum_lanes<true>>();
     sum_pairs(contact, a.source_pairs.data() + first, force, group.vertices);
     std::fill(force + 2 * lanes * group.vertices, force + 2 * lanes * group.nodes, 0.0);
     const int *entry = a.more_sources.data() + a.more_first[block],

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
 
 namespace flexpm {
 
@@ -15,7 +16,7 @@ inline bool exceeds_caches(const Assembly& a)
 }
 
 /// Ask for `count` rows of `lanes` values from `first` on, which may lie past the end of its array.
-template <class T> __attribute__((always_inline)) inline void fetch_rows(const T* first, int count)
+template <class T> FLEXPM_INLINE void fetch_rows(const T* first, int count)
 {
     constexpr int line = 64 / sizeof(T);
     for (int i = 0; i < count * lanes; i += line)

@@ -6,6 +6,8 @@
 /// Deviation D3: unloading in tension goes along the secant.
 #pragma once
 
+#include <flexpm/kernel/core/compiler.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -127,9 +129,8 @@ struct Traction {
 ///
 /// @tparam Intact  true: the point has no damage, which need not be worked out
 template <bool Intact = false>
-__attribute__((always_inline)) inline bool advance_elastic(const LawParameters& p,
-    double opening_step, double slip_step, const PointState& s, PointState& next,
-    Traction& traction)
+FLEXPM_INLINE bool advance_elastic(const LawParameters& p, double opening_step, double slip_step,
+    const PointState& s, PointState& next, Traction& traction)
 {
     const double d = Intact ? 0.0 : law::damage(p, s.max_opening, s.shear_damage);
     const double opening = s.opening + opening_step;
@@ -159,7 +160,7 @@ struct Sliding {
 /// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be damaged
 /// further: with advance_elastic() the whole step of such a point. `trial` is the traction that it would
 /// have without friction, `before` that of the last step.
-__attribute__((always_inline)) inline Sliding slide_used_up(
+FLEXPM_INLINE Sliding slide_used_up(
     const LawParameters& p, double normal, double trial, double before)
 {
     const double size = std::fabs(trial);
@@ -173,7 +174,7 @@ __attribute__((always_inline)) inline Sliding slide_used_up(
 /// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
 /// return with its damage in closed form, and the normal traction once more with the new damage.
 /// Free of branches, so that eight points advance at once.
-__attribute__((always_inline)) inline Traction advance_point(
+FLEXPM_INLINE Traction advance_point(
     const LawParameters& p, double opening_step, double slip_step, PointState& s)
 {
     const double before = law::damage(p, s.max_opening, s.shear_damage);

@@ -3,6 +3,8 @@
 /// Tension positive. SI units.
 #pragma once
 
+#include <flexpm/kernel/core/compiler.hpp>
+
 namespace flexpm {
 
 enum class Plane { stress, strain };
@@ -31,7 +33,7 @@ struct Tensor {
 };
 
 /// Second Piola-Kirchhoff stress [Pa] of a Green-Lagrange strain.
-__attribute__((always_inline)) inline Tensor stress(const PlaneStiffness& c, const Tensor& e)
+FLEXPM_INLINE Tensor stress(const PlaneStiffness& c, const Tensor& e)
 {
     return { c.normal * e.xx + c.cross * e.yy, c.cross * e.xx + c.normal * e.yy,
         2.0 * c.shear * e.xy };

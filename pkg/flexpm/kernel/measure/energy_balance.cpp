@@ -2,7 +2,8 @@
 /// @file  Sums over an assembly.
 #include <flexpm/kernel/measure/energy_balance.hpp>
 
-#include <flexpm/kernel/core/simd.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
@@ -26,7 +27,7 @@ double first_of_pairs(const Array<double>& values)
     return total;
 }
 
-FLEXPM_MULTIVERSION bool all_finite(const double* values, int count)
+FLEXPM_INLINE bool all_finite(const double* values, int count)
 {
     std::int64_t bad = 0;
     for (int i = 0; i < count; ++i)
@@ -136,7 +137,8 @@ CrackCount count_cracks(const Assembly& a)
 std::string find_bad_number(const Assembly& a)
 {
     const int values = static_cast<int>(a.force.size());
-    if (all_finite(a.force.data(), values) && all_finite(a.velocity.data(), values)) return {};
+    const auto finite = variant_of<all_finite>();
+    if (finite(a.force.data(), values) && finite(a.velocity.data(), values)) return {};
     for (int g = 0; g < a.grains; ++g) {
         for (int n = 0; n < a.nodes_of(g); ++n) {
             for (int c = 0; c < 2; ++c) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ struct StepSums {
     alignas(64) double driven[lanes], driven_next[lanes];
     alignas(64) double kinetic[lanes], largest[lanes];
 
-    __attribute__((always_inline)) StepSums()
+    FLEXPM_INLINE StepSums()
     {
         for (int l = 0; l < lanes; ++l) {
             damped[l] = damped_next[l] = driven[l] = driven_next[l] = 0.0;
@@ -25,7 +26,7 @@ struct StepSums {
         }
     }
 
-    __attribute__((always_inline)) void copy_to(StepSums& to) const
+    FLEXPM_INLINE void copy_to(StepSums& to) const
     {
         for (int l = 0; l < lanes; ++l) {
             to.damped[l] = damped[l];
@@ -46,9 +47,8 @@ struct StepSums {
 /// @param length  what makes a force of it for the unbalanced ratio: 1, or an arm [m] of a moment
 /// @tparam Held   false: `held` is 0, there is no holder's work
 template <bool Measure, bool Held = true>
-__attribute__((always_inline)) inline void integrate_one(double force, double held,
-    double inverse_mass, double length, double dt, double damping, double& velocity, StepSums& sums,
-    int l)
+FLEXPM_INLINE void integrate_one(double force, double held, double inverse_mass, double length,
+    double dt, double damping, double& velocity, StepSums& sums, int l)
 {
     const double old = velocity, free = Held ? 1.0 - held : 1.0;
     const double against = old > 0.0 ? -1.0 : (old < 0.0 ? 1.0 : 0.0);

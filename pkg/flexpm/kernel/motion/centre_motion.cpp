@@ -2,16 +2,17 @@
 /// @file  Motion of the centres, `lanes` at a time.
 #include <flexpm/kernel/motion/centre_motion.hpp>
 
-#include <flexpm/kernel/core/simd.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 
 namespace flexpm {
 
 namespace {
 
-FLEXPM_MULTIVERSION void half_turns(const double* rotation, double* cosine, double* sine)
+FLEXPM_INLINE void half_turns(const double* rotation, double* cosine, double* sine)
 {
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const HalfTurn half = half_turn_of(rotation[l], rotation[lanes + l]);
         cosine[l] = half.cosine;
@@ -21,7 +22,8 @@ FLEXPM_MULTIVERSION void half_turns(const double* rotation, double* cosine, doub
 
 void find_turns(const Assembly& a, int block, CentreMotion& motion)
 {
-    half_turns(a.rotation.data() + 3 * lanes * block, motion.half_cosine, motion.half_sine);
+    variant_of<half_turns>()(
+        a.rotation.data() + 3 * lanes * block, motion.half_cosine, motion.half_sine);
     for (int l = 0; l < lanes; ++l) {
         motion.spin[l] = a.spin[lanes * block + l];
         const int grain = a.slot_grain[lanes * block + l];
@@ -32,9 +34,9 @@ void find_turns(const Assembly& a, int block, CentreMotion& motion)
     }
 }
 
-FLEXPM_MULTIVERSION void move_pairs(const double* u, const double* v, double dt, double* pairs)
+FLEXPM_INLINE void move_pairs(const double* u, const double* v, double dt, double* pairs)
 {
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         pairs[2 * l] = u[l] + dt * v[l];
         pairs[2 * l + 1] = u[lanes + l] + dt * v[lanes + l];
@@ -46,7 +48,7 @@ FLEXPM_MULTIVERSION void move_pairs(const double* u, const double* v, double dt,
 void predict_centres(Assembly& a, int block, double dt)
 {
     const int first = a.block_nodes[block] + 2 * lanes * a.group(block).vertices;
-    move_pairs(a.displacement.data() + first, a.velocity.data() + first, dt,
+    variant_of<move_pairs>()(a.displacement.data() + first, a.velocity.data() + first, dt,
         a.next_centre.data() + 2 * lanes * block);
 }
 

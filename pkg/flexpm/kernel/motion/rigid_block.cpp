@@ -2,7 +2,8 @@
 /// @file  Rigid grains, `lanes` at a time.
 #include <flexpm/kernel/motion/rigid_block.hpp>
 
-#include <flexpm/kernel/core/simd.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/instruction_set.hpp>
 
 namespace flexpm {
 
@@ -16,7 +17,7 @@ struct Turn {
 
 /// By tan(angle / 2): a rotation to round-off for any value of it, free of branches. The series is
 /// exact to round-off up to a tenth of a turn in one step.
-__attribute__((always_inline)) inline Turn turn_by(double angle)
+FLEXPM_INLINE Turn turn_by(double angle)
 {
     const double h = 0.5 * angle, q = h * h;
     const double t = h
@@ -36,10 +37,10 @@ struct Resultants {
     alignas(64) double x[lanes], y[lanes], moment[lanes], reach[lanes];
 };
 
-__attribute__((always_inline)) inline void move_centres(const RigidRows& b, int centre, double dt)
+FLEXPM_INLINE void move_centres(const RigidRows& b, int centre, double dt)
 {
     double *along = b.rotation, *across = b.rotation + lanes, *angle = b.rotation + 2 * lanes;
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Turn turn = turn_by(dt * b.spin[l]);
         const double k = along[l] + turn.along * (1.0 + along[l]) - turn.across * across[l];
@@ -57,15 +58,14 @@ __attribute__((always_inline)) inline void move_centres(const RigidRows& b, int 
 /// Move the outer nodes with the grains and sum the forces there. With `Move` false nodes stay where
 /// they are. Arms about the centres are left in the place of the nodes' velocities.
 template <bool Move, bool Measure>
-__attribute__((always_inline)) inline void find_arms(
-    const RigidRows& b, int centre, Resultants& sum)
+FLEXPM_INLINE void find_arms(const RigidRows& b, int centre, Resultants& sum)
 {
     const double *along = b.rotation, *across = b.rotation + lanes;
     const double *origin = b.reference + centre, *way = b.displacement + centre;
     for (int i = 0; i < centre; i += 2 * lanes) {
         const double *reference = b.reference + i, *force = b.force + i;
         double *u = b.displacement + i, *arm = b.velocity + i;
-#pragma GCC ivdep
+        FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const int y = lanes + l;
             const double x0 = reference[l] - origin[l], y0 = reference[y] - origin[y];
@@ -85,7 +85,7 @@ __attribute__((always_inline)) inline void find_arms(
 }
 
 /// Velocities of the outer nodes, of the arms that are in their place.
-__attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, int centre, double dt)
+FLEXPM_INLINE void spread_lanes(const RigidRows& b, int centre, double dt)
 {
     alignas(64) double along[lanes], across[lanes];
     for (int l = 0; l < lanes; ++l) {
@@ -96,7 +96,7 @@ __attribute__((always_inline)) inline void spread_lanes(const RigidRows& b, int 
     const double* of_centre = b.velocity + centre;
     for (int i = 0; i < centre; i += 2 * lanes) {
         double* v = b.velocity + i;
-#pragma GCC ivdep
+        FLEXPM_INDEPENDENT
 #pragma GCC unroll 1  // unrolled, the compiler takes the nodes for lanes
         for (int l = 0; l < lanes; ++l) {
             const double rx = v[l], ry = v[lanes + l];
@@ -115,7 +115,7 @@ bool holds_any(const RigidRows& b)
 }
 
 template <bool Measure, bool Held>
-__attribute__((always_inline)) inline void integrate_lanes(
+FLEXPM_INLINE void integrate_lanes(
     const RigidRows& b, int centre, const Resultants& f, double dt, double damping, StepSums& total)
 {
     StepSums sums;                            // a local, which no row aliases
@@ -125,7 +125,7 @@ __attribute__((always_inline)) inline void integrate_lanes(
         std::copy_n(b.spin_held, lanes, held + 2 * lanes);
     }
     double* v = b.velocity + centre;
-#pragma GCC ivdep
+    FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const int y = lanes + l;
         integrate_one<Measure, Held>(
@@ -139,8 +139,7 @@ __attribute__((always_inline)) inline void integrate_lanes(
 }
 
 template <bool Measure>
-__attribute__((always_inline)) inline void step_lanes(
-    const RigidRows& b, double dt, double damping, StepSums& sums)
+FLEXPM_INLINE void step_lanes(const RigidRows& b, double dt, double damping, StepSums& sums)
 {
     const int centre = 2 * (b.nodes - 1) * lanes;
     move_centres(b, centre, dt);
@@ -161,15 +160,10 @@ __attribute__((always_inline)) inline void step_lanes(
 
 }  // namespace
 
-FLEXPM_MULTIVERSION void step_rigid(const RigidRows& b, double dt, double damping, StepSums& sums)
+void step_rigid(const RigidRows& b, double dt, double damping, bool measure, StepSums& sums)
 {
-    step_lanes<false>(b, dt, damping, sums);
-}
-
-FLEXPM_MULTIVERSION void step_rigid_measured(
-    const RigidRows& b, double dt, double damping, StepSums& sums)
-{
-    step_lanes<true>(b, dt, damping, sums);
+    const auto step = measure ? variant_of<step_lanes<true>>() : variant_of<step_lanes<false>>();
+    step(b, dt, damping, sums);
 }
 
 void spread_velocities(const RigidRows& b, double dt)

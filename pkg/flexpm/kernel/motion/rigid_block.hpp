@@ -27,8 +27,9 @@ struct RigidRows {
 /// Move the grains to the end of the step; then new velocities and spins from the nodal forces and
 /// their moments about the centres, and velocities of all nodes so that dt times them is the exact way
 /// of the coming step.
-void step_rigid(const RigidRows& b, double dt, double damping, StepSums& sums);
-void step_rigid_measured(const RigidRows& b, double dt, double damping, StepSums& sums);
+///
+/// @param measure  also sum kinetic energy and largest unbalanced force
+void step_rigid(const RigidRows& b, double dt, double damping, bool measure, StepSums& sums);
 
 /// Velocities of all nodes from those of the centre and the spin.
 void spread_velocities(const RigidRows& b, double dt);

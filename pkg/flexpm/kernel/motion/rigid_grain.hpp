@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/motion/rigid_block.hpp>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ HalfTurn half_turn(const Assembly& a, int grain);
 /// The same from cos - 1 and sin of the whole angle, up to a cosine of half of it of
 /// `least_half_cosine`: near half a turn the quotient would lose its digits.
 constexpr double least_half_cosine = 0.5;
-__attribute__((always_inline)) inline HalfTurn half_turn_of(double along, double across)
+FLEXPM_INLINE HalfTurn half_turn_of(double along, double across)
 {
     const double cosine = std::sqrt(std::max(1.0 + 0.5 * along, 0.0));
     return { cosine, 0.5 * across / cosine };

@@ -3,7 +3,8 @@
 #include <flexpm/kernel/step/step.hpp>
 
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
-#include <flexpm/kernel/core/simd.hpp>
+#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/contact_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/nodal_forces.hpp>
@@ -41,7 +42,7 @@ struct Rows {
 constexpr int triangles_ahead = 12;
 
 /// Ask for the shape of a triangle ahead, and as many nodes of the next block as there are triangles.
-__attribute__((always_inline)) inline void fetch_ahead(const Rows& b, int triangle)
+FLEXPM_INLINE void fetch_ahead(const Rows& b, int triangle)
 {
     if (!b.fetch) return;
     fetch_rows(b.triangles.shape + 5 * lanes * (triangle + triangles_ahead), 5);
@@ -50,7 +51,7 @@ __attribute__((always_inline)) inline void fetch_ahead(const Rows& b, int triang
 }
 
 /// Move the nodes, then add the forces of the elements to `force`.
-FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
+FLEXPM_INLINE void move_and_deform(const Rows& b, double dt)
 {
     double* f = b.force;
     for (int i = 0; i < 2 * lanes * b.nodes; ++i)
@@ -59,7 +60,7 @@ FLEXPM_MULTIVERSION void move_and_deform(const Rows& b, double dt)
     for (int t = 0; t < rows.triangles; ++t) {
         const TriangleNodes n = nodes_of(rows, t);
         fetch_ahead(b, t);
-#pragma GCC ivdep
+        FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const TriangleForces e = triangle_forces(shape_of(rows, t, l), stiffness_of(rows, l),
                 displacement_of(rows, n.n0, l), displacement_of(rows, n.n1, l),
@@ -85,8 +86,7 @@ bool holds_any(const Rows& b)
 /// Few blocks lie on a boundary: all others are integrated without looking at `held`. Bytes and
 /// doubles in one loop are not vectorised, hence the copy; the sums are a local, which no row aliases.
 template <bool Measure, bool Held>
-__attribute__((always_inline)) inline void integrate_lanes(
-    const Rows& b, double dt, double damping, StepSums& total)
+FLEXPM_INLINE void integrate_lanes(const Rows& b, double dt, double damping, StepSums& total)
 {
     StepSums sums;
     for (int n = 0; n < b.nodes; ++n) {
@@ -95,7 +95,7 @@ __attribute__((always_inline)) inline void integrate_lanes(
         const double* inverse_mass = b.inverse_mass + n * lanes;
         alignas(64) double held[2 * lanes] = {};
         if (Held) std::copy_n(b.held + 2 * n * lanes, 2 * lanes, held);
-#pragma GCC ivdep
+        FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const int y = lanes + l;
             integrate_one<Measure, Held>(
@@ -108,24 +108,13 @@ __attribute__((always_inline)) inline void integrate_lanes(
 }
 
 template <bool Measure>
-__attribute__((always_inline)) inline void integrate_block(
-    const Rows& b, double dt, double damping, StepSums& sums)
+FLEXPM_INLINE void integrate_block(const Rows& b, double dt, double damping, StepSums& sums)
 {
     if (holds_any(b)) {
         integrate_lanes<Measure, true>(b, dt, damping, sums);
     } else {
         integrate_lanes<Measure, false>(b, dt, damping, sums);
     }
-}
-
-FLEXPM_MULTIVERSION void integrate(const Rows& b, double dt, double damping, StepSums& sums)
-{
-    integrate_block<false>(b, dt, damping, sums);
-}
-FLEXPM_MULTIVERSION void integrate_measured(
-    const Rows& b, double dt, double damping, StepSums& sums)
-{
-    integrate_block<true>(b, dt, damping, sums);
 }
 
 double sum(const double* values)
@@ -150,14 +139,15 @@ void update_deformable(Assembly& a, int block, const StepOptions& options, StepS
     const Rows rows = { group.nodes, triangle_rows(a, block), a.displacement.data() + first,
         a.velocity.data() + first, a.force.data() + first, a.held.data() + first,
         a.inverse_mass.data() + first / 2, exceeds_caches(a) };
-    move_and_deform(rows, options.dt);
-    (options.measure ? integrate_measured : integrate)(rows, options.dt, options.damping, sums);
+    variant_of<move_and_deform>()(rows, options.dt);
+    const auto integrate = options.measure ? variant_of<integrate_block<true>>()
+                                           : variant_of<integrate_block<false>>();
+    integrate(rows, options.dt, options.damping, sums);
 }
 
 void update_rigid(Assembly& a, int block, const StepOptions& options, StepSums& sums)
 {
-    (options.measure ? step_rigid_measured : step_rigid)(
-        rigid_rows(a, block), options.dt, options.damping, sums);
+    step_rigid(rigid_rows(a, block), options.dt, options.damping, options.measure, sums);
 }
 
 void update_grain_block(Assembly& a, int block, const StepOptions& options)

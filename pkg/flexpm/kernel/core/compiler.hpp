@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Words for the compiler that GCC and Clang spell differently or at length.
+#pragma once
+
+/// A function that becomes part of its caller, and with it of the caller's instruction set.
+#define FLEXPM_INLINE __attribute__((always_inline)) inline
+
+/// No iteration of the loop that follows reads what another one writes.
+#ifdef __clang__
+#define FLEXPM_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define FLEXPM_INDEPENDENT _Pragma("GCC ivdep")
+#endif
