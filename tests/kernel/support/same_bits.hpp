@@ -49,10 +49,10 @@ inline std::string difference(const flexpm::Assembly& a, const flexpm::Assembly&
 }
 
 /// A random specimen with pressed sides, sheared and drawn apart so fast that points crack within 500 steps.
-inline flexpm::Assembly breaking()
+inline flexpm::Assembly breaking(const flexpm::AssemblyOptions& options = specimens::options())
 {
     flexpm::Assembly a =
-        specimens::assemble(specimens::random_grains(12e-3, 15e-3, 3e-3, 9), specimens::options());
+        specimens::assemble(specimens::random_grains(12e-3, 15e-3, 3e-3, 9), options);
     flexpm::scale_masses(a, 0.7);
     flexpm::drive(a, flexpm::side_nodes(a, 0), 1, 0.0);
     flexpm::drive(a, flexpm::side_nodes(a, 2), 1, 5e-8);
