@@ -3,8 +3,8 @@
 #include <flexpm/yade/grains/LaguerreCell.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/yade/grains/AssemblyOwner.hpp>
 #include <flexpm/yade/grains/Bo1_LaguerreCell_Aabb.hpp>
-#include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
 
@@ -15,7 +15,7 @@ Bo1_LaguerreCell_Aabb::~Bo1_LaguerreCell_Aabb() = default;
 void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r&, const Body*)
 {
 	const int   grain = static_cast<const LaguerreCell&>(*shape).grain;
-	const auto& a     = GrainSolver::ofScene(*scene)->assembly;
+	const auto& a     = *assemblyOf(*scene);
 	if (!bound) bound = boost::make_shared<Aabb>();
 	const Real     r = a.radius[grain];
 	const auto     c = a.position(a.centre(grain));

@@ -3,8 +3,8 @@
 #include <flexpm/yade/grains/LaguerreCell.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/yade/grains/AssemblyOwner.hpp>
 #include <flexpm/yade/grains/Gl1_LaguerreCell.hpp>
-#include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <GL/gl.h>
 
@@ -49,27 +49,17 @@ namespace {
 		}
 	};
 
-	/// The solver's arrays, or nullptr: a window must not fail when a script has taken the solver out of O.engines. Steps that wait are
-	/// not done for it: it would hold up the thread that steps.
-	const flexpm::Assembly* shownAssembly(int grain)
-	{
-		for (const auto& engine : Omega::instance().getScene()->engines) {
-			const auto solver = YADE_PTR_DYN_CAST<GrainSolver>(engine);
-			if (solver && grain >= 0 && grain < solver->assembly.grains) return &solver->assembly;
-		}
-		return nullptr;
-	}
-
 } // namespace
 
 Gl1_LaguerreCell::~Gl1_LaguerreCell() = default;
 
 void Gl1_LaguerreCell::go(const shared_ptr<Shape>& shape, const shared_ptr<State>& state, bool wire, const GLViewInfo&)
 {
-	const int  grain    = static_cast<const LaguerreCell&>(*shape).grain;
-	const auto assembly = shownAssembly(grain);
-	if (assembly == nullptr) return;
-	const Pen pen { *assembly, grain, state->pos, scale };
+	const int grain = static_cast<const LaguerreCell&>(*shape).grain;
+	// a window must not fail when a script has taken the solver out of O.engines
+	const auto owned = findAssembly(*Omega::instance().getScene());
+	if (!owned.engine || grain < 0 || grain >= owned->grains) return;
+	const Pen pen { *owned, grain, state->pos, scale };
 	glDisable(GL_LIGHTING);
 	glColor3d(shape->color[0], shape->color[1], shape->color[2]);
 	glEnable(GL_POLYGON_OFFSET_FILL); // lines lie in the plane of the faces and must win

@@ -4,7 +4,8 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/snapshot.hpp>
-#include <flexpm/yade/solver/GrainSolver.hpp>
+#include <flexpm/yade/bindings/array_view.hpp>
+#include <flexpm/yade/grains/AssemblyOwner.hpp>
 
 namespace yade {
 
@@ -18,11 +19,11 @@ namespace {
 	/// (points,) view of row `row` of the `rows` rows of each point of a contact.
 	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int row = 0, int rows = 1)
 	{
-		const auto           solver = GrainSolver::ofContact(contact);
-		const auto&          a      = solver->assembly;
-		const std::ptrdiff_t step   = rows * flexpm::lanes * sizeof(T);
-		const T*             first  = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
-		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(solver), Access::readOnly);
+		const auto           owned = assemblyOfContact(contact);
+		const auto&          a     = *owned;
+		const std::ptrdiff_t step  = rows * flexpm::lanes * sizeof(T);
+		const T*             first = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
+		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(owned.engine), Access::readOnly);
 	}
 
 	/// The same for a member of flexpm::PointState.
@@ -31,7 +32,7 @@ namespace {
 	/// (points,) or (points, columns) copy of what `value(point)` appends.
 	template <class Value> py::object pointCopy(int contact, int columns, Value value)
 	{
-		const auto&         a = GrainSolver::ofContact(contact)->assembly;
+		const auto&         a = *assemblyOfContact(contact);
 		std::vector<double> all;
 		for (int p = 0; p < a.points; ++p)
 			value(a, p, all);
@@ -50,20 +51,20 @@ LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
 
 Vector3r LobattoGeom::normal() const
 {
-	const auto n = flexpm::normal_of(GrainSolver::ofContact(contact)->assembly, contact);
+	const auto n = flexpm::normal_of(*assemblyOfContact(contact), contact);
 	return Vector3r(n.x, n.y, 0);
 }
 
 Vector3r LobattoGeom::contactPoint() const
 {
-	const auto& a     = GrainSolver::ofContact(contact)->assembly;
+	const auto& a     = *assemblyOfContact(contact);
 	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
 	return .5 * Vector3r(start.x + end.x, start.y + end.y, 0);
 }
 
 py::object LobattoGeom::ends() const
 {
-	const auto& a     = GrainSolver::ofContact(contact)->assembly;
+	const auto& a     = *assemblyOfContact(contact);
 	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
 	return flexpm_bindings::copied(std::vector<double> { start.x, start.y, end.x, end.y }, 2);
 }

@@ -17,27 +17,7 @@ YADE_PLUGIN((GrainSolver));
 
 GrainSolver::~GrainSolver() = default;
 
-shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene)
-{
-	for (const auto& engine : scene.engines) {
-		if (auto solver = YADE_PTR_DYN_CAST<GrainSolver>(engine)) return solver;
-	}
-	throw std::runtime_error("GrainSolver: O.engines holds none; build the specimen first (flexpm.build)");
-}
-
-shared_ptr<GrainSolver> GrainSolver::ofGrain(int grain)
-{
-	const auto solver = ofScene(*Omega::instance().getScene());
-	if (grain >= 0 && grain < solver->assembly.grains) return solver;
-	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
-}
-
-shared_ptr<GrainSolver> GrainSolver::ofContact(int contact)
-{
-	const auto solver = ofScene(*Omega::instance().getScene());
-	if (contact >= 0 && contact < solver->assembly.contacts) return solver;
-	throw std::runtime_error("contact = " + std::to_string(contact) + ", is no contact of the solver; build the specimen first (flexpm.build)");
-}
+shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene) { return YADE_PTR_CAST<GrainSolver>(assemblyOf(scene).engine); }
 
 namespace {
 

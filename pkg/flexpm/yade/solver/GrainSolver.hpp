@@ -7,21 +7,21 @@
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/bindings/assembly_archive.hpp>
+#include <flexpm/yade/grains/AssemblyOwner.hpp>
 
 namespace yade {
 
 namespace py = boost::python;
 
-class GrainSolver : public GlobalEngine {
+class GrainSolver : public GlobalEngine, public AssemblyOwner {
 public:
 	~GrainSolver() override;
 	void action() override;
 
-	/// The solver of the current scene whose assembly has this grain or contact.
+	flexpm::Assembly& arrays() override { return assembly; }
+
 	/// @throws std::runtime_error  if O.engines holds none
 	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
-	static shared_ptr<GrainSolver> ofGrain(int grain);
-	static shared_ptr<GrainSolver> ofContact(int contact);
 
 	/// Whether the last step was measured.
 	bool measured() const { return assembly.step % measurePeriod == 0; }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Search for the owner among a scene's engines.
+#include <flexpm/yade/grains/AssemblyOwner.hpp>
+
+namespace yade {
+
+AssemblyOwner::~AssemblyOwner() = default;
+
+OwnedAssembly findAssembly(const Scene& scene)
+{
+	for (const auto& engine : scene.engines) {
+		if (auto* owner = dynamic_cast<AssemblyOwner*>(engine.get())) return { engine, &owner->arrays() };
+	}
+	return {};
+}
+
+OwnedAssembly assemblyOf(const Scene& scene)
+{
+	auto found = findAssembly(scene);
+	if (!found.engine) throw std::runtime_error("GrainSolver: O.engines holds none; build the specimen first (flexpm.build)");
+	return found;
+}
+
+OwnedAssembly assemblyOfGrain(int grain)
+{
+	auto found = assemblyOf(*Omega::instance().getScene());
+	if (grain >= 0 && grain < found->grains) return found;
+	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
+}
+
+OwnedAssembly assemblyOfContact(int contact)
+{
+	auto found = assemblyOf(*Omega::instance().getScene());
+	if (contact >= 0 && contact < found->contacts) return found;
+	throw std::runtime_error("contact = " + std::to_string(contact) + ", is no contact of the solver; build the specimen first (flexpm.build)");
+}
+
+} // namespace yade

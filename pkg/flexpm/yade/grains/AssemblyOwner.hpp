@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What shapes, bonds and functors know of the engine that owns the grains: where its arrays are.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/yade/abi/yade_lite.hpp>
+
+namespace yade {
+
+/// Base of the engine that owns the packed arrays, beside its base in YADE.
+class AssemblyOwner {
+public:
+	virtual ~AssemblyOwner();
+	virtual flexpm::Assembly& arrays() = 0;
+};
+
+/// The arrays of a scene's grains, and their engine, which keeps them alive.
+struct OwnedAssembly {
+	shared_ptr<Engine> engine;
+	flexpm::Assembly*  arrays = nullptr; ///< null if the scene has none
+
+	flexpm::Assembly& operator*() const { return *arrays; }
+	flexpm::Assembly* operator->() const { return arrays; }
+};
+
+/// The first that the scene's engines own, if any.
+OwnedAssembly findAssembly(const Scene& scene);
+
+/// The same, which must be there; of the current scene, with this grain or contact.
+/// @throws std::runtime_error  if O.engines holds none, or if it has no such grain or contact
+OwnedAssembly assemblyOf(const Scene& scene);
+OwnedAssembly assemblyOfGrain(int grain);
+OwnedAssembly assemblyOfContact(int contact);
+
+} // namespace yade
