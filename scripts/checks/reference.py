@@ -8,7 +8,8 @@
 BUILD is the build folder (default: build). The commands are the four tests with flexible and with
 rigid grains, compression of inner particles, tension of YADE's two models and a study of two runs.
 Each column of curve.csv and cracks.csv has a hash of its numbers: a file's layout may change, and a
-renamed column is renamed in reference.json.
+renamed column is renamed in reference.json. The single runs are repeated with each instruction set
+of this machine, which must give the same hashes.
 
 The check only detects change; that results are right is shown by the other tests. A wanted change
 raises the results number of its test and model, by which finished runs are told from outdated ones
@@ -55,6 +56,14 @@ seed = 1
 [grid]
 "set.cohesion" = [2e7, 3e7]
 """
+#: The command with the instruction set that its first argument names.
+LAUNCH = """
+import sys
+import flexpm
+from flexpm.cli.main import main
+flexpm._flexpm.use_instruction_set(sys.argv[1])
+sys.exit(main(sys.argv[2:]))
+"""
 #: Test and model of the study's runs.
 STUDY_KIND = ("tension", "flexible")
 
@@ -68,7 +77,7 @@ def main(arguments: list[str]) -> int:
     package = (Path(folders[0]) if folders else ROOT / "build").resolve() / "python"
     if not (package / "flexpm").is_dir():
         return _fail(f"{package}/flexpm = missing; build first (scripts/setup)")
-    sets = ["default"]
+    sets = _ask(package, "print(*flexpm._flexpm.instruction_sets())").split()
     work = Path(tempfile.mkdtemp(prefix="flexpm-reference-"))
     jobs = [(test, model, name) for name in sets for test, model in RUNS]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -90,7 +99,7 @@ def main(arguments: list[str]) -> int:
 def _run(package: Path, work: Path, test: str, model: str, instruction_set: str) -> dict[str, str]:
     """Hashes of the columns of one run."""
     folder = work / instruction_set / f"{test}-{model}"
-    command = [PYTHON, "-P", "-m", "flexpm", "run", test, "--model", model]
+    command = [PYTHON, "-P", "-c", LAUNCH, instruction_set, "run", test, "--model", model]
     command += [*TESTS[test], "--quiet", "--out", str(folder)]
     done = _child(package, command)
     if done.returncode not in (0, 3):
@@ -133,10 +142,7 @@ def _numbers(package: Path, names: list[str]) -> dict[str, int]:
     kinds = [STUDY_KIND if name.startswith("study") else tuple(name.split()) for name in names]
     script = "from flexpm.laboratory.run_spec import results_number\n"
     script += f"print(*(results_number(*kind) for kind in {kinds}))"
-    done = _child(package, [PYTHON, "-P", "-c", script])
-    if done.returncode != 0:
-        sys.exit(_fail(f"results numbers = exit code {done.returncode}: {done.stderr}"))
-    return dict(zip(names, map(int, done.stdout.split()), strict=True))
+    return dict(zip(names, map(int, _ask(package, script).split()), strict=True))
 
 
 def _compare(numbers: dict[str, int], found: dict[str, dict[str, str]]) -> int:

@@ -19,6 +19,16 @@ def test_sound_installation() -> None:
     assert all(text and "\n" not in text for _, _, text in found)
 
 
+def test_an_instruction_set_is_used_that_the_machine_has() -> None:
+    assert _flexpm.instruction_sets()[0] == "baseline"
+    assert _flexpm.instruction_set() == _flexpm.instruction_sets()[-1]
+    with pytest.raises(ValueError, match="instruction set = 'neon', must be one .* baseline"):
+        _flexpm.use_instruction_set("neon")
+    _flexpm.use_instruction_set("baseline")
+    assert _flexpm.instruction_set() == "baseline"
+    _flexpm.use_instruction_set(_flexpm.instruction_sets()[-1])
+
+
 def test_running_simulation_is_left_alone() -> None:
     from yade import utils
     from yade.wrapper import FrictMat, Omega

@@ -57,6 +57,7 @@ BOOST_PYTHON_MODULE(_flexpm)
 	py::def("refresh_renderer", refreshRenderer, py::arg("renderer"), "Make an existing renderer know the plugin's shapes.");
 	flexpm_abi::registerBindings();
 	flexpm_bindings::register_geometry_bindings();
+	flexpm_bindings::register_instruction_set_bindings();
 	flexpm_bindings::register_subdivision_bindings();
 	// called by the package once the layout check has passed, not at load
 	py::def("register_classes", registerClasses, "Register the plugin's classes with YADE, once; returns their names.");

@@ -50,6 +50,8 @@ def checks() -> Iterator[Check]:
     yield _run_time(module)
     yield from _layouts(module)
     yield _live_scene(yade, module)
+    sets = ", ".join(module.instruction_sets())
+    yield "instruction set", True, f"{module.instruction_set()} (this machine has {sets})"
     yield _threads()
 
 

@@ -7,6 +7,9 @@ namespace flexpm_bindings {
 /// Outline, Tessellation, GrainMeshes; disc_count, disc_radii, insert_discs, tessellate, grain_meshes.
 void register_geometry_bindings();
 
+/// instruction_sets, instruction_set, use_instruction_set.
+void register_instruction_set_bindings();
+
 /// InnerCells; inner_cells.
 void register_subdivision_bindings();
 
