@@ -23,6 +23,8 @@ extensions = ["rooms", "yade_classes", "sphinx.ext.autodoc", "sphinx.ext.napoleo
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say more than types
 graphviz_output_format = "svg"
+# what YADE's docstrings call an attribute that the engine writes
+rst_epilog = ".. |yupdate| replace:: (written by the engine)"
 exclude_patterns = ["_build"]
 html_theme = "alabaster"
 html_theme_options = {"page_width": "62em", "body_max_width": "48em", "fixed_sidebar": True}

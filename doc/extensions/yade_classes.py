@@ -40,11 +40,14 @@ class YadeClass(SphinxDirective):
 
 
 def _class(made: type) -> Iterator[str]:
+    import flexpm
+
     base = made.__mro__[1]
     about, *static = re.split(r"(?=\.\. ystaticattr::)", made.__doc__ or "")
     yield f".. py:class:: flexpm.{made.__name__}"
     yield ""
-    yield from _indented(f"{_plain(about).strip()} Derived from YADE's ``{base.__name__}``.")
+    owner = "" if base.__name__ in flexpm.__all__ else "YADE's "
+    yield from _indented(f"{_plain(about).strip()} Derived from {owner}``{base.__name__}``.")
     for text in static:
         name, default, words = _STATIC.match(text).groups()
         about = f"{words} Common to all. Default: ``{default}``."
@@ -88,6 +91,7 @@ def _plain(text: str | None) -> str:
 
 def _python_type(name: str) -> str:
     known = {"Real": "float", "bool": "bool", "int": "int", "string": "str"}
+    name = re.sub(r"^shared_ptr<(.*)>$", r"\1", name)
     return known.get(name, "list" if name.startswith("vector") else name.rpartition(":")[2])
 
 

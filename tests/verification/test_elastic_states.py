@@ -100,7 +100,7 @@ def test_centre_of_an_elastic_disc_has_the_stresses_of_the_closed_form():
     disc = flexpm.Specimen.disc(diameter=diameter, thickness=THICKNESS, seed=1)
     material = flexpm.materials.load("augig-table7").with_set(STRONG)
     flexpm.run("brazilian", disc, material=material, max_strain=1e-3, rate=3 * SLOW)
-    solver, plate = (_engine(kind) for kind in ("GrainSolver", "PlateEngine"))
+    solver, plate = (_engine(kind) for kind in ("GrainSolver", "PlateController"))
     # at rest: damping drags on grains that move, which holds the disc together
     plate.velocity = (0.0, 0.0, 0.0)
     for _ in range(3000):

@@ -32,7 +32,7 @@ def make(specimen: flexpm.Specimen) -> Callable[..., flexpm.Model]:
         wrapper.Omega().reset()
         model = flexpm.build(specimen, **options)
         if velocity is not None:
-            model.add_engines(before=(wrapper.PlatenEngine(velocity=velocity),))
+            model.add_engines(before=(wrapper.EndDisplacementController(velocity=velocity),))
         return model
 
     return made

@@ -46,8 +46,8 @@ def test_memory_and_reload_continue_to_the_same_bits(half_broken, bits, tmp_path
 
 def test_a_scene_saved_in_the_middle_of_a_ramp_continues(make, bits, tmp_path):
     model = make()
-    press = wrapper.ConfinementEngine(pressure=5e6, sides=[0, 1, 2, 3], rampSteps=400)
-    platens = wrapper.PlatenEngine(holdTop=False)
+    press = wrapper.ConfinementController(pressure=5e6, sides=[0, 1, 2, 3], rampSteps=400)
+    platens = wrapper.EndDisplacementController(holdTop=False)
     model.add_engines(before=(press, platens))
     model.run(150)
     O.save(str(tmp_path / "scene.yade.gz"))

@@ -170,7 +170,7 @@ def test_bodies_of_a_script_are_kept(specimen):
     O.bodies.append(utils.sphere((0.5, 0.5, 0.0), 0.001))
     model = flexpm.build(specimen)
     assert model.solver.bodyIds[0] == 1
-    model.add_engines(before=(wrapper.PlatenEngine(velocity=-5e-9),))
+    model.add_engines(before=(wrapper.EndDisplacementController(velocity=-5e-9),))
     model.run(200)
     assert tuple(O.bodies[1].state.pos)[:2] == tuple(
         O.bodies[1].shape.positions[O.bodies[1].shape.vertices]

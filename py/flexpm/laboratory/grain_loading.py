@@ -22,12 +22,15 @@ MEMBRANE_PLATES = 16
 class Loading(Protocol):
     """Engines that load a built rectangle."""
 
-    def drive(self, built: Model, velocity: float) -> None:
+    def drive(self, built: Model, velocity: float) -> Any:
         """Hold the bottom and move the top.
 
         Args:
             built: The specimen.
             velocity: Of the top, positive away from the bottom [m/s, or m per step].
+
+        Returns:
+            The engine that moves the top.
         """
 
     def confine(self, built: Model, pressure: float, ramp: int) -> None:
@@ -49,53 +52,60 @@ class Loading(Protocol):
 class NodeLoading:
     """Boundary nodes and edges, for deformable grains."""
 
-    def drive(self, built: Model, velocity: float) -> None:
+    def drive(self, built: Model, velocity: float) -> Any:
         """Hold the bottom nodes and move the top ones."""
-        built.add_engines(before=(wrapper.PlatenEngine(velocity=velocity),))
+        engine = wrapper.EndDisplacementController(velocity=velocity)
+        built.add_engines(before=(engine,))
+        return engine
 
     def confine(self, built: Model, pressure: float, ramp: int) -> None:
         """Press on the boundary edges of top and sides."""
-        edges = wrapper.ConfinementEngine(
+        edges = wrapper.ConfinementController(
             pressure=pressure, sides=[RIGHT, TOP, LEFT], rampSteps=ramp
         )
-        built.add_engines(before=(edges, wrapper.PlatenEngine(holdTop=False)))
+        built.add_engines(before=(edges, wrapper.EndDisplacementController(holdTop=False)))
 
     def ramp(self, built: Model) -> int:
         """Steps over which the pressure rises."""
-        return int(built.engine("ConfinementEngine").rampSteps)
+        return int(built.engine("ConfinementController").rampSteps)
 
     def hold(self, built: Model) -> None:
         """Leave the pressure to the sides; the reaction of the top takes over there."""
-        built.engine("ConfinementEngine").sides = [RIGHT, LEFT]
+        built.engine("ConfinementController").sides = [RIGHT, LEFT]
         built.solver.clearPressure(TOP)
-        built.remove_engines(built.engine("PlatenEngine"))
+        built.remove_engines(built.engine("EndDisplacementController"))
 
 
 class PlateLoading:
     """Rigid plates, for rigid grains: the first is the lower one, the second the upper one."""
 
-    def drive(self, built: Model, velocity: float) -> None:
+    def drive(self, built: Model, velocity: float) -> Any:
         """Hold the lower plate and move the upper one; in tension both are bonded."""
         if not built.solver.plates():
             self._lay_ends(built, bonded=velocity > 0.0)
-        upper = wrapper.PlateEngine(plates=[1], velocity=(0.0, velocity, 0.0), elasticStart=True)
+        upper = wrapper.PlateController(
+            plates=[1], velocity=(0.0, velocity, 0.0), elasticStart=True
+        )
         built.add_engines(before=(upper,))
+        return upper
 
     def confine(self, built: Model, pressure: float, ramp: int) -> None:
         """Press on the upper plate and on a membrane at each side."""
         self._lay_ends(built, bonded=False)
         pressed = [1, *self._lay_membranes(built)]
         built.set_masses()
-        engine = wrapper.PlateEngine(plates=pressed, loaded=True, pressure=pressure, rampSteps=ramp)
+        engine = wrapper.PlateController(
+            plates=pressed, loaded=True, pressure=pressure, rampSteps=ramp
+        )
         built.add_engines(before=(engine,))
 
     def ramp(self, built: Model) -> int:
         """Steps over which the pressure rises."""
-        return int(built.engine("PlateEngine").rampSteps)
+        return int(built.engine("PlateController").rampSteps)
 
     def hold(self, built: Model) -> None:
         """Leave the pressure to the membranes."""
-        engine = built.engine("PlateEngine")
+        engine = built.engine("PlateController")
         engine.plates = engine.plates[1:]
 
     @staticmethod
@@ -134,7 +144,7 @@ def squeeze_disc(built: Model, velocity: float) -> Any:
     for normal in ((0.0, 1.0, 0.0), (0.0, -1.0, 0.0)):
         built.solver.holdSideways(built.solver.addTouchingPlate(normal))
     built.set_masses()
-    engine = wrapper.PlateEngine(plates=[1], velocity=(0.0, -velocity, 0.0))
+    engine = wrapper.PlateController(plates=[1], velocity=(0.0, -velocity, 0.0))
     built.add_engines(before=(engine,))
     return engine
 

@@ -43,7 +43,11 @@ def test_a_ratio_is_not_the_ratio_of_medians():
 def test_own_models_are_timed_with_all_that_a_run_does(specimen, name):
     bench.BUILDERS[name][1](specimen, 1)
     kinds = [type(engine).__name__ for engine in yade.O.engines]
-    assert kinds.index("PlatenEngine") < kinds.index("GrainSolver") < kinds.index("AxialRecorder")
+    assert (
+        kinds.index("EndDisplacementController")
+        < kinds.index("GrainSolver")
+        < kinds.index("AxialRecorder")
+    )
     before = yade.O.bodies[0].state.pos
     yade.O.run(300, True)
     recorder = yade.O.engines[kinds.index("AxialRecorder")]
@@ -53,7 +57,7 @@ def test_own_models_are_timed_with_all_that_a_run_does(specimen, name):
 
 def test_rigid_grains_are_timed_between_plates(specimen):
     bench.BUILDERS["rigid"][1](specimen, 1)
-    assert {"PlateEngine", "AxialRecorder"} <= {type(e).__name__ for e in yade.O.engines}
+    assert {"PlateController", "AxialRecorder"} <= {type(e).__name__ for e in yade.O.engines}
     yade.O.run(10, True)
     assert max(plate["displacement"][1] ** 2 for plate in solver().plates()) > 0.0
 

@@ -79,7 +79,7 @@ def test_biaxial_membrane_keeps_its_pressure(rectangle: flexpm.Specimen) -> None
     assert stress[0] > pressure
     assert result.peak_stress > 60e6
     assert energy_is_kept(result)
-    sides = [plate for plate in yade.O.engines if type(plate).__name__ == "PlateEngine"]
+    sides = [plate for plate in yade.O.engines if type(plate).__name__ == "PlateController"]
     assert len(sides) == 2
 
 

@@ -43,6 +43,7 @@ namespace {
 		FLEXPM_VISIT(NormShearPhys);
 		FLEXPM_VISIT(Engine);
 		FLEXPM_VISIT(GlobalEngine);
+		FLEXPM_VISIT(BoundaryController);
 		FLEXPM_VISIT(PartialEngine);
 		FLEXPM_VISIT(TimeStepper);
 		FLEXPM_VISIT(Functor);

@@ -8,6 +8,7 @@
 #include <lib/serialization/Serializable.hpp>
 // second, so that the macros below replace the real ones of both
 #include <lib/factory/ClassFactory.hpp>
+#include <lib/serialization/EnumSupport.hpp>
 
 #pragma push_macro("REGISTER_FACTORABLE")
 #pragma push_macro("_REGISTER_ATTRIBUTES_DEPREC")
@@ -59,6 +60,7 @@ public: \
 #include <core/Scene.hpp>
 #include <core/Shape.hpp>
 #include <core/State.hpp>
+#include <pkg/common/BoundaryController.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/Facet.hpp>

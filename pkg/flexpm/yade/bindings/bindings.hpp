@@ -10,6 +10,9 @@ void register_geometry_bindings();
 /// instruction_sets, instruction_set, use_instruction_set.
 void register_instruction_set_bindings();
 
+/// StrainGauge; scales, stresses and end of a test.
+void register_laboratory_bindings();
+
 /// InnerCells; inner_cells.
 void register_subdivision_bindings();
 

@@ -71,7 +71,8 @@ namespace {
 void GrainSolver::check()
 {
 	const std::string bad = flexpm::find_bad_number(assembly);
-	if (!bad.empty()) throw std::runtime_error("GrainSolver: " + bad);
+	diverged              = !bad.empty();
+	if (diverged) throw std::runtime_error("GrainSolver: " + bad);
 	retireErased(); // a script that keeps a handle delays its destruction
 	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need

@@ -62,6 +62,7 @@ public:
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
+		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, which has stopped the simulation |yupdate|."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("thickness"), py::arg("materials"), py::arg("options")),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Driving plates.
-#include <flexpm/yade/laboratory/PlateEngine.hpp>
+#include <flexpm/yade/laboratory/PlateController.hpp>
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
@@ -9,12 +8,13 @@
 
 namespace yade {
 
-YADE_PLUGIN((PlateEngine));
+YADE_PLUGIN((PlateController));
 
-PlateEngine::~PlateEngine() = default;
+PlateController::~PlateController() = default;
 
-void PlateEngine::action()
+void PlateController::action()
 {
+	velocity *= factorChange();
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int plate : plates) {
 		if (loaded)

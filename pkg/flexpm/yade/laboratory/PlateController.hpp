@@ -2,29 +2,29 @@
 /// @file  What moves the rigid plates of a test: a velocity or a pressure, paper Sec. 4.1.
 #pragma once
 
-#include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
 
-class PlateEngine : public GlobalEngine {
+class PlateController : public LoadingController {
 public:
-	~PlateEngine() override;
+	~PlateController() override;
 	void action() override;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(PlateEngine, GlobalEngine,
+	YADE_CLASS_BASE_DOC_ATTRS(PlateController, LoadingController,
 		"Moves rigid plates, which :yref:`GrainSolver` holds: at a velocity, or each on its own along its normal under a pressure "
 		"(several plates on a side make a membrane). Place it before :yref:`GrainSolver`.",
 		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
 		((bool, loaded, false,, "Let the plates move under the pressure; otherwise they move at the velocity."))
-		((Vector3r, velocity, Vector3r::Zero(),, "Velocity of the plates [m/s, or m per step with scaled masses]."))
+		((Vector3r, velocity, Vector3r::Zero(),, "Present velocity of the plates [m/s, or m per step with scaled masses] |yupdate|."))
 		((Real, pressure, 0.,, "Pressure on the width of each plate, compressive positive [Pa]."))
 		((int, rampSteps, 0,, "Steps over which the pressure rises evenly to its value [-]."))
 		((bool, elasticStart, false,, "Start all grains with the velocities of the elastic solution for the plates' velocity, so that no wave runs through the specimen."))
-		((bool, started, false, Attr::readonly, "The elastic velocities are set."))
+		((bool, started, false, Attr::readonly, "The elastic velocities are set |yupdate|."))
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(PlateEngine);
+REGISTER_SERIALIZABLE(PlateController);
 
 } // namespace yade

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Rules of a test as functions on plain numbers, for models that the kernel does not step.
+#include <flexpm/yade/bindings/array_view.hpp>
+#include <flexpm/yade/bindings/bindings.hpp>
+#include <flexpm/yade/bindings/scales_dict.hpp>
+
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/end_rule.hpp>
+
+#include <boost/python/stl_iterator.hpp>
+
+#include <memory>
+
+namespace py = boost::python;
+
+namespace flexpm_bindings {
+namespace {
+
+	using flexpm::StrainGauge;
+
+	flexpm::Sense senseOf(bool tension) { return tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
+
+	double referenceStrength(bool tension, double tensile, double cohesion, double friction)
+	{
+		return flexpm::reference_strength(senseOf(tension), { tensile, cohesion, friction });
+	}
+
+	py::dict rectangleScales(double modulus, double strength, double mass, double thickness, double dt, double width, double height)
+	{
+		return scales_dict(flexpm::rectangle_scales({ modulus, strength, mass, thickness, dt }, width, height));
+	}
+
+	py::dict discScales(double modulus, double strength, double mass, double thickness, double dt, double diameter)
+	{
+		return scales_dict(flexpm::disc_scales({ modulus, strength, mass, thickness, dt }, diameter));
+	}
+
+	double axialStress(double bottom, double top, double area, bool tension) { return flexpm::axial_stress({ bottom, top }, senseOf(tension), area); }
+
+	double endMismatch(double bottom, double top) { return flexpm::end_mismatch({ bottom, top }); }
+
+	flexpm::TestState testState(double stress, double peak, double strain, double stopRatio, double leastPeak, double maxStrain)
+	{
+		return flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, maxStrain });
+	}
+
+	std::vector<flexpm::SideShare> shares(const py::object& pairs)
+	{
+		std::vector<flexpm::SideShare> found;
+		for (auto pair = py::stl_input_iterator<py::object>(pairs); pair != py::stl_input_iterator<py::object>(); ++pair)
+			found.push_back({ py::extract<int>((*pair)[0]), py::extract<double>((*pair)[1]) });
+		return found;
+	}
+
+	std::shared_ptr<StrainGauge> strainGauge(double bottom, double height, double meanDiameter, py::object left, py::object right)
+	{
+		return std::make_shared<StrainGauge>(StrainGauge { bottom, height, meanDiameter, shares(left), shares(right) });
+	}
+
+	py::tuple strains(const StrainGauge& gauge, py::object centres, py::object displacements)
+	{
+		const InputArray<double> places(centres, 2, "centres"), moved(displacements, 2, "displacements");
+		const int                grains = static_cast<int>(places.size(0));
+		const auto               at     = [](const InputArray<double>& array) {
+                        return [rows = array.data()](int grain, int component) { return rows[2 * grain + component]; };
+		};
+		const flexpm::SpecimenStrain found = flexpm::centre_strain(gauge, grains, at(places), at(moved));
+		return py::make_tuple(found.axial, found.lateral);
+	}
+
+} // namespace
+
+void register_laboratory_bindings()
+{
+	py::def("contact_modulus",
+	        flexpm::contact_modulus,
+	        (py::arg("normal_stiffness"), py::arg("mean_diameter")),
+	        "Stress over strain of a row of grains that are stiff against their contacts [Pa].");
+	py::def("reference_strength",
+	        referenceStrength,
+	        (py::arg("tension"), py::arg("tensile_strength"), py::arg("cohesion"), py::arg("friction")),
+	        "Strength that the contacts alone would give a specimen [Pa].");
+	py::def("rectangle_scales",
+	        rectangleScales,
+	        (py::arg("modulus"), py::arg("strength"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("width"), py::arg("height")),
+	        "Scales of a test of a rectangle by name, as AxialRecorder.scales.");
+	py::def("disc_scales",
+	        discScales,
+	        (py::arg("modulus"), py::arg("strength"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("diameter")),
+	        "Scales of a test of a disc between two plates by name.");
+	py::def("axial_stress",
+	        axialStress,
+	        (py::arg("bottom"), py::arg("top"), py::arg("area"), py::arg("tension")),
+	        "Mean of the forces that hold both ends [N] over an area [m2], positive in the sense of the loading [Pa].");
+	py::def("end_mismatch", endMismatch, (py::arg("bottom"), py::arg("top")), "|sum of both ends' forces| over the larger [-].");
+	py::def("splitting_area",
+	        flexpm::splitting_area,
+	        (py::arg("diameter"), py::arg("thickness")),
+	        "Area over which the force of a Brazilian test gives its stress 2 P / (pi D t) [m2].");
+	py::def("ramp_factor", flexpm::ramp_factor, (py::arg("step"), py::arg("ramp_steps")), "Part of the full load in the coming step of a ramp [-].");
+	py::def("test_state",
+	        testState,
+	        (py::arg("stress"), py::arg("peak"), py::arg("strain"), py::arg("stop_ratio"), py::arg("least_peak"), py::arg("max_strain")),
+	        "Whether a test is over; stresses are those above the confinement [Pa].");
+	py::class_<StrainGauge, std::shared_ptr<StrainGauge>>(
+	        "StrainGauge", "Bands and sides of a rectangle between which the strains of its grains are measured.", py::no_init)
+	        .def("__init__",
+	             py::make_constructor(
+	                     strainGauge,
+	                     py::default_call_policies(),
+	                     (py::arg("bottom"), py::arg("height"), py::arg("mean_diameter"), py::arg("left"), py::arg("right"))),
+	             "Left and right are pairs of a grain and the length of that side that belongs to it [m].")
+	        .def("strains",
+	             strains,
+	             (py::arg("centres"), py::arg("displacements")),
+	             "Axial and lateral strain [-] of grains from their centres, (n, 2) [m]; extension positive.");
+}
+
+} // namespace flexpm_bindings

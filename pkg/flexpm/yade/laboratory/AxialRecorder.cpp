@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/yade/laboratory/AxialRecorder.hpp>
+
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/yade/bindings/scales_dict.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <array>
+
+namespace yade {
+
+YADE_ENUM(flexpm, TestState, (running)(past_peak)(largest_strain_reached));
+YADE_PLUGIN((AxialRecorder));
+
+namespace {
+
+	struct Column {
+		const char* name;
+		Real (*value)(const flexpm::AxialObservation&);
+	};
+
+	constexpr std::array<Column, 18> recorded { {
+		{ "step", [](const auto& o) { return Real(o.step); } },
+		{ "axial_strain", [](const auto& o) { return o.axial_strain; } },
+		{ "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
+		{ "axial_stress", [](const auto& o) { return o.axial_stress; } },
+		{ "confinement", [](const auto& o) { return o.confinement; } },
+		{ "tensile_cracks", [](const auto& o) { return Real(o.cracks.tensile); } },
+		{ "shear_cracks", [](const auto& o) { return Real(o.cracks.shear); } },
+		{ "unbalanced_ratio", [](const auto& o) { return o.unbalanced_ratio; } },
+		{ "velocity_factor", [](const auto& o) { return o.velocity_factor; } },
+		{ "end_mismatch", [](const auto& o) { return o.end_mismatch; } },
+		{ "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
+		{ "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
+		{ "damage_energy", [](const auto& o) { return o.energies.damage; } },
+		{ "friction_energy", [](const auto& o) { return o.energies.friction; } },
+		{ "damping_energy", [](const auto& o) { return o.energies.damping; } },
+		{ "potential_energy", [](const auto& o) { return o.energies.potential; } },
+		{ "boundary_work", [](const auto& o) { return o.energies.boundary_work; } },
+		{ "initial_energy", [](const auto& o) { return o.energies.initial; } },
+	} };
+
+	/// What the recorder sees of the specimen after a step; the strains count from the bonded state.
+	flexpm::AxialObservation observed(const AxialRecorder& recorder, const flexpm::Assembly& assembly)
+	{
+		const auto sense = recorder.tension ? flexpm::Sense::tension : flexpm::Sense::compression;
+		auto       now   = recorder.diameter > 0 ? flexpm::observe_disc(assembly, recorder.diameter)
+		                                         : flexpm::observe(assembly, flexpm::rectangle_of(assembly, sense));
+		if (recorder.loading) now.velocity_factor = recorder.loading->velocityFactor;
+		return now;
+	}
+
+} // namespace
+
+AxialRecorder::~AxialRecorder() = default;
+
+void AxialRecorder::action()
+{
+	const auto solver   = GrainSolver::ofScene(*scene);
+	const bool measured = solver->measured();
+	if (!measured && !fromNow) return;
+	auto now = observed(*this, solver->assembly);
+	if (fromNow) zero = Vector2r(now.axial_strain, now.lateral_strain);
+	fromNow = false;
+	if (!measured) return;
+	now.axial_strain -= zero[0];
+	now.lateral_strain -= zero[1];
+	for (const Column& column : recorded)
+		values.push_back(column.value(now));
+	stress = now.axial_stress;
+	strain = now.axial_strain;
+	peak   = std::max(peak, stress);
+	state  = flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, maxStrain });
+	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
+}
+
+py::list AxialRecorder::names() const
+{
+	py::list all;
+	for (const Column& column : recorded)
+		all.append(column.name);
+	return all;
+}
+
+py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, recorded.size()); }
+
+py::dict AxialRecorder::scales() const
+{
+	const auto  world  = Omega::instance().getScene();
+	const auto& a      = GrainSolver::ofScene(*world)->assembly;
+	const auto  sense  = tension || diameter > 0 ? flexpm::Sense::tension : flexpm::Sense::compression;
+	const auto  inputs = flexpm::scale_inputs(a, sense, world->dt);
+	if (diameter > 0) return flexpm_bindings::scales_dict(flexpm::disc_scales(inputs, diameter));
+	const auto size = flexpm::rectangle_of(a, sense);
+	return flexpm_bindings::scales_dict(flexpm::rectangle_scales(inputs, size.width, size.height));
+}
+
+} // namespace yade

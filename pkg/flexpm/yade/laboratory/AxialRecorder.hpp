@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Record of an axial test on grains, and its end, paper Sec. 4.1.
+#pragma once
+
+#include <flexpm/kernel/laboratory/end_rule.hpp>
+#include <flexpm/yade/laboratory/LoadingController.hpp>
+
+namespace yade {
+
+class AxialRecorder : public GlobalEngine {
+public:
+	~AxialRecorder() override;
+	void action() override;
+
+	boost::python::list   names() const;
+	boost::python::object rows() const;
+	boost::python::dict   scales() const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
+		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
+		"as both must look at the same steps) and stops the simulation when the test is over. Place it after the solver.",
+		((Real, diameter, 0.,, "Of a disc between a lower and an upper plate; 0: the specimen is a rectangle [m]."))
+		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
+		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
+		((Real, stopRatio, .5,, "The test is over once the stress above the confinement has fallen below this part of its peak [-]."))
+		((Real, leastPeak, 0.,, "No fall counts before the stress above the confinement has reached this [Pa]."))
+		((Real, maxStrain, 1e300,, "The test is over at this axial strain [-]."))
+		((bool, fromNow, false,, "Count strains from the next step on instead of from the bonded state; false after that step."))
+		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-] |yupdate|."))
+		((Real, stress, 0., Attr::readonly, "Axial stress of the last row [Pa] |yupdate|."))
+		((Real, strain, 0., Attr::readonly, "Axial strain of the last row [-] |yupdate|."))
+		((Real, peak, 0., Attr::readonly, "Largest stress above the confinement so far [Pa] |yupdate|."))
+		((flexpm::TestState, state, flexpm::TestState::running, Attr::readonly, "Whether the test is over, and why: running, past_peak or largest_strain_reached |yupdate|."))
+		((vector<Real>, values,, Attr::hidden, "The record, row after row [SI units]."))
+		, /* ctor */
+		, .add_property("names", &AxialRecorder::names, "Names of the record's columns.")
+		.add_property("rows", &AxialRecorder::rows, "The record, (rows, columns); a copy.")
+		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m].")
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(AxialRecorder);
+
+} // namespace yade

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Driven ends of a rectangle of deformable grains: held and moved boundary nodes, paper Sec. 4.1.
+#pragma once
+
+#include <flexpm/yade/laboratory/LoadingController.hpp>
+
+namespace yade {
+
+class EndDisplacementController : public LoadingController {
+public:
+	~EndDisplacementController() override;
+	void action() override;
+	void preload(Real share, int steps);
+	void release();
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(EndDisplacementController, LoadingController,
+		"Holds the bottom nodes of a rectangular specimen axially (one of them also laterally) and moves the top nodes; "
+		"no friction on either. Place it before :yref:`GrainSolver`.",
+		((Real, velocity, 0.,, "Present velocity of the top, positive away from the bottom [m/s, or m per step with scaled masses] |yupdate|."))
+		((bool, holdTop, true,, "Drive the top; if not, only the bottom is held and the top is free."))
+		((bool, elasticStart, true,, "Start all nodes with the velocities of the elastic solution, so that no wave runs through the specimen."))
+		((bool, gripped, false, Attr::readonly, "The top has been taken hold of |yupdate|."))
+		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top's nodes have [m/s, or m per step]."))
+		, /* ctor */
+		, .def("preload", &EndDisplacementController::preload, (boost::python::arg("share"), boost::python::arg("steps")),
+			"Take hold of all nodes of the unloaded specimen: that many steps take it along its elastic solution to this share of the strain at which the first contact point leaves its elastic branch.")
+		.def("release", &EndDisplacementController::release, "Release the nodes after those steps; the top goes on at the velocity.")
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(EndDisplacementController);
+
+} // namespace yade
