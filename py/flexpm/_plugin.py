@@ -125,7 +125,8 @@ def _register(yade: ModuleType, module: ModuleType) -> list[str]:
     names = list(module.register_classes())
     for name in names:
         setattr(yade, name, getattr(yade.wrapper, name))
-    yade.__all__ += [name for name in names if name not in yade.__all__]
+    exported: list[str] = vars(yade)["__all__"]  # of scripts that take all names of YADE
+    exported += [name for name in names if name not in exported]
     if names and "yade.qt" in sys.modules:
         # The 3D window exists before scripts run; it must learn about shapes that came later.
         module.refresh_renderer(sys.modules["yade.qt"].Renderer())

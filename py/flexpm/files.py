@@ -16,6 +16,9 @@ from typing import Any
 
 from .errors import InputError
 
+#: A table of a TOML or JSON file: values, lists and tables.
+Table = dict[str, Any]
+
 
 @contextlib.contextmanager
 def whole_file(path: Path | str) -> Iterator[Path]:
@@ -47,7 +50,7 @@ def write_text(path: Path | str, text: str) -> None:
         temporary.write_bytes(text.encode("utf-8"))
 
 
-def json_text(content: Any) -> str:
+def json_text(content: object) -> str:
     """`content` as readable JSON that ends with a new line; only finite numbers are allowed."""
     return json.dumps(content, indent=2, allow_nan=False) + "\n"
 
@@ -66,7 +69,7 @@ def csv_text(names: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
-def load_toml(path: Path, what: str) -> dict[str, Any]:
+def load_toml(path: Path, what: str) -> Table:
     """Read a TOML file.
 
     Args:

@@ -48,12 +48,12 @@ for material in (feldspar, rock):
     print(f"{material.name:13}  strength {result.peak_stress / 1e6:.0f} MPa")
 
 # 5. Cracks by the minerals on their two sides: quartz is stronger, so few are between quartz.
-minerals = result.snapshot["grain_mineral"]
-kinds = np.sort(minerals[result.snapshot["contact_grains"]], axis=1)
+minerals = result.snapshot.grain_mineral
+kinds = np.sort(minerals[result.snapshot.contact_grains], axis=1)
 cracked = np.array([crack.contact for crack in result.cracks])
 for pair in ((0, 0), (0, 1), (1, 1)):
     here = np.all(kinds == pair, axis=1)
-    points = result.snapshot["crack_step"].shape[1] * np.count_nonzero(here)
+    points = result.snapshot.crack_step.shape[1] * np.count_nonzero(here)
     share = np.count_nonzero(here[cracked]) / points
     names = " - ".join(rock.minerals[kind].name for kind in pair)
     print(f"{names:20}  {100 * share:4.1f} % of the points have cracked")

@@ -5,6 +5,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+from flexpm.results.snapshot import Snapshot
+
 WIDTH, HEIGHT = 2e-3, 3e-3
 GRADIENT = np.array([[-2e-4, 3e-4], [1e-4, -1e-3]])  #: displacement gradient [-]
 STRESS = np.array([-1e6, -24e6, 2e6])  #: xx, yy, xy [Pa]
@@ -37,23 +39,23 @@ def wall(columns=3, rows=4, points=3):
     first[:, 0] = contacts
     cracked = (contacts % 2 == 1)[:, None] & (np.arange(points) == 0)
     ends = np.reshape(ends, (-1, 2, 2))
-    return {
-        "positions": moved(reference),
-        "reference": reference,
-        "velocities": np.tile([0.0, -1e-8], (len(reference), 1)),
-        "triangles": np.concatenate([fan + 5 * grain for grain in range(len(origins))]),
-        "triangle_grain": np.repeat(np.arange(len(origins)), 4),
-        "triangle_stress": np.tile(STRESS, (4 * len(origins), 1)),
-        "contact_grains": np.reshape(grains, (-1, 2)).astype(int),
-        "contact_ends": moved(ends),
-        "point_opening": 1e-9 * first,
-        "point_slip": -1e-9 * first,
-        "point_damage": first / len(grains),
-        "point_traction": 1e3 * np.stack([first, -first], axis=-1),
-        "crack_step": np.where(cracked, 10 * first.astype(int), -1),
-        "crack_mode": np.where(cracked, 1 + (contacts // 2 % 2)[:, None], 0),
-        "crack_position": np.repeat(moved(ends).mean(axis=1)[:, None], points, axis=1),
-    }
+    return Snapshot(
+        positions=moved(reference),
+        reference=reference,
+        velocities=np.tile([0.0, -1e-8], (len(reference), 1)),
+        triangles=np.concatenate([fan + 5 * grain for grain in range(len(origins))]),
+        triangle_grain=np.repeat(np.arange(len(origins)), 4),
+        triangle_stress=np.tile(STRESS, (4 * len(origins), 1)),
+        contact_grains=np.reshape(grains, (-1, 2)).astype(int),
+        contact_ends=moved(ends),
+        point_opening=1e-9 * first,
+        point_slip=-1e-9 * first,
+        point_damage=first / len(grains),
+        point_traction=1e3 * np.stack([first, -first], axis=-1),
+        crack_step=np.where(cracked, 10 * first.astype(int), -1),
+        crack_mode=np.where(cracked, 1 + (contacts // 2 % 2)[:, None], 0),
+        crack_position=np.repeat(moved(ends).mean(axis=1)[:, None], points, axis=1),
+    )
 
 
 def moved(places):

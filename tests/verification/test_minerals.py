@@ -102,8 +102,8 @@ def test_equal_minerals_are_the_homogeneous_rock_to_the_same_bits():
         )
         assert one.tensile_cracks > 0
         assert np.array_equal(one.curve.array, several.curve.array, equal_nan=True)
-        assert np.array_equal(one.snapshot["positions"], several.snapshot["positions"])
-        assert set(several.snapshot["grain_mineral"]) == {0, 1, 2}
+        assert np.array_equal(one.snapshot.positions, several.snapshot.positions)
+        assert set(several.snapshot.grain_mineral) == {0, 1, 2}
 
 
 @given(
@@ -267,7 +267,7 @@ def test_an_interrupted_run_goes_on_with_its_minerals_to_the_same_bits(tmp_path)
         assert cut == (tmp_path / "whole" / name).read_bytes()
     areas = [kind["area_fraction"] for kind in whole.material["minerals"]]
     assert areas == pytest.approx([0.5, 0.5], abs=2.0 / len(specimen.discs))
-    swapped = specimen.with_minerals(1 - whole.snapshot["grain_mineral"])
+    swapped = specimen.with_minerals(1 - whole.snapshot.grain_mineral)
     with pytest.raises(flexpm.InputError, match="minerals = None there"):
         flexpm.run(**{**job, "specimen": swapped}, out=tmp_path / "cut")
 

@@ -95,8 +95,8 @@ def test_grains_carry_the_stresses_of_the_specimen(rectangle):
     course = Course(Checkpoint(None, spec), None)
     record = yade_protocols.run_biaxial(built, spec, course).curve
     state = built.snapshot()
-    first = np.unique(state["triangle_grain"], return_index=True)[1]
-    stress, areas = state["triangle_stress"][first], np.array(rectangle.tessellation.cell_areas)
+    first = np.unique(state.triangle_grain, return_index=True)[1]
+    stress, areas = state.triangle_stress[first], np.array(rectangle.tessellation.cell_areas)
     # grains on the rim lack the forces of plates and pressure
     x, y = rectangle.centres.T
     inner = (np.abs(x - 0.01) < 0.006) & (np.abs(y - 0.02) < 0.015)
@@ -104,6 +104,6 @@ def test_grains_carry_the_stresses_of_the_specimen(rectangle):
     assert mean[0] == pytest.approx(-4e6, rel=0.1)
     assert mean[1] == pytest.approx(-record["axial_stress"][-1], rel=0.05)
     assert abs(mean[2]) < 0.05 * abs(mean[1])
-    moved = state["positions"] - state["reference"]
-    top, bottom = (state["reference"][:, 1] > 0.03), (state["reference"][:, 1] < 0.01)
+    moved = state.positions - state.reference
+    top, bottom = (state.reference[:, 1] > 0.03), (state.reference[:, 1] < 0.01)
     assert moved[top, 1].mean() < moved[bottom, 1].mean()

@@ -86,7 +86,7 @@ def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(make):
     assert forces[0] @ (3e-9, -2e-9) < 0.0, "the grain resists"
     snapshot = model.snapshot()
     first = sum(len(O.bodies[b].shape.positions) for b in range(3))
-    assert (snapshot["forces"][first : first + len(forces)] == forces).all()
+    assert (snapshot.forces[first : first + len(forces)] == forces).all()
 
 
 def test_a_held_node_keeps_the_velocity_that_a_script_gives_it(make):
@@ -123,10 +123,10 @@ def test_bonds_show_their_points(half_broken):
     law = half_broken.material.law("flexible")
     for number, bond in enumerate(sorted(bonds(), key=lambda i: (i.id1, i.id2))):
         phys, geom = bond.phys, bond.geom
-        assert [bond.id1, bond.id2] == list(snapshot["contact_grains"][number])
+        assert [bond.id1, bond.id2] == list(snapshot.contact_grains[number])
         for name in ("opening", "slip", "damage", "traction"):
-            assert (getattr(phys, name) == snapshot[f"point_{name}"][number]).all()
-        assert (phys.cracked == snapshot["crack_mode"][number]).all()
+            assert (getattr(phys, name) == getattr(snapshot, f"point_{name}")[number]).all()
+        assert (phys.cracked == snapshot.crack_mode[number]).all()
         assert ((phys.cracked > 0) == (phys.damage >= 1.0)).all()
         sound = phys.damage == 0.0
         elastic = law["normal_stiffness"] * phys.opening[sound]

@@ -7,7 +7,6 @@ import difflib
 import math
 import numbers
 from collections.abc import Sequence
-from typing import Any
 
 from ..errors import InputError
 
@@ -41,11 +40,11 @@ ELASTIC_SET = {
 }
 
 
-def checked(key: str, value: Any, where: str = "") -> float | str:
+def checked(key: str, value: object, where: str = "") -> float | str:
     """Return `value` of `key` as float or word, or raise InputError naming the broken rule."""
     if key in CHOICES:
         check_name(f"material {where}{key}", value, list(CHOICES[key]))
-        return value
+        return str(value)
     label = f"material {where}{key} = {value!r} {UNITS[key]}".removesuffix(" -")
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise InputError(f"{label}, must be a number")
@@ -64,7 +63,7 @@ def checked(key: str, value: Any, where: str = "") -> float | str:
     return number
 
 
-def check_name(label: str, name: Any, known: Sequence[str]) -> None:
+def check_name(label: str, name: object, known: Sequence[str]) -> None:
     """Raise InputError, with the nearest known name, unless `name` is one of `known`."""
     if name not in known:
         raise InputError(

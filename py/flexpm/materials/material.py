@@ -10,10 +10,10 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import TypedDict
 
 from ..errors import InputError
-from ..files import load_toml
+from ..files import Table, load_toml
 from . import mineral
 from .keys import (
     CHOICES,
@@ -98,7 +98,7 @@ class Material:
         object.__setattr__(self, "minerals", mineral.checked(self.minerals))
 
     @classmethod
-    def from_dict(cls, data: Mapping[str, Any], name: str = "custom") -> Material:
+    def from_dict(cls, data: Mapping[str, object], name: str = "custom") -> Material:
         """Build a material from nested keys as they stand in a TOML file.
 
         Args:
@@ -109,7 +109,7 @@ class Material:
         Raises:
             InputError: naming the key that is unknown, missing or out of range.
         """
-        common = dict(data)
+        common: Table = dict(data)
         label = str(common.pop("name", name))
         sets = common.pop("elastic", {})
         kinds = common.pop("mineral", ())
@@ -136,14 +136,14 @@ class Material:
         Raises:
             InputError: for a malformed assignment, an unknown key or a value out of range.
         """
-        changes = dict(_parse_assignment(text) for text in assignments)
+        changes: Table = dict(map(_parse_assignment, assignments))
         if not changes:
             return self
         name = elastic_set_name(model)
         of_minerals = {key: changes.pop(key) for key in list(changes) if "." in key}
         kinds = mineral.with_values(self.minerals, of_minerals, name)
         elastic = dict(self.elastic)
-        own = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
+        own: Table = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
         if name == "inner" and own.keys() & {"normal_stiffness", "shear_ratio"}:
             own = dict.fromkeys(("young", "poisson")) | own
         if own:
@@ -204,7 +204,7 @@ class Material:
         return self.elastic[name]
 
     def _energy(self, key: str, elastic: float) -> float:
-        given = getattr(self, key)
+        given: float | None = getattr(self, key)
         if given is None:
             return elastic
         if self.softening == "brittle":
@@ -232,7 +232,7 @@ def preset_names() -> list[str]:
 
 
 def load(
-    material: str | Path | Mapping[str, Any] | Material | None = None, model: str = "flexible"
+    material: str | Path | Mapping[str, object] | Material | None = None, model: str = "flexible"
 ) -> Material:
     """Return a material from a preset's name, a TOML file, a dictionary or a Material.
 
@@ -265,7 +265,7 @@ def _load_file(path: Path) -> Material:
     return Material.from_dict(load_toml(path, "material"), name=path.stem)
 
 
-def _elastic_from(name: str, values: Any) -> ElasticSet:
+def _elastic_from(name: str, values: object) -> ElasticSet:
     if not isinstance(values, Mapping):
         raise InputError(f"material elastic.{name} = {values!r}, must be a table [elastic.{name}]")
     for key in values:
@@ -280,7 +280,7 @@ def _elastic_from(name: str, values: Any) -> ElasticSet:
 
 def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:
     check_name("material elastic set", name, sorted(set(ELASTIC_SET.values())))
-    values: dict[str, Any] = {}
+    values: Table = {}
     for key in ELASTIC_KEYS:
         value = getattr(chosen, key)
         if value is not None or key not in ("young", "poisson"):

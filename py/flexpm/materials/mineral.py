@@ -7,9 +7,9 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from ..errors import InputError
+from ..files import Table
 from .keys import COMMON_KEYS, ELASTIC_KEYS, check_name
 
 #: Fractions are to sum up to 1 within this.
@@ -23,10 +23,10 @@ class Mineral:
 
     name: str
     fraction: float  #: of the area [-]
-    changes: Mapping[str, Any]  #: common keys, and `elastic`: changed keys by name of the set
+    changes: Mapping[str, object]  #: common keys, and `elastic`: changed keys by name of the set
 
     @classmethod
-    def from_dict(cls, data: Any, number: int) -> Mineral:
+    def from_dict(cls, data: object, number: int) -> Mineral:
         """Make a mineral from a table `[[mineral]]`.
 
         Args:
@@ -53,7 +53,7 @@ class Mineral:
         return cls(name, float(fraction), changes)
 
 
-def checked(minerals: Sequence[Any]) -> tuple[Mineral, ...]:
+def checked(minerals: object) -> tuple[Mineral, ...]:
     """Minerals from tables; their names differ and their fractions sum up to 1."""
     if not isinstance(minerals, list | tuple):
         raise InputError(f"material mineral = {minerals!r}, must be tables [[mineral]]")
@@ -72,7 +72,7 @@ def checked(minerals: Sequence[Any]) -> tuple[Mineral, ...]:
 
 
 def with_values(
-    kinds: Sequence[Mineral], values: Mapping[str, Any], elastic_set: str
+    kinds: Sequence[Mineral], values: Mapping[str, object], elastic_set: str
 ) -> tuple[Mineral, ...]:
     """Minerals with changed values.
 
@@ -91,7 +91,7 @@ def with_values(
             raise InputError(f"set {name} = {value!r}, needs a material with [[mineral]] tables")
         check_name("set mineral", mineral, list(found))
         check_name(f"set {mineral} key", key, [*_KEYS, *ELASTIC_KEYS])
-        changes = dict(found[mineral].changes)
+        changes: Table = dict(found[mineral].changes)
         if key in ELASTIC_KEYS:
             sets = dict(changes.get("elastic", {}))
             sets[elastic_set] = {**sets.get(elastic_set, {}), key: value}

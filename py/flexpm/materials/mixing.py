@@ -14,9 +14,9 @@ from __future__ import annotations
 import dataclasses
 import operator
 from collections.abc import Mapping
-from typing import Any
 
 from ..errors import InputError
+from ..files import Table
 from .keys import ELASTIC_KEYS, ENERGY_KEYS, check_name, elastic_set_name
 from .material import ElasticSet, Material
 from .mineral import Mineral
@@ -46,14 +46,14 @@ def pair_materials(rock: Material, model: str) -> list[Material]:
     return pairs
 
 
-def description(rock: Material, model: str = "flexible") -> dict[str, Any]:
+def description(rock: Material, model: str = "flexible") -> Table:
     """``rock.law`` of `model`, and if grains differ also that of each mineral, by `minerals`.
 
     Raises:
         InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
             several.
     """
-    values: dict[str, Any] = rock.law(model)
+    values: Table = {**rock.law(model)}
     if not rock.minerals:
         return values
     if model not in MODELS:
@@ -71,7 +71,7 @@ def description(rock: Material, model: str = "flexible") -> dict[str, Any]:
 
 
 def _changed(rock: Material, mineral: Mineral) -> Material:
-    changes = dict(mineral.changes)
+    changes: Table = dict(mineral.changes)
     elastic = dict(rock.elastic)
     sets = changes.pop("elastic", {})
     if not isinstance(sets, Mapping):
@@ -95,11 +95,11 @@ def _changed(rock: Material, mineral: Mineral) -> Material:
 def _pair(first: Material, second: Material, model: str) -> Material:
     """Contact between grains of two materials, by the rule above."""
     brittle = "brittle" in (first.softening, second.softening)
-    weaker = {
+    weaker: Table = {
         key: min(getattr(first, key), getattr(second, key))
         for key in ("tensile_strength", "cohesion", "friction")
     }
-    energies = {
+    energies: Table = {
         key: None if brittle else min(getattr(first, key), getattr(second, key))
         for key in ENERGY_KEYS
     }

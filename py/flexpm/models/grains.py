@@ -8,16 +8,19 @@ per step, and only slow loading means anything.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import yade
 from yade import wrapper
 
+from .._flexpm import Tessellation
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
+from ..files import Table
 from ..materials import material as materials
 from ..materials import mixing as minerals
 from ..materials.material import Material
+from ..results.snapshot import Snapshot
 from ..specimens import inner_particles as inner
 from ..specimens import mineral_map
 from ..specimens.specimen import Specimen
@@ -57,10 +60,10 @@ class Model:
     specimen: Specimen
     material: Material
     name: str
-    solver: Any
-    engines: list[Any]
+    solver: wrapper.GrainSolver
+    engines: list[wrapper.Engine]
     dynamic: bool = False
-    minerals: np.ndarray | None = None
+    minerals: IntArray | None = None
     gravity: float = 0.0
 
     def set_masses(self) -> None:
@@ -87,9 +90,9 @@ class Model:
     def add_engines(
         self,
         *,
-        before: tuple[Any, ...] = (),
-        after: tuple[Any, ...] = (),
-        last: tuple[Any, ...] = (),
+        before: tuple[wrapper.Engine, ...] = (),
+        after: tuple[wrapper.Engine, ...] = (),
+        last: tuple[wrapper.Engine, ...] = (),
     ) -> None:
         """Put engines of a protocol just before or after the solver's step, or last."""
         place = self.engines.index(self.solver)
@@ -97,12 +100,12 @@ class Model:
         self.engines += last
         yade.O.engines = self.engines
 
-    def remove_engines(self, *engines: Any) -> None:
+    def remove_engines(self, *engines: wrapper.Engine) -> None:
         """Take engines of a protocol out again."""
         self.engines = [engine for engine in self.engines if engine not in engines]
         yade.O.engines = self.engines
 
-    def engine(self, kind: str) -> Any:
+    def engine(self, kind: str) -> wrapper.Engine:
         """The engine of a class."""
         return next(engine for engine in self.engines if type(engine).__name__ == kind)
 
@@ -113,16 +116,13 @@ class Model:
     def rebind(self) -> None:
         """Take over the engines of a scene that has been loaded."""
         self.engines = list(yade.O.engines)
-        self.solver = self.engine("GrainSolver")
+        self.solver = next(e for e in self.engines if isinstance(e, wrapper.GrainSolver))
 
-    def snapshot(self) -> dict[str, np.ndarray]:
-        """The present state as plain arrays; their list is in the documentation."""
-        found = self.solver.snapshot()
-        if self.minerals is not None:
-            found["grain_mineral"] = self.minerals
-        return found
+    def snapshot(self) -> Snapshot:
+        """The present state as plain arrays."""
+        return Snapshot(**self.solver.snapshot(), grain_mineral=self.minerals)
 
-    def describe_material(self) -> dict[str, Any]:
+    def describe_material(self) -> Table:
         """Name and parameters of the material, of minerals also the area that they have."""
         found = {"name": self.material.name, **minerals.description(self.material, self.name)}
         if self.minerals is not None:
@@ -225,16 +225,21 @@ class _Grains:
     """What the solver assembles: cells, their discs (rows x, y, radius [m]) and its options."""
 
     specimen: Specimen
-    tessellation: Any
-    discs: np.ndarray
-    options: dict[str, Any]
+    tessellation: Tessellation
+    discs: FloatArray
+    options: Table
 
 
 def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
     """The grains of a specimen, or the inner particles of all of them."""
     require_one_of("points", points, POINTS)
     require_one_of("mesh", mesh, MESHES)
-    options = {"rigid": model != "flexible", "mesh": mesh, "points": points, "centre_line": False}
+    options: Table = {
+        "rigid": model != "flexible",
+        "mesh": mesh,
+        "points": points,
+        "centre_line": False,
+    }
     if model not in INNER_MODELS:
         discs = np.asarray(specimen.discs, dtype=float)
         return _Grains(specimen, specimen.tessellation, discs, options)
@@ -254,7 +259,7 @@ def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -
     return inner.fitted(chosen, lambda tried: _constants(_assembled(grains, tried, model)))
 
 
-def _constants(solver: Any) -> tuple[float, float]:
+def _constants(solver: wrapper.GrainSolver) -> tuple[float, float]:
     """Young's modulus [Pa] and Poisson's ratio [-] of an assembled rectangle."""
     try:
         return solver.elasticConstants()
@@ -262,7 +267,7 @@ def _constants(solver: Any) -> tuple[float, float]:
         raise InputError(f"elastic: {error}") from error
 
 
-def _assembled(grains: _Grains, chosen: Material, model: str) -> Any:
+def _assembled(grains: _Grains, chosen: Material, model: str) -> wrapper.GrainSolver:
     """Make the solver with the packed arrays of the bonded, unloaded grains."""
     minerals.description(chosen, model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
@@ -280,12 +285,12 @@ def _assembled(grains: _Grains, chosen: Material, model: str) -> Any:
     return solver
 
 
-def _grain_materials(chosen: Material, model: str) -> list[Any]:
+def _grain_materials(chosen: Material, model: str) -> list[wrapper.GrainMat]:
     """Of each mineral, or of all grains."""
     return [_grain_material(kind, model) for kind in minerals.mineral_materials(chosen)]
 
 
-def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> dict[str, Any]:
+def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> Table:
     """Minerals of the grains and contacts of each pair of minerals, for the solver."""
     found = mineral_map.minerals_of(specimen, chosen)
     if found is None:
@@ -294,7 +299,7 @@ def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> dict[s
     return {"minerals": found, "pairs": [_grain_material(pair, model) for pair in pairs]}
 
 
-def _grain_material(chosen: Material, model: str) -> Any:
+def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
     law = chosen.law(model)
     return wrapper.GrainMat(
         label=chosen.name,
@@ -312,12 +317,12 @@ def _grain_material(chosen: Material, model: str) -> Any:
     )
 
 
-def _collider(grains: _Grains) -> Any:
+def _collider(grains: _Grains) -> wrapper.Engine:
     sweep = _SWEEP * 2.0 * float(np.mean(grains.discs[:, 2]))
     return wrapper.InsertionSortCollider([wrapper.Bo1_LaguerreCell_Aabb()], verletDist=sweep)
 
 
-def _idle_newton() -> Any:
+def _idle_newton() -> wrapper.Engine:
     # The collider asks a NewtonIntegrator for the fastest motion. Grains are moved by the solver,
     # which calls the collider itself; a value between 0 and 1 keeps the collider idle until then.
     return wrapper.NewtonIntegrator(dead=True, maxVelocitySq=0.5, label="")

@@ -13,12 +13,12 @@ models break at once: fracture energies are not used. Strengths are forces and m
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
+from ..materials.material import Law
 from ..specimens.specimen import Specimen
 
 #: Margin on the masses of the stability bound [-].
@@ -29,20 +29,20 @@ MASS_MARGIN = 1.1
 class Bonds:
     """Properties of all bonds, one row each."""
 
-    grains: np.ndarray  #: (n, 2)
-    ends: np.ndarray  #: ends of the shared edges, (n, 2, 2) [m]
-    areas: np.ndarray  #: A [m2]
-    normal_stiffness: np.ndarray  #: k_n [N/m]
-    shear_stiffness: np.ndarray  #: k_s [N/m]
-    bending_stiffness: np.ndarray  #: k_b [N m]
-    tensile_strength: np.ndarray  #: F_t [N]
-    shear_strength: np.ndarray  #: F_s without friction [N]
+    grains: IntArray  #: (n, 2)
+    ends: FloatArray  #: ends of the shared edges, (n, 2, 2) [m]
+    areas: FloatArray  #: A [m2]
+    normal_stiffness: FloatArray  #: k_n [N/m]
+    shear_stiffness: FloatArray  #: k_s [N/m]
+    bending_stiffness: FloatArray  #: k_b [N m]
+    tensile_strength: FloatArray  #: F_t [N]
+    shear_strength: FloatArray  #: F_s without friction [N]
 
     def __len__(self) -> int:
         return len(self.grains)
 
 
-def bonds_of(specimen: Specimen, law: Mapping[str, Any]) -> Bonds:
+def bonds_of(specimen: Specimen, law: Law) -> Bonds:
     """Bonds of a specimen.
 
     Args:
@@ -84,7 +84,7 @@ def tributary_lengths(specimen: Specimen, side: int) -> dict[int, float]:
     return lengths
 
 
-def separate_radii(specimen: Specimen) -> np.ndarray:
+def separate_radii(specimen: Specimen) -> FloatArray:
     """Radii [m] shrunk, disc by disc, until no two discs overlap and none leaves a rectangle.
 
     CohFrict forgets the reference distance of a bond that breaks: discs that overlapped then would
@@ -99,17 +99,18 @@ def separate_radii(specimen: Specimen) -> np.ndarray:
     factor = np.ones(len(radii))
     for column in (0, 1):
         np.minimum.at(factor, pairs[:, column], share)
-    shrunk = factor * radii
-    if specimen.kind == "rectangle":
-        low, high = specimen.outline.min(axis=0), specimen.outline.max(axis=0)
+    shrunk: FloatArray = factor * radii
+    outline = specimen.outline
+    if specimen.kind == "rectangle" and isinstance(outline, np.ndarray):
+        low, high = outline.min(axis=0), outline.max(axis=0)
         room = np.minimum(centres - low, high - centres).min(axis=1)
         shrunk = np.minimum(shrunk, room)
     return shrunk
 
 
 def stiffness_bounds(
-    centres: np.ndarray, radii: np.ndarray, bonds: Bonds, bending: bool
-) -> tuple[np.ndarray, np.ndarray]:
+    centres: FloatArray, radii: FloatArray, bonds: Bonds, bending: bool
+) -> tuple[FloatArray, FloatArray]:
     """Bounds of the row sums of the stiffness matrix, by grain.
 
     Rotations count as disc radius times angle, so that both kinds of motion have one unit; the

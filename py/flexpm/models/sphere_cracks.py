@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import yade
+from yade import wrapper
 
+from ..arrays import FloatArray
+from ..files import Table
 from ..results.cracks import SHEAR, TENSILE, Crack
 from ..results.record import Curve
 from .sphere_bonds import Bonds
@@ -24,8 +26,8 @@ class CrackWatch:
     def __init__(
         self,
         kind: SphereLaw,
-        law: Any,
-        interactions: Sequence[Any],
+        law: wrapper.Functor,
+        interactions: Sequence[wrapper.Interaction | None],
         bonds: Bonds,
         bodies: Sequence[int],
     ) -> None:
@@ -45,18 +47,20 @@ class CrackWatch:
         self.places = bonds.ends.mean(axis=1)
         self._start = np.array([self._centre(grain) for grain in range(len(bodies))])
 
-    def rebind(self, law: Any, interactions: Sequence[Any]) -> None:
+    def rebind(
+        self, law: wrapper.Functor, interactions: Sequence[wrapper.Interaction | None]
+    ) -> None:
         """Watch the same bonds in a scene that has been loaded; None stands for a lost one."""
         self._law, self.interactions = law, interactions
         # YADE drops this when the bond is lost; kept here, it still tells how that came
         self.contacts = [None if one is None else one.phys for one in interactions]
 
-    def memory(self) -> dict[str, list]:
+    def memory(self) -> Table:
         """What has been found, as plain values."""
         found = (self.steps, self.modes, self.places)
         return dict(zip(_FOUND, (array.tolist() for array in found), strict=True))
 
-    def recall(self, memory: Mapping[str, list]) -> None:
+    def recall(self, memory: Table) -> None:
         """Take over what :meth:`memory` gave."""
         self.steps, self.modes, self.places = (np.array(memory[name]) for name in _FOUND)
 
@@ -69,15 +73,12 @@ class CrackWatch:
         """Take note of the bonds that have broken since the last look."""
         if not self._kind.may_have_broken(self._law, int(np.sum(self.steps >= 0))):
             return
-        broken = [
-            row
-            for row in np.flatnonzero(self.steps < 0).tolist()
-            if self._kind.has_broken(self.interactions[row], self.contacts[row])
-        ]
-        for row in broken:
-            self.steps[row] = yade.O.iter
-            self.modes[row] = self._mode(row)
-            self.places[row] += self._moved(row)
+        for row in np.flatnonzero(self.steps < 0).tolist():
+            bond = self.contacts[row]
+            if bond is not None and self._kind.has_broken(self.interactions[row], bond):
+                self.steps[row] = yade.O.iter
+                self.modes[row] = self._mode(bond, row)
+                self.places[row] += self._moved(row)
 
     def cracks(self, curve: Curve) -> list[Crack]:
         """All cracks in the order of their steps; strains are interpolated in `curve`."""
@@ -90,27 +91,29 @@ class CrackWatch:
             else np.full(len(rows), math.nan)
         )
         return [
-            Crack(int(step), float(strain), *map(float, self.places[row]), int(mode), int(row), 0)
-            for row, step, strain, mode in zip(rows, steps, strains, self.modes[rows], strict=True)
+            Crack(int(step), float(strain), float(x), float(y), int(mode), int(row), 0)
+            for row, step, strain, mode, (x, y) in zip(
+                rows, steps, strains, self.modes[rows], self.places[rows], strict=True
+            )
         ]
 
-    def _mode(self, row: int) -> int:
-        tension = -self._normal_force(row)
-        tensile = self._kind.is_tensile(self.contacts[row], tension, self._bonds, row)
-        return TENSILE if tensile else SHEAR
+    def _mode(self, bond: wrapper.IPhys, row: int) -> int:
+        tension = -self._normal_force(bond, row)
+        return TENSILE if self._kind.is_tensile(bond, tension, self._bonds, row) else SHEAR
 
-    def _normal_force(self, row: int) -> float:
+    def _normal_force(self, bond: wrapper.IPhys, row: int) -> float:
         """Of the last step before the bond broke, compression positive [N]."""
         first, second = self._bonds.grains[row]
-        force = self.contacts[row].normalForce
+        force = bond.normalForce
         along = self._centre(second) - self._centre(first)
         return float(force[0] * along[0] + force[1] * along[1]) / float(np.hypot(*along))
 
-    def _moved(self, row: int) -> np.ndarray:
+    def _moved(self, row: int) -> FloatArray:
         grains = self._bonds.grains[row]
         now = np.array([self._centre(grain) for grain in grains])
-        return (now - self._start[grains]).mean(axis=0)
+        moved: FloatArray = (now - self._start[grains]).mean(axis=0)
+        return moved
 
-    def _centre(self, grain: int) -> np.ndarray:
+    def _centre(self, grain: int) -> FloatArray:
         place = yade.O.bodies[self._bodies[grain]].state.pos
         return np.array([place[0], place[1]])

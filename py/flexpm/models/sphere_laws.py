@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import numpy as np
 from yade import wrapper
 
+from ..arrays import FloatArray
 from ..materials.material import Law
 from ..specimens.specimen import Specimen
 from .sphere_bonds import Bonds, separate_radii
@@ -28,10 +28,10 @@ _PLATE_STIFFNESS = 1e3
 class Functors:
     """Functors of an interaction loop."""
 
-    spheres: Any  #: geometry of two spheres
-    plates: Any  #: geometry of a plate and a sphere
-    physics: Any
-    law: Any
+    spheres: wrapper.Functor  #: geometry of two spheres
+    plates: wrapper.Functor  #: geometry of a plate and a sphere
+    physics: wrapper.Functor
+    law: wrapper.Functor
 
 
 class SphereLaw(ABC):
@@ -41,7 +41,7 @@ class SphereLaw(ABC):
     bending: ClassVar[bool]  #: whether bonds resist bending
 
     @abstractmethod
-    def radii(self, specimen: Specimen) -> np.ndarray:
+    def radii(self, specimen: Specimen) -> FloatArray:
         """Radii of the spheres [m]."""
 
     @abstractmethod
@@ -49,7 +49,7 @@ class SphereLaw(ABC):
         """New functors for an interaction loop."""
 
     @abstractmethod
-    def materials(self, law: Law, young: float) -> tuple[Any, Any]:
+    def materials(self, law: Law, young: float) -> tuple[wrapper.Material, wrapper.Material]:
         """Materials of spheres and of plates.
 
         Args:
@@ -58,23 +58,23 @@ class SphereLaw(ABC):
         """
 
     @abstractmethod
-    def set_bonding(self, physics: Any, on: bool) -> None:
+    def set_bonding(self, physics: wrapper.Functor, on: bool) -> None:
         """Set whether contacts that appear from now on are bonds."""
 
     @abstractmethod
-    def set_strength(self, bond: Any, bonds: Bonds, row: int) -> None:
+    def set_strength(self, bond: wrapper.IPhys, bonds: Bonds, row: int) -> None:
         """Give a bond the strength of its row."""
 
     @abstractmethod
-    def set_rest(self, contact: Any, overlap: float) -> None:
+    def set_rest(self, contact: wrapper.Interaction, overlap: float) -> None:
         """Set the overlap at which a contact carries no force [m]."""
 
     @abstractmethod
-    def may_have_broken(self, law: Any, known: int) -> bool:
+    def may_have_broken(self, law: wrapper.Functor, known: int) -> bool:
         """Tell whether there may be more broken bonds than the `known` ones."""
 
     @abstractmethod
-    def has_broken(self, interaction: Any, bond: Any) -> bool:
+    def has_broken(self, interaction: wrapper.Interaction | None, bond: wrapper.IPhys) -> bool:
         """Tell whether a bond that was whole has broken.
 
         Args:
@@ -83,7 +83,7 @@ class SphereLaw(ABC):
         """
 
     @abstractmethod
-    def is_tensile(self, bond: Any, tension: float, bonds: Bonds, row: int) -> bool:
+    def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
         """Tell whether a broken bond broke in tension rather than in shear.
 
         Args:
@@ -94,7 +94,12 @@ class SphereLaw(ABC):
         """
 
     @abstractmethod
-    def elastic_energy(self, law: Any, bonds: Iterable[Any], touching: Sequence[Any]) -> float:
+    def elastic_energy(
+        self,
+        law: wrapper.Functor,
+        bonds: Sequence[wrapper.IPhys],
+        touching: Sequence[wrapper.IPhys],
+    ) -> float:
         """Elastic energy [J].
 
         Args:
@@ -110,7 +115,7 @@ class Jcfpm(SphereLaw):
     name = "jcfpm"
     bending = False
 
-    def radii(self, specimen: Specimen) -> np.ndarray:
+    def radii(self, specimen: Specimen) -> FloatArray:
         """Radii of the discs [m]."""
         return specimen.radii
 
@@ -123,7 +128,7 @@ class Jcfpm(SphereLaw):
             wrapper.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM(),
         )
 
-    def materials(self, law: Law, young: float) -> tuple[Any, Any]:
+    def materials(self, law: Law, young: float) -> tuple[wrapper.Material, wrapper.Material]:
         """Materials of spheres and of plates."""
         sphere, plate = _common(law, young)
         strengths = {"tensileStrength": law["tensile_strength"], "cohesion": law["cohesion"]}
@@ -132,34 +137,39 @@ class Jcfpm(SphereLaw):
             wrapper.JCFpmMat(type=1, label="flexpm-jcfpm-plate", **plate),
         )
 
-    def set_bonding(self, physics: Any, on: bool) -> None:
+    def set_bonding(self, physics: wrapper.Functor, on: bool) -> None:
         """Set whether contacts that appear from now on are bonds."""
         physics.cohesiveTresholdIteration = -1 if on else 0
 
-    def set_strength(self, bond: Any, bonds: Bonds, row: int) -> None:
+    def set_strength(self, bond: wrapper.IPhys, bonds: Bonds, row: int) -> None:
         """Give a bond the strength of its row."""
         bond.crossSection = float(bonds.areas[row])
         bond.FnMax = float(bonds.tensile_strength[row])
         bond.FsMax = float(bonds.shear_strength[row])
 
-    def set_rest(self, contact: Any, overlap: float) -> None:
+    def set_rest(self, contact: wrapper.Interaction, overlap: float) -> None:
         """Set the overlap at which a contact carries no force [m]."""
         contact.phys.initD = overlap
 
-    def may_have_broken(self, law: Any, known: int) -> bool:
+    def may_have_broken(self, law: wrapper.Functor, known: int) -> bool:
         """Compare with the cracks that the law has counted."""
         return bool(law.nbTensCracks + law.nbShearCracks != known)
 
-    def has_broken(self, interaction: Any, bond: Any) -> bool:
+    def has_broken(self, interaction: wrapper.Interaction | None, bond: wrapper.IPhys) -> bool:
         """Tell whether a bond that was whole has broken."""
         return bool(bond.isBroken)
 
-    def is_tensile(self, bond: Any, tension: float, bonds: Bonds, row: int) -> bool:
+    def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
         """Tell whether the bond was opened beyond its tensile limit."""
         limit = bonds.tensile_strength[row] / bonds.normal_stiffness[row]
         return bool(bond.crackJointAperture > limit)
 
-    def elastic_energy(self, law: Any, bonds: Iterable[Any], touching: Sequence[Any]) -> float:
+    def elastic_energy(
+        self,
+        law: wrapper.Functor,
+        bonds: Sequence[wrapper.IPhys],
+        touching: Sequence[wrapper.IPhys],
+    ) -> float:
         """Elastic energy of unbroken bonds and of contacts with plates [J]."""
         whole = [bond for bond in bonds if bond.isCohesive]
         return float(sum(bond.strainEnergy for bond in (*whole, *touching)))
@@ -171,7 +181,7 @@ class Cohfrict(SphereLaw):
     name = "cohfrict"
     bending = True
 
-    def radii(self, specimen: Specimen) -> np.ndarray:
+    def radii(self, specimen: Specimen) -> FloatArray:
         """Radii of the discs, shrunk until no two overlap [m]."""
         return separate_radii(specimen)
 
@@ -184,7 +194,7 @@ class Cohfrict(SphereLaw):
             wrapper.Law2_ScGeom6D_CohFrictPhys_CohesionMoment(),
         )
 
-    def materials(self, law: Law, young: float) -> tuple[Any, Any]:
+    def materials(self, law: Law, young: float) -> tuple[wrapper.Material, wrapper.Material]:
         """Materials of spheres and of plates."""
         sphere, plate = _common(law, young)
         strengths = {"normalCohesion": law["tensile_strength"], "shearCohesion": law["cohesion"]}
@@ -194,37 +204,44 @@ class Cohfrict(SphereLaw):
             wrapper.CohFrictMat(label="flexpm-cohfrict-plate", isCohesive=False, **plate),
         )
 
-    def set_bonding(self, physics: Any, on: bool) -> None:
+    def set_bonding(self, physics: wrapper.Functor, on: bool) -> None:
         """Set whether contacts that appear from now on are bonds."""
         physics.setCohesionOnNewContacts = on
 
-    def set_strength(self, bond: Any, bonds: Bonds, row: int) -> None:
+    def set_strength(self, bond: wrapper.IPhys, bonds: Bonds, row: int) -> None:
         """Give a bond the strength of its row."""
         # nothing twists in the plane, but YADE's energy divides by the stiffness
         bond.kr = bond.ktw = float(bonds.bending_stiffness[row])
         bond.normalAdhesion = float(bonds.tensile_strength[row])
         bond.shearAdhesion = float(bonds.shear_strength[row])
 
-    def set_rest(self, contact: Any, overlap: float) -> None:
+    def set_rest(self, contact: wrapper.Interaction, overlap: float) -> None:
         """Set the overlap at which a contact carries no force [m]."""
         contact.phys.unp = overlap
 
-    def may_have_broken(self, law: Any, known: int) -> bool:
+    def may_have_broken(self, law: wrapper.Functor, known: int) -> bool:
         """Always true: the law does not count."""
         return True
 
-    def has_broken(self, interaction: Any, bond: Any) -> bool:
+    def has_broken(self, interaction: wrapper.Interaction | None, bond: wrapper.IPhys) -> bool:
         """Tell whether a bond that was whole has broken."""
         # an interaction that is not real or has another phys is not the bond any more
-        return not interaction.isReal or bool(interaction.phys.cohesionBroken)
+        if interaction is None or not interaction.isReal:
+            return True
+        return bool(interaction.phys.cohesionBroken)
 
-    def is_tensile(self, bond: Any, tension: float, bonds: Bonds, row: int) -> bool:
+    def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
         """Tell whether the tension was closer to its limit than the shear force."""
         limit = bonds.shear_strength[row] - bond.tangensOfFrictionAngle * tension
         shear = bond.shearForce.norm() * bonds.tensile_strength[row]
         return bool(tension * max(limit, 0.0) > shear)
 
-    def elastic_energy(self, law: Any, bonds: Iterable[Any], touching: Sequence[Any]) -> float:
+    def elastic_energy(
+        self,
+        law: wrapper.Functor,
+        bonds: Sequence[wrapper.IPhys],
+        touching: Sequence[wrapper.IPhys],
+    ) -> float:
         """Elastic energy of all contacts [J]."""
         return float(law.elasticEnergy())
 

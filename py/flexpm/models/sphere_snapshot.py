@@ -14,6 +14,8 @@ from collections.abc import Sequence
 import numpy as np
 import yade
 
+from ..arrays import FloatArray, IntArray
+from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
 from .sphere_bonds import Bonds
 from .sphere_cracks import CrackWatch
@@ -21,8 +23,8 @@ from .sphere_cracks import CrackWatch
 
 def snapshot(
     specimen: Specimen, bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch
-) -> dict[str, np.ndarray]:
-    """Arrays of N nodes, M triangles and C bonds, as :mod:`flexpm.results.vtu` takes them.
+) -> Snapshot:
+    """State of the spheres and their bonds.
 
     Args:
         specimen: The grains.
@@ -46,23 +48,23 @@ def snapshot(
     middle = 0.5 * (ends[:, 0] + ends[:, 1])
     stress = _grain_stress(specimen, motion, bonds, forces, middle)
     start = np.hypot(*np.diff(specimen.centres[bonds.grains], axis=1)[:, 0].T)
-    return {
-        "positions": motion.carry(grain_of, reference),
-        "reference": reference,
-        "velocities": motion.velocities(grain_of, reference),
-        "triangles": triangles,
-        "triangle_grain": triangle_grain,
-        "triangle_stress": stress[triangle_grain],
-        "contact_grains": bonds.grains,
-        "contact_ends": ends,
-        "point_opening": (length - start)[:, None],
-        "point_slip": (-shear / bonds.shear_stiffness)[:, None],
-        "point_damage": (cracks.steps >= 0).astype(float)[:, None],
-        "point_traction": np.stack([-normal, -shear], axis=1)[:, None] / bonds.areas[:, None, None],
-        "crack_step": cracks.steps[:, None],
-        "crack_mode": cracks.modes[:, None],
-        "crack_position": cracks.places[:, None],
-    }
+    return Snapshot(
+        positions=motion.carry(grain_of, reference),
+        reference=reference,
+        velocities=motion.velocities(grain_of, reference),
+        triangles=triangles,
+        triangle_grain=triangle_grain,
+        triangle_stress=stress[triangle_grain],
+        contact_grains=bonds.grains,
+        contact_ends=ends,
+        point_opening=(length - start)[:, None],
+        point_slip=(-shear / bonds.shear_stiffness)[:, None],
+        point_damage=(cracks.steps >= 0).astype(float)[:, None],
+        point_traction=np.stack([-normal, -shear], axis=1)[:, None] / bonds.areas[:, None, None],
+        crack_step=cracks.steps[:, None],
+        crack_mode=cracks.modes[:, None],
+        crack_position=cracks.places[:, None],
+    )
 
 
 class Motion:
@@ -78,28 +80,31 @@ class Motion:
         angles = np.array([math.copysign(1.0, axis[2]) * angle for axis, angle in turns])
         self._cos, self._sin = np.cos(angles), np.sin(angles)
 
-    def carry(self, grains: np.ndarray, points: np.ndarray) -> np.ndarray:
+    def carry(self, grains: IntArray, points: FloatArray) -> FloatArray:
         """Present places of points [m] that move with grains."""
-        return self.centres[grains] + self._arms(grains, points)
+        places: FloatArray = self.centres[grains] + self._arms(grains, points)
+        return places
 
-    def velocities(self, grains: np.ndarray, points: np.ndarray) -> np.ndarray:
+    def velocities(self, grains: IntArray, points: FloatArray) -> FloatArray:
         """Velocities of points that move with grains."""
         x, y = self._arms(grains, points).T
-        return self._speeds[grains] + self._spins[grains, None] * np.column_stack((-y, x))
+        turning = self._spins[grains, None] * np.column_stack((-y, x))
+        found: FloatArray = self._speeds[grains] + turning
+        return found
 
-    def branches(self, pairs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def branches(self, pairs: IntArray) -> tuple[FloatArray, FloatArray]:
         """Unit vectors and distances between the centres of pairs."""
         branch = self.centres[pairs[:, 1]] - self.centres[pairs[:, 0]]
         length = np.hypot(*branch.T)
         return branch / length[:, None], length
 
-    def _arms(self, grains: np.ndarray, points: np.ndarray) -> np.ndarray:
+    def _arms(self, grains: IntArray, points: FloatArray) -> FloatArray:
         x, y = (points - self._start[grains]).T
         c, s = self._cos[grains], self._sin[grains]
         return np.column_stack((c * x - s * y, s * x + c * y))
 
 
-def bond_forces(bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch) -> np.ndarray:
+def bond_forces(bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch) -> FloatArray:
     """Force of each bond on its second grain [N], (C, 2); of what is left of it once broken."""
     forces = np.zeros((len(bonds), 2))
     for row, interaction in enumerate(cracks.interactions):
@@ -115,8 +120,8 @@ def bond_forces(bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch) -> np.n
 
 
 def _grain_stress(
-    specimen: Specimen, motion: Motion, bonds: Bonds, forces: np.ndarray, middle: np.ndarray
-) -> np.ndarray:
+    specimen: Specimen, motion: Motion, bonds: Bonds, forces: FloatArray, middle: FloatArray
+) -> FloatArray:
     """Mean stress of each grain, rows xx, yy, xy [Pa]."""
     tensor = np.zeros((len(specimen.discs), 2, 2))
     for side, sign in ((0, -1.0), (1, 1.0)):
@@ -130,7 +135,7 @@ def _grain_stress(
     )
 
 
-def _fans(specimen: Specimen) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _fans(specimen: Specimen) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
     """Grain of each node, nodes, triangles over all nodes, grain of each triangle."""
     meshes = specimen.meshes("fan")
     nodes = np.diff(meshes.node_offsets)

@@ -13,15 +13,17 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 import yade
 from yade import utils, wrapper
 
+from ..arrays import FloatArray
+from ..files import Table
 from ..materials import material as materials
 from ..materials.material import Material
 from ..materials.mixing import description
+from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
 from .options import SPHERE_MODELS, require_one_of
 from .sphere_bonds import MASS_MARGIN, Bonds, bonds_of, stiffness_bounds
@@ -58,14 +60,14 @@ class SphereModel:
     material: Material
     kind: SphereLaw
     bonds: Bonds
-    law: Any
-    engines: list[Any]
+    law: wrapper.Functor
+    engines: list[wrapper.Engine]
     material_ids: tuple[int, int]
     ids: list[int]
     cracks: CrackWatch = field(init=False)
     plates: list[int] = field(default_factory=list)
     loads: dict[int, tuple[float, float, float]] = field(default_factory=dict)
-    memory: dict[str, Any] = field(default_factory=dict)
+    memory: Table = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         made = _make_bonds(self)
@@ -118,8 +120,8 @@ class SphereModel:
             "triangles": None,
         }
 
-    def snapshot(self) -> dict[str, np.ndarray]:
-        """The present state as plain arrays; their list is in the documentation."""
+    def snapshot(self) -> Snapshot:
+        """The present state as plain arrays."""
         self.cracks.look()
         return snapshot(self.specimen, self.ids, self.bonds, self.cracks)
 
@@ -209,12 +211,13 @@ def build(
     """
     require_one_of("model", model, SPHERE_MODELS)
     chosen = materials.load(material, model)
-    law = description(chosen, model)  # which refuses minerals
+    description(chosen, model)  # refuses minerals
+    law = chosen.law(model)
     kind = LAWS[model]
     bonds, radii = bonds_of(specimen, law), kind.radii(specimen)
     # new contacts are as stiff as the mean bond
     young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
-    sphere, plate = kind.materials(chosen.law(model), young)
+    sphere, plate = kind.materials(law, young)
     material_ids = (yade.O.materials.append(sphere), yade.O.materials.append(plate))
     ids = [
         yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=sphere))
@@ -237,8 +240,8 @@ def build(
 
 
 def _touched_bounds(
-    specimen: Specimen, radii: np.ndarray, bonds: Bonds, stiffness: float, bending: bool
-) -> tuple[np.ndarray, np.ndarray]:
+    specimen: Specimen, radii: FloatArray, bonds: Bonds, stiffness: float, bending: bool
+) -> tuple[FloatArray, FloatArray]:
     """Bounds of the stiffness of each sphere that a plate may touch, too.
 
     Args:
@@ -258,21 +261,23 @@ def _touched_bounds(
     return move, turn
 
 
-def _real_masses(specimen: Specimen, density: float) -> tuple[np.ndarray, np.ndarray]:
+def _real_masses(specimen: Specimen, density: float) -> tuple[FloatArray, FloatArray]:
     """Masses [kg] of the cells, and moments of inertia [kg m2] of discs of the cells' areas."""
     areas = np.array(specimen.tessellation.cell_areas)
     masses = density * areas * specimen.thickness
     return masses, 0.5 * masses * areas / math.pi
 
 
-def _set_masses(ids: list[int], masses: np.ndarray, inertias: np.ndarray) -> None:
+def _set_masses(ids: list[int], masses: FloatArray, inertias: FloatArray) -> None:
     for body, mass, inertia in zip(ids, masses.tolist(), inertias.tolist(), strict=True):
         state = yade.O.bodies[body].state
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
         state.blockedDOFs = "zXY"
 
 
-def _engines(specimen: Specimen, kind: SphereLaw, damping: float) -> tuple[Any, list[Any]]:
+def _engines(
+    specimen: Specimen, kind: SphereLaw, damping: float
+) -> tuple[wrapper.Functor, list[wrapper.Engine]]:
     functors = kind.functors()
     # shear displacements then have the levers that the moments have; else YADE scales them by the
     # sum of the radii over the distance, and the bond's shear stiffness with them
@@ -286,12 +291,12 @@ def _engines(specimen: Specimen, kind: SphereLaw, damping: float) -> tuple[Any, 
     return functors.law, [wrapper.ForceResetter(), collider, loop, newton]
 
 
-def _loop(engines: list[Any]) -> Any:
+def _loop(engines: list[wrapper.Engine]) -> wrapper.InteractionLoop:
     """The engine that holds the functors."""
     return next(engine for engine in engines if isinstance(engine, wrapper.InteractionLoop))
 
 
-def _make_bonds(built: SphereModel) -> list[Any]:
+def _make_bonds(built: SphereModel) -> list[wrapper.Interaction]:
     """Make an interaction of each bond, also where its spheres do not touch."""
     made = []
     physics = _loop(built.engines).physDispatcher.functors[0]
@@ -308,7 +313,7 @@ def _make_bonds(built: SphereModel) -> list[Any]:
     return made
 
 
-def _find_bonds(built: SphereModel) -> list[Any]:
+def _find_bonds(built: SphereModel) -> list[wrapper.Interaction | None]:
     """The interaction of each bond in a scene that has been loaded, None where there is none."""
     found = {(one.id1, one.id2): one for one in yade.O.interactions}
     pairs = np.array(built.ids)[built.bonds.grains].tolist()

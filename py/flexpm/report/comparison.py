@@ -14,6 +14,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..arrays import FloatArray
 from ..materials.references import Reference
 from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
@@ -44,7 +45,7 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
             strain = 100.0 * result.curve["axial_strain"]
             stress = 1e-6 * result.curve["axial_stress"]
             upper.plot(strain, stress, color=colour, ls=dash, lw=1.4, label=label)
-            if result.peak_stress is not None:
+            if result.peak_stress is not None and result.peak_strain is not None:
                 place = 100.0 * result.peak_strain, 1e-6 * result.peak_stress
                 upper.plot(*place, "o", ms=4.0, mfc="white", mec=colour, mew=1.1)
             cracks = result.curve["tensile_cracks"] + result.curve["shear_cracks"]
@@ -62,13 +63,13 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
 
 def cracks_picture(path: Path | str, runs: Runs) -> None:
     """Draw the crack maps of all runs in one scale; confinements of a model stand in a row."""
-    drawn = [(label, result) for label, result in runs if result.snapshot is not None]
+    drawn = [(label, one, one.snapshot) for label, one in runs if one.snapshot is not None]
     if not drawn:
         return
-    a_model = sum(result.model == drawn[0][1].model for _, result in drawn)
+    a_model = sum(result.model == drawn[0][1].model for _, result, _ in drawn)
     columns = min(len(drawn), a_model if a_model > 1 else _MAPS_A_ROW)
     rows = -(-len(drawn) // columns)
-    places = 1e3 * np.concatenate([result.snapshot["positions"] for _, result in drawn])
+    places = 1e3 * np.concatenate([snapshot.positions for *_, snapshot in drawn])
     low, high = places.min(axis=0), places.max(axis=0)
     width, height = high - low
     margin = 0.08 * height  # below, for the scale bar
@@ -80,9 +81,9 @@ def cracks_picture(path: Path | str, runs: Runs) -> None:
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes in grid:
             axes.set_axis_off()
-        for axes, (label, result) in zip(grid, drawn, strict=False):
+        for axes, (label, result, snapshot) in zip(grid, drawn, strict=False):
             axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1] - margin, high[1]))
-            handles = draw_cracks(axes, result.snapshot)
+            handles = draw_cracks(axes, snapshot)
             counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
             axes.set_title(f"{label}\n{counts}", fontsize=8.5)
         names = [MODE_NAMES[mode] for mode in (TENSILE, SHEAR)]
@@ -122,7 +123,7 @@ def envelope_picture(
         save(figure, path)
 
 
-def _draw_envelope(axes: Axes, one: Envelope, confinements: np.ndarray, number: int) -> None:
+def _draw_envelope(axes: Axes, one: Envelope, confinements: FloatArray, number: int) -> None:
     colour = _COLOURS[number % len(_COLOURS)]
     marker = _MARKERS[number % len(_MARKERS)]
     places = 1e-6 * np.array([one.confinements, one.peaks])
@@ -151,7 +152,7 @@ def _line_text(line: MohrCoulomb) -> str:
 def _styles(runs: Runs) -> list[tuple[str, object]]:
     models = list(dict.fromkeys(result.model for _, result in runs))
     seen = dict.fromkeys(models, 0)
-    found = []
+    found: list[tuple[str, object]] = []
     for _, result in runs:
         colour = _COLOURS[models.index(result.model) % len(_COLOURS)]
         found.append((colour, _DASHES[seen[result.model] % len(_DASHES)]))

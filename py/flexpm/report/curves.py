@@ -10,6 +10,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..arrays import FloatArray
 from ..results import measures
 from ..results.cracks import SHEAR, TENSILE
 from ..results.record import Curve
@@ -42,7 +43,7 @@ def curve_picture(path: Path | str, result: Result) -> None:
         save(figure, path)
 
 
-def _draw_counts(axes: Axes, strain: np.ndarray, record: Curve) -> None:
+def _draw_counts(axes: Axes, strain: FloatArray, record: Curve) -> None:
     for mode, column in ((TENSILE, "tensile_cracks"), (SHEAR, "shear_cracks")):
         axes.plot(strain, record[column], color=COLOURS[mode], lw=1.1, label=MODE_NAMES[mode])
     axes.set_ylabel("cracked contact points [-]")

@@ -7,9 +7,9 @@ Input in SI units; labels in mm.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import rc_context
@@ -19,9 +19,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..results import fragments
+from ..arrays import FloatArray, IntArray
 from ..results.cracks import SHEAR, TENSILE
+from ..results.snapshot import POINT_SHARES, Snapshot
 from .style import COLOURS, MODE_NAMES, STYLE, save
+
+if TYPE_CHECKING:
+    from .._flexpm import GrainMeshes, Tessellation
 
 _GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
 #: Fragments by their rank, loose grains; the largest fragment has the first tint of the grains.
@@ -34,8 +38,8 @@ _EDGE = "#6b6455"
 
 def specimen_picture(
     path: Path | str,
-    polygons: Sequence[np.ndarray],
-    mesh: tuple[np.ndarray, np.ndarray] | None = None,
+    polygons: Sequence[FloatArray],
+    mesh: tuple[FloatArray, IntArray] | None = None,
     caption: str = "",
 ) -> None:
     """Draw the grains of a specimen.
@@ -60,7 +64,7 @@ def specimen_picture(
 
 def crack_picture(
     path: Path | str,
-    snapshot: Mapping[str, np.ndarray],
+    snapshot: Snapshot,
     caption: str = "",
     minerals: Sequence[str] = (),
 ) -> None:
@@ -68,12 +72,12 @@ def crack_picture(
 
     Args:
         path: Picture to write.
-        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
+        snapshot: The state.
         caption: Line above the picture.
         minerals: Their names, for the legend.
     """
     with rc_context(STYLE):
-        figure, axes = _map_figure([snapshot["positions"]])
+        figure, axes = _map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
         handles += [
             Patch(facecolor=_MINERALS[number % len(_MINERALS)], edgecolor=_EDGE, label=name)
@@ -86,42 +90,42 @@ def crack_picture(
         save(figure, path)
 
 
-def draw_cracks(axes: Axes, snapshot: Mapping[str, np.ndarray]) -> list[Line2D]:
+def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
     tints = None
-    if "grain_mineral" in snapshot:
-        tints = np.array(_MINERALS)[np.asarray(snapshot["grain_mineral"]) % len(_MINERALS)]
+    if snapshot.grain_mineral is not None:
+        tints = [_MINERALS[number % len(_MINERALS)] for number in snapshot.grain_mineral]
     _draw_rock(axes, snapshot, tints)
     segments, handles = crack_segments(snapshot), []
     for mode in (TENSILE, SHEAR):
         lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
         axes.add_collection(lines)
-        points = int(np.count_nonzero(np.asarray(snapshot["crack_mode"]) == mode))
+        points = int(np.count_nonzero(snapshot.crack_mode == mode))
         label = f"{MODE_NAMES[mode]} ({points})"
         handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
     _draw_scale_bar(axes)
     return handles
 
 
-def fragment_picture(
-    path: Path | str, snapshot: Mapping[str, np.ndarray], caption: str = ""
-) -> None:
+def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") -> None:
     """Draw the deformed grains in the colour of their fragment.
 
     Grains of the largest fragment are pale, grains that hang on no other one are dark.
 
     Args:
         path: Picture to write.
-        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
+        snapshot: The state.
         caption: Line above the picture; if empty, the number of fragments.
     """
-    found = fragments.of_snapshot(snapshot)
-    colours = [_FRAGMENTS[rank % len(_FRAGMENTS)] for rank in range(len(found))]
-    colours = np.where(found.grains > 1, colours, _LOOSE)
+    found = snapshot.fragments
+    colours = [
+        _FRAGMENTS[rank % len(_FRAGMENTS)] if grains > 1 else _LOOSE
+        for rank, grains in enumerate(found.grains)
+    ]
     colours[0] = _GRAIN_TINTS[0]
     with rc_context(STYLE):
-        figure, axes = _map_figure([snapshot["positions"]])
-        _draw_rock(axes, snapshot, colours[found.labels])
+        figure, axes = _map_figure([snapshot.positions])
+        _draw_rock(axes, snapshot, [colours[rank] for rank in found.labels])
         _draw_scale_bar(axes)
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
@@ -129,19 +133,19 @@ def fragment_picture(
         save(figure, path)
 
 
-def cell_polygons(tessellation: Any) -> list[np.ndarray]:
+def cell_polygons(tessellation: Tessellation) -> list[FloatArray]:
     """Corners (V, 2) [m] of each cell of a tessellation."""
     corners = tessellation.vertices[tessellation.cell_vertices]
     return np.split(corners, tessellation.cell_offsets[1:-1])
 
 
-def mesh_triangles(meshes: Any) -> tuple[np.ndarray, np.ndarray]:
+def mesh_triangles(meshes: GrainMeshes) -> tuple[FloatArray, IntArray]:
     """Nodes (N, 2) [m] and triangles (M, 3) of all grains from the meshes of each."""
     offsets = np.repeat(meshes.node_offsets[:-1], np.diff(meshes.triangle_offsets))
     return np.asarray(meshes.nodes), np.asarray(meshes.triangles) + offsets[:, None]
 
 
-def grain_corners(triangles: np.ndarray) -> list[np.ndarray]:
+def grain_corners(triangles: IntArray) -> list[IntArray]:
     """Outer nodes of each grain in order, from its counter-clockwise triangles.
 
     Grains share no nodes, so an edge that belongs to one triangle only lies on an outline.
@@ -162,18 +166,16 @@ def grain_corners(triangles: np.ndarray) -> list[np.ndarray]:
     return loops[::-1]
 
 
-def _grains_of(snapshot: Mapping[str, np.ndarray], outlines: Sequence[np.ndarray]) -> np.ndarray:
+def _grains_of(snapshot: Snapshot, outlines: Sequence[IntArray]) -> IntArray:
     """Grain of each outline."""
-    node_grain = np.zeros(len(snapshot["positions"]), dtype=int)
-    node_grain[np.ravel(snapshot["triangles"])] = np.repeat(snapshot["triangle_grain"], 3)
+    node_grain = np.zeros(len(snapshot.positions), dtype=int)
+    node_grain[np.ravel(snapshot.triangles)] = np.repeat(snapshot.triangle_grain, 3)
     return node_grain[[corners[0] for corners in outlines]]
 
 
-def crack_segments(snapshot: Mapping[str, np.ndarray]) -> dict[int, np.ndarray]:
+def crack_segments(snapshot: Snapshot) -> dict[int, FloatArray]:
     """Segments (K, 2, 2) [m] of the cracked points by mode; a point covers its share of area."""
-    from ..results.vtu import POINT_SHARES
-
-    modes, ends = np.asarray(snapshot["crack_mode"]), np.asarray(snapshot["contact_ends"])
+    modes, ends = snapshot.crack_mode, snapshot.contact_ends
     bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[modes.shape[1]])])
     start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
     places = start[:, None] + bounds[None, :, None] * along[:, None]
@@ -181,7 +183,7 @@ def crack_segments(snapshot: Mapping[str, np.ndarray]) -> dict[int, np.ndarray]:
     return {mode: pieces[modes == mode] for mode in (TENSILE, SHEAR)}
 
 
-def _map_figure(polygons: Sequence[np.ndarray]) -> tuple[Figure, Axes]:
+def _map_figure(polygons: Sequence[FloatArray]) -> tuple[Figure, Axes]:
     corners = 1e3 * np.concatenate(polygons)
     low, high = corners.min(axis=0), corners.max(axis=0)
     width, height = high - low
@@ -195,26 +197,24 @@ def _map_figure(polygons: Sequence[np.ndarray]) -> tuple[Figure, Axes]:
     return figure, axes
 
 
-def _draw_rock(
-    axes: Axes, snapshot: Mapping[str, np.ndarray], tints: np.ndarray | None = None
-) -> None:
+def _draw_rock(axes: Axes, snapshot: Snapshot, tints: Sequence[str] | None = None) -> None:
     """Draw the deformed grains, those of inner particles without lines between these.
 
     Args:
         axes: Where to draw.
-        snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
+        snapshot: The state.
         tints: Colour of each grain.
     """
-    outlines = grain_corners(snapshot["triangles"])
-    polygons = [snapshot["positions"][corners] for corners in outlines]
+    outlines = grain_corners(snapshot.triangles)
+    polygons = [snapshot.positions[corners] for corners in outlines]
     grains = _grains_of(snapshot, outlines)
-    chosen = _tints(grains) if tints is None else tints[grains]
+    chosen = _tints(grains) if tints is None else [tints[grain] for grain in grains]
     if len(np.unique(grains)) == len(grains):
         _draw_grains(axes, polygons, chosen)
         return
     _draw_grains(axes, polygons, chosen, edges="face")
-    pairs = np.asarray(snapshot["contact_grains"])
-    between = 1e3 * np.asarray(snapshot["contact_ends"])[pairs[:, 0] != pairs[:, 1]]
+    pairs = snapshot.contact_grains
+    between = 1e3 * snapshot.contact_ends[pairs[:, 0] != pairs[:, 1]]
     axes.add_collection(LineCollection(between, colors=_EDGE, linewidths=0.25))
 
 
@@ -224,8 +224,8 @@ def _tints(numbers: Iterable[int]) -> list[str]:
 
 def _draw_grains(
     axes: Axes,
-    polygons: Sequence[np.ndarray],
-    tints: Sequence[str] | np.ndarray | None = None,
+    polygons: Sequence[FloatArray],
+    tints: Sequence[str] | None = None,
     edges: str = _EDGE,
 ) -> None:
     if tints is None:
@@ -247,6 +247,7 @@ def _draw_scale_bar(axes: Axes) -> None:
     axes.text(ends[1] + 0.5 * gap, place, f"{length:g} mm", va="center", ha="left")
 
 
-def _unique_edges(triangles: np.ndarray) -> np.ndarray:
+def _unique_edges(triangles: IntArray) -> IntArray:
     edges = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
-    return np.unique(np.sort(edges, axis=1), axis=0)
+    found: IntArray = np.unique(np.sort(edges, axis=1), axis=0)
+    return found

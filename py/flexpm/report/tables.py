@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from ..materials.references import Reference
 
@@ -84,7 +84,7 @@ def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str
     factors = {"cohesion": 1e-6, "friction_angle": 1.0, "sigma_ci": 1e-6, "m_i": 1.0}
     rows = []
     for one in envelopes:
-        found = one.as_dict()
+        found = one.constants()
         cells = [one.model]
         for name, factor in factors.items():
             cells.append(scaled(found[name], factor, ""))
@@ -92,15 +92,15 @@ def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str
         rows.append(cells)
     if rock is not None:
         measured = scaled(rock.cohesion, 1e-6, ""), scaled(rock.friction_angle, 1.0, "")
-        rows.append((rock.name, measured[0], "-", measured[1], *["-"] * 5))
+        rows.append([rock.name, measured[0], "-", measured[1], *["-"] * 5])
     return columns(header, rows)
 
 
-def statistics_table(found: dict[str, Any]) -> str:
+def statistics_table(found: Mapping[str, float | Mapping[str, float]]) -> str:
     """Table of what can be counted and measured in a specimen, SI units and degrees."""
     rows = []
     for name, value in found.items():
-        if isinstance(value, dict):
+        if isinstance(value, Mapping):
             rows += [(f"{name} {key}", f"{number:.4g}") for key, number in value.items()]
         else:
             rows.append((name, str(value) if isinstance(value, int) else f"{value:.6g}"))

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ..files import csv_text
 from .record import Curve
+from .snapshot import Snapshot
 
 TENSILE, SHEAR = 1, 2
 #: Name of each mode.
@@ -37,9 +38,9 @@ def cracks_csv(cracks: Sequence[Crack]) -> str:
     return csv_text(Crack._fields, rows)
 
 
-def cracks_from_snapshot(snapshot: Mapping[str, np.ndarray], curve: Curve) -> list[Crack]:
+def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
-    steps = np.asarray(snapshot["crack_step"])
+    steps = snapshot.crack_step
     contacts, points = np.nonzero(steps >= 0)
     order = np.lexsort((points, contacts, steps[contacts, points]))
     contacts, points = contacts[order], points[order]
@@ -49,8 +50,8 @@ def cracks_from_snapshot(snapshot: Mapping[str, np.ndarray], curve: Curve) -> li
         if len(curve)
         else np.full(len(steps), np.nan)
     )
-    modes = np.asarray(snapshot["crack_mode"])[contacts, points]
-    places = np.asarray(snapshot["crack_position"])[contacts, points]
+    modes = snapshot.crack_mode[contacts, points]
+    places = snapshot.crack_position[contacts, points]
     return [
         Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
         for step, strain, (x, y), mode, contact, point in zip(

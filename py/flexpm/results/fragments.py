@@ -7,13 +7,13 @@ that are only touched, and points that have cracked, do not count.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..files import csv_text
 
 
@@ -21,9 +21,9 @@ from ..files import csv_text
 class Fragments:
     """Fragments, the largest first; ties in the order of their first grain."""
 
-    labels: np.ndarray  #: fragment of each grain
-    grains: np.ndarray  #: number of grains of each fragment
-    areas: np.ndarray  #: area of each fragment, undeformed [m2]
+    labels: IntArray  #: fragment of each grain
+    grains: IntArray  #: number of grains of each fragment
+    areas: FloatArray  #: area of each fragment, undeformed [m2]
 
     def __len__(self) -> int:
         return len(self.areas)
@@ -34,7 +34,7 @@ class Fragments:
         return csv_text(("fragment", "grains", "area"), rows)
 
 
-def connected(pairs: np.ndarray, bonded: np.ndarray, areas: np.ndarray) -> Fragments:
+def connected(pairs: IntArray, bonded: BoolArray, areas: FloatArray) -> Fragments:
     """Find what hangs together.
 
     Args:
@@ -55,16 +55,3 @@ def connected(pairs: np.ndarray, bonded: np.ndarray, areas: np.ndarray) -> Fragm
     rank[order] = np.arange(found)
     grains = np.bincount(labels, minlength=found)
     return Fragments(rank[labels], grains[order], total[order])
-
-
-def of_snapshot(snapshot: Mapping[str, np.ndarray]) -> Fragments:
-    """Fragments of a snapshot, whose arrays are those of :func:`flexpm.export.write_vtu`."""
-    bonded = np.any(np.asarray(snapshot["point_damage"]) < 1.0, axis=1)
-    return connected(snapshot["contact_grains"], bonded, _grain_areas(snapshot))
-
-
-def _grain_areas(snapshot: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Undeformed area of each grain [m2]."""
-    corners = np.asarray(snapshot["reference"])[np.asarray(snapshot["triangles"])]
-    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    return np.bincount(snapshot["triangle_grain"], weights=0.5 * (ax * by - ay * bx))

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ..arrays import FloatArray
 from .record import Curve
 
 ENERGIES = (
@@ -30,7 +31,7 @@ _EARLY, _LATE = (0.15, 0.25), (0.75, 0.85)
 ONSET_SHARE = 0.05
 
 
-def differential_stress(curve: Curve) -> np.ndarray:
+def differential_stress(curve: Curve) -> FloatArray:
     """Axial stress above the confinement [Pa]; what deforms the specimen axially."""
     return curve["axial_stress"] - curve["confinement"]
 
@@ -130,10 +131,11 @@ def crack_onset(
         return None, None
     number = max(1, math.ceil(share * len(steps)))
     step = np.sort(np.asarray(steps))[number - 1]
-    return tuple(
+    strain, stress = (
         float(np.interp(step, curve["step"], curve[name]))
         for name in ("axial_strain", "axial_stress")
     )
+    return strain, stress
 
 
 def energy_error(curve: Curve, initial: float | None = None) -> float | None:
@@ -144,7 +146,7 @@ def energy_error(curve: Curve, initial: float | None = None) -> float | None:
         initial: Energy when the work began to count [J]; if None, as the first row has it.
     """
     work = curve["boundary_work"]
-    total = sum(curve[name] for name in ENERGIES)
+    total = np.sum([curve[name] for name in ENERGIES], axis=0)
     if len(work) == 0 or not np.all(np.isfinite(total + work)):
         return None
     largest = np.max(np.abs(work))
@@ -180,7 +182,7 @@ def end_mismatch(curve: Curve) -> float | None:
 
 
 def _while_loaded(
-    curve: Curve, column: np.ndarray, of: Callable[[np.ndarray], float]
+    curve: Curve, column: FloatArray, of: Callable[[FloatArray], float]
 ) -> float | None:
     """A number from the rows of a column from 5 % of the peak up to the peak."""
     stress = differential_stress(curve)
@@ -192,7 +194,7 @@ def _while_loaded(
     return float(of(values)) if np.any(np.isfinite(values)) else None
 
 
-def _slope(x: np.ndarray, y: np.ndarray, fewest: int = 3) -> float | None:
+def _slope(x: FloatArray, y: FloatArray, fewest: int = 3) -> float | None:
     """Least-squares slope of y over x, or None for too few or coincident points."""
     if len(x) < fewest or not np.all(np.isfinite(x) & np.isfinite(y)):
         return None

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..files import csv_text
 
 #: Columns of the record: the columns of curve.csv.
@@ -57,17 +58,17 @@ class Curve:
     def __len__(self) -> int:
         return self._rows
 
-    def __getitem__(self, column: str) -> np.ndarray:
+    def __getitem__(self, column: str) -> FloatArray:
         """View of one column; it stays valid, but does not grow with later rows."""
         return self._data[: self._rows, COLUMNS.index(column)]
 
     @property
-    def array(self) -> np.ndarray:
+    def array(self) -> FloatArray:
         """All rows, in the order of `COLUMNS`."""
         return self._data[: self._rows]
 
     @classmethod
-    def from_array(cls, array: np.ndarray) -> Curve:
+    def from_array(cls, array: FloatArray) -> Curve:
         """Restore a record from `array` (rows, columns in the order of `COLUMNS`)."""
         array = np.asarray(array, dtype=float).reshape(-1, len(COLUMNS))
         curve = cls()
@@ -76,7 +77,7 @@ class Curve:
         return curve
 
     @classmethod
-    def from_columns(cls, names: Sequence[str], rows: np.ndarray) -> Curve:
+    def from_columns(cls, names: Sequence[str], rows: FloatArray) -> Curve:
         """Take the record's columns from `rows` (rows, columns) whose columns have `names`."""
         rows = np.asarray(rows, dtype=float).reshape(-1, len(names))
         return cls.from_array(rows[:, [list(names).index(column) for column in COLUMNS]])

@@ -7,14 +7,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from ..files import json_text, output_folder, write_text
-from . import fragments, measures
+from ..files import Table, json_text, output_folder, write_text
+from . import measures
 from .cracks import MODES, Crack, cracks_csv
 from .record import Curve
+from .snapshot import Snapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
@@ -31,7 +31,7 @@ class Result:
     yade: str  #: version of YADE
     test: str
     model: str
-    material: dict[str, Any]  #: name and effective parameters
+    material: Table  #: name and effective parameters
     seed: int | None
     grains: int
     contacts: int
@@ -65,10 +65,10 @@ class Result:
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
-    inputs: dict[str, Any] | None = field(default=None, repr=False)  #: all that determined the run
+    inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
-    snapshot: Mapping[str, np.ndarray] | None = field(default=None, repr=False)  #: final state
+    snapshot: Snapshot | None = field(default=None, repr=False)  #: final state
     resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
 
     @property
@@ -112,13 +112,9 @@ class Result:
         ratio = measures.median_unbalanced_ratio(record)
         self.status = self._status(diverged, peak, ratio is None or ratio > max_unbalanced)
 
-    def measure_fragments(self, snapshot: Mapping[str, np.ndarray]) -> None:
-        """Keep the final state and count what hangs together in it.
-
-        Args:
-            snapshot: Arrays as for :func:`flexpm.export.write_vtu`.
-        """
-        found = fragments.of_snapshot(snapshot)
+    def measure_fragments(self, snapshot: Snapshot) -> None:
+        """Keep the final state and count what hangs together in it."""
+        found = snapshot.fragments
         self.snapshot = snapshot
         self.fragments = len(found)
         self.largest_fragment = float(found.areas[0] / found.areas.sum())
@@ -140,7 +136,7 @@ class Result:
             return "no_peak"
         return "not_quasistatic" if fast else "ok"
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> Table:
         """The content of result.json; numbers that are not finite become None."""
         hidden = ("curve", "cracks", "snapshot", "resumed_at")
         return {
@@ -155,11 +151,11 @@ class Result:
         write_text(folder / "curve.csv", self.curve.csv())
         write_text(folder / "cracks.csv", cracks_csv(self.cracks))
         if self.snapshot is not None:
-            write_text(folder / "fragments.csv", fragments.of_snapshot(self.snapshot).csv())
+            write_text(folder / "fragments.csv", self.snapshot.fragments.csv())
         write_text(folder / "result.json", json_text(self.as_dict()))
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     """Turn numpy numbers into Python's and numbers that are not finite into None."""
     if isinstance(value, Mapping):
         return {key: _plain(item) for key, item in value.items()}

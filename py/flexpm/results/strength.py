@@ -22,6 +22,7 @@ from typing import TypeVar
 import numpy as np
 from scipy import optimize, stats
 
+from ..arrays import FloatArray
 from ..errors import InputError
 
 Criterion = TypeVar("Criterion", "MohrCoulomb", "HoekBrown")
@@ -47,7 +48,7 @@ class MohrCoulomb:
         """q, strength of the line at no confinement [Pa]."""
         return 2.0 * self.cohesion * math.sqrt(self.slope)
 
-    def strength(self, confinement: np.ndarray | float) -> np.ndarray | float:
+    def strength(self, confinement: FloatArray | float) -> FloatArray | float:
         """Axial stress at failure [Pa] under a confinement [Pa]."""
         return self.uniaxial_strength + self.slope * confinement
 
@@ -61,7 +62,7 @@ class HoekBrown:
     sigma_ci_error: float | None = None  #: [Pa]
     m_i_error: float | None = None  #: [-]
 
-    def strength(self, confinement: np.ndarray | float) -> np.ndarray | float:
+    def strength(self, confinement: FloatArray | float) -> FloatArray | float:
         """Axial stress at failure [Pa] under a confinement [Pa]."""
         return _hoek_brown(confinement, self.sigma_ci, self.m_i)
 
@@ -84,7 +85,11 @@ class Envelope:
 
     def as_dict(self) -> dict[str, str | float | None]:
         """A row of envelope.csv."""
-        found: dict[str, str | float | None] = {"model": self.model, "tests": len(self.peaks)}
+        return {"model": self.model, "tests": len(self.peaks), **self.constants()}
+
+    def constants(self) -> dict[str, float | None]:
+        """Constants of both criteria and their errors, by name; None for one that failed."""
+        found: dict[str, float | None] = {}
         for name in ("cohesion", "friction_angle"):
             found[name] = getattr(self.mohr_coulomb, name, None)
             found[f"{name}_error"] = getattr(self.mohr_coulomb, f"{name}_error", None)
@@ -184,13 +189,13 @@ def _fit(
         return None
 
 
-def _hoek_brown(confinement: np.ndarray | float, sigma_ci: float, m_i: float) -> np.ndarray | float:
+def _hoek_brown(confinement: FloatArray | float, sigma_ci: float, m_i: float) -> FloatArray | float:
     return confinement + np.sqrt(m_i * sigma_ci * confinement + sigma_ci**2)
 
 
 def _checked(
     where: str, confinements: Sequence[float], peaks: Sequence[float]
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[FloatArray, FloatArray]:
     x, y = np.asarray(confinements, dtype=float), np.asarray(peaks, dtype=float)
     if x.shape != y.shape or x.ndim != 1:
         raise InputError(

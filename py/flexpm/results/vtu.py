@@ -6,7 +6,6 @@ Stress, traction and opening are positive in tension. The arrays are listed in t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -22,18 +21,17 @@ from vtkmodules.vtkCommonDataModel import (
 )
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
+from ..arrays import FloatArray, IntArray
 from ..files import whole_file
-from . import fragments
+from .snapshot import POINT_SHARES, Snapshot
 
 GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
-
-#: Share of a contact's area that each of its points stands for, by number of points.
-POINT_SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
 
 _TENSOR = ("XX", "YY", "ZZ", "XY", "YZ", "XZ")
 _VECTOR = ("X", "Y", "Z")
 
-Snapshot = Mapping[str, np.ndarray]
+#: An array and the names of its components.
+Named = tuple[FloatArray | IntArray, tuple[str, ...]]
 
 
 def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
@@ -41,21 +39,14 @@ def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
 
     Args:
         path: Name of the file, ending in .vtu.
-        snapshot: Arrays of N nodes, M triangles and C contacts of P points: `positions`,
-            `reference` (N, 2) [m], `velocities` (N, 2) [m/s], `triangles` (M, 3), `triangle_grain`
-            (M,), `triangle_stress` (M, 3) [Pa] as xx, yy, xy, `contact_grains` (C, 2),
-            `contact_ends` (C, 2, 2) [m], `point_opening`, `point_slip` (C, P) [m], `point_damage`
-            (C, P) [-], `point_traction` (C, P, 2) [Pa] as normal, shear, `crack_step` and
-            `crack_mode` (C, P). `triangle_particle` (M,) may be added where grains have inner
-            particles, `triangle_stress_zz` (M,) [Pa] in plane strain, `grain_mineral` for each
-            grain if there are minerals.
+        snapshot: The state.
     """
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
-    for name, (values, components) in point_arrays(snapshot).items():
-        _add(grid.GetPointData(), name, values, components)
-    for name, (values, components) in cell_arrays(snapshot).items():
-        _add(grid.GetCellData(), name, values, components)
+    for name, array in point_arrays(snapshot).items():
+        _add(grid.GetPointData(), name, array)
+    for name, array in cell_arrays(snapshot).items():
+        _add(grid.GetCellData(), name, array)
     grid.GetPointData().SetActiveVectors("displacement")
     grid.GetCellData().SetActiveAttribute("stress", vtkDataSetAttributes.TENSORS)
     writer = vtkXMLUnstructuredGridWriter()
@@ -69,73 +60,75 @@ def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
             raise OSError(f"write_vtu: path = {str(path)!r}, VTK could not write it; check space")
 
 
-def point_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, ...]]]:
+def point_arrays(snapshot: Snapshot) -> dict[str, Named]:
     """Arrays over points: the N nodes, then the two ends of each contact.
 
     An end of a contact moves with the node that is nearest to it.
     """
     nearest = _nearest_nodes(snapshot)
-    displacement = snapshot["positions"] - snapshot["reference"]
+    displacement = snapshot.positions - snapshot.reference
     return {
         name: (_three(np.concatenate([values, values[nearest]])), _VECTOR)
         for name, values in (
             ("displacement", displacement),
-            ("velocity", np.asarray(snapshot["velocities"])),
+            ("velocity", snapshot.velocities),
         )
     }
 
 
-def cell_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, ...]]]:
+def cell_arrays(snapshot: Snapshot) -> dict[str, Named]:
     """Arrays over cells: the M triangles, then the C contacts; nan or -1 where undefined."""
     return _joined(_grain_arrays(snapshot), _contact_arrays(snapshot))
 
 
-def principal_stresses(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def principal_stresses(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Larger and smaller principal stress of the plane [Pa] from xx, yy, xy, shape (M, 3)."""
     xx, yy, xy = np.asarray(stress, dtype=float).T
     middle, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
     return middle + radius, middle - radius
 
 
-def _grain_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, ...]]]:
-    stress = np.asarray(snapshot["triangle_stress"], dtype=float)
+def _grain_arrays(snapshot: Snapshot) -> dict[str, Named]:
+    stress = snapshot.triangle_stress
     tensor = np.zeros((len(stress), 6))
     tensor[:, [0, 1, 3]] = stress
-    tensor[:, 2] = snapshot.get("triangle_stress_zz", 0.0)
+    if snapshot.triangle_stress_zz is not None:
+        tensor[:, 2] = snapshot.triangle_stress_zz
     largest, smallest = principal_stresses(stress)
-    grain = np.asarray(snapshot["triangle_grain"])
+    grain, particle = snapshot.triangle_grain, snapshot.triangle_particle
     return {
         "kind": (np.full(len(stress), GRAIN), ()),
         "grain": (grain, ()),
-        "particle": (np.asarray(snapshot.get("triangle_particle", grain)), ()),
+        "particle": (grain if particle is None else particle, ()),
         "mineral": (_minerals(snapshot)[grain], ()),
-        "fragment": (fragments.of_snapshot(snapshot).labels[grain], ()),
+        "fragment": (snapshot.fragments.labels[grain], ()),
         "stress": (tensor, _TENSOR),
         "principal_stress_1": (largest, ()),
         "principal_stress_2": (smallest, ()),
     }
 
 
-def _minerals(snapshot: Snapshot) -> np.ndarray:
+def _minerals(snapshot: Snapshot) -> IntArray:
     """Mineral of each grain; 0 if all grains are alike."""
-    grains = int(np.max(snapshot["triangle_grain"], initial=-1)) + 1
-    return np.asarray(snapshot.get("grain_mineral", np.zeros(grains, dtype=int)))
+    if snapshot.grain_mineral is not None:
+        return snapshot.grain_mineral
+    return np.zeros(int(np.max(snapshot.triangle_grain, initial=-1)) + 1, dtype=int)
 
 
-def _contact_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str, ...]]]:
-    opening, slip = np.asarray(snapshot["point_opening"]), np.asarray(snapshot["point_slip"])
-    damage, traction = np.asarray(snapshot["point_damage"]), np.asarray(snapshot["point_traction"])
-    step, mode = np.asarray(snapshot["crack_step"]), np.asarray(snapshot["crack_mode"])
+def _contact_arrays(snapshot: Snapshot) -> dict[str, Named]:
+    opening, slip = snapshot.point_opening, snapshot.point_slip
+    damage, traction = snapshot.point_damage, snapshot.point_traction
+    step, mode = snapshot.crack_step, snapshot.crack_mode
     count, points = opening.shape
     shares = np.array(POINT_SHARES[points])
     names = tuple(f"point {number}" for number in range(points))
     last = np.take_along_axis(mode, np.argmax(step, axis=1)[:, None], axis=1)[:, 0]
     normal, shear = traction[..., 0], traction[..., 1]
-    arrays = {
+    arrays: dict[str, FloatArray | IntArray] = {
         "kind": np.full(count, CONTACT),
         "contact": np.arange(count),
-        "grain_a": np.asarray(snapshot["contact_grains"])[:, 0],
-        "grain_b": np.asarray(snapshot["contact_grains"])[:, 1],
+        "grain_a": snapshot.contact_grains[:, 0],
+        "grain_b": snapshot.contact_grains[:, 1],
         "damage": damage @ shares,
         "opening": _largest(opening),
         "slip": _largest(slip),
@@ -144,7 +137,7 @@ def _contact_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str
         "cracked_points": np.count_nonzero(step >= 0, axis=1),
         "crack_mode": np.where(np.any(step >= 0, axis=1), last, 0),
     }
-    by_point = {
+    by_point: dict[str, FloatArray | IntArray] = {
         "point_damage": damage,
         "point_opening": opening,
         "point_slip": slip,
@@ -153,12 +146,11 @@ def _contact_arrays(snapshot: Snapshot) -> dict[str, tuple[np.ndarray, tuple[str
         "point_crack_mode": mode,
         "point_crack_step": step,
     }
-    return {name: (values, ()) for name, values in arrays.items()} | {
-        name: (values, names) for name, values in by_point.items()
-    }
+    found: dict[str, Named] = {name: (values, ()) for name, values in arrays.items()}
+    return found | {name: (values, names) for name, values in by_point.items()}
 
 
-def _joined(first: dict, second: dict) -> dict:
+def _joined(first: dict[str, Named], second: dict[str, Named]) -> dict[str, Named]:
     """Stack the arrays of two blocks of cells; a block without an array gets nan, or -1."""
     lengths = [len(next(iter(block.values()))[0]) for block in (first, second)]
     joined = {}
@@ -175,13 +167,13 @@ def _joined(first: dict, second: dict) -> dict:
 
 
 def _set_geometry(grid: vtkUnstructuredGrid, snapshot: Snapshot) -> None:
-    triangles = np.asarray(snapshot["triangles"], dtype=np.int64)
-    ends = np.asarray(snapshot["contact_ends"], dtype=float)
-    nodes = len(snapshot["positions"])
+    triangles = np.asarray(snapshot.triangles, dtype=np.int64)
+    ends = snapshot.contact_ends
+    nodes = len(snapshot.positions)
     lines = nodes + np.arange(2 * len(ends), dtype=np.int64).reshape(-1, 2)
     places = vtkPoints()
     places.SetDataTypeToDouble()
-    corners = np.concatenate([snapshot["positions"], ends.reshape(-1, 2)])
+    corners = np.concatenate([snapshot.positions, ends.reshape(-1, 2)])
     places.SetData(numpy_to_vtk(_three(corners), deep=True))
     sizes = np.repeat([3, 2], [len(triangles), len(lines)])
     offsets = np.concatenate([[0], np.cumsum(sizes)])
@@ -195,28 +187,30 @@ def _set_geometry(grid: vtkUnstructuredGrid, snapshot: Snapshot) -> None:
     grid.SetCells(numpy_to_vtk(types, deep=True), cells)
 
 
-def _nearest_nodes(snapshot: Snapshot) -> np.ndarray:
+def _nearest_nodes(snapshot: Snapshot) -> IntArray:
     """Node nearest to each end of each contact."""
-    ends = np.asarray(snapshot["contact_ends"], dtype=float).reshape(-1, 2)
+    ends = snapshot.contact_ends.reshape(-1, 2)
     if len(ends) == 0:
         return np.empty(0, dtype=int)
-    return cKDTree(snapshot["positions"]).query(ends)[1]
+    nearest: IntArray = cKDTree(snapshot.positions).query(ends)[1]
+    return nearest
 
 
-def _largest(values: np.ndarray) -> np.ndarray:
+def _largest(values: FloatArray) -> FloatArray:
     """Value of largest magnitude in each row, with its sign."""
     return np.take_along_axis(values, np.argmax(np.abs(values), axis=1)[:, None], axis=1)[:, 0]
 
 
-def _three(plane: np.ndarray) -> np.ndarray:
+def _three(plane: FloatArray) -> FloatArray:
     return np.column_stack([np.asarray(plane, dtype=float), np.zeros(len(plane))])
 
 
-def _add(data: vtkDataSetAttributes, name: str, values: np.ndarray, components: tuple) -> None:
+def _add(data: vtkDataSetAttributes, name: str, array: Named) -> None:
+    values, components = array
     if np.issubdtype(values.dtype, np.integer):
         values = values.astype(np.int32)
-    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    array.SetName(name)
+    made = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    made.SetName(name)
     for number, component in enumerate(components):
-        array.SetComponentName(number, component)
-    data.AddArray(array)
+        made.SetComponentName(number, component)
+    data.AddArray(made)

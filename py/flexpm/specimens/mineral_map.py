@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..materials.material import Material
 from .specimen import Specimen
@@ -15,7 +16,7 @@ from .specimen import Specimen
 _STREAM = 27
 
 
-def assign(fractions: Sequence[float], areas: np.ndarray, seed: int) -> np.ndarray:
+def assign(fractions: Sequence[float], areas: FloatArray, seed: int) -> IntArray:
     """Draw a mineral for each grain so that the minerals have their fractions of the area.
 
     Grains in random order are cut where the fractions end: each cut is off by half a grain at most.
@@ -38,7 +39,7 @@ def assign(fractions: Sequence[float], areas: np.ndarray, seed: int) -> np.ndarr
     return found
 
 
-def minerals_of(specimen: Specimen, material: Material) -> np.ndarray | None:
+def minerals_of(specimen: Specimen, material: Material) -> IntArray | None:
     """Index of the mineral of each grain, or None for a rock of one kind of grain.
 
     Taken from the specimen if it says so, else drawn with the specimen's seed (0 if it has none).
@@ -60,7 +61,8 @@ def minerals_of(specimen: Specimen, material: Material) -> np.ndarray | None:
     return assign(fractions, specimen.tessellation.cell_areas, specimen.seed or 0)
 
 
-def area_fractions(specimen: Specimen, found: np.ndarray, count: int) -> list[float]:
+def area_fractions(specimen: Specimen, found: IntArray, count: int) -> list[float]:
     """Fraction of the area that each of `count` minerals has [-]."""
     areas = np.asarray(specimen.tessellation.cell_areas)
-    return (np.bincount(found, weights=areas, minlength=count) / areas.sum()).tolist()
+    found_areas = np.bincount(found, weights=areas, minlength=count)
+    return [float(area) for area in found_areas / areas.sum()]

@@ -18,12 +18,12 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from types import ModuleType
-from typing import Any
 
 import numpy as np
+from yade import log, utils, wrapper
 
-from .._plugin import import_yade, load_kernel
+from .._flexpm import Outline, insert_discs
+from ..arrays import FloatArray, IntArray
 from ..errors import SimulationError
 from ..progress import Progress
 
@@ -61,22 +61,21 @@ class Frame:
         """Return the frame with all lengths multiplied by ``factor``."""
         return Frame(self.width * factor, self.height * factor, self.radius * factor)
 
-    def kernel_outline(self) -> Any:
+    def kernel_outline(self) -> Outline:
         """Return the outline as the kernel's object."""
-        kernel = load_kernel()
         if self.radius > 0.0:
-            return kernel.Outline.circle(0.0, 0.0, self.radius)
+            return Outline.circle(0.0, 0.0, self.radius)
         w, h = self.width, self.height
-        return kernel.Outline.polygon(np.array([[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]))
+        return Outline.polygon(np.array([[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]))
 
 
 def pack(
     frame: Frame,
-    radii: np.ndarray,
+    radii: FloatArray,
     mean_diameter: float,
     seed: int,
     progress: Progress | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[FloatArray, FloatArray]:
     """Pack discs into a frame; the same arguments give the same bits.
 
     Args:
@@ -96,7 +95,7 @@ def pack(
     """
     unit_frame = frame.scaled(1.0 / mean_diameter)
     unit_radii = radii / mean_diameter
-    centres = load_kernel().insert_discs(unit_radii, unit_frame.kernel_outline(), _SHRINK, seed)
+    centres = insert_discs(unit_radii, unit_frame.kernel_outline(), _SHRINK, seed)
     order = spatial_order(centres, _STRIP)
     centres = _relax(unit_frame, centres[order], unit_radii[order], progress)
     radii = radii[order]
@@ -104,7 +103,7 @@ def pack(
     return centres[order] * mean_diameter, radii[order]
 
 
-def spatial_order(centres: np.ndarray, strip: float) -> np.ndarray:
+def spatial_order(centres: FloatArray, strip: float) -> IntArray:
     """Order points in horizontal strips, walked to the right and to the left in turn.
 
     Args:
@@ -116,18 +115,16 @@ def spatial_order(centres: np.ndarray, strip: float) -> np.ndarray:
     """
     row = np.floor((centres[:, 1] - centres[:, 1].min()) / strip).astype(int)
     along = np.where(row % 2 == 0, centres[:, 0], -centres[:, 0])
-    return np.lexsort((centres[:, 1], along, row))
+    order: IntArray = np.lexsort((centres[:, 1], along, row))
+    return order
 
 
 def _relax(
-    frame: Frame, centres: np.ndarray, radii: np.ndarray, progress: Progress | None
-) -> np.ndarray:
-    import_yade()
-    from yade import wrapper
-
+    frame: Frame, centres: FloatArray, radii: FloatArray, progress: Progress | None
+) -> FloatArray:
     scene = wrapper.Omega()
     with _one_thread(), _private_scene(scene):
-        loop = _fill_scene(scene, wrapper, frame, centres, radii)
+        loop = _fill_scene(scene, frame, centres, radii)
         _calm_start(scene)
         while True:
             _advance(scene, _BATCH - 1)
@@ -164,7 +161,7 @@ def _one_thread() -> Iterator[None]:
 
 
 @contextmanager
-def _private_scene(scene: Any) -> Iterator[None]:
+def _private_scene(scene: wrapper.Omega) -> Iterator[None]:
     """Switch to the scene for packings, and back at the end, whatever happens."""
     if scene.running:
         raise SimulationError(
@@ -181,7 +178,7 @@ def _private_scene(scene: Any) -> Iterator[None]:
         scene.switchToScene(caller)
 
 
-def _enter_scene(scene: Any, caller: int) -> None:
+def _enter_scene(scene: wrapper.Omega, caller: int) -> None:
     global _scene
     if _scene is not None and _scene != caller:
         _switch_quietly(scene, _scene)
@@ -192,10 +189,8 @@ def _enter_scene(scene: Any, caller: int) -> None:
     scene.switchToScene(_scene)
 
 
-def _switch_quietly(scene: Any, number: int) -> None:
+def _switch_quietly(scene: wrapper.Omega, number: int) -> None:
     """Switch to a scene; if it is gone (the caller has reset all) YADE logs an error and stays."""
-    from yade import log
-
     before = log.getUsedLevels().get("Omega")
     log.setLevel("Omega", log.FATAL)
     try:
@@ -208,11 +203,9 @@ def _switch_quietly(scene: Any, number: int) -> None:
 
 
 def _fill_scene(
-    scene: Any, wrapper: ModuleType, frame: Frame, centres: np.ndarray, radii: np.ndarray
-) -> Any:
+    scene: wrapper.Omega, frame: Frame, centres: FloatArray, radii: FloatArray
+) -> wrapper.DiscLoop:
     """Make bodies and engines for discs of unit mass; return the interaction loop."""
-    from yade import utils
-
     grain, wall = (
         wrapper.FrictMat(young=1.0, poisson=0.3, frictionAngle=0.0, density=1.0) for _ in range(2)
     )
@@ -245,9 +238,7 @@ def _fill_scene(
     return loop
 
 
-def _walls(frame: Frame, material: Any) -> list[Any]:
-    from yade import utils
-
+def _walls(frame: Frame, material: wrapper.Material) -> list[wrapper.Body]:
     if frame.radius > 0.0:
         return _ring(frame.radius, material)
     places = ((0.0, 0, 1), (frame.width, 0, -1), (0.0, 1, 1), (frame.height, 1, -1))
@@ -256,10 +247,8 @@ def _walls(frame: Frame, material: Any) -> list[Any]:
     ]
 
 
-def _ring(radius: float, material: Any) -> list[Any]:
+def _ring(radius: float, material: wrapper.Material) -> list[wrapper.Body]:
     """Facets whose cuts with the plane z = 0 are the chords of a regular polygon."""
-    from yade import utils
-
     count = max(24, math.ceil(2.0 * math.pi * radius / 0.5))
     angles = 2.0 * math.pi * np.arange(count) / count
     corners = radius * np.column_stack((np.cos(angles), np.sin(angles)))
@@ -272,15 +261,13 @@ def _ring(radius: float, material: Any) -> list[Any]:
     return facets
 
 
-def _advance(scene: Any, steps: int) -> None:
+def _advance(scene: wrapper.Omega, steps: int) -> None:
     for _ in range(steps):
         scene.step()  # O.run(..., wait=True) polls: 40 ms each time
 
 
-def _calm_start(scene: Any) -> None:
+def _calm_start(scene: wrapper.Omega) -> None:
     """Stop the discs every other step at first: large overlaps would fling them through walls."""
-    from yade import utils
-
     scene.dt = _START_TIME_STEP
     for _ in range(30):
         _advance(scene, 2)
@@ -288,19 +275,17 @@ def _calm_start(scene: Any) -> None:
     scene.dt = _TIME_STEP
 
 
-def _is_at_rest(scene: Any) -> bool:
+def _is_at_rest(scene: wrapper.Omega) -> bool:
     """Whether forces balance, or the packing is so loose that no discs touch."""
-    from yade import utils
-
     return scene.interactions.countReal() == 0 or utils.unbalancedForce() < _UNBALANCED
 
 
-def _positions(scene: Any, discs: int) -> np.ndarray:
+def _positions(scene: wrapper.Omega, discs: int) -> FloatArray:
     places = (scene.bodies[k].state.pos for k in range(discs))
     return np.array([(place[0], place[1]) for place in places])
 
 
-def _require_inside(frame: Frame, centres: np.ndarray) -> None:
+def _require_inside(frame: Frame, centres: FloatArray) -> None:
     outline = frame.kernel_outline()
     for x, y in centres:
         if not outline.contains(float(x), float(y)):

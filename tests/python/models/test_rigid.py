@@ -121,8 +121,8 @@ def test_rigid_grains_continue_after_loading(tmp_path, rectangle: flexpm.Specime
     file = str(tmp_path / "scene.yade.gz")
     yade.O.save(file, quiet=True)
     built.run(100)
-    straight = built.snapshot()["positions"]
+    straight = built.snapshot().positions
     yade.O.load(file, quiet=True)
     built.rebind()
     built.run(100)
-    assert np.array_equal(built.snapshot()["positions"], straight)
+    assert np.array_equal(built.snapshot().positions, straight)

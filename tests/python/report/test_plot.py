@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: the geometry they draw in closed form, and what can be seen in them."""
 
+import dataclasses
 import os
 import subprocess
 import sys
@@ -46,13 +47,13 @@ def result_with_peak(stresses, cracks=0.0):
 
 def test_grain_corners_are_counter_clockwise_polygons_of_the_right_area():
     snapshot = wall(columns=3, rows=4)
-    polygons = plot_maps.grain_corners(snapshot["triangles"])
+    polygons = plot_maps.grain_corners(snapshot.triangles)
     assert sorted(tuple(sorted(polygon)) for polygon in polygons) == [
         tuple(5 * grain + corner for corner in range(4)) for grain in range(12)
     ]
     stretched = WIDTH * HEIGHT * np.linalg.det(np.eye(2) + GRADIENT)
     for polygon in polygons:
-        assert area(snapshot["positions"][polygon]) == pytest.approx(stretched, rel=1e-10)
+        assert area(snapshot.positions[polygon]) == pytest.approx(stretched, rel=1e-10)
 
 
 @pytest.mark.parametrize(("points", "share"), [(1, 1.0), (2, 0.5), (3, 1 / 6)])
@@ -60,8 +61,8 @@ def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
     snapshot = wall(points=points)
     segments = plot_maps.crack_segments(snapshot)
     for mode in (TENSILE, SHEAR):
-        contacts = np.flatnonzero(snapshot["crack_mode"][:, 0] == mode)
-        ends = snapshot["contact_ends"][contacts]
+        contacts = np.flatnonzero(snapshot.crack_mode[:, 0] == mode)
+        ends = snapshot.contact_ends[contacts]
         assert np.array_equal(segments[mode][:, 0], ends[:, 0])
         expected = share * (ends[:, 1] - ends[:, 0])
         assert np.allclose(segments[mode][:, 1] - segments[mode][:, 0], expected, atol=1e-15)
@@ -70,7 +71,8 @@ def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
 def test_cracks_appear_in_their_colours(tmp_path):
     snapshot = wall()
     plot_maps.crack_picture(tmp_path / "cracks.png", snapshot, "wall")
-    snapshot["crack_mode"] = np.where(snapshot["crack_mode"] == SHEAR, 0, snapshot["crack_mode"])
+    modes = np.where(snapshot.crack_mode == SHEAR, 0, snapshot.crack_mode)
+    snapshot = dataclasses.replace(snapshot, crack_mode=modes)
     plot_maps.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
     for mode, colour in style.COLOURS.items():
         both = pixels_like(tmp_path / "cracks.png", colour)
@@ -82,10 +84,10 @@ def test_cracks_appear_in_their_colours(tmp_path):
 def test_the_mesh_is_drawn_on_request(tmp_path):
     snapshot = wall()
     polygons = [
-        snapshot["positions"][corners] for corners in plot_maps.grain_corners(snapshot["triangles"])
+        snapshot.positions[corners] for corners in plot_maps.grain_corners(snapshot.triangles)
     ]
     plot_maps.specimen_picture(tmp_path / "plain.png", polygons, caption="12 grains")
-    mesh = (snapshot["positions"], snapshot["triangles"])
+    mesh = (snapshot.positions, snapshot.triangles)
     plot_maps.specimen_picture(tmp_path / "mesh.png", polygons, mesh)
     plain, meshed = imread(tmp_path / "plain.png"), imread(tmp_path / "mesh.png")
     assert min(plain.shape[:2]) > 300

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fragments of graphs whose parts are known."""
 
+import dataclasses
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from sample_snapshot import wall
 
 from flexpm.results import fragments
 
@@ -40,13 +43,14 @@ def test_without_contacts_every_grain_is_a_fragment():
 def test_one_point_that_is_not_fully_damaged_holds():
     damage = np.array([[1.0, 0.999, 1.0], [1.0, 1.0, 1.0]])
     triangle = np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]])
-    snapshot = {
-        "reference": np.tile(triangle, (3, 1)),
-        "triangles": np.arange(9).reshape(3, 3),
-        "triangle_grain": np.arange(3),
-        "contact_grains": np.array([[0, 1], [1, 2]]),
-        "point_damage": damage,
-    }
-    found = fragments.of_snapshot(snapshot)
+    snapshot = dataclasses.replace(
+        wall(),
+        reference=np.tile(triangle, (3, 1)),
+        triangles=np.arange(9).reshape(3, 3),
+        triangle_grain=np.arange(3),
+        contact_grains=np.array([[0, 1], [1, 2]]),
+        point_damage=damage,
+    )
+    found = snapshot.fragments
     assert found.labels.tolist() == [0, 0, 1]
     assert found.areas.tolist() == [2.0, 1.0]

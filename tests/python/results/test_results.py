@@ -2,6 +2,7 @@
 """Measures of records with known answers, and the files of a result."""
 
 import csv
+import dataclasses
 import json
 
 import numpy as np
@@ -307,7 +308,9 @@ def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
     record = Curve()
     for step in (0, 100):
         record.append(**row(step=step, axial_strain=step / 1000))
-    snapshot = {"crack_step": steps, "crack_mode": modes, "crack_position": places}
+    snapshot = dataclasses.replace(
+        wall(), crack_step=steps, crack_mode=modes, crack_position=places
+    )
     cracks = cracks_from_snapshot(snapshot, record)
     assert [(c.step, c.contact, c.point, c.mode) for c in cracks] == [
         (10, 0, 2, 2),
@@ -353,10 +356,10 @@ def test_fragments_of_a_result_and_their_table(tmp_path):
     result = result_of(triangular_record())
     result.measure_fragments(snapshot)
     assert (result.fragments, result.largest_fragment) == (1, pytest.approx(1.0))
-    first_row = snapshot["contact_grains"].min(axis=1) < 3
-    apart = first_row & (snapshot["contact_grains"].max(axis=1) >= 3)
-    snapshot["point_damage"][apart] = 1.0
-    result.measure_fragments(snapshot)
+    first_row = snapshot.contact_grains.min(axis=1) < 3
+    apart = first_row & (snapshot.contact_grains.max(axis=1) >= 3)
+    damage = np.where(apart[:, None], 1.0, snapshot.point_damage)
+    result.measure_fragments(dataclasses.replace(snapshot, point_damage=damage))
     assert (result.fragments, result.largest_fragment) == (2, pytest.approx(0.75))
     result.write(tmp_path)
     rows = list(csv.DictReader((tmp_path / "fragments.csv").read_text().splitlines()))

@@ -107,7 +107,7 @@ def test_disc_loop_mirrors_forces_when_told():
         centres = load_kernel().insert_discs(radii, frame.kernel_outline(), 0.5, 1)
         with packing._private_scene(scene), pytest.MonkeyPatch.context() as patch:
             patch.setattr(wrapper, "DiscLoop", kind)
-            packing._fill_scene(scene, wrapper, frame, centres, radii).mirror = mirror
+            packing._fill_scene(scene, frame, centres, radii).mirror = mirror
             scene.dt = 0.1
             packing._advance(scene, 20)
             return {

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""State of a specimen as plain arrays, and what hangs together in it. SI units.
+
+Stress, traction and opening are positive in tension.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from .fragments import Fragments, connected
+
+#: Share of a contact's area that each of its points stands for, by number of points.
+POINT_SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """Arrays of N nodes, M triangles and C contacts of P points."""
+
+    positions: FloatArray  #: of the nodes, (N, 2) [m]
+    reference: FloatArray  #: positions in the bonded state, (N, 2) [m]
+    velocities: FloatArray  #: (N, 2) [m/s]
+    triangles: IntArray  #: nodes of each triangle, (M, 3)
+    triangle_grain: IntArray  #: (M,)
+    triangle_stress: FloatArray  #: xx, yy, xy, (M, 3) [Pa]
+    contact_grains: IntArray  #: (C, 2)
+    contact_ends: FloatArray  #: (C, 2, 2) [m]
+    point_opening: FloatArray  #: (C, P) [m]
+    point_slip: FloatArray  #: (C, P) [m]
+    point_damage: FloatArray  #: (C, P) [-]
+    point_traction: FloatArray  #: normal and shear, (C, P, 2) [Pa]
+    crack_step: IntArray  #: -1 where a point has not cracked, (C, P)
+    crack_mode: IntArray  #: 0 where a point has not cracked, (C, P)
+    crack_position: FloatArray  #: (C, P, 2) [m]
+    forces: FloatArray | None = None  #: on the nodes, (N, 2) [N]
+    triangle_particle: IntArray | None = None  #: (M,), where grains have inner particles
+    triangle_stress_zz: FloatArray | None = None  #: (M,) [Pa], in plane strain
+    grain_mineral: IntArray | None = None  #: of each grain, if there are minerals
+
+    @cached_property
+    def fragments(self) -> Fragments:
+        """What hangs together: grains between which a point is not fully damaged."""
+        bonded = np.any(self.point_damage < 1.0, axis=1)
+        return connected(self.contact_grains, bonded, self._grain_areas())
+
+    def _grain_areas(self) -> FloatArray:
+        """Undeformed area of each grain [m2]."""
+        corners = self.reference[self.triangles]
+        (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        areas = np.bincount(self.triangle_grain, weights=0.5 * (ax * by - ay * bx))
+        return areas.astype(float, copy=False)
