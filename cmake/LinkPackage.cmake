@@ -2,8 +2,11 @@
 # Make PACKAGE hold a link to each Python and data file of SOURCE, and no link to a file that is gone.
 cmake_minimum_required(VERSION 3.25)
 
-file(GLOB_RECURSE wanted RELATIVE ${SOURCE} ${SOURCE}/*.py ${SOURCE}/*.toml ${SOURCE}/py.typed)
-file(GLOB_RECURSE present RELATIVE ${PACKAGE} LIST_DIRECTORIES false ${PACKAGE}/*.py ${PACKAGE}/*.toml)
+set(kinds *.py *.pyi *.toml py.typed)
+list(TRANSFORM kinds PREPEND ${SOURCE}/ OUTPUT_VARIABLE in_source)
+list(TRANSFORM kinds PREPEND ${PACKAGE}/ OUTPUT_VARIABLE in_package)
+file(GLOB_RECURSE wanted RELATIVE ${SOURCE} ${in_source})
+file(GLOB_RECURSE present RELATIVE ${PACKAGE} LIST_DIRECTORIES false ${in_package})
 foreach(name IN LISTS present)
     if(NOT name IN_LIST wanted)
         file(REMOVE ${PACKAGE}/${name})

@@ -36,12 +36,6 @@ def load() -> list[str]:
     return list(_classes)
 
 
-def load_kernel() -> ModuleType:
-    """Return the compiled module, loaded with YADE, which it needs."""
-    load()
-    return import_plugin()
-
-
 def import_yade() -> ModuleType:
     """Import YADE as a Python module, without its greeting.
 

@@ -33,11 +33,6 @@ FORBIDDEN_WORDS = {
 OPENMP = r"#\s*pragma\s+omp\s+(?!simd|declare)"
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
-PYTHON_LIBRARIES = {
-    "matplotlib": {"comparison.py", "curves.py", "maps.py", "style.py"},
-    "vtk": {"vtu.py"},
-    "vtkmodules": {"vtu.py"},
-}
 
 
 @dataclass(frozen=True)
@@ -326,12 +321,19 @@ def check_python(rooms: Rooms) -> Iterator[str]:
     """Yield violations of the package."""
     folder = rooms.root / TREES["python"]
     paths = sorted(folder.rglob("*.py"))
+    homes = {
+        library: f"{files} of {name}"
+        for name, room in rooms.rooms.items()
+        if name.startswith("python.")
+        for library, files in room.libraries.items()
+    }
     for path in paths:
+        own = rooms.rooms.get(rooms.name(path), Room(frozenset())).libraries
         for number, line in enumerate(path.read_text().splitlines(), start=1):
             match = re.match(r"\s*(?:from|import)\s+(\w+)", line)
-            homes = PYTHON_LIBRARIES.get(match.group(1)) if match else None
-            if homes is not None and path.name not in homes:
-                yield f"{path}:{number}: imports {match.group(1)}; only {', '.join(homes)} may"
+            library = match.group(1) if match else ""
+            if library in homes and not fnmatch(path.name, own.get(library, "")):
+                yield f"{path}:{number}: imports {library}; only {homes[library]} may, see {TABLE}"
             if re.match(r"\s*from\s+yade(\.\w+)?\s+import\s+\*", line):
                 yield f"{path}:{number}: imports all names of YADE; import the names that are used"
         if rooms.listed("python"):

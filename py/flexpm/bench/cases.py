@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
 
 import numpy as np
 import yade
@@ -21,17 +20,18 @@ _RATE = 0.1
 
 
 def build_own(
-    specimen: Specimen, threads: int, model: str = "flexible", **options: Any
-) -> dict[str, int | None]:
+    specimen: Specimen, threads: int, model: str = "flexible", mesh: str = "refined"
+) -> Mapping[str, int | None]:
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
-    built = models.build(specimen, None, model, threads=threads, **options)
+    built = models.build(specimen, None, model, mesh=mesh, threads=threads)
+    assert isinstance(built, models.Model), model
     test = "brazilian" if specimen.kind == "disc" else "uniaxial"
     material = described(built.material, model)
     protocols.load(built, RunSpec(test, specimen.spec, material, model, rate=_RATE))
-    return built.solver.counts()
+    return built.counts()
 
 
-def _build_yade(specimen: Specimen, threads: int, model: str) -> dict[str, int | None]:
+def _build_yade(specimen: Specimen, threads: int, model: str) -> Mapping[str, int | None]:
     """Bonded spheres squeezed at about the same rate, without plates and record."""
     built = yade_models.build(specimen, None, model, damping=models.DAMPING, threads=threads)
     heights = specimen.centres[:, 1]
@@ -42,14 +42,14 @@ def _build_yade(specimen: Specimen, threads: int, model: str) -> dict[str, int |
 
 
 #: Name, label and builder of each model, in the order of a turn.
-BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], dict[str, int | None]]]] = {
+BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], Mapping[str, int | None]]]] = {
     "refined": (
         "flexible, refined, 3 points",
-        lambda specimen, threads: build_own(specimen, threads, mesh="refined", points=3),
+        lambda specimen, threads: build_own(specimen, threads, mesh="refined"),
     ),
     "fan": (
         "flexible, fan, 3 points",
-        lambda specimen, threads: build_own(specimen, threads, mesh="fan", points=3),
+        lambda specimen, threads: build_own(specimen, threads, mesh="fan"),
     ),
     **{
         name: (f"{name}, {points}", partial(build_own, model=name))

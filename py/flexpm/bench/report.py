@@ -7,14 +7,15 @@ A ratio of two models is the median over the turns of the ratios within one turn
 from __future__ import annotations
 
 import platform
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median, quantiles
-from typing import Any
 
 import yade
 
 from .._version import __version__
+from ..files import Table
 from ..report.style import drawing
 from ..report.tables import scaled
 from .lammps import Worker
@@ -34,7 +35,7 @@ class Case:
     name: str
     label: str
     scene: int | None  #: None: a process of its own
-    counts: dict[str, int | None]
+    counts: Mapping[str, int | None]
     times: list[float] = field(default_factory=list)  #: wall time of a step, turn by turn [s]
     cpu_times: list[float] = field(default_factory=list)  #: of the calling thread alone [s]
     worker: Worker | None = None  #: does the steps, if there is no scene
@@ -64,7 +65,7 @@ class Timing:
         known = any(case.name == REFERENCE for case in self.cases)
         return {f"ratio_to_{REFERENCE}": self.ratio(name)} if known else {}
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> Table:
         """All of it as plain data, ratios and spreads included."""
         cases = {}
         for case in self.cases:

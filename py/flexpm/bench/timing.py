@@ -201,7 +201,7 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
         )
         case = timing.cases[0]
         row["step_time"] = case.step_time
-        row["time_per_grain"] = case.step_time / case.counts["grains"]
+        row["time_per_grain"] = case.step_time / row["grains"]
         row["bandwidth"] = bench_size.bytes_per_step(case.counts) / case.step_time
         row["triad"] = bench_size.triad()
         found.append(row)
@@ -233,7 +233,8 @@ def _take_turn(case: Case, steps: int) -> None:
         case.cpu_times.append(own)
         return
     omega = yade.O
-    omega.switchToScene(case.scene)
+    if case.scene is not None:
+        omega.switchToScene(case.scene)
     wall, own = time.perf_counter(), time.thread_time()
     for _ in range(steps):
         omega.step()  # in this thread, whose number of threads is known

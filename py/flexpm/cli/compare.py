@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -21,6 +22,9 @@ from .options import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (*("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "loading"),)
+
+if TYPE_CHECKING:
+    from ..studies.comparison import Case
 
 
 @click.command(short_help="Several models on one packing.")
@@ -50,7 +54,12 @@ _SHARED = (*("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "
 @cli_options.out_option
 @cli_options.quiet_option
 def compare(
-    test: str, models: tuple, confinements: tuple, out: Path, quiet: bool, **options: Any
+    test: str,
+    models: tuple[str, ...],
+    confinements: tuple[float, ...],
+    out: Path,
+    quiet: bool,
+    **options: Any,
 ) -> None:
     """Run a test with several models on one packing: one table, one picture.
 
@@ -91,7 +100,7 @@ def compare(
     _report_failures(found.cases)
 
 
-def _report_failures(cases: Any) -> None:
+def _report_failures(cases: Sequence[Case]) -> None:
     failed = [case for case in cases if case.failed]
     if failed:
         names = ", ".join(case.name for case in failed)

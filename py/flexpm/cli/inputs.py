@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from .. import _plugin
 from ..errors import InputError
+from ..files import Table
 from ..laboratory.run_spec import RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
@@ -25,7 +26,7 @@ def load_yade() -> None:
     signals.catch_signals()
 
 
-def material(options: dict[str, Any], model: str | None = None) -> Material:
+def material(options: Table, model: str | None = None) -> Material:
     """The material with its changes, checked for the model."""
     model = model or options["model"]
     chosen = load(options["material"], model).with_set(options["assignments"], model)
@@ -33,13 +34,13 @@ def material(options: dict[str, Any], model: str | None = None) -> Material:
     return chosen
 
 
-def run_spec(test: str, options: dict[str, Any], chosen: Material) -> RunSpec:
+def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
     """The run that the options describe."""
     refuse_other_sizes(shape_of(test))
     return RunSpec.from_options(test, options | {"points": int(options["points"])}, chosen)
 
 
-def specimen_spec(kind: str, options: dict[str, Any]) -> SpecimenSpec:
+def specimen_spec(kind: str, options: Table) -> SpecimenSpec:
     """The specimen that the options describe, which are all for its shape."""
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     return SpecimenSpec(kind, **{name: options[name] for name in names})

@@ -16,6 +16,9 @@ from ..materials.keys import check_name
 from ..models.options import MESHES, MODELS, POINTS
 from ..specimens.spec import SIZES, SpecimenSpec
 
+#: Adds an option to the function of a command.
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
 
 class Quantity(click.ParamType):
     """A finite number with a unit and a range."""
@@ -32,12 +35,12 @@ class Quantity(click.ParamType):
         self.unit, self.above, self.at_least, self.below = unit, above, at_least, below
 
     def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
         """Return the number, or raise InputError naming option, value and rule."""
         label = f"{label_of(param)} = {value} {self.unit}".rstrip()
         try:
-            number = float(value)
+            number = float(str(value))
         except ValueError:
             raise InputError(f"{label}, must be a number") from None
         if not math.isfinite(number):
@@ -57,11 +60,12 @@ class Range(click.ParamType):
     name = "range"
 
     def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> tuple[float, float]:
         """Return both lengths, or raise InputError."""
         if isinstance(value, tuple):
-            return value
+            low, high = value
+            return low, high
         parts = str(value).split(",")
         if len(parts) != 2:
             raise InputError(f"{label_of(param)} = {value} m, must read DMIN,DMAX")
@@ -80,7 +84,9 @@ class Count(click.ParamType):
     def __init__(self, at_least: int) -> None:
         self.at_least = at_least
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> int:
         """Return the number, or raise InputError."""
         try:
             number = int(str(value))
@@ -100,8 +106,8 @@ class Each(click.ParamType):
         self._kind = kind
 
     def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[Any, ...]:
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[object, ...]:
         """Return the values, or raise InputError."""
         if isinstance(value, tuple):
             return value
@@ -121,10 +127,12 @@ class Name(click.ParamType):
     def __init__(self, *known: str) -> None:
         self.known = known
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str:
         """Return the name, or raise InputError with the nearest known one."""
         check_name(label_of(param), value, self.known)
-        return value
+        return str(value)
 
 
 def label_of(param: click.Parameter | None) -> str:
@@ -138,10 +146,10 @@ def label_of(param: click.Parameter | None) -> str:
     )
 
 
-def combined(*options: Callable) -> Callable:
+def combined(*options: Decorator) -> Decorator:
     """One decorator that adds several options, listed in the order given."""
 
-    def decorate(function: Callable) -> Callable:
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         for option in reversed(options):
             function = option(function)
         return function
@@ -149,7 +157,7 @@ def combined(*options: Callable) -> Callable:
     return decorate
 
 
-def _length(name: str, default: float, help_text: str) -> Callable:
+def _length(name: str, default: float, help_text: str) -> Decorator:
     return click.option(
         name,
         type=Quantity("m", above=0.0),

@@ -5,7 +5,10 @@ from __future__ import annotations
 
 import sys
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 
 def error_line(text: str) -> None:
@@ -21,7 +24,7 @@ class Progress:
     )
 
     def __init__(self, quiet: bool = False, unit: str = "steps") -> None:
-        self._bar: Any = None
+        self._bar: tqdm[NoReturn] | None = None
         self._unit = f" {unit}"
         self._shown = sys.stderr.isatty() and not quiet
 
@@ -32,17 +35,18 @@ class Progress:
         """
         if not self._shown:
             return
-        if self._bar is None or done < self._bar.n:
-            self._restart(text, expected)
-        self._bar.desc = text
-        self._bar.total = max(done, expected)
-        self._bar.update(done - self._bar.n)
+        bar = self._bar
+        if bar is None or done < bar.n:
+            bar = self._restarted(text, expected)
+        bar.desc = text
+        bar.total = max(done, expected)
+        bar.update(done - bar.n)
 
-    def _restart(self, text: str, expected: float) -> None:
+    def _restarted(self, text: str, expected: float) -> tqdm[NoReturn]:
         from tqdm import tqdm
 
         self.close()
-        self._bar = tqdm(
+        bar = self._bar = tqdm(
             desc=text,
             total=max(expected, 1),
             unit=self._unit,
@@ -50,6 +54,7 @@ class Progress:
             bar_format=self._FORMAT,
             mininterval=0.2,
         )
+        return bar
 
     def close(self) -> None:
         """Remove the bar from the terminal."""

@@ -12,9 +12,9 @@ import math
 import numbers
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields
-from typing import Any
 
 from ..errors import InputError
+from ..files import Table
 from ..materials.keys import check_name
 from ..materials.material import Material
 from ..materials.mixing import description
@@ -89,7 +89,7 @@ class RunSpec:
 
     test: str
     specimen: SpecimenSpec
-    material: Mapping[str, Any]
+    material: Table
     model: str = "flexible"
     points: int = 3
     mesh: str = "refined"
@@ -119,7 +119,7 @@ class RunSpec:
         self._set("material", dict(self.material))
 
     @classmethod
-    def from_options(cls, test: str, options: Mapping[str, Any], material: Material) -> RunSpec:
+    def from_options(cls, test: str, options: Table, material: Material) -> RunSpec:
         """Describe the run of a packed specimen by options of the command.
 
         Args:
@@ -140,7 +140,7 @@ class RunSpec:
         return cls(test, specimen, described(material, model), **others)
 
     @classmethod
-    def from_json(cls, content: Mapping[str, Any]) -> RunSpec:
+    def from_json(cls, content: Table) -> RunSpec:
         """Read what ``to_json`` gave; a field that is missing has its default.
 
         Raises:
@@ -152,9 +152,9 @@ class RunSpec:
         plain = _known(cls, content)
         return cls(**plain | {"specimen": SpecimenSpec(**_known(SpecimenSpec, plain["specimen"]))})
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> Table:
         """All fields as JSON has them: no tuples, finite numbers."""
-        content: dict[str, Any] = json.loads(json.dumps(asdict(self), allow_nan=False))
+        content: Table = json.loads(json.dumps(asdict(self), allow_nan=False))
         return content
 
     @property
@@ -252,12 +252,12 @@ def shape_of(test: str) -> str:
     return "disc" if test == "brazilian" else "rectangle"
 
 
-def described(material: Material, model: str) -> dict[str, Any]:
+def described(material: Material, model: str) -> Table:
     """Name of a material and its parameters in effect for a model; those of minerals, too."""
     return {"name": material.name, **description(material, model)}
 
 
-def _changes(spec: RunSpec | SpecimenSpec) -> dict[str, Any]:
+def _changes(spec: RunSpec | SpecimenSpec) -> Table:
     """Fields that have another value than their default."""
     values = {field.name: (getattr(spec, field.name), field.default) for field in fields(spec)}
     nested = ("specimen", "material")
@@ -268,10 +268,10 @@ def _changes(spec: RunSpec | SpecimenSpec) -> dict[str, Any]:
     }
 
 
-def _material_changes(material: Mapping[str, Any]) -> dict[str, Any]:
+def _material_changes(material: Table) -> Table:
     """Parameters that have another value than a material's default; names do not count."""
     defaults = {field.name: field.default for field in fields(Material)}
-    found: dict[str, Any] = {}
+    found: Table = {}
     for key, value in material.items():
         if key == "minerals":
             found[key] = [_material_changes(mineral) for mineral in value]
@@ -280,7 +280,7 @@ def _material_changes(material: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _known(cls: type, content: Any) -> dict[str, Any]:
+def _known(cls: type, content: object) -> Table:
     if not isinstance(content, Mapping):
         raise InputError(f"inputs = {content!r}, must be fields by name")
     for name in content:

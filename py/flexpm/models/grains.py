@@ -25,6 +25,7 @@ from ..specimens import inner_particles as inner
 from ..specimens import mineral_map
 from ..specimens.specimen import Specimen
 from . import spheres as yade_models
+from .collider import collider
 from .options import (
     GRAIN_MODELS,
     INNER_MODELS,
@@ -37,9 +38,6 @@ from .options import (
 
 #: Local damping of all tests [-], paper Sec. 4.1.
 DAMPING = 0.7
-
-#: Bodies may move this share of the mean diameter before the collider looks again [-].
-_SWEEP = 0.05
 
 
 @dataclass
@@ -118,6 +116,10 @@ class Model:
         self.engines = list(yade.O.engines)
         self.solver = next(e for e in self.engines if isinstance(e, wrapper.GrainSolver))
 
+    def counts(self) -> dict[str, int]:
+        """Numbers of grains, particles, contacts, nodes and triangles, by name."""
+        return self.solver.counts()
+
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
         return Snapshot(**self.solver.snapshot(), grain_mineral=self.minerals)
@@ -180,7 +182,9 @@ def build(
     solver = _assembled(grains, chosen, model)
     solver.damping = damping
     solver.addToScene(_grain_materials(chosen, model))
-    engines = [_collider(grains), solver, _idle_newton()]
+    mean_diameter = 2.0 * float(np.mean(grains.discs[:, 2]))
+    bounds = [wrapper.Bo1_LaguerreCell_Aabb()]
+    engines = [collider(bounds, mean_diameter), solver, _idle_newton()]
     yade.O.engines = engines
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = Model(specimen, chosen, model, solver, engines, dynamic, kinds, gravity)
@@ -315,11 +319,6 @@ def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
         shearFractureEnergy=law["shear_fracture_energy"],
         planeStrain=law["plane"] == "strain",
     )
-
-
-def _collider(grains: _Grains) -> wrapper.Engine:
-    sweep = _SWEEP * 2.0 * float(np.mean(grains.discs[:, 2]))
-    return wrapper.InsertionSortCollider([wrapper.Bo1_LaguerreCell_Aabb()], verletDist=sweep)
 
 
 def _idle_newton() -> wrapper.Engine:

@@ -25,14 +25,13 @@ from ..materials.material import Material
 from ..materials.mixing import description
 from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
+from .collider import collider
 from .options import SPHERE_MODELS, require_one_of
 from .sphere_bonds import MASS_MARGIN, Bonds, bonds_of, stiffness_bounds
 from .sphere_cracks import CrackWatch
 from .sphere_laws import LAWS, SphereLaw
 from .sphere_snapshot import snapshot
 
-#: Bodies may move this share of the mean diameter before the collider looks again [-].
-_SWEEP = 0.05
 #: Tag of the scene that holds what YADE does not save.
 _MEMORY = "flexpm"
 
@@ -286,9 +285,8 @@ def _engines(
     geometries = [functors.spheres, functors.plates]
     loop = wrapper.InteractionLoop(geometries, [functors.physics], [functors.law])
     newton = wrapper.NewtonIntegrator(damping=damping)
-    sweep = _SWEEP * specimen.mean_diameter
-    collider = wrapper.InsertionSortCollider(bounds, verletDist=sweep)
-    return functors.law, [wrapper.ForceResetter(), collider, loop, newton]
+    finder = collider(bounds, specimen.mean_diameter)
+    return functors.law, [wrapper.ForceResetter(), finder, loop, newton]
 
 
 def _loop(engines: list[wrapper.Engine]) -> wrapper.InteractionLoop:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from matplotlib import rc_context
-from matplotlib.axes import Axes
+from matplotlib.axes import Axes as Axes
 from matplotlib.figure import Figure
 
 from ..files import whole_file

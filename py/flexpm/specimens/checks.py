@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 import numbers
-from typing import Any
+from collections.abc import Iterable
+from typing import TypeGuard
 
 from ..errors import InputError
 
@@ -20,21 +21,21 @@ def require_positive(where: str, **values: float) -> None:
             raise InputError(f"{where}: {name} = {value} m, must be finite and > 0; correct it")
 
 
-def require_porosity(where: str, porosity: Any) -> float:
+def require_porosity(where: str, porosity: object) -> float:
     """Return a porosity [-], which must be at least 0 and below 1."""
-    if not _is_number(porosity) or not 0.0 <= porosity < 1.0:
+    if not (_is_number(porosity) and 0.0 <= porosity < 1.0):
         raise InputError(f"{where}: porosity = {porosity}, must be >= 0 and < 1; correct it")
     return float(porosity)
 
 
-def require_diameters(where: str, diameters: Any, room: float) -> tuple[float, float]:
+def require_diameters(where: str, diameters: object, room: float) -> tuple[float, float]:
     """Return smallest and largest diameter [m], which must be in order and fit the room [m]."""
-    try:
-        smallest, largest = diameters
-    except (TypeError, ValueError):
+    given = list(diameters) if isinstance(diameters, Iterable) else []
+    if len(given) != 2:
         raise InputError(
             f"{where}: diameters = {diameters} m, must be two numbers; give smallest and largest"
-        ) from None
+        )
+    smallest, largest = given
     require_positive(where, **{"smallest diameter": smallest, "largest diameter": largest})
     if smallest > largest:
         raise InputError(
@@ -49,14 +50,13 @@ def require_diameters(where: str, diameters: Any, room: float) -> tuple[float, f
     return float(smallest), float(largest)
 
 
-def require_seed(where: str, seed: Any) -> int:
+def require_seed(where: str, seed: object) -> int:
     """Return a seed, which must be a whole number of 64 bits."""
-    whole = isinstance(seed, numbers.Integral) and not isinstance(seed, bool)
-    if not whole or not 0 <= seed < 2**64:
-        raise InputError(
-            f"{where}: seed = {seed}, must be a whole number >= 0 and < 2**64; change it"
-        )
-    return int(seed)  # numpy's integers do not convert
+    if isinstance(seed, numbers.Integral) and not isinstance(seed, bool):
+        number = int(seed)  # numpy's integers do not convert
+        if 0 <= number < 2**64:
+            return number
+    raise InputError(f"{where}: seed = {seed}, must be a whole number >= 0 and < 2**64; change it")
 
 
 def require_short_edge(share: float) -> None:
@@ -68,6 +68,7 @@ def require_short_edge(share: float) -> None:
         )
 
 
-def _is_number(value: Any) -> bool:
-    number = isinstance(value, numbers.Real) and not isinstance(value, bool)
-    return number and math.isfinite(value)
+def _is_number(value: object) -> TypeGuard[float]:
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        return False
+    return math.isfinite(float(value))

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from scipy.optimize import root_scalar
 
-from .._plugin import load_kernel
+from .._flexpm import InnerCells, inner_cells
+from ..arrays import IntArray
 from ..errors import InputError
 from ..materials.material import Material
 from .specimen import Specimen
@@ -32,12 +32,12 @@ _MOST_SOLVES = 12
 _ACROSS = 14.0
 
 
-def cells(specimen: Specimen) -> Any:
+def cells(specimen: Specimen) -> InnerCells:
     """Cut the grains of a specimen into the cells of their inner particles."""
-    return load_kernel().inner_cells(specimen.tessellation, float(PARTICLES))
+    return inner_cells(specimen.tessellation, float(PARTICLES))
 
 
-def edge_options(inner: Any, model: str) -> dict[str, Any]:
+def edge_options(inner: InnerCells, model: str) -> dict[str, IntArray | bool]:
     """Options of the solver's assembly that tell contacts between grains from those within."""
     return {
         "aggregate": np.ascontiguousarray(inner.grain, dtype=np.int32),

@@ -6,13 +6,23 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import ParamSpec, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
-from .._plugin import load_kernel
+from .._flexpm import (
+    GrainMeshes,
+    Outline,
+    Tessellation,
+    disc_count,
+    disc_radii,
+    grain_meshes,
+    tessellate,
+)
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..progress import Progress
 from . import packing
@@ -20,6 +30,9 @@ from .checks import SHORT_EDGE, require_positive, require_short_edge
 from .spec import SpecimenSpec
 
 _FEWEST_DISCS = 8
+
+Parameters = ParamSpec("Parameters")
+Returned = TypeVar("Returned")
 
 
 @dataclass(frozen=True)
@@ -50,12 +63,12 @@ class Specimen:
         minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
     """
 
-    discs: np.ndarray
-    outline: np.ndarray | Circle
-    tessellation: Any
+    discs: FloatArray
+    outline: FloatArray | Circle
+    tessellation: Tessellation
     spec: SpecimenSpec
     removed_discs: int = 0
-    minerals: np.ndarray | None = None
+    minerals: IntArray | None = None
 
     @classmethod
     def rectangle(
@@ -153,14 +166,13 @@ class Specimen:
         smallest, largest = spec.diameters
         frame, outline = _frame_of(spec), _outline_of(spec)
         area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-        kernel = load_kernel()
-        count = _call(kernel.disc_count, area, smallest, largest, spec.porosity)
+        count = _call(disc_count, area, smallest, largest, spec.porosity)
         if count < _FEWEST_DISCS:
             raise InputError(
                 f"{where}: discs = {count}, must be >= {_FEWEST_DISCS} to fill the specimen; "
                 "choose smaller diameters"
             )
-        radii = _call(kernel.disc_radii, count, smallest, largest, spec.seed)
+        radii = _call(disc_radii, count, smallest, largest, spec.seed)
         mean = 0.5 * (smallest + largest)
         centres, radii = _call(packing.pack, frame, radii, mean, spec.seed, progress)
         given = np.column_stack((centres, radii))
@@ -170,9 +182,9 @@ class Specimen:
     @classmethod
     def from_discs(
         cls,
-        centres: Sequence[Sequence[float]] | np.ndarray,
-        radii: Sequence[float] | np.ndarray,
-        outline: Sequence[Sequence[float]] | np.ndarray | Circle,
+        centres: Sequence[Sequence[float]] | FloatArray,
+        radii: Sequence[float] | FloatArray,
+        outline: Sequence[Sequence[float]] | FloatArray | Circle,
         thickness: float,
         *,
         short_edge: float = SHORT_EDGE,
@@ -201,7 +213,9 @@ class Specimen:
         kind, sizes = _kind_of(outline)
         spec = SpecimenSpec(
             kind,
-            **sizes,
+            width=sizes.get("width"),
+            height=sizes.get("height"),
+            diameter=sizes.get("diameter"),
             thickness=thickness,
             diameters=None,
             porosity=None,
@@ -212,7 +226,7 @@ class Specimen:
         )
         return cls(discs, outline, cells, spec)
 
-    def with_minerals(self, minerals: Sequence[int] | np.ndarray) -> Specimen:
+    def with_minerals(self, minerals: Sequence[int] | IntArray) -> Specimen:
         """Return the same grains, each of a given mineral.
 
         Args:
@@ -258,12 +272,12 @@ class Specimen:
         return self.spec.short_edge
 
     @property
-    def centres(self) -> np.ndarray:
+    def centres(self) -> FloatArray:
         """Centres of the discs, (n, 2) [m]."""
         return self.discs[:, :2]
 
     @property
-    def radii(self) -> np.ndarray:
+    def radii(self) -> FloatArray:
         """Radii of the discs [m]."""
         return self.discs[:, 2]
 
@@ -272,7 +286,7 @@ class Specimen:
         """Mean diameter of the discs [m]."""
         return 2.0 * float(np.mean(self.discs[:, 2]))
 
-    def meshes(self, mesh: str = "refined") -> Any:
+    def meshes(self, mesh: str = "refined") -> GrainMeshes:
         """Mesh the grains.
 
         Args:
@@ -285,7 +299,7 @@ class Specimen:
             InputError: for an unknown mesh.
         """
         centres, radii = _columns(self.discs)
-        return _call(load_kernel().grain_meshes, self.tessellation, centres, radii, mesh)
+        return _call(grain_meshes, self.tessellation, centres, radii, mesh)
 
     def statistics(self) -> dict[str, float | int | dict[str, float]]:
         """Count and measure grains, contacts, cells and meshes.
@@ -321,12 +335,13 @@ class Specimen:
             "mean_diameter": self.mean_diameter,
         }
 
-    def _edge_lengths(self) -> np.ndarray:
+    def _edge_lengths(self) -> FloatArray:
         """Lengths of contacts, or of the rim if there is one grain only [m]."""
         cells = self.tessellation
         edges = cells.shared_edges[:, 2:4]
         ends = cells.vertices[edges if len(edges) else cells.boundary_edges[:, 1:3]]
-        return np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+        lengths: FloatArray = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+        return lengths
 
 
 def _frame_of(spec: SpecimenSpec) -> packing.Frame:
@@ -336,7 +351,7 @@ def _frame_of(spec: SpecimenSpec) -> packing.Frame:
     return packing.Frame(width=sizes["width"], height=sizes["height"])
 
 
-def _outline_of(spec: SpecimenSpec) -> np.ndarray | Circle:
+def _outline_of(spec: SpecimenSpec) -> FloatArray | Circle:
     """Outline of a packing: a rectangle from the origin, or a circle about it."""
     sizes = spec.sizes
     if spec.kind == "disc":
@@ -346,17 +361,16 @@ def _outline_of(spec: SpecimenSpec) -> np.ndarray | Circle:
 
 
 def _tessellated(
-    discs: np.ndarray, outline: np.ndarray | Circle, short_edge: float, *, drop_hidden: bool
-) -> tuple[np.ndarray, Any]:
+    discs: FloatArray, outline: FloatArray | Circle, short_edge: float, *, drop_hidden: bool
+) -> tuple[FloatArray, Tessellation]:
     """Discs and their cells; hidden discs, which have no cell, are dropped or refused."""
-    kernel = load_kernel()
     if isinstance(outline, Circle):
-        shape = _call(kernel.Outline.circle, outline.x, outline.y, outline.radius)
+        shape = _call(Outline.circle, outline.x, outline.y, outline.radius)
     else:
-        shape = _call(kernel.Outline.polygon, outline)
+        shape = _call(Outline.polygon, outline)
     while True:
         length = short_edge * 2.0 * float(np.mean(discs[:, 2])) if len(discs) else 0.0
-        cells = _call(kernel.tessellate, *_columns(discs), shape, length, drop_hidden)
+        cells = _call(tessellate, *_columns(discs), shape, length, drop_hidden)
         if len(cells.hidden_discs) == 0:
             break
         discs = np.delete(discs, cells.hidden_discs, axis=0)
@@ -364,7 +378,7 @@ def _tessellated(
     return discs, cells
 
 
-def _kind_of(outline: np.ndarray | Circle) -> tuple[str, dict[str, float]]:
+def _kind_of(outline: FloatArray | Circle) -> tuple[str, dict[str, float]]:
     """Shape and sizes; a rectangle starts at its lower left corner, with sides along x and y."""
     if isinstance(outline, Circle):
         return "disc", {"diameter": 2.0 * outline.radius}
@@ -375,28 +389,32 @@ def _kind_of(outline: np.ndarray | Circle) -> tuple[str, dict[str, float]]:
     return "polygon", {}
 
 
-def _checksum(given: np.ndarray | Circle) -> str:
+def _checksum(given: FloatArray | IntArray | Circle) -> str:
     """Short hash of numbers, by which files name what is too long for them."""
     plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
     values = np.ascontiguousarray(plain, dtype=float)
     return hashlib.sha256(values.tobytes()).hexdigest()[:16]
 
 
-def _call(function: Any, *arguments: Any) -> Any:
+def _call(
+    function: Callable[Parameters, Returned],
+    *arguments: Parameters.args,
+    **options: Parameters.kwargs,
+) -> Returned:
     """Call the kernel; its complaint about a value becomes an InputError."""
     try:
-        return function(*arguments)
+        return function(*arguments, **options)
     except InputError:
         raise
     except ValueError as error:
         raise InputError(str(error)) from None
 
 
-def _columns(discs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _columns(discs: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.ascontiguousarray(discs[:, :2]), np.ascontiguousarray(discs[:, 2])
 
 
-def _disc_rows(centres: Any, radii: Any) -> np.ndarray:
+def _disc_rows(centres: npt.ArrayLike, radii: npt.ArrayLike) -> FloatArray:
     """Rows x, y, radius of discs given as centres and radii [m]."""
     points = _rows("Specimen.from_discs: centres", centres)
     try:
@@ -411,7 +429,7 @@ def _disc_rows(centres: Any, radii: Any) -> np.ndarray:
     return np.column_stack((points, sizes))
 
 
-def _rows(name: str, values: Any) -> np.ndarray:
+def _rows(name: str, values: npt.ArrayLike) -> FloatArray:
     """Rows x, y of numbers; `name` is named in the message."""
     try:
         found = np.array(values, dtype=float)

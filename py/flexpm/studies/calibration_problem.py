@@ -11,10 +11,10 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TypeGuard
 
 from ..errors import InputError
-from ..files import load_toml
+from ..files import Table, load_toml
 from ..materials.keys import ELASTIC_KEYS, UNITS, check_name
 from ..results import strength
 from .study import flat
@@ -80,9 +80,9 @@ class Calibration:
     targets: Sequence[Target]
     free: Mapping[str, tuple[float, float]]  #: bounds of each free key
     ratios: Sequence[Ratio]
-    screen: Mapping[str, Any]  #: options of the runs of the search
+    screen: Table  #: options of the runs of the search
     screen_seeds: Sequence[int]
-    verify: Mapping[str, Any]  #: options of the runs of the verification
+    verify: Table  #: options of the runs of the verification
     verify_seeds: Sequence[int]
     evaluations: int  #: most sets of strengths tried in a round
     rounds: int
@@ -113,9 +113,7 @@ class Calibration:
                     needed[("biaxial" if confinement else "uniaxial", confinement)] = None
         return list(needed)
 
-    def measure(
-        self, target: Target, found: Mapping[tuple[str, float], Mapping[str, Any]]
-    ) -> float | None:
+    def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:
         """A measure of one packing, from its results by (test, confinement); None if missing."""
         if target.name in ELASTIC_MEASURES:
             return found[("elastic", 0.0)].get(target.name)
@@ -126,10 +124,11 @@ class Calibration:
             return strength.tensile_ratio(*both)
         tests = [("biaxial" if c else "uniaxial", c) for c in self.confinements]
         peaks = [found[test].get("peak_stress") for test in tests]
-        if None in peaks:
+        known = [peak for peak in peaks if peak is not None]
+        if len(known) < len(peaks):
             return None
         try:
-            return _of_envelope(target.name, self.confinements, peaks)
+            return _of_envelope(target.name, self.confinements, known)
         except InputError:  # the peaks follow no criterion
             return None
 
@@ -184,13 +183,13 @@ def read(path: Path | str) -> Calibration:
     )
 
 
-def _table(content: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    entries = content.get(name, {})
-    _require(f"[{name}]", entries, isinstance(entries, Mapping) and bool(entries), "a table")
+def _table(content: Table, name: str) -> Table:
+    entries: Table = content.get(name, {})
+    _require(f"[{name}]", entries, isinstance(entries, dict) and bool(entries), "a table")
     return entries
 
 
-def _target(name: str, entry: Any) -> Target:
+def _target(name: str, entry: object) -> Target:
     check_name("calibration [target] key", name, list(MEASURES))
     entry = entry if isinstance(entry, Mapping) else {"value": entry}
     for key in entry:
@@ -202,7 +201,7 @@ def _target(name: str, entry: Any) -> Target:
     return Target(name, **{key: float(number) for key, number in entry.items()})
 
 
-def _ratios(entries: Sequence[Mapping[str, Any]], free: Mapping[str, Any]) -> Iterator[Ratio]:
+def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ratio]:
     for entry in entries:
         for key in entry:
             check_name("calibration [[ratio]] key", key, ("of", "to", "bounds"))
@@ -211,9 +210,7 @@ def _ratios(entries: Sequence[Mapping[str, Any]], free: Mapping[str, Any]) -> It
         yield Ratio(entry["of"], entry["to"], _bounds("[[ratio]] bounds", entry.get("bounds")))
 
 
-def _runs(
-    content: Mapping[str, Any], name: str, seeds: Sequence[int]
-) -> tuple[dict[str, Any], list[int]]:
+def _runs(content: Table, name: str, seeds: Sequence[int]) -> tuple[Table, list[int]]:
     """Options and seeds of the runs of ``[screen]`` or ``[verify]``, over those of ``[common]``."""
     options = {**flat(content.get("common", {})), **flat(content.get(name, {}))}
     chosen = options.pop("seeds", list(seeds))
@@ -221,17 +218,19 @@ def _runs(
     return options, chosen
 
 
-def _bounds(label: str, bounds: Any) -> tuple[float, float]:
-    fits = isinstance(bounds, list) and len(bounds) == 2 and all(map(_is_number, bounds))
-    _require(label, bounds, fits, "two numbers")
-    _require(label, bounds, 0.0 < bounds[0] < bounds[1], "two numbers > 0, the smaller first")
-    return float(bounds[0]), float(bounds[1])
+def _bounds(label: str, bounds: object) -> tuple[float, float]:
+    given = bounds if isinstance(bounds, list) else []
+    numbers = [float(one) for one in given if _is_number(one)]
+    _require(label, bounds, len(numbers) == len(given) == 2, "two numbers")
+    low, high = numbers
+    _require(label, bounds, 0.0 < low < high, "two numbers > 0, the smaller first")
+    return low, high
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def _require(label: str, value: Any, holds: bool, rule: str) -> None:
+def _require(label: str, value: object, holds: bool, rule: str) -> None:
     if not holds:
         raise InputError(f"calibration {label} = {value!r}, must be {rule}")

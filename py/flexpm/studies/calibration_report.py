@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import tomli_w
 
-from ..files import write_text
+from ..files import Table, write_text
 from ..materials import material as materials
 from ..materials.material import Material
 from ..report.style import drawing
@@ -34,7 +33,8 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
     for target in plan.targets:
         factor, unit = _UNITS.get(target.name, (1e-6, "MPa"))
         mean, spread = outcome.best.mean(target.name), outcome.best.spread(target.name)
-        text = f"{factor * mean:.4g}" + ("" if spread is None else f" +- {factor * spread:.2g}")
+        text = "-" if mean is None else f"{factor * mean:.4g}"
+        text += "" if spread is None else f" +- {factor * spread:.2g}"
         verdict = "met" if outcome.met[target.name] else "NOT met"
         wanted = f"{factor * target.value:.4g} {unit}".rstrip()
         rows.append((target.name.replace("_", " "), f"{text}, target {wanted}: {verdict}"))
@@ -82,7 +82,7 @@ def picture(path: Path, plan: Calibration, outcome: Outcome) -> None:
         axes.set_title(f"{plan.name}, {plan.model} model", fontsize=9.5, loc="left")
 
 
-def _without_none(content: dict[str, Any]) -> dict[str, Any]:
+def _without_none(content: Table) -> Table:
     """TOML has no null: keys that are not given are left out."""
     return {
         key: _without_none(value) if isinstance(value, dict) else value

@@ -12,25 +12,25 @@ but finds the runs that were finished.
 
 from __future__ import annotations
 
-import importlib
 import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 import pandas
 from scipy.optimize import least_squares
 
+from ..arrays import FloatArray
 from ..errors import InputError, SimulationError
-from ..files import output_folder
+from ..files import Table, output_folder
 from ..progress import Progress
 from . import jobs
 from .calibration_problem import Calibration, Target
-from .pool import Pool
+from .pool import Pool, PoolOptions
 from .tables import write_table
 
 #: Residual of a measure that a run has not given, in tolerances.
@@ -60,13 +60,17 @@ class Evaluation:
 
     def mean(self, name: str) -> float | None:
         """Mean of a measure over the packings, None if one is missing."""
-        found = self.measures[name]
-        return None if None in found else float(np.mean(found))
+        found = self._complete(name)
+        return None if found is None else float(np.mean(found))
 
     def spread(self, name: str) -> float | None:
         """Standard deviation over the packings."""
-        found = self.measures[name]
-        return None if None in found or len(found) < 2 else float(np.std(found, ddof=1))
+        found = self._complete(name)
+        return None if found is None or len(found) < 2 else float(np.std(found, ddof=1))
+
+    def _complete(self, name: str) -> list[float] | None:
+        found = [value for value in self.measures[name] if value is not None]
+        return found if len(found) == len(self.measures[name]) else None
 
 
 @dataclass
@@ -82,9 +86,9 @@ def run(
     plan: Calibration,
     out: Path | str,
     *,
-    start: Mapping[str, float],
+    start: Mapping[str, object],
     progress: Progress | None = None,
-    **pool_options: Any,
+    **pool_options: Unpack[PoolOptions],
 ) -> Outcome:
     """Calibrate.
 
@@ -134,8 +138,8 @@ class _Search:
     def __init__(self, plan: Calibration, pool: Pool, progress: Progress) -> None:
         self._plan, self._pool, self._progress = plan, pool, progress
         self._round = 1
-        # before the first run: a search that could not go on would have cost minutes
-        self._optimiser = _optimiser() if plan.of_kind(elastic=False)[1] else None
+        if plan.of_kind(elastic=False)[1]:
+            _optimiser()  # before the first run: a search that could not go on would cost minutes
         self.history: list[Evaluation] = []
 
     def elastic(self, values: Values) -> Values:
@@ -148,7 +152,7 @@ class _Search:
         start = np.array([values[key] for key in keys])
         bounds = np.array([self._plan.free[key] for key in keys]).T
 
-        def residuals(factors: np.ndarray) -> np.ndarray:
+        def residuals(factors: FloatArray) -> FloatArray:
             tried = {**values, **dict(zip(keys, (factors * start).tolist(), strict=True))}
             return self._residuals(self._evaluate("elastic", tried, targets), targets)
 
@@ -192,7 +196,7 @@ class _Search:
         bounds = np.log([self._plan.free[key] for key in keys]).T
         width = bounds[1] - bounds[0]
 
-        def residuals(unit: np.ndarray) -> np.ndarray:
+        def residuals(unit: FloatArray) -> FloatArray:
             logs = bounds[0] + width * unit
             tried = {**values, **dict(zip(keys, np.exp(logs).tolist(), strict=True))}
             return self._residuals(self._evaluate("screen", tried, aims), aims)
@@ -202,7 +206,7 @@ class _Search:
         with warnings.catch_warnings():
             # a start that breaks a ratio is moved, which is what is wanted
             warnings.filterwarnings("ignore", "x0 not feasible", RuntimeWarning)
-            self._optimiser.solve(
+            _optimiser().solve(
                 residuals,
                 np.clip(start, step, 1.0 - step),
                 bounds=(np.zeros(len(keys)), np.ones(len(keys))),
@@ -228,21 +232,25 @@ class _Search:
         guess = dict(values)
         for key, names in governed.items():
             name = next((n for n in names if n in found.measures), None)
-            if key not in keys or name is None or found.mean(name) is None:
+            mean = None if name is None else found.mean(name)
+            if key not in keys or name is None or mean is None:
                 continue
-            factor = found.targets[name] / found.mean(name)
+            factor = found.targets[name] / mean
             low, high = self._plan.free[key]
             guess[key] = float(np.clip(values[key] * factor, low, high))
         return guess
 
-    def _projections(self, keys: list[str], bounds: np.ndarray) -> list[Callable] | None:
+    def _projections(
+        self, keys: list[str], bounds: FloatArray
+    ) -> list[Callable[[FloatArray], FloatArray]] | None:
         """Projections of the unit box on what the ratios allow: half-spaces of logarithms."""
         width = bounds[1] - bounds[0]
 
-        def projection(normal: np.ndarray, limit: float) -> Callable[[np.ndarray], np.ndarray]:
-            return lambda x: x - max(normal @ x - limit, 0.0) / (normal @ normal) * normal
+        def projection(normal: FloatArray, limit: float) -> Callable[[FloatArray], FloatArray]:
+            square = float(normal @ normal)
+            return lambda x: x - max(float(normal @ x) - limit, 0.0) / square * normal
 
-        made: list[Callable] = []
+        made: list[Callable[[FloatArray], FloatArray]] = []
         for ratio in self._plan.ratios:
             if ratio.of not in keys or ratio.to not in keys:
                 continue
@@ -274,7 +282,7 @@ class _Search:
 
     def _measures(
         self,
-        options: dict[str, Any],
+        options: Table,
         seeds: Sequence[int],
         values: Values,
         targets: Sequence[Target],
@@ -314,7 +322,7 @@ class _Search:
         return self._plan.rounds * (self._plan.evaluations + self._plan.candidates + 1) + 10
 
     @staticmethod
-    def _residuals(evaluation: Evaluation, targets: Sequence[Target]) -> np.ndarray:
+    def _residuals(evaluation: Evaluation, targets: Sequence[Target]) -> FloatArray:
         means = [evaluation.mean(t.name) for t in targets]
         return np.array(
             [
@@ -326,17 +334,19 @@ class _Search:
 
 def _optimiser() -> ModuleType:
     try:
-        return importlib.import_module("dfols")
+        import dfols
     except ImportError:
         raise ImportError(
             "calibrate: dfols is missing; run scripts/setup, or install DFO-LS from PyPI"
         ) from None
+    module: ModuleType = dfols
+    return module
 
 
-def _started(plan: Calibration, key: str, start: Mapping[str, float]) -> float:
+def _started(plan: Calibration, key: str, start: Mapping[str, object]) -> float:
     low, high = plan.free[key]
     value = start.get(key)
-    if value is None or not low <= value <= high:
+    if not isinstance(value, int | float) or not low <= value <= high:
         raise InputError(
             f"calibration [free] {key} = {value} at the start, must lie within its bounds "
             f"{low:g} and {high:g}; change the bounds or the material"

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import InputError, SimulationError
-from ..files import csv_text, output_folder, write_text
+from ..files import Table, csv_text, output_folder, write_text
 from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
 from ..laboratory.run_spec import RunSpec, described
@@ -29,6 +29,9 @@ from ..specimens.specimen import Specimen
 
 #: Columns of compare.csv before the numbers of the result.
 _FIRST = ("model", "material", "confinement", "folder")
+
+
+Value = TypeVar("Value", str, float)
 
 
 @dataclass
@@ -186,17 +189,17 @@ def table(cases: Sequence[Case]) -> str:
     return columns((*header, "status"), rows)
 
 
-def _materials(models: Sequence[str], material: Any) -> dict[str, Material]:
+def _materials(
+    models: Sequence[str], material: Material | str | Mapping[str, Material | str] | None
+) -> dict[str, Material]:
     """Material of each model."""
     names = _each_once("models", models)
-    by_model = isinstance(material, Mapping) and set(material) <= set(names)
-    return {
-        model: materials.load(material.get(model) if by_model else material, model)
-        for model in names
-    }
+    if isinstance(material, Mapping) and set(material) <= set(names):
+        return {model: materials.load(material.get(model), model) for model in names}
+    return {model: materials.load(material, model) for model in names}
 
 
-def _each_once(name: str, values: Sequence[Any]) -> list[Any]:
+def _each_once(name: str, values: Sequence[Value]) -> list[Value]:
     found = list(values)
     if not found or len(set(found)) != len(found):
         raise InputError(f"compare: {name} = {found}, must be one or more, each once")
@@ -230,9 +233,9 @@ def _named(progress: Progress | None, name: str) -> Progress | None:
     return lambda done, expected, text: progress(done, expected, f"{name}: {text}")
 
 
-def _row(case: Case) -> dict[str, Any]:
+def _row(case: Case) -> Table:
     """Inputs of a run, then all numbers of its result."""
-    row: dict[str, Any] = {
+    row: Table = {
         "model": case.model,
         "material": case.material.name,
         "confinement": case.confinement,
@@ -245,6 +248,6 @@ def _row(case: Case) -> dict[str, Any]:
     return row | {key: value for key, value in numbers.items() if key not in hidden}
 
 
-def _table(rows: Sequence[dict[str, Any]]) -> str:
+def _table(rows: Sequence[Table]) -> str:
     names = list(dict.fromkeys(name for row in rows for name in row))
     return csv_text(names, ([row.get(name) for name in names] for row in rows))

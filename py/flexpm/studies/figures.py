@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas
 
 from ..errors import InputError
+from ..files import Table
 from ..materials.keys import UNITS, check_name
-from ..report.style import drawing
+from ..report.style import Axes, drawing
 from .study import Study
 
 #: Factor and unit of what is drawn in other units than SI's; the rest is drawn as it is.
@@ -57,7 +57,7 @@ def draw(study: Study, rows: pandas.DataFrame, folder: Path) -> list[Path]:
     return [_picture(dict(entries), rows, folder, study.name) for entries in asked]
 
 
-def _default(study: Study, rows: pandas.DataFrame) -> list[dict[str, Any]]:
+def _default(study: Study, rows: pandas.DataFrame) -> list[Table]:
     """Strength over the first number that varies, a line for each combination of the rest."""
     inputs = list(dict.fromkeys(key for job in study.jobs for key in job.inputs))
     varied = [key for key in inputs if key != "seed" and rows[key].nunique(dropna=False) > 1]
@@ -69,7 +69,7 @@ def _default(study: Study, rows: pandas.DataFrame) -> list[dict[str, Any]]:
     return [{"x": x, "y": measure, "by": [key for key in varied if key != x]}]
 
 
-def _picture(entries: dict[str, Any], rows: pandas.DataFrame, folder: Path, name: str) -> Path:
+def _picture(entries: Table, rows: pandas.DataFrame, folder: Path, name: str) -> Path:
     for key in entries:
         check_name("study [[picture]] key", key, _KEYS)
     for key in ("x", "y"):
@@ -82,7 +82,7 @@ def _picture(entries: dict[str, Any], rows: pandas.DataFrame, folder: Path, name
     chosen = rows
     for column, value in where.items():
         chosen = chosen[chosen[column].isin(value if isinstance(value, list) else [value])]
-    path = folder / entries.get("file", f"{y}.png")
+    path = folder / str(entries.get("file", f"{y}.png"))
     with drawing(path) as axes:
         _lines(axes, chosen, x, y, by)
         axes.set_xlabel(_label(x))
@@ -91,7 +91,7 @@ def _picture(entries: dict[str, Any], rows: pandas.DataFrame, folder: Path, name
     return path
 
 
-def _lines(axes: Any, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]) -> None:
+def _lines(axes: Axes, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]) -> None:
     drawn = rows.dropna(subset=[x, y])
     numbers = pandas.Series(0, index=drawn.index)
     if by:
@@ -129,7 +129,7 @@ def _label(column: str) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
-def _value(column: str, value: Any) -> str:
+def _value(column: str, value: float | str) -> str:
     if isinstance(value, str):
         return value
     factor, unit = _shown(column)

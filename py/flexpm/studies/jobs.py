@@ -9,15 +9,14 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from subprocess import CompletedProcess
-from typing import Any
 
 from .._version import __version__
 from ..errors import InputError
-from ..files import json_text, write_text
+from ..files import Table, json_text, write_text
 from ..laboratory import run_spec
 from ..laboratory.run_spec import RunSpec
 from ..materials import material as materials
@@ -44,7 +43,7 @@ class Job:
         spec: All that determines the outcome.
     """
 
-    inputs: Mapping[str, Any]
+    inputs: Table
     arguments: tuple[str, ...]
     spec: RunSpec
 
@@ -65,7 +64,7 @@ class Job:
         ]
 
 
-def make(inputs: Mapping[str, Any], base: Path) -> Job:
+def make(inputs: Table, base: Path) -> Job:
     """Check the inputs of one run and name it.
 
     Args:
@@ -93,12 +92,13 @@ def make(inputs: Mapping[str, Any], base: Path) -> Job:
     return Job({"test": test, **used}, tuple(_arguments(test, used)), spec)
 
 
-def known(folder: Path) -> dict[str, Any] | None:
+def known(folder: Path) -> Table | None:
     """The outcome of a job that has ended in `folder`, or None."""
     try:
-        return json.loads((folder / _OUTCOME).read_text(encoding="utf-8"))
+        outcome: Table = json.loads((folder / _OUTCOME).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
+    return outcome
 
 
 def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
@@ -128,7 +128,7 @@ def discard_foreign_checkpoint(folder: Path) -> None:
         _remove_checkpoint(folder)
 
 
-def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException) -> dict[str, Any]:
+def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException) -> Table:
     """Read what a job has left, and note its outcome in `folder` unless it was interrupted.
 
     Returns:
@@ -159,7 +159,7 @@ def _remove_checkpoint(folder: Path) -> None:
         file.unlink(missing_ok=True)
 
 
-def _measures(file: Path) -> dict[str, Any]:
+def _measures(file: Path) -> Table:
     try:
         content = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -171,7 +171,7 @@ def _measures(file: Path) -> dict[str, Any]:
     }
 
 
-def _arguments(test: str, used: Mapping[str, Any]) -> Iterator[str]:
+def _arguments(test: str, used: Table) -> Iterator[str]:
     """The command with its options."""
     yield from (test,) if test == run_spec.ELASTIC else ("run", test)
     for key, value in used.items():
@@ -184,5 +184,5 @@ def _arguments(test: str, used: Mapping[str, Any]) -> Iterator[str]:
     yield "--quiet"
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     return ",".join(map(str, value)) if isinstance(value, list | tuple) else str(value)

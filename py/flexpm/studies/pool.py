@@ -8,15 +8,36 @@ import os
 import subprocess
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from subprocess import CompletedProcess
+from typing import TYPE_CHECKING, Protocol, TypedDict
 
 from ..errors import InputError
+from ..files import Table
 from ..materials.keys import check_name
 from ..progress import Progress
 from . import jobs
 from .jobs import Job
 
+if TYPE_CHECKING:
+    from distributed import Client
+
 _LOG = logging.getLogger("flexpm")
+
+
+class PoolOptions(TypedDict, total=False):
+    """Options of a pool by name."""
+
+    workers: int | None  #: runs at a time; None for one per core, or what the scheduler has
+    scheduler: str | None  #: address of a running Dask scheduler
+    cluster: str | None  #: kind of batch system
+
+
+class _Cluster(Protocol):
+    """What is used of the clusters of Dask and dask-jobqueue."""
+
+    def scale(self, n: int) -> object: ...
+
+    def close(self) -> object: ...
 
 
 class Pool:
@@ -36,14 +57,15 @@ class Pool:
             )
         self._folder, self._workers = folder.resolve(), workers
         self._scheduler, self._kind = scheduler, cluster
-        self._client: Any = None
-        self._cluster: Any = None
+        self._client: Client | None = None
+        self._cluster: _Cluster | None = None
         self._told = False
 
-    def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[dict[str, Any]]:
+    def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[Table]:
         """Outcomes of jobs in their order; those that have ended before are not run again."""
-        outcomes = {job.key: jobs.known(self._folder / job.key) for job in wanted}
-        waiting = [job for job in wanted if outcomes[job.key] is None]
+        known = {job.key: jobs.known(self._folder / job.key) for job in wanted}
+        outcomes = {key: outcome for key, outcome in known.items() if outcome is not None}
+        waiting = [job for job in wanted if job.key not in outcomes]
         self._tell_outdated(waiting)
         report = progress or _silent
         done, failed = len(wanted) - len(waiting), 0
@@ -62,7 +84,9 @@ class Pool:
             self._told = True
             _LOG.warning("flexpm: %s", line)
 
-    def _ended(self, waiting: Sequence[Job]) -> Iterator[tuple[Job, Any]]:
+    def _ended(
+        self, waiting: Sequence[Job]
+    ) -> Iterator[tuple[Job, CompletedProcess[str] | BaseException]]:
         """Jobs with the processes they were, or the error of a worker, as they end."""
         if not waiting:
             return
@@ -88,29 +112,30 @@ class Pool:
             error = future.exception()
             yield futures[future], error if error is not None else future.result()
 
-    def _started(self) -> Any:
+    def _started(self) -> Client:
         if self._client is None:
             from distributed import Client
 
             self._client = Client(self._scheduler or self._new_cluster())
         return self._client
 
-    def _new_cluster(self) -> Any:
+    def _new_cluster(self) -> _Cluster:
         if self._kind is not None:
-            self._cluster = _batch_cluster(self._kind)
-            self._cluster.scale(self._workers or 1)
-            return self._cluster
+            cluster = self._cluster = _batch_cluster(self._kind)
+            cluster.scale(self._workers or 1)
+            return cluster
         from distributed import LocalCluster
 
         # workers only wait for processes, so threads do for them
-        self._cluster = LocalCluster(
+        local: _Cluster = LocalCluster(
             n_workers=self._workers or len(os.sched_getaffinity(0)),
             threads_per_worker=1,
             processes=False,
             # any free port: another study may run on this machine
             dashboard_address="127.0.0.1:0",
         )
-        return self._cluster
+        self._cluster = local
+        return local
 
     def __enter__(self) -> Pool:
         return self
@@ -121,7 +146,7 @@ class Pool:
                 part.close()
 
 
-def _batch_cluster(kind: str) -> Any:
+def _batch_cluster(kind: str) -> _Cluster:
     try:
         import dask_jobqueue
     except ImportError:
@@ -134,7 +159,8 @@ def _batch_cluster(kind: str) -> Any:
         if name.endswith("Cluster")
     }
     check_name("cluster", kind, sorted(classes))
-    return classes[kind]()
+    cluster: _Cluster = classes[kind]()
+    return cluster
 
 
 def _silent(done: float, expected: float, text: str) -> None:

@@ -11,12 +11,11 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import pandas
 
 from ..errors import InputError
-from ..files import load_toml, output_folder
+from ..files import Table, load_toml, output_folder
 from ..materials.keys import check_name
 from ..progress import Progress
 from . import jobs
@@ -40,7 +39,7 @@ class Study:
 
     name: str
     jobs: Sequence[Job]
-    pictures: Sequence[Mapping[str, Any]] = field(default_factory=list)
+    pictures: Sequence[Table] = field(default_factory=list)
 
 
 def read(path: Path | str) -> Study:
@@ -98,7 +97,7 @@ def run(
     return rows
 
 
-def combinations(content: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def combinations(content: Table) -> Iterator[Table]:
     """Inputs of each run that the tables of a study file ask for, in order."""
     common, grid = flat(content.get("common", {})), flat(content.get("grid", {}))
     for key, values in grid.items():
@@ -109,7 +108,7 @@ def combinations(content: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
             yield {**common, **dict(zip(grid, values, strict=True)), **flat(case)}
 
 
-def flat(entries: Mapping[str, Any]) -> dict[str, Any]:
+def flat(entries: Table) -> Table:
     """Entries with the keys of the table ``set`` as ``set.KEY``."""
     changes = entries.get("set", {})
     if not isinstance(changes, Mapping):

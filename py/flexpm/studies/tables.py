@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import pandas
 
-from ..files import whole_file
+from ..files import Table, whole_file
 from .jobs import Job
 
 
-def table(wanted: Sequence[Job], outcomes: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
+def table(wanted: Sequence[Job], outcomes: Sequence[Table]) -> pandas.DataFrame:
     """One row a job: key, inputs, exit code, message, measures."""
     return pandas.DataFrame(
         {
@@ -38,5 +37,5 @@ def write_table(rows: pandas.DataFrame, stem: Path) -> None:
         pass  # neither pyarrow nor fastparquet is in Debian 12
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: object) -> object:
     return " ".join(map(str, value)) if isinstance(value, list) else value

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from flexpm._plugin import load_kernel
+from flexpm import _flexpm
 from flexpm.errors import InputError, SimulationError
 from flexpm.specimens import packing
 
@@ -16,7 +16,7 @@ UNIT = 3e-3
 
 
 def radii_of(count, seed=1):
-    return load_kernel().disc_radii(count, 2e-3, 4e-3, seed)
+    return _flexpm.disc_radii(count, 2e-3, 4e-3, seed)
 
 
 def overlaps(centres, radii):
@@ -31,7 +31,7 @@ def overlaps(centres, radii):
 )
 def test_relaxation_spreads_the_overlap_and_keeps_discs_inside(frame):
     area = np.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-    count = load_kernel().disc_count(area, 2e-3, 4e-3, 0.10)
+    count = _flexpm.disc_count(area, 2e-3, 4e-3, 0.10)
     centres, radii = packing.pack(frame, radii_of(count), UNIT, seed=5)
     outline = frame.kernel_outline()
     assert all(outline.contains(x, y) for x, y in centres)
@@ -72,7 +72,7 @@ def test_a_seed_gives_the_same_bits_and_another_seed_does_not():
 
 def test_the_unit_of_length_does_not_matter():
     small = packing.Frame(width=0.25, height=0.5)
-    radii = load_kernel().disc_radii(60, 1 / 32, 1 / 16, 3)
+    radii = _flexpm.disc_radii(60, 1 / 32, 1 / 16, 3)
     centres, _ = packing.pack(small, radii, 3 / 64, seed=1)
     large, _ = packing.pack(small.scaled(1024.0), radii * 1024.0, 48.0, seed=1)
     assert np.array_equal(large, centres * 1024.0)
@@ -88,7 +88,7 @@ def test_disc_loop_gives_the_bits_of_yades_loop(frame, monkeypatch):
         mirror = True
 
     area = np.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-    count = load_kernel().disc_count(area, 2e-3, 4e-3, 0.10)
+    count = _flexpm.disc_count(area, 2e-3, 4e-3, 0.10)
     ours = packing.pack(frame, radii_of(count), UNIT, seed=3)
     monkeypatch.setattr(wrapper, "DiscLoop", YadesLoop)
     theirs = packing.pack(frame, radii_of(count), UNIT, seed=3)
@@ -104,7 +104,7 @@ def test_disc_loop_mirrors_forces_when_told():
 
     def forces(kind, mirror):
         frame, radii = packing.Frame(width=8.0, height=8.0), np.full(70, 0.5)
-        centres = load_kernel().insert_discs(radii, frame.kernel_outline(), 0.5, 1)
+        centres = _flexpm.insert_discs(radii, frame.kernel_outline(), 0.5, 1)
         with packing._private_scene(scene), pytest.MonkeyPatch.context() as patch:
             patch.setattr(wrapper, "DiscLoop", kind)
             packing._fill_scene(scene, frame, centres, radii).mirror = mirror
@@ -161,9 +161,9 @@ def test_disc_loop_leaves_shear_and_erased_bodies_to_the_functors():
 @pytest.mark.long
 def test_threads_do_not_matter(package_parent):
     code = (
-        "import hashlib; from flexpm._plugin import load_kernel;"
+        "import hashlib; from flexpm import _flexpm;"
         "from flexpm.specimens import packing as p;"
-        "r = load_kernel().disc_radii(60, 2e-3, 4e-3, 1);"
+        "r = _flexpm.disc_radii(60, 2e-3, 4e-3, 1);"
         "c, _ = p.pack(p.Frame(width=0.02, height=0.025), r, 3e-3, 4);"
         "print(hashlib.sha256(c.tobytes()).hexdigest())"
     )

@@ -167,7 +167,12 @@ def test_results_of_an_older_number_are_named_once_and_run_again(tmp_path, monke
     for job in wanted[:2]:
         jobs.conclude(job, tmp_path / job.key, subprocess.CompletedProcess([], 0, "", ""))
     ran = []
-    monkeypatch.setattr(pool.Pool, "_ended", lambda self, waiting: ran.append(waiting) or [])
+
+    def lost(self, waiting):
+        ran.append(waiting)
+        return [(job, OSError("lost")) for job in waiting]
+
+    monkeypatch.setattr(pool.Pool, "_ended", lost)
     kept = pool.Pool(tmp_path)
     kept.run(wanted)
     assert ran.pop() == wanted[2:] and caplog.messages == []
