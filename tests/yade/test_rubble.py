@@ -97,7 +97,7 @@ def test_rubble_falls_and_comes_to_rest(model):
     ("options", "rule"),
     [
         ({"gravity": 9.81}, "must be 0 with scaled masses"),
-        ({"gravity": -1.0, "dynamic": True}, "must not be below 0"),
+        ({"gravity": -1.0, "dynamic": True}, "gravity = -1.0 m/s2, must be >= 0"),
         ({"gravity": 9.81, "dynamic": True, "model": "jcfpm"}, "must be one of 0.0"),
     ],
 )

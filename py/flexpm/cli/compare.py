@@ -12,9 +12,9 @@ import click
 from ..errors import InputError, SimulationError
 from ..files import output_folder
 from ..laboratory.run_spec import TESTS
-from ..materials.keys import check_name
 from ..models.options import MODELS
 from ..report import tables
+from ..require import NOT_NEGATIVE, require_known
 from . import inputs as cli_library
 from . import options as cli_options
 from . import terminal
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--confinements",
-    type=Each(Quantity("Pa", at_least=0.0)),
+    type=Each(Quantity("Pa", NOT_NEGATIVE)),
     default="0",
     metavar="PA,...",
     show_default=True,
@@ -66,7 +66,7 @@ def compare(
     TEST is as for run. Each model takes its default material unless one is given. Each run has a
     folder of its own below the output folder; what is finished there is not run again.
     """
-    check_name("test", test, TESTS)
+    require_known("test", test, TESTS)
     if test != "biaxial" and any(confinements):
         raise InputError(
             f"confinements = {max(confinements):g} Pa, must be 0 for {test}; use biaxial"

@@ -18,9 +18,9 @@ from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import json_text, output_folder, write_text
 from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
-from ..materials.keys import check_name, nearest
 from ..materials.material import load
 from ..report import tables
+from ..require import NOT_NEGATIVE, nearest, require_known
 from . import compare as cli_compare
 from . import inputs as cli_library
 from . import options as cli_options
@@ -62,7 +62,7 @@ def command() -> None:
 @cli_options.packing_options
 @click.option(
     "--confinement",
-    type=Quantity("Pa", at_least=0.0),
+    type=Quantity("Pa", NOT_NEGATIVE),
     default=RunSpec.confinement,
     metavar="PA",
     show_default=True,
@@ -78,7 +78,7 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
     compression of a disc of the given diameter.
     """
-    check_name("test", test, TESTS)
+    require_known("test", test, TESTS)
     chosen = cli_library.material(options)
     spec = cli_library.run_spec(test, options, chosen)
     folder = output_folder(out)

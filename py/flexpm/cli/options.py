@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-import math
+import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,8 +12,16 @@ import click
 
 from ..errors import InputError
 from ..laboratory.run_spec import LOADINGS, STARTS, RunSpec
-from ..materials.keys import check_name
 from ..models.options import MESHES, MODELS, POINTS
+from ..require import (
+    ANY,
+    NOT_NEGATIVE,
+    POSITIVE,
+    Bounds,
+    require_known,
+    require_number,
+    require_whole,
+)
 from ..specimens.spec import SIZES, SpecimenSpec
 
 #: Adds an option to the function of a command.
@@ -25,33 +33,17 @@ class Quantity(click.ParamType):
 
     name = "number"
 
-    def __init__(
-        self,
-        unit: str = "",
-        above: float | None = None,
-        at_least: float | None = None,
-        below: float | None = None,
-    ) -> None:
-        self.unit, self.above, self.at_least, self.below = unit, above, at_least, below
+    def __init__(self, unit: str = "", bounds: Bounds = ANY) -> None:
+        self.unit, self.bounds = unit, bounds
 
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> float:
         """Return the number, or raise InputError naming option, value and rule."""
-        label = f"{label_of(param)} = {value} {self.unit}".rstrip()
-        try:
+        number = value
+        with contextlib.suppress(ValueError):
             number = float(str(value))
-        except ValueError:
-            raise InputError(f"{label}, must be a number") from None
-        if not math.isfinite(number):
-            raise InputError(f"{label}, must be finite")
-        if self.above is not None and not number > self.above:
-            raise InputError(f"{label}, must be > {self.above:g}")
-        if self.at_least is not None and not number >= self.at_least:
-            raise InputError(f"{label}, must be >= {self.at_least:g}")
-        if self.below is not None and not number < self.below:
-            raise InputError(f"{label}, must be < {self.below:g}")
-        return number
+        return require_number(label_of(param), number, self.bounds, self.unit, shown=str(value))
 
 
 class Range(click.ParamType):
@@ -69,7 +61,7 @@ class Range(click.ParamType):
         parts = str(value).split(",")
         if len(parts) != 2:
             raise InputError(f"{label_of(param)} = {value} m, must read DMIN,DMAX")
-        length = Quantity("m", above=0.0)
+        length = Quantity("m", POSITIVE)
         low, high = (length.convert(part.strip(), param, ctx) for part in parts)
         if low > high:
             raise InputError(f"{label_of(param)} = {value} m, DMIN must not exceed DMAX")
@@ -92,9 +84,7 @@ class Count(click.ParamType):
             number = int(str(value))
         except ValueError:
             raise InputError(f"{label_of(param)} = {value}, must be a whole number") from None
-        if number < self.at_least:
-            raise InputError(f"{label_of(param)} = {value}, must be >= {self.at_least}")
-        return number
+        return require_whole(label_of(param), number, Bounds(at_least=self.at_least))
 
 
 class Each(click.ParamType):
@@ -131,7 +121,7 @@ class Name(click.ParamType):
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> str:
         """Return the name, or raise InputError with the nearest known one."""
-        check_name(label_of(param), value, self.known)
+        require_known(label_of(param), value, self.known)
         return str(value)
 
 
@@ -160,7 +150,7 @@ def combined(*options: Decorator) -> Decorator:
 def _length(name: str, default: float, help_text: str) -> Decorator:
     return click.option(
         name,
-        type=Quantity("m", above=0.0),
+        type=Quantity("m", POSITIVE),
         default=default,
         metavar="M",
         show_default=True,
@@ -199,7 +189,7 @@ packing_options = combined(
     ),
     click.option(
         "--porosity",
-        type=Quantity("", at_least=0.0, below=1.0),
+        type=Quantity("", Bounds(at_least=0.0, below=1.0)),
         default=SpecimenSpec.porosity,
         metavar="N",
         show_default=True,
@@ -252,7 +242,7 @@ model_options = combined(
 loading_options = combined(
     click.option(
         "--rate",
-        type=Quantity("", above=0.0),
+        type=Quantity("", POSITIVE),
         default=RunSpec.rate,
         metavar="F",
         show_default=True,
@@ -260,14 +250,14 @@ loading_options = combined(
     ),
     click.option(
         "--max-strain",
-        type=Quantity("", above=0.0),
+        type=Quantity("", POSITIVE),
         metavar="E",
         help="Axial strain at which the test ends [-]; 8 times that of the reference strength, 16 "
         "times in the Brazilian test, if not given.",
     ),
     click.option(
         "--stop-ratio",
-        type=Quantity("", above=0.0),
+        type=Quantity("", POSITIVE),
         default=RunSpec.stop_ratio,
         metavar="F",
         show_default=True,
@@ -276,7 +266,7 @@ loading_options = combined(
     click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
     click.option(
         "--gravity",
-        type=Quantity("m/s2", at_least=0.0),
+        type=Quantity("m/s2", NOT_NEGATIVE),
         default=RunSpec.gravity,
         metavar="G",
         show_default=True,

@@ -17,7 +17,6 @@ from .._version import __version__
 from ..errors import SimulationError
 from ..files import output_folder
 from ..materials import material as materials
-from ..materials.keys import check_name
 from ..materials.material import Material
 from ..models import grains as models
 from ..models.grains import Model
@@ -25,6 +24,7 @@ from ..models.options import SPHERE_MODELS
 from ..progress import Progress
 from ..report import curves as plot
 from ..report import maps as plot_maps
+from ..require import require_known
 from ..results import vtu as export
 from ..results.cracks import cracks_from_snapshot
 from ..results.record import COLUMNS, Curve
@@ -173,7 +173,7 @@ def plan_run(
     Raises:
         InputError: for a test that is no simulation, or a checkpoint of other inputs in `out`.
     """
-    check_name("run: test", spec.test, list(TESTS))
+    require_known("run: test", spec.test, list(TESTS))
     folder = None if out is None else output_folder(out)
     return Plan(spec, specimen, material, folder, Checkpoint(folder, spec, checkpoint_interval))
 

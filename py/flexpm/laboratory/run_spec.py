@@ -8,17 +8,22 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
-import numbers
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields
 
 from ..errors import InputError
 from ..files import Table
-from ..materials.keys import check_name
 from ..materials.material import Material
 from ..materials.mixing import description
 from ..models.options import GRAIN_MODELS, check_options
+from ..require import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    Bounds,
+    require_known,
+    require_number,
+    require_one_of,
+)
 from ..specimens.spec import SIZES, SpecimenSpec
 from .loading_rate import LARGEST_STOP_RATIO, STOP_RATIO
 
@@ -103,7 +108,7 @@ class RunSpec:
     loading: str = ""
 
     def __post_init__(self) -> None:
-        _require_one_of("test", self.test, (*TESTS, ELASTIC))
+        require_one_of("run: test", self.test, (*TESTS, ELASTIC))
         self._check_numbers()
         check_options(
             self.model,
@@ -186,26 +191,23 @@ class RunSpec:
         return [self.key(number) for number in range(1, self.results)]
 
     def _check_numbers(self) -> None:
-        self._set("rate", _positive("rate", self.rate))
+        self._set("rate", require_number("run: rate", self.rate, POSITIVE))
         if self.max_strain is not None:
-            self._set("max_strain", _positive("max_strain", self.max_strain))
-        self._set("stop_ratio", _number("stop_ratio", self.stop_ratio))
-        if not 0.0 < self.stop_ratio <= LARGEST_STOP_RATIO:
-            raise InputError(
-                f"run: stop_ratio = {self.stop_ratio}, must be above 0 and at most "
-                f"{LARGEST_STOP_RATIO:g}"
-            )
-        self._set("confinement", _number("confinement", self.confinement))
-        if not (math.isfinite(self.confinement) and self.confinement >= 0.0):
-            raise InputError(f"run: confinement = {self.confinement} Pa, must not be below 0")
-        self._set("gravity", _number("gravity", self.gravity))
+            largest = require_number("run: max_strain", self.max_strain, POSITIVE)
+            self._set("max_strain", largest)
+        bounds = Bounds(above=0.0, at_most=LARGEST_STOP_RATIO)
+        self._set("stop_ratio", require_number("run: stop_ratio", self.stop_ratio, bounds))
+        confinement = require_number("run: confinement", self.confinement, NOT_NEGATIVE, "Pa")
+        self._set("confinement", confinement)
+        gravity = require_number("run: gravity", self.gravity, NOT_NEGATIVE, "m/s2")
+        self._set("gravity", gravity)
         self._set("dynamic", bool(self.dynamic))
 
     def _check_start(self) -> None:
         if not self.start:
             tension = (self.test, self.model, self.dynamic) == ("tension", "flexible", False)
             self._set("start", "static" if tension else "rest")
-        _require_one_of("start", self.start, STARTS)
+        require_one_of("run: start", self.start, STARTS)
         possible = self.model == "flexible" and self.test in ("uniaxial", "tension")
         if self.start == "static" and not possible:
             raise InputError(
@@ -217,7 +219,7 @@ class RunSpec:
         adapts = self.model in GRAIN_MODELS and not self.dynamic and self.test != ELASTIC
         if not self.loading:
             self._set("loading", "adaptive" if adapts else "constant")
-        _require_one_of("loading", self.loading, LOADINGS)
+        require_one_of("run: loading", self.loading, LOADINGS)
         if self.loading == "adaptive" and not adapts:
             raise InputError(
                 f"run: loading = adaptive, must be constant for model {self.model}"
@@ -227,7 +229,7 @@ class RunSpec:
 
     def _check_test(self) -> None:
         if self.test == ELASTIC:
-            _require_one_of("model", self.model, GRAIN_MODELS)
+            require_one_of("run: model", self.model, GRAIN_MODELS)
         shape = shape_of(self.test)
         if self.specimen.kind != shape:
             raise InputError(
@@ -284,23 +286,5 @@ def _known(cls: type, content: object) -> Table:
     if not isinstance(content, Mapping):
         raise InputError(f"inputs = {content!r}, must be fields by name")
     for name in content:
-        check_name("inputs", name, [field.name for field in fields(cls)])
+        require_known("inputs", name, [field.name for field in fields(cls)])
     return dict(content)
-
-
-def _require_one_of(name: str, value: object, known: tuple[str, ...]) -> None:
-    if value not in known:
-        raise InputError(f"run: {name} = {value!r}, must be one of {', '.join(known)}")
-
-
-def _number(name: str, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise InputError(f"run: {name} = {value!r}, must be a number")
-    return float(value)
-
-
-def _positive(name: str, value: object) -> float:
-    number = _number(name, value)
-    if not (math.isfinite(number) and number > 0.0):
-        raise InputError(f"run: {name} = {number}, must be above 0")
-    return number

@@ -3,12 +3,7 @@
 
 from __future__ import annotations
 
-import difflib
-import math
-import numbers
-from collections.abc import Sequence
-
-from ..errors import InputError
+from ..require import NOT_NEGATIVE, POSITIVE, Bounds, require_known, require_number
 
 #: Unit of each key; None marks the keys that take one of a few words.
 UNITS: dict[str, str | None] = {
@@ -40,44 +35,20 @@ ELASTIC_SET = {
 }
 
 
+#: Ranges of the keys; all others are above zero.
+_BOUNDS = {"poisson": Bounds(above=0.0, below=0.5), "friction": NOT_NEGATIVE}
+
+
 def checked(key: str, value: object, where: str = "") -> float | str:
     """Return `value` of `key` as float or word, or raise InputError naming the broken rule."""
     if key in CHOICES:
-        check_name(f"material {where}{key}", value, list(CHOICES[key]))
+        require_known(f"material {where}{key}", value, CHOICES[key])
         return str(value)
-    label = f"material {where}{key} = {value!r} {UNITS[key]}".removesuffix(" -")
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise InputError(f"{label}, must be a number")
-    try:
-        number = float(value)
-    except OverflowError:  # an integer beyond the largest double
-        number = math.inf
-    if not math.isfinite(number):
-        raise InputError(f"{label}, must be finite")
-    if key == "poisson" and not 0.0 < number < 0.5:
-        raise InputError(f"{label}, must lie between 0 and 0.5, both excluded")
-    if key == "friction" and number < 0.0:
-        raise InputError(f"{label}, must be >= 0")
-    if key != "friction" and number <= 0.0:
-        raise InputError(f"{label}, must be > 0")
-    return number
-
-
-def check_name(label: str, name: object, known: Sequence[str]) -> None:
-    """Raise InputError, with the nearest known name, unless `name` is one of `known`."""
-    if name not in known:
-        raise InputError(
-            f"{label} = {name!r}, unknown{nearest(str(name), known)}; known are {', '.join(known)}"
-        )
+    unit = (UNITS[key] or "").removeprefix("-")
+    return require_number(f"material {where}{key}", value, _BOUNDS.get(key, POSITIVE), unit)
 
 
 def elastic_set_name(model: str) -> str:
     """Name of the elastic set that `model` uses."""
-    check_name("model", model, list(ELASTIC_SET))
+    require_known("model", model, list(ELASTIC_SET))
     return ELASTIC_SET[model]
-
-
-def nearest(name: str, known: Sequence[str]) -> str:
-    """Return ' (did you mean X?)' for the known name closest to `name`, or an empty text."""
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-    return f" (did you mean {close[0]}?)" if close else ""

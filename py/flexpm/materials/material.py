@@ -14,6 +14,7 @@ from typing import TypedDict
 
 from ..errors import InputError
 from ..files import Table, load_toml
+from ..require import nearest, require_known
 from . import mineral
 from .keys import (
     CHOICES,
@@ -22,10 +23,8 @@ from .keys import (
     ELASTIC_SET,
     ENERGY_KEYS,
     UNITS,
-    check_name,
     checked,
     elastic_set_name,
-    nearest,
 )
 from .mineral import Mineral
 
@@ -116,7 +115,7 @@ class Material:
         if not isinstance(sets, Mapping):
             raise InputError(f"material elastic = {sets!r}, must be tables like [elastic.flexible]")
         for key in common:
-            check_name("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
+            require_known("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
         for key in ("tensile_strength", "cohesion", "friction"):
             if key not in common:
                 raise InputError(f"material {key} is missing; give it in [{UNITS[key]}]")
@@ -269,7 +268,7 @@ def _elastic_from(name: str, values: object) -> ElasticSet:
     if not isinstance(values, Mapping):
         raise InputError(f"material elastic.{name} = {values!r}, must be a table [elastic.{name}]")
     for key in values:
-        check_name(f"material [elastic.{name}] key", key, list(ELASTIC_KEYS))
+        require_known(f"material [elastic.{name}] key", key, list(ELASTIC_KEYS))
     for key in ("normal_stiffness", "shear_ratio"):
         if key not in values:
             raise InputError(
@@ -279,7 +278,7 @@ def _elastic_from(name: str, values: object) -> ElasticSet:
 
 
 def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:
-    check_name("material elastic set", name, sorted(set(ELASTIC_SET.values())))
+    require_known("material elastic set", name, sorted(set(ELASTIC_SET.values())))
     values: Table = {}
     for key in ELASTIC_KEYS:
         value = getattr(chosen, key)
@@ -293,7 +292,7 @@ def _parse_assignment(text: str) -> tuple[str, float | str]:
     if not equals or not key or not value:
         raise InputError(f"set = {text!r}, must read KEY=VALUE; for example young=30e9")
     plain = key.rpartition(".")[2]
-    check_name("set", plain, list(UNITS))
+    require_known("set", plain, list(UNITS))
     if plain in CHOICES:
         return key, value
     try:

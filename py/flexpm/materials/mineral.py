@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from ..files import Table
-from .keys import COMMON_KEYS, ELASTIC_KEYS, check_name
+from ..require import POSITIVE, require_known, require_number
+from .keys import COMMON_KEYS, ELASTIC_KEYS
 
 #: Fractions are to sum up to 1 within this.
 _SUM_TOLERANCE = 1e-6
@@ -44,13 +45,10 @@ class Mineral:
             if key not in changes:
                 raise InputError(f"{where} {key} is missing; give the mineral a {key}")
         name, fraction = str(changes.pop("name")), changes.pop("fraction")
-        if isinstance(fraction, bool) or not isinstance(fraction, int | float):
-            raise InputError(f"{where} fraction = {fraction!r}, must be a number")
-        if not (math.isfinite(fraction) and fraction > 0.0):
-            raise InputError(f"{where} fraction = {fraction}, must be > 0")
+        fraction = require_number(f"{where} fraction", fraction, POSITIVE)
         for key in changes:
-            check_name(f"mineral {name} key", key, [*_KEYS, "name", "fraction", "elastic"])
-        return cls(name, float(fraction), changes)
+            require_known(f"mineral {name} key", key, [*_KEYS, "name", "fraction", "elastic"])
+        return cls(name, fraction, changes)
 
 
 def checked(minerals: object) -> tuple[Mineral, ...]:
@@ -89,8 +87,8 @@ def with_values(
         mineral, _, key = name.rpartition(".")
         if not found:
             raise InputError(f"set {name} = {value!r}, needs a material with [[mineral]] tables")
-        check_name("set mineral", mineral, list(found))
-        check_name(f"set {mineral} key", key, [*_KEYS, *ELASTIC_KEYS])
+        require_known("set mineral", mineral, list(found))
+        require_known(f"set {mineral} key", key, [*_KEYS, *ELASTIC_KEYS])
         changes: Table = dict(found[mineral].changes)
         if key in ELASTIC_KEYS:
             sets = dict(changes.get("elastic", {}))

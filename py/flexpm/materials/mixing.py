@@ -17,7 +17,8 @@ from collections.abc import Mapping
 
 from ..errors import InputError
 from ..files import Table
-from .keys import ELASTIC_KEYS, ENERGY_KEYS, check_name, elastic_set_name
+from ..require import require_known
+from .keys import ELASTIC_KEYS, ENERGY_KEYS, elastic_set_name
 from .material import ElasticSet, Material
 from .mineral import Mineral
 
@@ -78,11 +79,11 @@ def _changed(rock: Material, mineral: Mineral) -> Material:
         raise InputError(f"mineral {mineral.name} elastic = {sets!r}, must be tables")
     for name, values in sets.items():
         where = f"mineral {mineral.name} [elastic.{name}]"
-        check_name(f"mineral {mineral.name} elastic set", name, list(elastic))
+        require_known(f"mineral {mineral.name} elastic set", name, list(elastic))
         if not isinstance(values, Mapping):
             raise InputError(f"{where} = {values!r}, must be a table")
         for key in values:
-            check_name(f"{where} key", key, list(ELASTIC_KEYS))
+            require_known(f"{where} key", key, list(ELASTIC_KEYS))
         elastic[name] = dataclasses.replace(elastic[name], **values)
     if changes.get("softening") == "brittle":
         changes = dict.fromkeys(ENERGY_KEYS) | changes

@@ -20,6 +20,7 @@ from ..files import Table
 from ..materials import material as materials
 from ..materials import mixing as minerals
 from ..materials.material import Material
+from ..require import Bounds, require_number, require_one_of
 from ..results.snapshot import Snapshot
 from ..specimens import inner_particles as inner
 from ..specimens import mineral_map
@@ -33,7 +34,6 @@ from .options import (
     POINTS,
     SPHERE_MODELS,
     check_options,
-    require_one_of,
 )
 
 #: Local damping of all tests [-], paper Sec. 4.1.
@@ -170,7 +170,7 @@ def build(
         InputError: for an argument or a material property out of range.
     """
     check_options(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
-    _require_damping(damping)
+    require_number("build: damping", damping, Bounds(at_least=0.0, below=1.0))
     if model in SPHERE_MODELS:
         return yade_models.build(
             specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
@@ -216,7 +216,7 @@ def elastic(
     Raises:
         InputError: for an argument out of range or a specimen that is no rectangle.
     """
-    require_one_of("model", model, GRAIN_MODELS)
+    require_one_of("build: model", model, GRAIN_MODELS)
     grains = _grains(specimen, model, points, mesh)
     chosen = _fitted(specimen, grains, materials.load(material, model), model)
     solver = _assembled(grains, chosen, model)
@@ -236,8 +236,8 @@ class _Grains:
 
 def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
     """The grains of a specimen, or the inner particles of all of them."""
-    require_one_of("points", points, POINTS)
-    require_one_of("mesh", mesh, MESHES)
+    require_one_of("build: points", points, POINTS)
+    require_one_of("build: mesh", mesh, MESHES)
     options: Table = {
         "rigid": model != "flexible",
         "mesh": mesh,
@@ -325,8 +325,3 @@ def _idle_newton() -> wrapper.Engine:
     # The collider asks a NewtonIntegrator for the fastest motion. Grains are moved by the solver,
     # which calls the collider itself; a value between 0 and 1 keeps the collider idle until then.
     return wrapper.NewtonIntegrator(dead=True, maxVelocitySq=0.5, label="")
-
-
-def _require_damping(damping: float) -> None:
-    if not 0.0 <= damping < 1.0:
-        raise InputError(f"build: damping = {damping}, must be at least 0 and below 1")

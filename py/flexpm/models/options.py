@@ -3,10 +3,8 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
-
 from ..errors import InputError
+from ..require import NOT_NEGATIVE, require_number, require_one_of
 
 #: Grains of inner particles: normals between grains from the discs' centres, or of the edge.
 INNER_MODELS = ("inner", "inner-un")
@@ -33,27 +31,19 @@ def check_options(
         dynamic: Real masses and time.
         gravity: Acceleration downwards [m/s2].
     """
-    require_one_of("model", model, MODELS)
+    require_one_of("build: model", model, MODELS)
     if model in SPHERE_MODELS:
-        require_one_of(f"points of model {model}", points, (POINTS[-1],))
-        require_one_of(f"mesh of model {model}", mesh, (MESHES[0],))
-        require_one_of(f"gravity of model {model}", gravity, (0.0,))
+        require_one_of(f"build: points of model {model}", points, (POINTS[-1],))
+        require_one_of(f"build: mesh of model {model}", mesh, (MESHES[0],))
+        require_one_of(f"build: gravity of model {model}", gravity, (0.0,))
     else:
-        require_one_of("points", points, POINTS)
-        require_one_of("mesh", mesh, MESHES)
+        require_one_of("build: points", points, POINTS)
+        require_one_of("build: mesh", mesh, MESHES)
         _require_gravity(gravity, dynamic)
 
 
-def require_one_of(name: str, value: object, known: Sequence[object]) -> None:
-    """Raise InputError unless `value` is one of `known`."""
-    if value not in known:
-        choices = ", ".join(str(choice) for choice in known)
-        raise InputError(f"build: {name} = {value!r}, must be one of {choices}")
-
-
 def _require_gravity(gravity: float, dynamic: bool) -> None:
-    if not (math.isfinite(gravity) and gravity >= 0.0):
-        raise InputError(f"build: gravity = {gravity} m/s2, must not be below 0")
+    require_number("build: gravity", gravity, NOT_NEGATIVE, "m/s2")
     if gravity != 0.0 and not dynamic:
         raise InputError(
             f"build: gravity = {gravity} m/s2, must be 0 with scaled masses; use dynamic"

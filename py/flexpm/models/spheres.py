@@ -23,10 +23,11 @@ from ..files import Table
 from ..materials import material as materials
 from ..materials.material import Material
 from ..materials.mixing import description
+from ..require import require_one_of
 from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
 from .collider import collider
-from .options import SPHERE_MODELS, require_one_of
+from .options import SPHERE_MODELS
 from .sphere_bonds import MASS_MARGIN, Bonds, bonds_of, stiffness_bounds
 from .sphere_cracks import CrackWatch
 from .sphere_laws import LAWS, SphereLaw
@@ -208,7 +209,7 @@ def build(
     Raises:
         InputError: for an unknown model or a material without what it needs.
     """
-    require_one_of("model", model, SPHERE_MODELS)
+    require_one_of("build: model", model, SPHERE_MODELS)
     chosen = materials.load(material, model)
     description(chosen, model)  # refuses minerals
     law = chosen.law(model)

@@ -12,8 +12,8 @@ from ..errors import InputError
 from .checks import (
     SHORT_EDGE,
     require_diameters,
+    require_length,
     require_porosity,
-    require_positive,
     require_seed,
     require_short_edge,
 )
@@ -65,10 +65,8 @@ class SpecimenSpec:
         where = f"Specimen.{self.kind}"
         for name in _ALL_SIZES:
             self._set(name, self._size(where, name))
-        require_positive(where, thickness=self.thickness)
-        self._set("thickness", float(self.thickness))
-        require_short_edge(self.short_edge)
-        self._set("short_edge", float(self.short_edge))
+        self._set("thickness", require_length(where, "thickness", self.thickness))
+        self._set("short_edge", require_short_edge(self.short_edge))
         if self.discs is None:
             self._check_packing(where)
         elif not (self.diameters is None and self.porosity is None and self.seed is None):
@@ -101,8 +99,7 @@ class SpecimenSpec:
             return None
         if value is None:
             value = SIZES[self.kind][name]
-        require_positive(where, **{name: value})
-        return float(value)
+        return require_length(where, name, value)
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -26,7 +26,7 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..progress import Progress
 from . import packing
-from .checks import SHORT_EDGE, require_positive, require_short_edge
+from .checks import SHORT_EDGE, require_length, require_short_edge
 from .spec import SpecimenSpec
 
 _FEWEST_DISCS = 8
@@ -204,7 +204,7 @@ class Specimen:
         Raises:
             InputError: for a value out of range, a disc outside the outline or hidden by others.
         """
-        require_positive("Specimen.from_discs", thickness=thickness)
+        require_length("Specimen.from_discs", "thickness", thickness)
         require_short_edge(short_edge)
         discs = _disc_rows(centres, radii)
         if not isinstance(outline, Circle):

@@ -11,11 +11,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeGuard
 
 from ..errors import InputError
 from ..files import Table, load_toml
-from ..materials.keys import ELASTIC_KEYS, UNITS, check_name
+from ..materials.keys import ELASTIC_KEYS, UNITS
+from ..require import POSITIVE, Bounds, require_known, require_number, require_whole
 from ..results import strength
 from .study import flat
 
@@ -150,17 +150,16 @@ def read(path: Path | str) -> Calibration:
     path = Path(path)
     content = load_toml(path, "calibration")
     for table in content:
-        check_name("calibration table", table, _TABLES)
+        require_known("calibration table", table, _TABLES)
     about = {**_DEFAULTS, **content.get("calibration", {})}
     for key in about:
-        check_name("calibration [calibration] key", key, _ABOUT)
+        require_known("calibration [calibration] key", key, _ABOUT)
     for key in ("evaluations", "rounds", "candidates"):
-        _require(f"[calibration] {key}", about[key], isinstance(about[key], int), "a whole number")
-        _require(f"[calibration] {key}", about[key], about[key] >= 1, ">= 1")
+        require_whole(f"calibration [calibration] {key}", about[key], Bounds(at_least=1))
     targets = [_target(name, entry) for name, entry in _table(content, "target").items()]
     free = {key: _bounds(f"[free] {key}", b) for key, b in _table(content, "free").items()}
     for key in free:
-        check_name("calibration [free] key", key, [name for name in UNITS if UNITS[name]])
+        require_known("calibration [free] key", key, [name for name in UNITS if UNITS[name]])
     confinements = tuple(about.get("confinements", CONFINEMENTS))
     screen, screen_seeds = _runs(content, "screen", (1,))
     verify, verify_seeds = _runs(content, "verify", (11, 12, 13, 14, 15))
@@ -190,23 +189,22 @@ def _table(content: Table, name: str) -> Table:
 
 
 def _target(name: str, entry: object) -> Target:
-    check_name("calibration [target] key", name, list(MEASURES))
+    require_known("calibration [target] key", name, list(MEASURES))
     entry = entry if isinstance(entry, Mapping) else {"value": entry}
     for key in entry:
-        check_name(f"calibration [target] {name} key", key, ("value", "tolerance", "weight"))
+        require_known(f"calibration [target] {name} key", key, ("value", "tolerance", "weight"))
     _require(f"[target] {name}", dict(entry), "value" in entry, "given a value")
-    for key, number in entry.items():
-        label = f"[target] {name} {key}"
-        _require(label, number, _is_number(number) and number > 0.0, "a number > 0")
-    return Target(name, **{key: float(number) for key, number in entry.items()})
+    label = f"calibration [target] {name}"
+    numbers = {key: require_number(f"{label} {key}", n, POSITIVE) for key, n in entry.items()}
+    return Target(name, **numbers)
 
 
 def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ratio]:
     for entry in entries:
         for key in entry:
-            check_name("calibration [[ratio]] key", key, ("of", "to", "bounds"))
+            require_known("calibration [[ratio]] key", key, ("of", "to", "bounds"))
         for key in ("of", "to"):
-            check_name(f"calibration [[ratio]] {key}", entry.get(key), list(free))
+            require_known(f"calibration [[ratio]] {key}", entry.get(key), list(free))
         yield Ratio(entry["of"], entry["to"], _bounds("[[ratio]] bounds", entry.get("bounds")))
 
 
@@ -220,15 +218,10 @@ def _runs(content: Table, name: str, seeds: Sequence[int]) -> tuple[Table, list[
 
 def _bounds(label: str, bounds: object) -> tuple[float, float]:
     given = bounds if isinstance(bounds, list) else []
-    numbers = [float(one) for one in given if _is_number(one)]
-    _require(label, bounds, len(numbers) == len(given) == 2, "two numbers")
-    low, high = numbers
-    _require(label, bounds, 0.0 < low < high, "two numbers > 0, the smaller first")
+    _require(label, bounds, len(given) == 2, "two numbers")
+    low, high = (require_number(f"calibration {label}", one, POSITIVE) for one in given)
+    _require(label, bounds, low < high, "two numbers, the smaller first")
     return low, high
-
-
-def _is_number(value: object) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def _require(label: str, value: object, holds: bool, rule: str) -> None:

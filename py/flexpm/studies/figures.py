@@ -15,8 +15,9 @@ import pandas
 
 from ..errors import InputError
 from ..files import Table
-from ..materials.keys import UNITS, check_name
+from ..materials.keys import UNITS
 from ..report.style import Axes, drawing
+from ..require import require_known
 from .study import Study
 
 #: Factor and unit of what is drawn in other units than SI's; the rest is drawn as it is.
@@ -71,14 +72,14 @@ def _default(study: Study, rows: pandas.DataFrame) -> list[Table]:
 
 def _picture(entries: Table, rows: pandas.DataFrame, folder: Path, name: str) -> Path:
     for key in entries:
-        check_name("study [[picture]] key", key, _KEYS)
+        require_known("study [[picture]] key", key, _KEYS)
     for key in ("x", "y"):
         if key not in entries:
             raise InputError(f"study [[picture]] {key} is missing; give the name of a column")
     x, y, by = entries["x"], entries["y"], list(entries.get("by", []))
     where = entries.get("where", {})
     for column in (x, y, *by, *where):
-        check_name("study [[picture]] column", column, list(rows.columns))
+        require_known("study [[picture]] column", column, list(rows.columns))
     chosen = rows
     for column, value in where.items():
         chosen = chosen[chosen[column].isin(value if isinstance(value, list) else [value])]

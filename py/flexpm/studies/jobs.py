@@ -20,7 +20,8 @@ from ..files import Table, json_text, write_text
 from ..laboratory import run_spec
 from ..laboratory.run_spec import RunSpec
 from ..materials import material as materials
-from ..materials.keys import UNITS, check_name
+from ..materials.keys import UNITS
+from ..require import require_known
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = (*run_spec.TESTS, run_spec.ELASTIC)
@@ -79,10 +80,10 @@ def make(inputs: Table, base: Path) -> Job:
     if "test" not in given:
         raise InputError(f"study test is missing; give one of {', '.join(_TESTS)}")
     test = given.pop("test")
-    check_name("study test", test, _TESTS)
+    require_known("study test", test, _TESTS)
     used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
     for key in used:
-        check_name("study key", key, [*run_spec.OPTIONS, "material", *_CHANGES])
+        require_known("study key", key, [*run_spec.OPTIONS, "material", *_CHANGES])
     if str(used.get("material", "")).endswith(".toml"):
         used["material"] = str(base / used["material"])
     model = used.get("model", RunSpec.model)

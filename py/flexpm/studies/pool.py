@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Protocol, TypedDict
 
 from ..errors import InputError
 from ..files import Table
-from ..materials.keys import check_name
 from ..progress import Progress
+from ..require import require_known
 from . import jobs
 from .jobs import Job
 
@@ -158,7 +158,7 @@ def _batch_cluster(kind: str) -> _Cluster:
         for name, value in vars(dask_jobqueue).items()
         if name.endswith("Cluster")
     }
-    check_name("cluster", kind, sorted(classes))
+    require_known("cluster", kind, sorted(classes))
     cluster: _Cluster = classes[kind]()
     return cluster
 

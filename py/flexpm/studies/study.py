@@ -16,8 +16,8 @@ import pandas
 
 from ..errors import InputError
 from ..files import Table, load_toml, output_folder
-from ..materials.keys import check_name
 from ..progress import Progress
+from ..require import require_known
 from . import jobs
 from .jobs import Job
 from .pool import Pool
@@ -56,10 +56,10 @@ def read(path: Path | str) -> Study:
     path = Path(path)
     content = load_toml(path, "study")
     for name in content:
-        check_name("study table", name, _TABLES)
+        require_known("study table", name, _TABLES)
     about = content.get("study", {})
     for key in about:
-        check_name("study [study] key", key, _STUDY_KEYS)
+        require_known("study [study] key", key, _STUDY_KEYS)
     made = [jobs.make(inputs, path.parent) for inputs in combinations(content)]
     distinct = {job.key: job for job in made}
     return Study(about.get("name", path.stem), [*distinct.values()], content.get("picture", []))

@@ -238,7 +238,7 @@ def test_wrong_values_are_refused_in_one_line(change, words):
         Specimen.rectangle(**{**GOOD, **change})
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
-    assert ";" in str(caught.value)
+    assert " must " in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -280,7 +280,7 @@ def test_a_specimen_is_made_again_from_its_description():
     )
     with pytest.raises(InputError, match="largest diameter"):
         SpecimenSpec(width=0.004)
-    with pytest.raises(InputError, match="porosity = 1.0, must be >= 0 and < 1"):
+    with pytest.raises(InputError, match="porosity = 1.0, must be < 1"):
         SpecimenSpec(porosity=1.0)
 
 

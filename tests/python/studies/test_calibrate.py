@@ -52,7 +52,7 @@ def plan_of(folder: Path, text: str = GOOD) -> calibration.Calibration:
     [
         ("[free]", "[fre]", "did you mean free?"),
         ("compressive_strength =", "compresive_strength =", "did you mean compressive_strength?"),
-        ("value = 120e6", "value = -1", "must be a number > 0"),
+        ("value = 120e6", "value = -1", "must be > 0"),
         ("value = 120e6, ", "", "must be given a value"),
         ("cohesion = [5e6, 90e6]", "cohesion = [9e7, 5e6]", "the smaller first"),
         ("cohesion = [5e6, 90e6]", "cohesoin = [5e6, 9e7]", "did you mean cohesion?"),
