@@ -10,3 +10,7 @@ class InputError(ValueError):
 
 class SimulationError(RuntimeError):
     """A simulation could not be carried to its end."""
+
+
+class BusyError(OSError):
+    """Another process uses the folder."""

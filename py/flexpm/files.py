@@ -1,23 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files: output is whole or absent, written under a temporary name, then renamed; TOML input."""
+"""Files: output is whole or absent, written under a temporary name, then renamed; TOML input.
+
+A folder that a process writes to for long is locked, so that no second one does the same.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import csv
+import errno
+import fcntl
 import io
 import json
 import os
 import tempfile
 import tomllib
+import weakref
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from .errors import InputError
+from .errors import BusyError, InputError
 
 #: A table of a TOML or JSON file: values, lists and tables.
 Table = dict[str, Any]
+
+#: Begins the name of each temporary file.
+_TEMPORARY = ".flexpm-"
+_LOCK = ".flexpm.lock"
+#: Errors of a disk or a machine that is full or broken, not of what the user has named.
+DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENFILE, errno.EMFILE)
+#: Errors of file systems that have no locks; runs there go on without.
+_NO_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
 
 
 @contextlib.contextmanager
@@ -31,7 +45,11 @@ def whole_file(path: Path | str) -> Iterator[Path]:
         path: Final name of the file; its folder must exist.
     """
     path = Path(path)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "is a folder, must be a file", str(path))
+    handle, name = tempfile.mkstemp(
+        prefix=f"{_TEMPORARY}{path.stem}-", suffix=path.suffix, dir=path.parent
+    )
     os.close(handle)
     temporary = Path(name)
     try:
@@ -98,15 +116,86 @@ def output_folder(path: Path | str) -> Path:
     """
     path = Path(path)
     try:
+        str(path).encode()  # other libraries take names as text only
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):
             pass
     except OSError as error:
+        if error.errno in DISK_ERRORS:
+            raise
         raise InputError(
             f"out = {str(path)!r}, must be a folder that can be written to "
             f"({error.strerror}); choose another folder"
         ) from None
+    except ValueError:
+        raise InputError(
+            f"out = {str(path)!r}, must be a name of valid characters; choose another folder"
+        ) from None
     return path
+
+
+class FolderLock:
+    """Keeps other processes out of a folder as long as it lives.
+
+    The lock is the kernel's (flock): it ends with the process, however that ends. Within one
+    process a folder can be locked several times. Temporary files that are found in the folder have
+    been left by dead processes and are removed.
+    """
+
+    _held: weakref.WeakValueDictionary[Path, FolderLock] = weakref.WeakValueDictionary()
+
+    def __new__(cls, folder: Path) -> FolderLock:
+        """Lock `folder`, which exists, or take the lock that this process has.
+
+        Raises:
+            BusyError: if another process has it.
+        """
+        place = folder.resolve()
+        held = cls._held.get(place)
+        if held is not None:
+            return held
+        made = super().__new__(cls)
+        handle = _locked(place / _LOCK, folder)
+        if handle is not None:
+            weakref.finalize(made, _unlock, place / _LOCK, handle, os.getpid())
+        for left in place.glob(f"{_TEMPORARY}*"):
+            with contextlib.suppress(OSError):
+                left.unlink()
+        cls._held[place] = made
+        return made
+
+
+def _locked(file: Path, folder: Path) -> int | None:
+    """Open and lock a file; None if the file system cannot."""
+    while True:
+        handle = os.open(file, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            # the one who had it may have removed the file in the meantime
+            if file.stat().st_ino == os.fstat(handle).st_ino:
+                return handle
+        except BlockingIOError:
+            os.close(handle)
+            raise BusyError(
+                f"out = {str(folder)!r}, is in use by another process of flexpm; wait for its end "
+                "or choose another folder"
+            ) from None
+        except OSError as error:
+            os.close(handle)
+            if error.errno in _NO_LOCKS:
+                file.unlink(missing_ok=True)
+                return None
+            if isinstance(error, FileNotFoundError):
+                continue
+            raise
+        os.close(handle)
+
+
+def _unlock(file: Path, handle: int, owner: int) -> None:
+    if os.getpid() == owner:  # not in a child that has inherited it
+        with contextlib.suppress(OSError):
+            file.unlink()  # while it is locked: nobody else can have the same file
+        os.close(handle)
 
 
 def _umask() -> int:

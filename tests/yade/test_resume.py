@@ -5,14 +5,21 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
 from pathlib import Path
 
+import hypothesis
 import pytest
+import yade
+from hypothesis import HealthCheck, assume, given
+from hypothesis import strategies as st
 
 import flexpm
+from flexpm.errors import BusyError
+from flexpm.files import FolderLock
 from flexpm.laboratory import checkpoint
 from flexpm.laboratory.checkpoint import Checkpoint
 from flexpm.laboratory.run_spec import RunSpec
@@ -33,6 +40,18 @@ FACTORS = {"rigid": 0.125, "inner": 4.0, "inner-un": 4.0}
 SPEC = RunSpec("uniaxial", SpecimenSpec(), {})
 #: Stages of flexpm's own models in which a test is killed, one after the other.
 STAGES = {"biaxial": (1, 2)}
+#: A run that ends soon, before its peak.
+STOPPED = {"rate": 8.0, "max_strain": 1e-5}
+#: Writes a file into a folder that it has locked, and comes to no end.
+HOLD = """
+import sys, time
+from pathlib import Path
+from flexpm.files import FolderLock, whole_file
+lock = FolderLock(Path(sys.argv[1]))
+with whole_file(Path(sys.argv[1]) / "curve.csv"):
+    print("locked", flush=True)
+    time.sleep(60)
+"""
 SCRIPT = """
 import json, sys, flexpm
 job = json.loads(sys.argv[1])
@@ -64,6 +83,10 @@ def start(
     environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
     command = [PYTHON, "-c", SCRIPT, job]
     return subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE, text=True)
+
+
+def saved_in(folder: Path) -> dict:
+    return json.loads((folder / "checkpoint.json").read_text())
 
 
 def saved(folder: Path) -> dict:
@@ -213,13 +236,138 @@ def test_a_file_that_is_no_checkpoint_is_refused_in_one_line(tmp_path, text):
     assert "\n" not in str(caught.value)
 
 
-def test_a_damaged_scene_is_refused_in_one_line(small, tmp_path):
-    flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
-    scene = next(tmp_path.glob("checkpoint-*.bin"))
-    scene.write_bytes(scene.read_bytes()[:1000])
-    with pytest.raises(flexpm.InputError, match=r"cannot be read .* remove") as caught:
-        flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
+@pytest.fixture(scope="module")
+def stopped(small, tmp_path_factory) -> Path:
+    """A folder with the checkpoint of a run that has ended."""
+    folder = tmp_path_factory.mktemp("stopped")
+    flexpm.run("tension", small, **STOPPED, out=folder)
+    return folder
+
+
+@pytest.fixture
+def copied(stopped, tmp_path) -> Path:
+    return Path(
+        shutil.copytree(stopped, tmp_path / "copy", ignore=shutil.ignore_patterns(".flexpm*"))
+    )
+
+
+def refusal(small: flexpm.Specimen, folder: Path) -> str:
+    """The one line in which a run into a folder is refused."""
+    with pytest.raises(flexpm.InputError) as caught:
+        flexpm.run("tension", small, **STOPPED, out=folder)
     assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_checkpoint_is_good_for_a_run_at_any_time(small, copied):
+    assert flexpm.run("tension", small, **STOPPED, out=copied).resumed_at > 0
+    assert flexpm.run("tension", small, **STOPPED, out=copied).resumed_at > 0
+
+
+@given(place=st.floats(0.0, 1.0, exclude_max=True), bit=st.integers(0, 7))
+@hypothesis.settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_flipped_bit_of_either_file_is_refused_in_one_line(small, stopped, place, bit):
+    for name in ("checkpoint.json", saved_in(stopped)["scene"]):
+        file = stopped / name
+        whole = file.read_bytes()
+        number = int(place * len(whole))
+        try:
+            file.write_bytes(
+                whole[:number] + bytes([whole[number] ^ 1 << bit]) + whole[number + 1 :]
+            )
+            assert "checkpoint" in refusal(small, stopped)
+        finally:
+            file.write_bytes(whole)
+
+
+@given(part=st.floats(0.0, 1.0, exclude_max=True))
+@hypothesis.settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_scene_that_was_cut_is_refused_in_one_line(small, stopped, part):
+    file = stopped / saved_in(stopped)["scene"]
+    whole = file.read_bytes()
+    try:
+        file.write_bytes(whole[: int(part * len(whole))])
+        assert "is damaged" in refusal(small, stopped)
+    finally:
+        file.write_bytes(whole)
+
+
+ANY_JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3), inner),
+    max_leaves=4,
+)
+
+
+@given(
+    name=st.sampled_from(("scene", "stage", "stage_start", "step_time", "inputs", "sha256")),
+    value=ANY_JSON | st.sampled_from(["/etc/passwd", "../checkpoint-1.bin", -1, 99, 2.0, True]),
+)
+@hypothesis.settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_value_in_a_checkpoint_is_refused_in_one_line(small, stopped, name, value):
+    file = stopped / "checkpoint.json"
+    whole = file.read_text()
+    content = json.loads(whole)
+    assume(content[name] != value)
+    try:
+        file.write_text(json.dumps(content | {name: value}))
+        assert "checkpoint" in refusal(small, stopped)
+    finally:
+        file.write_text(whole)
+
+
+def test_a_scene_with_an_engine_that_could_run_any_code_is_refused(small, copied):
+    about = saved_in(copied)
+    wrapper = yade.wrapper
+    yade.O.load(str(copied / about["scene"]))
+    yade.O.engines = [*yade.O.engines, wrapper.PyRunner(command="1/0", iterPeriod=1)]
+    yade.O.save(str(copied / about["scene"]), quiet=True)
+    del about["sha256"]
+    about["sha256"] = checkpoint._checksum(about, copied / about["scene"])
+    (copied / "checkpoint.json").write_text(json.dumps(about))
+    assert "has an engine PyRunner" in refusal(small, copied)
+
+
+def test_a_full_disk_is_named_and_leaves_the_earlier_checkpoint(small, copied, monkeypatch):
+    class Full:
+        iter = 7
+
+        def save(self, name: str, quiet: bool) -> None:
+            Path(name).write_bytes(b"half")
+            raise RuntimeError("output stream error")
+
+    before = {file.name: file.read_bytes() for file in copied.iterdir()}
+    spec = flexpm.run("tension", small, **STOPPED, out=copied.parent / "other").inputs
+    kept = Checkpoint(copied, RunSpec.from_json(spec))
+    monkeypatch.setattr(checkpoint.yade, "O", Full())
+    with pytest.raises(OSError, match=r"cannot be written .* MB left, make room"):
+        kept.save()
+    monkeypatch.undo()
+    del kept
+    assert {file.name: file.read_bytes() for file in copied.iterdir()} == before
+
+
+def test_a_folder_takes_one_process_and_a_dead_one_leaves_it_free(package_parent, tmp_path):
+    holder = subprocess.Popen(
+        [PYTHON, "-c", HOLD, str(tmp_path)],
+        env=dict(os.environ, PYTHONPATH=str(package_parent), FLEXPM_DEFER="1"),
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert holder.stdout.readline() == "locked\n"
+    (tmp_path / "curve.csv").write_text("whole")
+    with pytest.raises(BusyError, match="in use by another process") as caught:
+        FolderLock(tmp_path)
+    assert "\n" not in str(caught.value)
+    assert len([name for name in tmp_path.iterdir() if name.name.startswith(".flexpm-")]) == 1
+    holder.kill()
+    holder.wait()
+    holder.stdout.close()
+    lock = FolderLock(tmp_path)
+    assert FolderLock(tmp_path) is lock  # once more in this process
+    assert sorted(file.name for file in tmp_path.iterdir()) == [".flexpm.lock", "curve.csv"]
+    del lock
+    assert [file.name for file in tmp_path.iterdir()] == ["curve.csv"]
 
 
 @pytest.mark.parametrize("interval", [0.0, -1.0, float("nan")])

@@ -71,8 +71,13 @@ def command() -> None:
 @cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option
+@click.option(
+    "--discard-checkpoint",
+    is_flag=True,
+    help="Start again if the folder holds a checkpoint that is damaged or of another run.",
+)
 @cli_options.quiet_option
-def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
+def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
     """Run a laboratory test and write its files.
 
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
@@ -83,8 +88,10 @@ def run(test: str, out: Path, quiet: bool, **options: Any) -> None:
     spec = cli_library.run_spec(test, options, chosen)
     folder = output_folder(out)
     cli_library.load_yade()
-    from ..laboratory import protocols
+    from ..laboratory import checkpoint, protocols
 
+    if discard_checkpoint and (why := checkpoint.discard_unusable(folder, spec)):
+        click.echo(f"starts again: {why}")
     with terminal.Progress(quiet) as progress:
         specimen = cli_library.packed(spec.specimen, progress)
         plan = protocols.plan_run(spec, specimen, chosen, folder)

@@ -2,23 +2,30 @@
 """Checkpoints of a run in its folder: saved now and then, resumed to the same bits.
 
 ``checkpoint.json`` names the inputs of the run, its stage, and the file of YADE's scene that goes
-with it. It is replaced after that file is whole, so a kill at any time leaves a pair that fits.
+with it. It is replaced after that file is whole, so a kill at any time leaves a pair that fits. It
+holds a checksum of both files: what a disk or an editor has changed is refused, not computed with.
+The folder is locked against other processes as long as the checkpoint is in use.
 """
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
+import math
+import re
+import shutil
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import yade
 
+from .. import _plugin
 from .._version import __version__
 from ..errors import InputError
-from ..files import json_text, whole_file, write_text
+from ..files import FolderLock, Table, json_text, whole_file, write_text
 from .run_spec import RunSpec
 
 #: Wall time between two checkpoints [s].
@@ -26,6 +33,12 @@ INTERVAL = 30.0
 _NAME = "checkpoint.json"
 #: YADE's plain binary archive: compressing it takes longer than writing it.
 _SCENE = "checkpoint-{step}.bin"
+_SCENE_PATTERN = re.compile(r"checkpoint-\d{1,18}(\.1)?\.bin")
+_CHECKSUM = "sha256"
+#: Engines of YADE that models have beside those of flexpm; others could run any code.
+_ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "NewtonIntegrator")
+#: More stages than any test has.
+_MOST_STAGES = 9
 
 
 class Checkpoint:
@@ -47,7 +60,8 @@ class Checkpoint:
             interval: Wall time between two checkpoints [s], > 0.
 
         Raises:
-            InputError: if the folder holds a checkpoint of other inputs.
+            InputError: if the folder holds a checkpoint of other inputs or a damaged one.
+            BusyError: if another process uses the folder.
         """
         if not interval > 0.0:
             raise InputError(f"run: checkpoint_interval = {interval} s, must be above 0")
@@ -58,6 +72,7 @@ class Checkpoint:
         self.stage, self.stage_start = 0, 0
         self.step_time: float | None = None
         self.resumed_at: int | None = None
+        self._lock = None if folder is None else FolderLock(folder)
         if folder is not None and (folder / _NAME).exists():
             self._read(folder / _NAME)
 
@@ -75,60 +90,146 @@ class Checkpoint:
         """Replace YADE's scene by the saved one."""
         try:
             yade.O.load(str(self._scene))
-        except RuntimeError as error:
+        except (RuntimeError, MemoryError) as error:
             raise InputError(
                 f"run: checkpoint = {self._scene}, cannot be read ({error}); "
                 f"remove {_NAME} to start again"
             ) from error
+        known = {*_ENGINES, *_plugin.load()}
+        for engine in yade.O.engines:
+            if type(engine).__name__ not in known:
+                yade.O.reset()
+                raise InputError(
+                    f"run: checkpoint = {self._scene}, has an engine {type(engine).__name__} that "
+                    f"no test of flexpm has; remove {_NAME} to start again"
+                )
         self.resumed_at = yade.O.iter
 
     def save(self) -> None:
-        """Save YADE's scene, which must not be running."""
+        """Save YADE's scene, which must not be running.
+
+        Raises:
+            OSError: if the disk does not take it; an earlier checkpoint is left as it was.
+        """
         if self._folder is None:
             return
         scene = self._folder / _SCENE.format(step=yade.O.iter)
+        if scene == self._scene:  # the file that checkpoint.json names must stay as it is
+            scene = scene.with_suffix(".1.bin")
         with whole_file(scene) as temporary:
-            yade.O.save(str(temporary), quiet=True)
-        self._write(scene)
+            try:
+                yade.O.save(str(temporary), quiet=True)
+            except RuntimeError as error:  # of the archive, which does not know the reason
+                free = shutil.disk_usage(self._folder).free
+                raise OSError(
+                    f"checkpoint = {str(scene)!r}, cannot be written ({error}); its disk has "
+                    f"{free / 1e6:.1f} MB left, make room and start the same command again"
+                ) from None
+            about = self._about(scene)
+            about[_CHECKSUM] = _checksum(about, temporary)
+        write_text(self._folder / _NAME, json_text(about))
         self._scene, self._saved = scene, time.monotonic()
         self._remove_others(scene)
 
-    def _write(self, scene: Path) -> None:
-        content = {
+    def _about(self, scene: Path) -> Table:
+        return {
             "scene": scene.name,
             "stage": self.stage,
             "stage_start": self.stage_start,
             "step_time": self.step_time,
             **self._made,
         }
-        write_text(self._folder / _NAME, json_text(content))
 
     def _read(self, file: Path) -> None:
-        try:
-            content = json.loads(file.read_text(encoding="utf-8"))
-            there = _flat({name: content[name] for name in self._made})
-            scene = file.parent / content["scene"]
-            stage, start, step_time = (
-                content[key] for key in ("stage", "stage_start", "step_time")
-            )
-        except (AttributeError, KeyError, TypeError, ValueError) as error:
-            raise InputError(
-                f"run: {file} = {type(error).__name__}, must be a checkpoint of flexpm; "
-                "choose another folder"
-            ) from None
+        content = _content(file)
+        scene = file.parent / content["scene"]
         if not scene.exists():
             return  # someone has removed it: there is nothing to go on from, and nothing to lose
+        given = content.pop(_CHECKSUM)
+        try:
+            same = given == _checksum(content, scene)
+            there = _flat({name: content[name] for name in self._made})
+        except (OSError, LookupError, TypeError, ValueError) as error:
+            raise _no_checkpoint(file, error) from None
+        if not same:
+            raise InputError(
+                f"run: checkpoint = {scene}, is damaged: {file.name} has another checksum; remove "
+                f"{file.name} to start again"
+            )
         _refuse_differences(file.parent, there, _flat(self._made))
         self._scene = scene
-        self.stage, self.stage_start, self.step_time = stage, start, step_time
+        self.stage, self.stage_start = content["stage"], content["stage_start"]
+        self.step_time = content["step_time"]
 
     def _remove_others(self, scene: Path) -> None:
-        # also parts of files that a killed run has left
-        for pattern in (_SCENE.format(step="*"), "." + _SCENE.format(step="*")):
-            for other in self._folder.glob(pattern):
-                if other != scene:
-                    with contextlib.suppress(OSError):
-                        other.unlink()
+        for other in self._folder.glob(_SCENE.format(step="*")):
+            if other != scene:
+                with contextlib.suppress(OSError):
+                    other.unlink()
+
+
+def discard_unusable(folder: Path, spec: RunSpec) -> str:
+    """Remove a checkpoint that a run cannot go on from: damaged, of other inputs or versions.
+
+    Returns:
+        Why it could not be used, or an empty text.
+
+    Raises:
+        BusyError: if another process uses the folder.
+    """
+    try:
+        Checkpoint(folder, spec)
+    except InputError as error:
+        (folder / _NAME).unlink(missing_ok=True)
+        return str(error)
+    return ""
+
+
+def _content(file: Path) -> Table:
+    """What checkpoint.json holds, each entry of the right type and range."""
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise _no_checkpoint(file, error) from None
+    rules: dict[str, Callable[[object], bool]] = {
+        "scene": lambda name: isinstance(name, str) and bool(_SCENE_PATTERN.fullmatch(name)),
+        "stage": lambda stage: _is_count(stage) and stage <= _MOST_STAGES,
+        "stage_start": _is_count,
+        "step_time": lambda time: time is None
+        or (isinstance(time, float) and math.isfinite(time) and time > 0.0),
+        "inputs": lambda inputs: isinstance(inputs, dict),
+        _CHECKSUM: lambda checksum: isinstance(checksum, str),
+    }
+    if not isinstance(content, dict):
+        raise _no_checkpoint(file, TypeError())
+    for name, holds in rules.items():
+        if name not in content:
+            raise _no_checkpoint(file, KeyError())
+        if not holds(content[name]):
+            raise InputError(
+                f"run: {file} {name} = {str(content[name])[:80]!r}, must be a checkpoint of "
+                "flexpm; remove the file to start again"
+            )
+    return content
+
+
+def _is_count(value: object) -> TypeGuard[int]:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63
+
+
+def _no_checkpoint(file: Path, error: Exception) -> InputError:
+    return InputError(
+        f"run: {file} = {type(error).__name__}, must be a checkpoint of flexpm; choose another "
+        "folder or remove the file"
+    )
+
+
+def _checksum(about: Mapping[str, object], scene: Path) -> str:
+    """Checksum of a scene and of what checkpoint.json says about it."""
+    with scene.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256")
+    digest.update(json.dumps(about, sort_keys=True).encode())
+    return digest.hexdigest()
 
 
 def _versions(spec: RunSpec) -> dict[str, Any]:
@@ -150,6 +251,6 @@ def _refuse_differences(folder: Path, there: dict[str, Any], here: dict[str, Any
     for name in {**here, **there}:
         if there.get(name) != here.get(name):
             raise InputError(
-                f"out = {str(folder)!r}, holds a checkpoint of another run "
-                f"({name} = {there.get(name)} there, {here.get(name)} here); choose another folder"
+                f"out = {str(folder)!r}, holds a checkpoint of another run ({name} = "
+                f"{str(there.get(name))[:80]} there, {here.get(name)} here); choose another folder"
             )

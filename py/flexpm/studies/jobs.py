@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from subprocess import CompletedProcess
 
-from .._version import __version__
 from ..errors import InputError
 from ..files import Table, json_text, write_text
 from ..laboratory import run_spec
@@ -97,9 +96,10 @@ def known(folder: Path) -> Table | None:
     """The outcome of a job that has ended in `folder`, or None."""
     try:
         outcome: Table = json.loads((folder / _OUTCOME).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        whole = outcome["exit_code"] in _FINAL and isinstance(outcome["message"], str)
+        return outcome if whole and isinstance(outcome["result"], dict) else None
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
         return None
-    return outcome
 
 
 def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
@@ -116,17 +116,6 @@ def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
     if not count:
         return ""
     return f"{count} finished runs are of an older results number and are run again"
-
-
-def discard_foreign_checkpoint(folder: Path) -> None:
-    """Remove the checkpoint that another version of flexpm has left; it cannot be taken up."""
-    try:
-        content = json.loads((folder / "checkpoint.json").read_text(encoding="utf-8"))
-        foreign = content["flexpm"] != __version__
-    except (OSError, ValueError, KeyError, TypeError):
-        return
-    if foreign:
-        _remove_checkpoint(folder)
 
 
 def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException) -> Table:
@@ -163,7 +152,9 @@ def _remove_checkpoint(folder: Path) -> None:
 def _measures(file: Path) -> Table:
     try:
         content = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
+        return {}
+    if not isinstance(content, dict):
         return {}
     return {
         key: value
@@ -174,7 +165,9 @@ def _measures(file: Path) -> Table:
 
 def _arguments(test: str, used: Table) -> Iterator[str]:
     """The command with its options."""
-    yield from (test,) if test == run_spec.ELASTIC else ("run", test)
+    # a checkpoint that cannot be used is no fault of the run
+    run = ("run", test, "--discard-checkpoint")
+    yield from (test,) if test == run_spec.ELASTIC else run
     for key, value in used.items():
         if key.startswith("set."):
             yield from ("--set", f"{key.removeprefix('set.')}={_text(value)}")

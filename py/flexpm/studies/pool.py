@@ -92,8 +92,6 @@ class Pool:
             return
         from distributed import as_completed
 
-        for job in waiting:
-            jobs.discard_foreign_checkpoint(self._folder / job.key)
         client = self._started()
         parent = Path(__file__).parents[2].absolute()
         # a function of the standard library: workers need not import flexpm

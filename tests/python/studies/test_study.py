@@ -19,7 +19,6 @@ from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.image import imread
 
-from flexpm._version import __version__
 from flexpm.cli import inputs, main
 from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
@@ -185,14 +184,36 @@ def test_results_of_an_older_number_are_named_once_and_run_again(tmp_path, monke
     assert "2 finished runs are of an older results number and are run again" in caplog.messages[0]
 
 
-def test_a_checkpoint_of_another_version_is_no_use_to_a_job(tmp_path):
-    scene = tmp_path / "checkpoint-7.bin"
-    for version, kept in ((__version__, True), ("0.0.1", False)):
-        scene.write_bytes(b"scene")
-        (tmp_path / "checkpoint.json").write_text(json.dumps({"flexpm": version}))
-        jobs.discard_foreign_checkpoint(tmp_path)
-        assert (scene.exists(), (tmp_path / "checkpoint.json").exists()) == (kept, kept)
-    jobs.discard_foreign_checkpoint(tmp_path)
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"exit_code": 9}', "[" * 5000, "null"])
+def test_an_outcome_that_is_none_is_not_taken_for_one(tmp_path, text):
+    (tmp_path / "outcome.json").write_text(text)
+    assert jobs.known(tmp_path) is None
+
+
+@pytest.mark.long
+def test_a_checkpoint_of_no_use_is_not_taken_for_a_failed_run(package_parent, tmp_path):
+    """Neither a damaged one nor one of another version: the run starts again."""
+    sizes = {"width": 0.012, "height": 0.024, "thickness": 0.01}
+    job = jobs.make({"test": "tension", "max_strain": 1e-5, "rate": 8, **sizes}, tmp_path)
+
+    def run() -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            job.command(tmp_path / "run", package_parent), capture_output=True, text=True
+        )
+
+    first = run()
+    assert first.returncode == 3, first.stderr
+    file = tmp_path / "run" / "checkpoint.json"
+    for damage in (
+        lambda text: text.replace('"flexpm": "', '"flexpm": "17.'),
+        lambda text: text[:-30],
+        lambda text: text.replace('"stage": 2', '"stage": 1'),
+    ):
+        assert damage(file.read_text()) != file.read_text()
+        file.write_text(damage(file.read_text()))
+        again = run()
+        assert (again.returncode, "starts again" in again.stdout) == (3, True), again.stderr
+        assert jobs.conclude(job, tmp_path / "other", again)["exit_code"] == 3
 
 
 def test_a_job_asks_for_what_its_inputs_are(tmp_path):
@@ -206,7 +227,7 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
         material = inputs.material(context.params)
         assert inputs.run_spec("biaxial", context.params, material) == job.spec
     names = {option.name for option in main.command.commands["run"].params}
-    inert = {"test", "assignments", "out", "quiet", "threads"}
+    inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
     assert names - inert == {*run_spec.OPTIONS, "material"}
 
 
