@@ -8,11 +8,11 @@
 
 namespace flexpm {
 
-/// Grains (and contacts) that are stepped together: a block holds this many, one in each lane.
-/// Fixed, so that results do not depend on the instruction set chosen at run time.
+/// Number of grains (and of contacts) in a block, which are stepped together, one in each lane. It is
+/// fixed, so that results do not depend on the instruction set chosen at run time.
 constexpr int lanes = 8;
 
-/// Allocator on cache lines, so that a block of eight doubles never straddles two of them.
+/// Allocator that begins on a cache line, so that a block of eight doubles never straddles two of them.
 template <class T> struct AlignedAllocator {
     using value_type = T;
     static constexpr std::align_val_t alignment { 64 };

@@ -7,11 +7,12 @@
 
 namespace flexpm {
 
-/// The engine is that of the standard, the step to floating point is not: std distributions differ.
+/// Generator of random numbers from the standard's engine. Its distributions are not used, because they
+/// differ between libraries.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine(seed) { }
-    /// Uniform in [0, 1), 53 random bits.
+    /// Next number, uniform in [0, 1), of 53 random bits.
     double next() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
 
 private:

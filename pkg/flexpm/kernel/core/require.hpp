@@ -11,7 +11,7 @@
 
 namespace flexpm {
 
-/// Shortest common form with twelve digits: 0.004, 1.8e+14.
+/// Text of a number with at most twelve digits: 0.004, 1.8e+14.
 inline std::string number(double value)
 {
     char text[32];
@@ -22,14 +22,16 @@ inline std::string number(double value)
 /// A place in an error message, with its unit.
 inline std::string place(Point p) { return "(" + number(p.x) + ", " + number(p.y) + ") m"; }
 
+/// One line of an error message.
 inline std::string statement(
     const std::string& quantity, const std::string& value, const std::string& rule)
 {
     return quantity + " = " + value + ", " + rule;
 }
 
+/// Refuse a value that was given.
 /// @param value  with its unit
-/// @param rule   that the value breaks, and what to do
+/// @param rule   which the value breaks, and what to do
 /// @throws std::invalid_argument  always
 [[noreturn]] inline void refuse(
     const std::string& quantity, const std::string& value, const std::string& rule)
@@ -43,7 +45,7 @@ inline std::string statement(
     refuse(quantity, number(value) + (*unit ? " " : "") + unit, rule);
 }
 
-/// Unlike refuse() for what comes out of a calculation, not for what is given to it.
+/// Report a value that came out of a calculation.
 /// @throws std::runtime_error  always
 [[noreturn]] inline void fail(
     const std::string& quantity, const std::string& value, const std::string& rule)

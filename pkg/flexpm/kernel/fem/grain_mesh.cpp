@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Choice among the template's turns, flipped edges and a fan, by the smallest angle.
+/// @file  Choice between the template at each start, flipped edges and a fan, by the smallest angle.
 #include <flexpm/kernel/fem/grain_mesh.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -102,7 +102,7 @@ EdgeMap edge_map(const std::vector<Triangle>& triangles)
     return edges;
 }
 
-/// Flips the first edge whose flip raises the smaller angle; false if there is none.
+/// Flip the first edge whose flip raises the smaller angle; false if there is none.
 bool flip_one(const std::vector<Point>& nodes, std::vector<Triangle>& triangles)
 {
     const EdgeMap edges = edge_map(triangles);

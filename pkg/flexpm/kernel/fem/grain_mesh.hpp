@@ -40,7 +40,7 @@ std::vector<GrainMesh> make_grain_meshes(
 /// Smallest angle of a triangulation [rad]; negative if a triangle is not counter-clockwise.
 double smallest_angle(const std::vector<Point>& nodes, const std::vector<Triangle>& triangles);
 
-/// Flips inner edges until none raises the smallest angle of its two triangles (Lawson).
+/// Flip inner edges until none raises the smallest angle of its two triangles (Lawson).
 /// The boundary of the mesh does not change.
 void flip_edges(const std::vector<Point>& nodes, std::vector<Triangle>& triangles);
 

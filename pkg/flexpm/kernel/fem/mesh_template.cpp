@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Templates are made when first asked for and kept.
+/// @file  Store of the templates, each made when first asked for.
 #include <flexpm/kernel/fem/mesh_template.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -19,8 +19,8 @@ MeshTemplate fan(int v)
     return t;
 }
 
-/// A half-size triangle with one edge merged would put the centre on the ring: two inner nodes,
-/// half way from the centre to the middles of the first two edges, instead.
+/// Template of a triangle. A half-size triangle with one edge merged would put the centre on the ring.
+/// Instead there are two inner nodes, half way from the centre to the middles of the first two edges.
 MeshTemplate refined_triangle()
 {
     constexpr int c = 3, p0 = 4, p1 = 5;

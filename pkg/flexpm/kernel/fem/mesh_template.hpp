@@ -9,7 +9,7 @@
 
 namespace flexpm {
 
-/// Mesh inside a grain: triangles from the centre, or one ring of inner nodes more.
+/// Kind of the mesh inside a grain: triangles from the centre, or one ring of inner nodes more.
 enum class MeshKind { fan, refined };
 
 using Triangle = std::array<int, 3>;  ///< node numbers, counter-clockwise
@@ -22,7 +22,8 @@ struct MeshTemplate {
     std::vector<Triangle> triangles;
 };
 
-/// fan: V + 1 nodes, V triangles. refined: 2 V nodes, 3 V - 2 triangles.
+/// Template of a kind: a fan has V + 1 nodes and V triangles, a refined mesh 2 V nodes and 3 V - 2
+/// triangles.
 ///
 /// In the refined mesh the V - 1 inner nodes are the polygon at half size, the images of the edge
 /// from corner V - 1 to corner 0 merged into one node: one triangle stands on that edge, two on

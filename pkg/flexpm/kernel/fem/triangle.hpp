@@ -15,6 +15,7 @@ struct TriangleShape {
     double volume;              ///< area times thickness [m^3]
 };
 
+/// Shape of a triangle of given thickness [m].
 /// @throws std::invalid_argument  if the triangle is not counter-clockwise
 TriangleShape triangle_shape(Point p0, Point p1, Point p2, double thickness);
 
@@ -23,7 +24,8 @@ struct Gradient {
     double xx, xy, yx, yy;
 };
 
-/// From the displacements of the three nodes [m]: small strains keep all their digits.
+/// Displacement gradient from the displacements of the three nodes [m], not from their positions: small
+/// strains keep all their digits.
 FLEXPM_INLINE Gradient displacement_gradient(const TriangleShape& s, Point u0, Point u1, Point u2)
 {
     const double ax = u1.x - u0.x, ay = u1.y - u0.y;
@@ -46,11 +48,12 @@ FLEXPM_INLINE Gradient first_stress(const Gradient& h, const Tensor& p)
         p.xy + h.yx * p.xx + h.yy * p.xy, p.yy + h.yx * p.xy + h.yy * p.yy };
 }
 
-/// Forces that the triangle exerts on its nodes 1 and 2 [N]; node 0 gets minus their sum.
+/// Forces that a triangle exerts on its nodes 1 and 2 [N]; node 0 gets minus their sum.
 struct TriangleForces {
     double f1x, f1y, f2x, f2y;
 };
 
+/// Forces of a triangle on its nodes.
 /// @param u0, u1, u2  displacements of the nodes [m]
 FLEXPM_INLINE TriangleForces triangle_forces(
     const TriangleShape& s, const PlaneStiffness& c, Point u0, Point u1, Point u2)

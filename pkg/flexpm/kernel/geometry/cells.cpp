@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Single cells gathered from the common vertices.
+/// @file  Polygons of single cells, gathered from the common vertices.
 #include <flexpm/kernel/geometry/cells.hpp>
 
 #include <flexpm/kernel/geometry/polygon.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Single discs are checked one by one; pairs in one place are found by a sweep along x.
+/// @file  Checks of each disc by itself, and a sweep along x for discs in one place.
 #include <flexpm/kernel/geometry/disc_checks.hpp>
 
 #include <flexpm/kernel/core/require.hpp>

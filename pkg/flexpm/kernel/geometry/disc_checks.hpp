@@ -8,12 +8,13 @@
 
 namespace flexpm {
 
+/// Check that all discs are sound and inside the outline.
 /// @throws std::invalid_argument  for no disc, a non-finite number, a radius <= 0, or a centre
 ///                                outside
 void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline);
 
-/// Per disc: does a larger one (of equal ones: an earlier one) have its centre in the same place, to
-/// 1e-6 of the mean diameter. The radical axis of such a pair is lost in round-off.
+/// For each disc, whether a larger one (of equal ones: an earlier one) has its centre in the same place,
+/// to 1e-6 of the mean diameter. The radical axis of such a pair is lost in round-off.
 std::vector<bool> find_coincident(const std::vector<Disc>& discs);
 
 }  // namespace flexpm

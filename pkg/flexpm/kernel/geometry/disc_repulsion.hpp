@@ -9,20 +9,20 @@
 
 namespace flexpm {
 
-/// Two discs and what is known of them as long as they keep touching, or keep apart.
+/// State of two discs, valid as long as they keep touching or keep apart.
 struct DiscPair {
-    double reach = 0.0;      ///< sum of the radii
+    double radius_sum = 0.0;
     double stiffness = 0.0;  ///< force over overlap
     bool touching = false;
 };
 
-/// What a pair does in a step.
+/// Result of a pair in a step.
 struct PairPush {
     bool changes = false;  ///< the pair begins or ceases to touch: the push is not given
     Point push;            ///< force on the second disc, the first takes the opposite; 0 if apart
 };
 
-/// Push of the discs at `first` and `second`. The order of operations is that of YADE's spheres, to
+/// Push between the discs at `first` and `second`. The order of operations is that of YADE's spheres, to
 /// the last bit, so that a packing does not depend on which of the two computed it.
 inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
 {
@@ -31,10 +31,10 @@ inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
     if (!pair.touching) {
         // pairs within rounding of touching are left to the code that decides
         constexpr double rounding = 1e-12;
-        return { square <= pair.reach * pair.reach * (1.0 + rounding), {} };
+        return { square <= pair.radius_sum * pair.radius_sum * (1.0 + rounding), {} };
     }
     const double distance = std::sqrt(square);
-    const double overlap = pair.reach - distance;
+    const double overlap = pair.radius_sum - distance;
     if (overlap < 0.0) return { true, {} };
     const double force = pair.stiffness * overlap;
     return { false, { force * (apart.x / distance), force * (apart.y / distance) } };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Edges in a queue by length; each collapse is tried on copies of the cells that it touches.
+/// @file  Queue of edges by length; each collapse is tried on copies of the cells that it touches.
 #include <flexpm/kernel/geometry/edge_collapse.hpp>
 
 #include <flexpm/kernel/geometry/polygon.hpp>

@@ -14,7 +14,7 @@ namespace flexpm {
 ///
 /// @param smallest  smallest area of a triangle (centroid, edge) of a changed cell; a small
 ///                  negative value lets edges of zero length go one by one
-/// @return          per vertex: does an edge end here that was collapsed into it
+/// @return          for each vertex, whether a collapsed edge ended in it
 std::vector<bool> collapse_edges(
     PowerDiagram& diagram, const Outline& outline, double threshold, double smallest);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Random places are tried until one is free; square bins find the discs near it.
+/// @file  Trials of random places until one is free; square bins hold the discs near it.
 #include <flexpm/kernel/geometry/insertion.hpp>
 
 #include <flexpm/kernel/core/random.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Capacity-constrained Lloyd relaxation: seeds go to the centroids of their power cells, weights
-/// even out the areas.
-/// The power diagram is made here and not by power_diagram(): that one cuts its cells along a convex
-/// outline, and a grain is star-shaped, not convex. Here each cell starts as the whole grain and is cut
-/// once by every other seed, which is quick for the few seeds of a grain and asks nothing of its shape.
+/// @file  Lloyd's relaxation: each seed moves to the centroid of its power cell, and weights make the
+/// areas equal.
+/// The cells are not made by power_diagram(), because that function needs a convex outline and a grain
+/// is only star-shaped. Here each cell starts as the whole grain and every other seed cuts it once.
+/// This works for any polygon and is quick for the few seeds of a grain.
 #include <flexpm/kernel/geometry/lloyd.hpp>
 
 #include <flexpm/kernel/geometry/polygon.hpp>
@@ -97,7 +97,7 @@ void cut_cells(
     }
 }
 
-/// How fast a cell's area grows with its weight [-].
+/// Derivative of a cell's area with its weight [-].
 double growth(const InnerPacking& packing, int cell)
 {
     double sum = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Geometry of a specimen's outline, paper Sec. 3.1.
+/// @file  Clipping of lines by circles and by convex polygons.
 #include <flexpm/kernel/geometry/outline.hpp>
 
 #include <flexpm/kernel/core/require.hpp>

@@ -17,8 +17,10 @@ struct Outline {
     bool is_circle() const { return corners.empty(); }
     int sides() const { return is_circle() ? 1 : static_cast<int>(corners.size()); }
 
+    /// Convex polygon.
     /// @throws std::invalid_argument  unless finite, counter-clockwise and strictly convex
     static Outline polygon(std::vector<Point> corners);
+    /// Circle.
     /// @throws std::invalid_argument  unless finite and radius > 0
     static Outline circle(Point centre, double radius);
 };

@@ -6,7 +6,7 @@ namespace flexpm {
 
 PolygonShape polygon_shape(const std::vector<Point>& polygon)
 {
-    // Relative to the first corner: a grain is small against its distance from the origin.
+    // coordinates relative to the first corner: a grain is small against its distance from the origin.
     PolygonShape shape;
     if (polygon.size() < 3) return shape;
     const Point origin = polygon[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Area, centroid and second moment of simple polygons, corners counter-clockwise.
+/// @file  Area and centroid of simple polygons, corners counter-clockwise.
 #pragma once
 
 #include <flexpm/kernel/core/vector.hpp>

@@ -30,7 +30,7 @@ using Face = Triangulation::Face_handle;
 
 constexpr int ghost = -1;
 
-/// Builds the clipped cells. Every decision (is a vertex inside, where does an edge cross the
+/// Builder of the clipped cells. Every decision (is a vertex inside, where does an edge cross the
 /// outline) is made once per dual vertex or edge, so that neighbours cannot disagree.
 class Clipper {
 public:

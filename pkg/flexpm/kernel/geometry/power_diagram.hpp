@@ -9,7 +9,7 @@
 
 namespace flexpm {
 
-/// Where a vertex may move to when edges are collapsed.
+/// Freedom of a vertex to move when edges are collapsed.
 enum class VertexKind { inner, side, corner };
 
 /// Edge of a cell, from `vertex` to the vertex of the cell's next edge.
@@ -19,7 +19,7 @@ struct CellEdge {
     int side;       ///< side of the outline, or -1 between cells
 };
 
-/// Vertices are shared: every cell that meets a point refers to it by the same index.
+/// Cells over shared vertices: every cell that meets a point refers to it by the same index.
 struct PowerDiagram {
     std::vector<Point> vertices;
     std::vector<VertexKind> kinds;             ///< per vertex

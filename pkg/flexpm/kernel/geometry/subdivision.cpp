@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Joining the small cells of all grains into one tessellation.
+/// @file  Union of the small cells of all grains in one tessellation.
 #include <flexpm/kernel/geometry/subdivision.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -15,7 +15,7 @@ namespace flexpm {
 
 namespace {
 
-/// Corners nearer than this part of an inner particle's diameter become one.
+/// Distance below which two corners become one, over the diameter of an inner particle [-].
 constexpr double merge_distance = 0.05;
 
 /// Points that are to be one vertex (union-find); the smallest number stands for all.
@@ -97,7 +97,7 @@ int next_of(const std::vector<Corner>& cell, std::size_t k)
     return cell[(k + 1) % cell.size()].vertex;
 }
 
-/// Ends of an edge that two cells of a grain share become the same vertices; short edges vanish.
+/// Make the ends of each edge that two cells of a grain share the same vertices, and remove short edges.
 void join_inside(Builder& b)
 {
     for (int i = 0; i < static_cast<int>(b.cells.size()); ++i) {
@@ -147,7 +147,7 @@ std::vector<Stretch> stretches_of(const Builder& b, int grain, int k)
     return found;
 }
 
-/// Which edge of a grain starts at a vertex.
+/// Number of the edge of a grain that starts at a vertex.
 int edge_from(const Builder& b, int grain, int vertex)
 {
     const int first = b.grains.cell_offsets[grain];
@@ -157,7 +157,7 @@ int edge_from(const Builder& b, int grain, int vertex)
     return -1;
 }
 
-/// Inner ends of the stretches of both grains that lie close together become one vertex.
+/// Make one vertex of inner ends of the stretches of both grains that lie close together.
 void merge_across(Builder& b, const std::vector<Stretch>& one, const std::vector<Stretch>& other)
 {
     for (const Stretch& s : one) {
@@ -181,8 +181,8 @@ void insert_after(std::vector<Corner>& cell, const Builder& b, int start, int en
     }
 }
 
-/// Shared stretches along the edge between two grains: every end of the one becomes a vertex of the
-/// other.
+/// Find the shared stretches along the edge between two grains. Every end of a stretch of the one
+/// becomes a vertex of the other.
 void join_across(Builder& b, const SharedEdge& e)
 {
     const int ka = edge_from(b, e.cell_a, e.vertex_0), kb = edge_from(b, e.cell_b, e.vertex_1);

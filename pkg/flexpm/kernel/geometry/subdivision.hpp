@@ -11,7 +11,7 @@
 
 namespace flexpm {
 
-/// Inner particles on average in a grain, paper Sec. 4.1.
+/// Mean number of inner particles in a grain, paper Sec. 4.1.
 constexpr double inner_particles = 26.0;
 
 /// The cells of all inner particles as one tessellation. Along the edge between two grains, cells meet
@@ -23,6 +23,7 @@ struct InnerCells {
     std::vector<std::uint8_t> outer;  ///< per shared edge: 1 between two grains
 };
 
+/// Cut all grains into cells of inner particles.
 /// @param mean_count  inner particles in a grain of mean area, at least 1
 /// @throws std::invalid_argument  if mean_count is out of range
 InnerCells make_inner_cells(const Tessellation& grains, double mean_count = inner_particles);

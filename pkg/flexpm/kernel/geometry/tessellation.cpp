@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  From a power diagram to the cells of a specimen, paper Sec. 3.1.
+/// @file  Numbering of the cells and vertices of a power diagram whose short edges are collapsed.
 #include <flexpm/kernel/geometry/tessellation.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -13,7 +13,7 @@
 namespace flexpm {
 namespace {
 
-/// Shorter edges, relative to the mean diameter, are round-off of cells that meet in one point.
+/// Length over the mean diameter below which an edge is round-off of cells that meet in one point.
 constexpr double zero_edge = 1e-10;
 
 int count_shared_edges(const PowerDiagram& diagram)
@@ -44,7 +44,7 @@ void add_edges(Tessellation& t, const std::vector<CellEdge>& cell, int index,
     }
 }
 
-/// Numbers cells without the hidden ones, and vertices in the order in which the cells use them.
+/// Number cells without the hidden ones, and vertices in the order in which the cells use them.
 Tessellation number_cells(const PowerDiagram& diagram, const std::vector<bool>& merged)
 {
     Tessellation t;

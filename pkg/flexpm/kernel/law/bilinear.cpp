@@ -18,6 +18,7 @@ double rate(double critical, double elastic)
                                                             : brittle_rate;
 }
 
+/// Refuse a fracture energy below the elastic one, which leaves nothing to soften.
 /// @param least  elastic energy at the strength [N/m]
 void check_energy(const std::string& quantity, double value, double least)
 {

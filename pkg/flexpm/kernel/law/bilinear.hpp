@@ -13,7 +13,7 @@
 
 namespace flexpm {
 
-/// What a user states of a contact between two grains.
+/// Properties of a contact between two grains as a user gives them.
 struct ContactMaterial {
     double normal_stiffness = 0.0;  ///< K_n    [Pa/m], > 0
     double shear_ratio = 0.0;       ///< eta    [-],    > 0, shear stiffness / normal stiffness
@@ -24,7 +24,7 @@ struct ContactMaterial {
     double shear_fracture_energy = 0.0;    ///< G_fs   [N/m],  >= tau^2 / (2 eta K_n)
 };
 
-/// The same, in the form that the law needs at every step.
+/// Properties of a contact in the form that the law needs at every step.
 struct LawParameters {
     double normal_stiffness = 0.0;  ///< K_n [Pa/m]
     double shear_stiffness = 0.0;   ///< eta K_n [Pa/m]
@@ -38,18 +38,20 @@ struct LawParameters {
     double slip_rate = 0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_rate` in the limit
 };
 
-/// Stands for an infinite rate: any excess over the strength uses up all damage at once, and an
+/// Stand-in for an infinite rate: any excess over the strength uses up all damage at once, and an
 /// excess of exactly zero still gives zero.
 constexpr double brittle_rate = 1e200;
 
+/// Derive the law's parameters from a contact's properties.
 /// @throws std::invalid_argument  if a value is not finite or out of range, or if a fracture energy
 ///         is below the elastic energy at the strength by more than 1e-12 of it
 LawParameters make_law(const ContactMaterial& material);
 
-/// The same stiffness and friction, and strengths that an opening or a slip of one metre would reach.
+/// Material of the same stiffness and friction, with strengths that only an opening or a slip of one
+/// metre would reach.
 ContactMaterial unbreakable(const ContactMaterial& material);
 
-/// State of a point; what it needs to continue. All zero = bonded and unloaded.
+/// State of a point, which is all that it needs to continue. All zero means bonded and unloaded.
 struct PointState {
     double opening = 0.0;          ///< u [m], relative to the bonded state; compression < 0
     double max_opening = 0.0;      ///< largest opening so far [m], >= 0
@@ -78,8 +80,8 @@ inline double damage(const LawParameters& p, double max_opening, double shear_da
 inline double secant(const LawParameters& p, double max_opening, double damage)
 {
     // below u_e the elastic slope governs an undamaged point; the guard keeps 0 / 0 away
-    const double reach = std::max(max_opening, 1e-9 * p.elastic_opening);
-    return std::min(p.normal_stiffness, (1.0 - damage) * p.tensile_strength / reach);
+    const double divisor = std::max(max_opening, 1e-9 * p.elastic_opening);
+    return std::min(p.normal_stiffness, (1.0 - damage) * p.tensile_strength / divisor);
 }
 
 /// Normal traction [Pa], tension positive.
@@ -134,32 +136,32 @@ FLEXPM_INLINE bool advance_elastic(const LawParameters& p, double opening_step, 
 {
     const double d = Intact ? 0.0 : law::damage(p, s.max_opening, s.shear_damage);
     const double opening = s.opening + opening_step;
-    const double reach = std::max(s.max_opening, opening);
+    const double largest = std::max(s.max_opening, opening);
     const double slope = Intact ? p.normal_stiffness : law::secant(p, s.max_opening, d);
     const double normal = opening * (opening > 0.0 ? slope : p.normal_stiffness);
     const double shear = s.shear_traction + p.shear_stiffness * slip_step;
     const double limit = std::max((1.0 - d) * p.cohesion - p.friction * normal, 0.0);
     // a new largest opening stays elastic below the strength that is left, hence below u_e
-    const bool same_secant =
-        (reach == s.max_opening) | (p.normal_stiffness * reach <= (1.0 - d) * p.tensile_strength);
+    const bool same_secant = (largest == s.max_opening)
+        | (p.normal_stiffness * largest <= (1.0 - d) * p.tensile_strength);
     next = s;
     next.opening = opening;
-    next.max_opening = reach;
+    next.max_opening = largest;
     next.shear_traction = shear;
     next.slip = s.slip + slip_step;
     traction = { normal, shear, d, d };
     return same_secant & (std::fabs(shear) <= limit);
 }
 
-/// What friction leaves of the shear traction [Pa] and takes [J/m^2] in a step.
+/// Shear traction [Pa] that friction leaves and energy [J/m^2] that it takes in a step.
 struct Sliding {
     double shear;
     double loss;
 };
 
 /// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be damaged
-/// further: with advance_elastic() the whole step of such a point. `trial` is the traction that it would
-/// have without friction, `before` that of the last step.
+/// further. Together with advance_elastic() this is the whole step of such a point. `trial` is the
+/// traction that it would have without friction, `before` that of the last step.
 FLEXPM_INLINE Sliding slide_used_up(
     const LawParameters& p, double normal, double trial, double before)
 {
@@ -173,16 +175,16 @@ FLEXPM_INLINE Sliding slide_used_up(
 
 /// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
 /// return with its damage in closed form, and the normal traction once more with the new damage.
-/// Free of branches, so that eight points advance at once.
+/// The function has no branches, so that eight points advance at once.
 FLEXPM_INLINE Traction advance_point(
     const LawParameters& p, double opening_step, double slip_step, PointState& s)
 {
     const double before = law::damage(p, s.max_opening, s.shear_damage);
     const double opening = s.opening + opening_step;
-    const double reach = std::max(s.max_opening, opening);
-    const double normal_part = law::normal_damage(p, reach);
+    const double largest = std::max(s.max_opening, opening);
+    const double normal_part = law::normal_damage(p, largest);
     const double opened = std::min(normal_part + s.shear_damage, 1.0);
-    const double first_normal = law::normal_traction(p, opening, reach, opened);
+    const double first_normal = law::normal_traction(p, opening, largest, opened);
 
     const double trial = s.shear_traction + p.shear_stiffness * slip_step;
     const double size = std::fabs(trial);
@@ -199,10 +201,10 @@ FLEXPM_INLINE Traction advance_point(
     const double shear_damage =
         excess > 0.0 ? (used_up ? 1.0 : s.shear_damage + slip / p.critical_slip) : s.shear_damage;
     const double after = std::min(normal_part + shear_damage, 1.0);
-    const double normal = law::normal_traction(p, opening, reach, after);
+    const double normal = law::normal_traction(p, opening, largest, after);
 
     // normal: growth of the largest opening at the old shear damage, then the loss of secant slope
-    const double opening_loss = law::opening_dissipation(p, reach, s.shear_damage)
+    const double opening_loss = law::opening_dissipation(p, largest, s.shear_damage)
         - law::opening_dissipation(p, s.max_opening, s.shear_damage);
     const double secant_loss = 0.5 * opening * (first_normal - normal);
     // shear: the trapezoidal work of the step less what it stores, never below zero (a reversal in
@@ -213,7 +215,7 @@ FLEXPM_INLINE Traction advance_point(
     const double friction_loss = before >= 1.0 ? shear_loss : std::min(resisted, shear_loss);
 
     s.opening = opening;
-    s.max_opening = reach;
+    s.max_opening = largest;
     s.shear_traction = std::copysign(shear_size, trial);
     s.slip += slip_step;
     s.shear_damage = shear_damage;

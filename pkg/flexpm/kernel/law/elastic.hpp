@@ -24,6 +24,7 @@ struct PlaneStiffness {
     double shear;
 };
 
+/// Plane stiffness of a material.
 /// @throws std::invalid_argument  if a property is not finite or out of range
 PlaneStiffness plane_stiffness(const ElasticMaterial& material);
 

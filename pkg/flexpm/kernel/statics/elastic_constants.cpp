@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A strain is given to the ends; forces and widths follow from the solve.
+/// @file  Solve with a strain prescribed at the ends; the constants follow from forces and widths.
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>

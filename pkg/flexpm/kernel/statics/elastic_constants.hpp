@@ -6,15 +6,15 @@
 
 namespace flexpm {
 
-/// Constants of the assembly as a specimen; under plane strain the apparent ones.
+/// Elastic constants of a specimen as a whole; under plane strain they are the apparent ones.
 struct ElasticConstants {
     double youngs_modulus;  ///< [Pa]
     double poissons_ratio;  ///< [-]
 };
 
 /// Test a rectangle in uniaxial tension (sides 0 bottom, 1 right, 2 top, 3 left): bottom and
-/// top nodes are held and moved axially (y) only. Modulus from the top's reaction over the initial area, Poisson's ratio
-/// from the mean displacements of the left and right sides.
+/// top nodes are held and moved axially (y) only. The modulus follows from the top's reaction over the
+/// initial area, Poisson's ratio from the mean displacements of the left and right sides.
 ///
 /// @throws std::invalid_argument  if one of the four sides is missing
 /// @throws std::runtime_error     as solve_static()

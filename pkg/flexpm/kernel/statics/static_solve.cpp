@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Unknowns, their equations and the sparse factorisation.
+/// @file  Numbering of the unknowns, their equations and the sparse factorisation.
 #include <flexpm/kernel/statics/static_solve.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -42,7 +42,7 @@ void add_plate_loads(const Assembly& a, Array<double>& loads)
     }
 }
 
-/// What an entry of Assembly::displacement, or the rotation of a slot, is to the solve.
+/// Kind of an entry of Assembly::displacement, or of the rotation of a slot, in the solve.
 enum class Kind : std::uint8_t {
     padding,     ///< belongs to no node
     unknown,     ///< to be found
@@ -50,13 +50,13 @@ enum class Kind : std::uint8_t {
     follower     ///< follows the centre of its rigid grain
 };
 
-/// A node's displacement in terms of unknowns: itself, or the motion of its rigid grain.
+/// Part of a node's displacement: another entry times a factor.
 struct Term {
     int index;
     double factor;
 };
 
-/// Entries are those of Assembly::displacement, and behind them the rotation of each slot.
+/// Numbers of the unknowns. Entries are those of Assembly::displacement, and behind them the rotation of each slot.
 struct Unknowns {
     std::vector<Kind> kind;   ///< per entry
     std::vector<int> number;  ///< per entry that is unknown: its number
@@ -76,7 +76,7 @@ template <class Visit> void for_each_term(const Unknowns& n, int entry, Visit vi
     visit(n.lever[entry].index, n.lever[entry].factor);
 }
 
-/// The nodes of a rigid grain follow its centre; the rotation becomes an unknown.
+/// Let the nodes of a rigid grain follow its centre; its rotation becomes an unknown.
 void follow_centre(const Assembly& a, int grain, Unknowns& n)
 {
     const int centre = a.centre(grain);
@@ -192,7 +192,7 @@ void check_pivots(const Assembly& a, const Unknowns& n, const SparseMatrix& k, c
     const auto& original = solver.permutationPinv().indices();
     for (Eigen::Index i = 0; i < pivots.size(); ++i) {
         const double ratio = pivots[i] / diagonal[original[i]];
-        // written so that a pivot that is not a number is caught too
+        // in this form a pivot that is not a number is caught too
         if (!(ratio > smallest_pivot)) report_free_motion(a, n.index[original[i]], ratio);
     }
 }

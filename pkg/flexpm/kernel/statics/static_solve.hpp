@@ -15,7 +15,7 @@ struct Prescribed {
     double value;  ///< [m]
 };
 
-/// Both in the layout of Assembly::displacement, zero in padded lanes.
+/// Displacements and forces in the layout of Assembly::displacement, zero in padded lanes.
 struct StaticSolution {
     Array<double> displacement;  ///< [m]
     Array<double> force;         ///< of triangles and contacts on the nodes [N]; reactions = -force

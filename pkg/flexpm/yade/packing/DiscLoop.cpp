@@ -65,8 +65,8 @@ DiscLoop::Row DiscLoop::makeRow(const shared_ptr<Interaction>& interaction) cons
 	const auto *a = sphereOf(row.first, scene), *b = sphereOf(row.second, scene);
 	row.plain = a && b;
 	if (!row.plain) return row;
-	row.pair.reach    = a->radius + b->radius;
-	row.pair.touching = interaction->isReal();
+	row.pair.radius_sum = a->radius + b->radius;
+	row.pair.touching   = interaction->isReal();
 	if (!row.pair.touching) return row;
 	const auto& contact = static_cast<const NormShearPhys&>(*interaction->phys);
 	row.plain           = contact.ks == 0;
