@@ -44,6 +44,17 @@ TEST_CASE("a polygon far from the origin keeps the digits of its shape", "[polyg
     CHECK(shape.centroid.x - 1048576.0 == Approx(1.25).epsilon(1e-9));
 }
 
+TEST_CASE("the section of a rectangle is that of textbooks, about any point", "[polygon]")
+{
+    const double b = 3.0, h = 2.0;
+    const std::vector<Point> rectangle { { 0.0, 0.0 }, { b, 0.0 }, { b, h }, { 0.0, h } };
+    for (const Point about : { Point { 1.5, 1.0 }, Point { 0.2, 1.9 }, Point { -4.0, 7.0 } }) {
+        const PolygonSection section = polygon_section(rectangle, about);
+        CHECK(section.area == Approx(b * h).epsilon(1e-14));
+        CHECK(section.polar == Approx(b * h * (b * b + h * h) / 12.0).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("two corners have no area", "[polygon]")
 {
     CHECK(polygon_shape({ { 0.0, 0.0 }, { 1.0, 0.0 } }).area == 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Area and centroid of simple polygons, corners counter-clockwise.
+/// @file  Area, centroid and second moment of area of simple polygons, corners counter-clockwise.
 #pragma once
 
 #include <flexpm/kernel/core/vector.hpp>
@@ -15,6 +15,16 @@ struct PolygonShape {
 
 /// Area and centroid of a polygon; zero for less than three corners.
 PolygonShape polygon_shape(const std::vector<Point>& polygon);
+
+/// Section of a body of unit thickness.
+struct PolygonSection {
+    double area;   ///< [m^2]
+    double polar;  ///< second moment of area about the centroid [m^4]
+};
+
+/// Section of a polygon.
+/// @param about  point near the polygon, from which the sums are taken
+PolygonSection polygon_section(const std::vector<Point>& polygon, Point about);
 
 /// True if the polygon has three corners or more, winds once round the point, and each triangle
 /// (point, edge) has an area above `smallest` [m^2].

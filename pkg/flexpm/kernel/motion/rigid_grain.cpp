@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace flexpm {
 
@@ -69,23 +70,15 @@ HalfTurn half_turn(const Assembly& a, int grain)
     return { std::cos(angle), std::sin(angle) };
 }
 
-CellSection cell_section(const Assembly& a, int grain)
+PolygonSection cell_section(const Assembly& a, int grain)
 {
-    const int corners = a.group(a.grain_slot[grain] / lanes).vertices;
-    const int centre = a.centre(grain);
-    const Point c = { a.reference[centre], a.reference[centre + lanes] };
-    double area = 0.0, mx = 0.0, my = 0.0, polar = 0.0;  // about the centre
-    for (int k = 0; k < corners; ++k) {
-        const int i = a.node(grain, k), j = a.node(grain, (k + 1) % corners);
-        const double px = a.reference[i] - c.x, py = a.reference[i + lanes] - c.y;
-        const double qx = a.reference[j] - c.x, qy = a.reference[j + lanes] - c.y;
-        const double cross = px * qy - py * qx;
-        area += cross / 2.0;
-        mx += cross * (px + qx) / 6.0;
-        my += cross * (py + qy) / 6.0;
-        polar += cross * (px * px + px * qx + qx * qx + py * py + py * qy + qy * qy) / 12.0;
-    }
-    return { area, polar - (mx * mx + my * my) / area };
+    const auto reference = [&](int node) {
+        return Point { a.reference[node], a.reference[node + lanes] };
+    };
+    std::vector<Point> corners(a.group(a.grain_slot[grain] / lanes).vertices);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        corners[k] = reference(a.node(grain, static_cast<int>(k)));
+    return polygon_section(corners, reference(a.centre(grain)));
 }
 
 Resultant resultant_on(const Assembly& a, int grain)

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/motion/rigid_block.hpp>
 
 #include <algorithm>
@@ -41,12 +42,8 @@ FLEXPM_INLINE HalfTurn half_turn_of(double along, double across)
     return { cosine, 0.5 * across / cosine };
 }
 
-/// Reference area of the cell [m^2] and its polar second moment about its centroid [m^4].
-struct CellSection {
-    double area;
-    double polar;
-};
-CellSection cell_section(const Assembly& a, int grain);
+/// Section of the grain's cell in its reference shape.
+PolygonSection cell_section(const Assembly& a, int grain);
 
 /// Sum of the nodal forces on a grain [N], and their moment about its centre [N m].
 struct Resultant {

@@ -216,7 +216,7 @@ void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>&
 {
     const double density = a.elastic[a.grain_material[g]].density;
     if (a.is_rigid(g)) {
-        const CellSection section = cell_section(a, g);
+        const PolygonSection section = cell_section(a, g);
         mass[scalar_index(a.centre(g))] = density * a.thickness * section.area;
         inertia[rigid_index(a, g)] = density * a.thickness * section.polar;
         return;
