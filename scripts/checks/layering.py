@@ -25,11 +25,13 @@ TEST_FOLDERS = {"bench", "support"}
 # What the kernel must not use of the standard library: it does not print, read files or clocks.
 FORBIDDEN_STANDARD = {"chrono", "ctime", "filesystem", "fstream", "iomanip", "iostream", "ostream"}
 FORBIDDEN_WORDS = {
-    r"std::c(out|err|log)\b": "prints",
-    r"(?<!n)\bprintf\s*\(|\bputs\s*\(": "prints",
-    r"\bgetenv\s*\(": "reads the environment",
-    r"\bs?rand\s*\(|\brandom_device\b": "draws random numbers without a seed",
+    r"std::c(out|err|log)\b": "prints; callers do that",
+    r"(?<!n)\bprintf\s*\(|\bputs\s*\(": "prints; callers do that",
+    r"\bgetenv\s*\(": "reads the environment; callers do that",
+    r"\bs?rand\s*\(|\brandom_device\b": "draws random numbers without a seed; use random.hpp",
 }
+# The one home of the kernel's errors.
+ERRORS = "require.hpp"
 OPENMP = r"#\s*pragma\s+omp\s+(?!simd|declare)"
 # Classes whose layout in Debian's YADE differs from its headers.
 FORBIDDEN_YADE = ("NewtonIntegrator", "Clump")
@@ -253,12 +255,14 @@ def check_kernel(rooms: Rooms) -> Iterator[str]:
             yield f"{path}:{line}: includes {first} first; its own header comes first"
         text = without_comments(path.read_text())
         words = dict(FORBIDDEN_WORDS)
+        if path.name != ERRORS:
+            words[r"\bthrow\b"] = f"makes an error of its own form; use {ERRORS}"
         if "omp.h" not in room.libraries:
             words[OPENMP] = "uses OpenMP outside the rooms that have it"
         for pattern, what in words.items():
             for match in re.finditer(pattern, text):
                 number = text.count("\n", 0, match.start()) + 1
-                yield f"{path}:{number}: {what} ({match.group(0).strip()}); callers do that"
+                yield f"{path}:{number}: {what} ({match.group(0).strip()})"
     uses = [use for path in paths for use in cpp_uses(path, rooms.root)]
     yield from check_tree(rooms, "kernel", paths, uses)
 

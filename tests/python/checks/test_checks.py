@@ -83,6 +83,7 @@ def test_this_tree_passes(check: str) -> None:
         ("pkg/flexpm/kernel/low/a.cpp", "#include <omp.h>\n", "the room's libraries"),
         ("pkg/flexpm/kernel/low/a.cpp", "void f()\n{\n#pragma omp parallel\n}\n", "OpenMP"),
         ("pkg/flexpm/kernel/low/a.cpp", "#include <iostream>\n", "iostream"),
+        ("pkg/flexpm/kernel/low/a.cpp", "void f() { throw 1; }\n", "require.hpp"),
         ("pkg/flexpm/kernel/low/a.cpp", 'void f() { std::printf("x"); }\n', "prints"),
         ("pkg/flexpm/kernel/low/a.cpp", 'auto f() { return std::getenv("X"); }\n', "environment"),
         ("pkg/flexpm/kernel/low/a.hpp", "#include <flexpm/kernel/low/a.hpp>\n", "ring"),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace flexpm {
 
@@ -98,8 +98,8 @@ AxialObservation observe(const Assembly& a, const AxialGeometry& g)
 AxialObservation observe_disc(const Assembly& a, double diameter)
 {
     if (a.plates.size() < 2) {
-        throw std::invalid_argument("observe_disc: plates = " + std::to_string(a.plates.size())
-            + ", must be a lower and an upper one; add them first");
+        refuse("observe_disc: plates", static_cast<double>(a.plates.size()), "",
+            "must be a lower and an upper one; add them first");
     }
     const Plate &lower = a.plates[0], &upper = a.plates[1];
     AxialObservation o = observe_ends(a, { lower.force.y, upper.force.y }, Sense::compression,

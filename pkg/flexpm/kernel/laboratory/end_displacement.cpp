@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace flexpm {
 
@@ -19,8 +19,8 @@ void need_sides(const Assembly& a)
 {
     for (int side : { bottom_side, right_side, top_side, left_side }) {
         if (std::count(a.edge_side.begin(), a.edge_side.end(), side) > 0) continue;
-        throw std::invalid_argument("specimen side " + std::to_string(side)
-            + " has no edges, an axial test needs a rectangle of four sides; use another outline");
+        refuse("edges of side " + std::to_string(side), 0.0, "",
+            "an axial test needs a rectangle of four sides; use another outline");
     }
 }
 
