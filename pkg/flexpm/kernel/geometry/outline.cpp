@@ -84,7 +84,9 @@ Outline Outline::polygon(std::vector<Point> corners)
 Outline Outline::circle(Point centre, double radius)
 {
     if (!is_finite(centre)) refuse("outline: centre", place(centre), "must be finite; correct it");
-    check_positive("outline: radius", radius, "m");
+    if (!(std::isfinite(radius) && radius > 0.0)) {
+        refuse("outline: radius", radius, "m", "must be finite and > 0; correct it");
+    }
     Outline outline;
     outline.centre = centre;
     outline.radius = radius;

@@ -28,7 +28,7 @@ int count_shared_edges(const PowerDiagram& diagram)
 [[noreturn]] void refuse_hidden(const Disc& d, int i)
 {
     refuse("tessellate: disc " + std::to_string(i) + ": radius", d.radius, "m",
-        "must not be hidden by other discs at " + place(d.centre) + "; remove or move it");
+        "is hidden by others at " + place(d.centre) + ", must have a cell; remove or move it");
 }
 
 void add_edges(Tessellation& t, const std::vector<CellEdge>& cell, int index,
