@@ -3,6 +3,10 @@
 
 import sys
 
-from .cli.main import main
+from .cli import signals
+
+signals.block()  # until main answers them; an interrupted import gives a traceback
+
+from .cli.main import main  # noqa: E402
 
 sys.exit(main())

@@ -6,8 +6,11 @@ from __future__ import annotations
 import atexit
 import contextlib
 import io
+import os
+import pwd
 import sys
 import sysconfig
+import tempfile
 from pathlib import Path
 from types import ModuleType
 
@@ -47,6 +50,7 @@ def import_yade() -> ModuleType:
     """
     if "yade" in sys.modules:
         return sys.modules["yade"]
+    _give_home()
     folder = str(yade_folder() / "py")
     if folder not in sys.path:
         sys.path.append(folder)
@@ -60,6 +64,21 @@ def import_yade() -> ModuleType:
     # The program yade removes its temporary folder itself; plain Python needs this.
     atexit.register(yade.boot.finalize)
     return yade
+
+
+def _give_home() -> None:
+    """Set HOME, which YADE needs and services (cron, systemd) may not have."""
+    if not os.environ.get("HOME"):
+        home = str(Path("~").expanduser()) if _is_known_user() else tempfile.gettempdir()
+        os.environ["HOME"] = home
+
+
+def _is_known_user() -> bool:
+    try:
+        pwd.getpwuid(os.getuid())
+    except KeyError:
+        return False
+    return True
 
 
 def yade_folder() -> Path:

@@ -93,10 +93,10 @@ def compare(
             points=specs[0].points,
             **{name: options[name] for name in _SHARED},
         )
-    click.echo(comparison.table(found.cases))
+    terminal.say(comparison.table(found.cases))
     if found.envelopes:
-        click.echo(tables.envelope_table(found.envelopes, found.reference))
-    click.echo(f"  files  {folder}/")
+        terminal.say(tables.envelope_table(found.envelopes, found.reference))
+    terminal.say(f"  files  {folder}/")
     _report_failures(found.cases)
 
 

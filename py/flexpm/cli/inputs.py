@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 
 def load_yade() -> None:
-    """Load YADE and the plugin's classes."""
-    _plugin.load()
-    signals.catch_signals()
+    """Load YADE and the plugin's classes; a signal in the midst of this would end in an abort."""
+    with signals.waiting():
+        _plugin.load()
 
 
 def material(options: Table, model: str | None = None) -> Material:

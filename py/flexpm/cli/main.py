@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command `flexpm` with its subcommands. SI units; one line for each error.
 
-Exit codes: 0 done, 1 the installation is not usable, 2 wrong input, 3 a simulation failed,
-130 interrupted, 143 terminated.
+Exit codes: 0 done, 1 the installation or the machine is not usable, 2 wrong input, 3 a simulation
+failed, 130 interrupted, 143 terminated.
 """
 
 from __future__ import annotations
 
+import contextlib
+import errno
+import os
+import signal
 import sys
-from collections.abc import Sequence
+import traceback
+import warnings
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +35,19 @@ from .options import Count, Quantity
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen
+
+
+#: Set it to any text to see tracebacks.
+_DEBUG = "FLEXPM_DEBUG"
+#: Characters of an error that nobody has foreseen.
+_LONGEST = 300
+#: Errors of files and folders that the user has named; those of the machine are others.
+_NAMED = (
+    *(errno.ENOENT, errno.EACCES, errno.EPERM, errno.EISDIR, errno.ENOTDIR, errno.EEXIST),
+    *(errno.ENAMETOOLONG, errno.ELOOP, errno.EROFS),
+)
+#: Errors of our own Python, although they derive from RuntimeError.
+_OURS = (RecursionError, NotImplementedError)
 
 
 class Commands(click.Group):
@@ -91,16 +110,16 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     from ..laboratory import checkpoint, protocols
 
     if discard_checkpoint and (why := checkpoint.discard_unusable(folder, spec)):
-        click.echo(f"starts again: {why}")
+        terminal.say(f"starts again: {why}")
     with terminal.Progress(quiet) as progress:
         specimen = cli_library.packed(spec.specimen, progress)
         plan = protocols.plan_run(spec, specimen, chosen, folder)
         result = protocols.carry_out(plan, threads=options["threads"], progress=progress)
-    click.echo(tables.result_table(result))
-    click.echo(f"  files                   {folder}/")
+    terminal.say(tables.result_table(result))
+    terminal.say(f"  files                   {folder}/")
     if result.resumed_at is not None:
         again = "was complete" if result.resumed_at >= result.steps else "was taken up"
-        click.echo(f"  an earlier run there {again} at step {result.resumed_at}")
+        terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")
     if result.failed:
         raise SimulationError(
             f"status = {result.status} after {result.steps} steps, no strength was found; "
@@ -138,8 +157,8 @@ def elastic(out: Path | None, **options: Any) -> None:
         about = {name: inputs[name] for name in ("test", "model", "material")}
         about |= {"flexpm": __version__, "seed": spec.specimen.seed}
         write_text(folder / "result.json", json_text({**about, **found, "inputs": inputs}))
-    click.echo(f"{spec.model} model, {chosen.name}, seed {spec.specimen.seed}")
-    click.echo(tables.elastic_table(found))
+    terminal.say(f"{spec.model} model, {chosen.name}, seed {spec.specimen.seed}")
+    terminal.say(tables.elastic_table(found))
 
 
 @command.group(cls=Commands, short_help="Make a specimen, without a test.")
@@ -213,7 +232,7 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
 
     with terminal.Progress(quiet) as progress:
         rows = timing.run(timing.Plan(**options), json_file, progress)
-    click.echo(tables.table(rows))
+    terminal.say(tables.table(rows))
 
 
 @command.command(short_help="Many runs from one file.")
@@ -230,9 +249,9 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     pictures = figures.draw(plan, rows, folder)
     failed = rows[rows["exit_code"] != 0]
     for _, row in failed.iterrows():
-        click.echo(f"failed: runs/{row['key']}: {row['message']}")
-    click.echo(f"{plan.name}: {len(rows)} runs, {len(failed)} failed")
-    click.echo(f"  files  {', '.join(map(str, [folder / 'table.csv', *pictures]))}")
+        terminal.say(f"failed: runs/{row['key']}: {row['message']}")
+    terminal.say(f"{plan.name}: {len(rows)} runs, {len(failed)} failed")
+    terminal.say(f"  files  {', '.join(map(str, [folder / 'table.csv', *pictures]))}")
     if len(failed):
         raise SimulationError(f"runs = {len(failed)} of {len(rows)} failed; see the table")
 
@@ -253,10 +272,10 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
     preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
     calibration_report.write_preset(preset, start, plan, found)
     calibration_report.picture(picture, plan, found)
-    click.echo(
+    terminal.say(
         tables.table(calibration_report.table_rows(plan, found), f"{plan.name}, {plan.model} model")
     )
-    click.echo(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
+    terminal.say(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
     missed = [name for name, met in found.met.items() if not met]
     if missed:
         raise SimulationError(f"targets = {', '.join(missed)}, not met; see {picture}")
@@ -269,8 +288,10 @@ def doctor(ctx: click.Context) -> None:
     from .doctor import checks
 
     sound = True
-    for name, ok, text in checks():
-        click.echo(f"{'ok  ' if ok else 'FAIL'}  {name}: {text}")
+    with signals.waiting():  # a check loads YADE
+        found = list(checks())
+    for name, ok, text in found:
+        terminal.say(f"{'ok  ' if ok else 'FAIL'}  {name}: {text}")
         sound = sound and ok
     ctx.exit(0 if sound else 1)
 
@@ -280,31 +301,63 @@ command.add_command(cli_compare.compare)
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with `arguments` (the process's own if None) and return its exit code."""
-    signals.catch_signals()
+    terminal.prepare()
+    os.environ["MPLBACKEND"] = "agg"  # pictures are files; a wrong name would stop the import
+    signals.received.clear()
+    given = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        with command.make_context(
-            "flexpm", list(sys.argv[1:] if arguments is None else arguments)
-        ) as context:
+        signals.catch_signals()
+        with _no_warnings(), command.make_context("flexpm", given) as context:
             command.invoke(context)
         return 0
     except click.exceptions.Exit as request:
         return request.exit_code
-    except click.NoSuchOption as error:
-        name = error.option_name
-        hint = nearest(name, error.possibilities or [])
-        return _failed(f"option = {name!r}, unknown{hint}; see --help", 2)
-    except click.ClickException as error:
-        return _failed(error.format_message(), 2)
-    except InputError as error:
-        return _failed(error, 2)
-    except SimulationError as error:
-        return _failed(error, 3)
-    except (ImportError, OSError) as error:
-        return _failed(error, 1)
-    except (click.Abort, KeyboardInterrupt):
-        return _failed("interrupted; files that were written are whole", 130)
-    except signals.Terminated:
+    except SystemExit:
+        raise
+    except BaseException as error:
+        if os.environ.get(_DEBUG):
+            traceback.print_exc()
+        return _answer(error)
+
+
+@contextlib.contextmanager
+def _no_warnings() -> Iterator[None]:
+    """Keep warnings of libraries for those who look for errors in the program."""
+    with warnings.catch_warnings():
+        if not os.environ.get(_DEBUG):
+            warnings.simplefilter("ignore")
+        yield
+
+
+def _answer(error: BaseException) -> int:
+    """Tell what has ended the command in one line and return the exit code."""
+    if isinstance(error, signals.Terminated) or signal.SIGTERM in signals.received:
         return _failed("terminated; files that were written are whole", 143)
+    if isinstance(error, click.Abort | KeyboardInterrupt) or signals.received:
+        return _failed("interrupted; files that were written are whole", 130)
+    if isinstance(error, click.NoSuchOption):
+        hint = nearest(error.option_name, error.possibilities or [])
+        return _failed(f"option = {error.option_name!r}, unknown{hint}; see --help", 2)
+    if isinstance(error, click.ClickException):
+        return _failed(error.format_message(), 2)
+    if isinstance(error, InputError):
+        return _failed(error, 2)
+    if isinstance(error, SimulationError):
+        return _failed(error, 3)
+    if isinstance(error, BrokenPipeError):  # nobody reads the help
+        terminal.drop_output()
+        return 0
+    if isinstance(error, OSError):
+        return _failed(error, 2 if error.errno in _NAMED else 1)
+    if isinstance(error, ImportError):
+        return _failed(error, 1)
+    if isinstance(error, MemoryError):
+        return _failed("memory = exhausted; take a smaller specimen or another machine", 1)
+    if isinstance(error, RuntimeError | ArithmeticError) and not isinstance(error, _OURS):
+        # the compiled part and YADE say so; numbers beyond the range of a double do, too
+        return _failed(f"simulation failed: {error}; check the values of material and test", 3)
+    about = f"{type(error).__name__}: {str(error)[:_LONGEST]}"
+    return _failed(f"internal error: {about}; set {_DEBUG}=1 for the traceback", 1)
 
 
 def _failed(text: object, code: int) -> int:
@@ -322,5 +375,5 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     picture = folder / "specimen.png"
     triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None
     maps.specimen_picture(picture, maps.cell_polygons(made.tessellation), triangles, caption)
-    click.echo(tables.statistics_table(found))
-    click.echo(f"  files  {picture}, {folder / 'specimen.json'}")
+    terminal.say(tables.statistics_table(found))
+    terminal.say(f"  files  {picture}, {folder / 'specimen.json'}")

@@ -1,19 +1,64 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the command shows on stderr: progress and one-line errors."""
+"""What the command shows: results on stdout, progress and one-line errors on stderr."""
 
 from __future__ import annotations
 
+import contextlib
+import errno
+import io
+import os
 import sys
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn
+
+from ..text import printable
 
 if TYPE_CHECKING:
     from tqdm import tqdm
 
 
+def prepare() -> None:
+    """Open streams that are closed to nowhere, and let them show any character somehow."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
+    if sys.stdout is None:
+        sys.stdout = open(1, "w", closefd=False)  # noqa: SIM115
+    if sys.stderr is None:
+        sys.stderr = open(2, "w", closefd=False)  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+def say(text: str) -> None:
+    """Write lines to stdout; that nobody reads them is no error.
+
+    Raises:
+        OSError: if stdout is a file that cannot be written.
+    """
+    try:
+        print(printable(text, kept="\n"), flush=True)
+    except OSError as error:
+        drop_output()
+        if error.errno != errno.EPIPE:
+            raise OSError(error.errno, error.strerror, "standard output") from None
+
+
+def drop_output() -> None:
+    """Send what is still to be written to stdout nowhere, also when Python ends."""
+    with contextlib.suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
 def error_line(text: str) -> None:
     """Write `text` as one line to stderr."""
-    print("flexpm:", " ".join(str(text).split()), file=sys.stderr)
+    with contextlib.suppress(OSError):
+        print("flexpm:", printable(" ".join(str(text).split())), file=sys.stderr, flush=True)
 
 
 class Progress:

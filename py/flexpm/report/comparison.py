@@ -19,8 +19,9 @@ from ..materials.references import Reference
 from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
 from ..results.strength import Envelope, MohrCoulomb
+from .curves import fits_a_picture
 from .maps import draw_cracks
-from .style import MODE_NAMES, STYLE, save
+from .style import MODE_NAMES, STYLE, can_be_drawn, save
 
 Runs = Sequence[tuple[str, Result]]
 
@@ -36,8 +37,11 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
 
     Args:
         path: Picture to write.
-        runs: Labels and results.
+        runs: Labels and results; those with numbers beyond any picture are left out.
     """
+    runs = [(label, result) for label, result in runs if fits_a_picture(result.curve)]
+    if not runs:
+        return
     with rc_context(STYLE):
         figure = Figure(figsize=(6.2, 6.0), layout="constrained")
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1.0))
@@ -63,7 +67,11 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
 
 def cracks_picture(path: Path | str, runs: Runs) -> None:
     """Draw the crack maps of all runs in one scale; confinements of a model stand in a row."""
-    drawn = [(label, one, one.snapshot) for label, one in runs if one.snapshot is not None]
+    drawn = [
+        (label, one, one.snapshot)
+        for label, one in runs
+        if one.snapshot is not None and can_be_drawn(one.snapshot.positions)
+    ]
     if not drawn:
         return
     a_model = sum(result.model == drawn[0][1].model for _, result, _ in drawn)

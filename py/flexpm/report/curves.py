@@ -17,9 +17,24 @@ from ..results.record import Curve
 from ..results.result import Result
 from .style import COLOURS, MODE_NAMES, STYLE, save
 
+#: Strains [-] and stresses [Pa] beyond this are not drawn.
+_LARGEST = 1e30
+
+
+def fits_a_picture(record: Curve) -> bool:
+    """Whether there is no number that a picture has no room for; nan leaves a gap."""
+    drawn = np.abs([record["axial_strain"], record["axial_stress"]])
+    return not np.any(drawn > _LARGEST)
+
 
 def curve_picture(path: Path | str, result: Result) -> None:
-    """Draw stress and crack counts over strain, the line of Young's modulus, and the peak."""
+    """Draw stress and crack counts over strain, the line of Young's modulus, and the peak.
+
+    A record with numbers beyond sense, of a run that has diverged, is not drawn.
+    """
+    if not fits_a_picture(result.curve):
+        Path(path).unlink(missing_ok=True)  # of an earlier run
+        return
     with rc_context(STYLE):
         figure = Figure(figsize=(5.6, 3.9), layout="constrained")
         axes = figure.add_subplot()

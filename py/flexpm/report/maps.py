@@ -22,7 +22,7 @@ from matplotlib.patches import Patch
 from ..arrays import FloatArray, IntArray
 from ..results.cracks import SHEAR, TENSILE
 from ..results.snapshot import POINT_SHARES, Snapshot
-from .style import COLOURS, MODE_NAMES, STYLE, save
+from .style import COLOURS, MODE_NAMES, STYLE, can_be_drawn, save
 
 if TYPE_CHECKING:
     from .._flexpm import GrainMeshes, Tessellation
@@ -70,12 +70,17 @@ def crack_picture(
 ) -> None:
     """Draw the deformed grains with their cracks; each point colours its share of a contact.
 
+    A state that has no place, of a run that has diverged, is not drawn.
+
     Args:
         path: Picture to write.
         snapshot: The state.
         caption: Line above the picture.
         minerals: Their names, for the legend.
     """
+    if not can_be_drawn(snapshot.positions):
+        Path(path).unlink(missing_ok=True)  # of an earlier run
+        return
     with rc_context(STYLE):
         figure, axes = _map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
@@ -123,6 +128,9 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
         for rank, grains in enumerate(found.grains)
     ]
     colours[0] = _GRAIN_TINTS[0]
+    if not can_be_drawn(snapshot.positions):
+        Path(path).unlink(missing_ok=True)  # of an earlier run
+        return
     with rc_context(STYLE):
         figure, axes = _map_figure([snapshot.positions])
         _draw_rock(axes, snapshot, [colours[rank] for rank in found.labels])

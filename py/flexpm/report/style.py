@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes as Axes
 from matplotlib.figure import Figure
 
+from ..arrays import FloatArray
 from ..files import whole_file
 from ..results.cracks import SHEAR, TENSILE
 
@@ -27,6 +30,11 @@ STYLE = {
     "savefig.dpi": 220,
     "lines.solid_capstyle": "round",
 }
+
+#: Coordinates beyond this are not drawn.
+_LARGEST = 1e30
+#: Sides of a picture of more than this ratio are not drawn [-].
+_LONGEST = 100.0
 
 
 @contextlib.contextmanager
@@ -45,5 +53,15 @@ def drawing(path: Path | str, size: tuple[float, float] = (5.6, 3.9)) -> Iterato
 
 def save(figure: Figure, path: Path | str) -> None:
     """Write a picture, whole or not at all."""
-    with whole_file(path) as temporary:
+    with whole_file(path) as temporary, warnings.catch_warnings():
+        # a name may have characters that the font lacks; they are drawn as boxes
+        warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
         figure.savefig(temporary)
+
+
+def can_be_drawn(places: FloatArray) -> bool:
+    """Whether points (N, 2) fit into a picture; those of a run that diverged may not."""
+    if not (len(places) and np.all(np.abs(places) < _LARGEST)):
+        return False
+    width, height = np.ptp(places, axis=0)
+    return bool(0.0 < width < _LONGEST * height and height < _LONGEST * width)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -24,6 +25,9 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 from ..arrays import FloatArray, IntArray
 from ..files import whole_file
 from .snapshot import POINT_SHARES, Snapshot
+
+#: Coordinates [m] beyond this are nowhere; nan is, too.
+_FARTHEST = 1e100
 
 GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
 
@@ -188,12 +192,20 @@ def _set_geometry(grid: vtkUnstructuredGrid, snapshot: Snapshot) -> None:
 
 
 def _nearest_nodes(snapshot: Snapshot) -> IntArray:
-    """Node nearest to each end of each contact."""
+    """Node nearest to each end of each contact; the first for an end that is nowhere."""
     ends = snapshot.contact_ends.reshape(-1, 2)
-    if len(ends) == 0:
-        return np.empty(0, dtype=int)
-    nearest: IntArray = cKDTree(snapshot.positions).query(ends)[1]
-    return nearest
+    found = np.zeros(len(ends), dtype=int)
+    # numbers of a run that has diverged may be not finite, or too large to be squared
+    known = np.flatnonzero(_is_somewhere(snapshot.positions))
+    placed = _is_somewhere(ends)
+    if len(known) and placed.any():
+        found[placed] = known[cKDTree(snapshot.positions[known]).query(ends[placed])[1]]
+    return found
+
+
+def _is_somewhere(places: FloatArray) -> NDArray[np.bool_]:
+    there: NDArray[np.bool_] = np.all(np.abs(places) < _FARTHEST, axis=1)
+    return there
 
 
 def _largest(values: FloatArray) -> FloatArray:

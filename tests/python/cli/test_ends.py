@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ends of the command: one line, the documented exit code, and files that are finished."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from sample_snapshot import read_vtu
+
+import flexpm
+from flexpm.cli import main as cli
+
+ENVIRONMENT = {
+    **os.environ,
+    "PYTHONPATH": str(Path(flexpm.__file__).parent.parent),
+    "OMP_NUM_THREADS": "1",
+    "FLEXPM_DEFER": "1",
+}
+COMMAND = [sys.executable, "-P", "-m", "flexpm"]
+TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
+SOON = ["tension", *TINY, "--rate", "8", "--max-strain", "1e-5"]
+
+
+@pytest.fixture(autouse=True)
+def handlers():
+    """Give back the signal handlers of the test runner."""
+    saved = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for number, handler in saved.items():
+        signal.signal(number, handler)
+
+
+def one_line(errors: str) -> str:
+    assert errors.startswith("flexpm: ")
+    assert errors.count("\n") == 1
+    return errors
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "text"),
+    [
+        (TypeError("two\nlines"), 1, "internal error: TypeError: two lines; set FLEXPM_DEBUG=1"),
+        (RecursionError("deep"), 1, "internal error: RecursionError"),
+        (RuntimeError("solve_static: pivot"), 3, "simulation failed: solve_static: pivot"),
+        (OverflowError("too large"), 3, "simulation failed: too large"),
+        (MemoryError(), 1, "memory = exhausted"),
+        (OSError(errno.ENOSPC, "No space left on device", "curve.csv"), 1, "No space left"),
+        (IsADirectoryError(errno.EISDIR, "Is a directory", "curve.csv"), 2, "curve.csv"),
+        (PermissionError(errno.EACCES, "Permission denied", "x"), 2, "Permission denied"),
+        (flexpm.errors.BusyError("out = 'x', is in use"), 1, "is in use"),
+    ],
+)
+def test_any_exception_is_one_line(capsys, monkeypatch, error, code, text):
+    def fail(*arguments):
+        raise error
+
+    monkeypatch.setattr(cli.cli_library, "material", fail)
+    assert cli.main(["elastic"]) == code
+    assert text in one_line(capsys.readouterr().err)
+
+
+def test_a_traceback_is_shown_if_it_is_asked_for(capsys, monkeypatch):
+    monkeypatch.setattr(cli.cli_library, "material", lambda *_: 1 / None)
+    monkeypatch.setenv("FLEXPM_DEBUG", "1")
+    assert cli.main(["elastic"]) == 1
+    errors = capsys.readouterr().err
+    assert errors.startswith("Traceback")
+    assert "internal error: TypeError" in errors.splitlines()[-1]
+
+
+def test_control_characters_do_not_reach_the_terminal(capsys):
+    assert cli.main(["run", "uni\x1b[31maxial\x07"]) == 2
+    assert "\x1b" not in one_line(capsys.readouterr().err)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("test", ["uniaxial", "brazilian"])
+def test_a_diverged_run_writes_what_it_has(capsys, tmp_path, test):
+    size = ["--diameter", "0.016", "--quiet"] if test == "brazilian" else TINY
+    fast = ["--max-strain", "1e-9", "--rate", "1e10"] if test == "uniaxial" else ["--rate", "1e10"]
+    (tmp_path / "cracks.png").write_text("of an earlier run")
+    assert cli.main(["run", test, *size, *fast, "--out", str(tmp_path)]) == 3
+    one_line(capsys.readouterr().err)
+    result = json.loads((tmp_path / "result.json").read_text())
+    assert result["status"] == ("diverged" if test == "uniaxial" else "no_peak")
+    assert (tmp_path / "curve.csv").read_text().count("\n") > 1
+    assert not (tmp_path / "cracks.png").exists()
+    assert not (tmp_path / "fragments.png").exists()
+    _, points, cells = read_vtu(tmp_path / "final.vtu")
+    assert (cells["kind"] == 0).sum() == result["triangles"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("redirection", [">&-", "| true", "> /dev/full"])
+def test_files_are_finished_when_nobody_reads_stdout(tmp_path, redirection):
+    line = f'"$@" --out {tmp_path} {redirection}; exit ${{PIPESTATUS[0]}}'
+    command = ["bash", "-c", line, "bash", *COMMAND, "elastic", *TINY]
+    done = subprocess.run(command, env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
+    if "full" in redirection:
+        assert done.returncode == 1
+        assert "standard output" in one_line(done.stderr)
+    else:
+        assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads((tmp_path / "result.json").read_text())["youngs_modulus"] > 0
+
+
+def test_the_exit_code_is_right_without_stderr():
+    command = ["bash", "-c", '"$@" 2>&-', "bash", *COMMAND, "run", "nothing"]
+    assert subprocess.run(command, env=ENVIRONMENT).returncode == 2
+
+
+@pytest.mark.parametrize("change", [{"HOME": None}, {"MPLBACKEND": "nothing"}])
+def test_the_surroundings_do_not_matter(tmp_path, change):
+    surroundings = {k: v for k, v in (ENVIRONMENT | change).items() if v is not None}
+    command = [*COMMAND, "run", *SOON, "--out", str(tmp_path)]
+    done = subprocess.run(command, env=surroundings, capture_output=True, text=True)
+    assert done.returncode == 3, done.stderr
+    assert "no_peak" in one_line(done.stderr)
+
+
+def test_a_file_that_is_a_folder_is_named(capsys, tmp_path):
+    (tmp_path / "result.json").mkdir()
+    assert cli.main(["elastic", *TINY, "--out", str(tmp_path)]) == 2
+    assert "result.json" in one_line(capsys.readouterr().err)
+
+
+def test_a_folder_of_no_valid_name_is_refused(capsys):
+    assert cli.main(["elastic", *TINY, "--out", os.fsdecode(b"\xff\xfe")]) == 2
+    assert "valid characters" in one_line(capsys.readouterr().err)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("library", ["libyade", "_minieigenHP", "_flexpm.so", "_multiarray"])
+def test_a_signal_while_libraries_are_loaded_is_one_line(tmp_path, number, code, library):
+    process = subprocess.Popen(
+        [*COMMAND, "elastic", *TINY], env=ENVIRONMENT, stderr=subprocess.PIPE, text=True
+    )
+    maps = Path(f"/proc/{process.pid}/maps")
+    while library not in maps.read_text():
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.001)
+    process.send_signal(number)
+    errors = process.communicate(timeout=60)[1]
+    assert process.returncode == code, errors
+    one_line(errors)
