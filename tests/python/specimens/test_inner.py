@@ -15,6 +15,7 @@ from flexpm.errors import InputError  # noqa: E402
 from flexpm.materials import material as materials  # noqa: E402
 from flexpm.models import grains as models  # noqa: E402
 from flexpm.report import maps as plot_maps  # noqa: E402
+from flexpm.results.snapshot import Snapshot  # noqa: E402
 from flexpm.specimens import inner_particles as inner  # noqa: E402
 
 MODELS = ("inner", "inner-un")
@@ -144,13 +145,13 @@ def test_a_test_runs_to_its_end(
 
 def only_between_grains_break(result: flexpm.Result, folder) -> None:
     solver = next(e for e in yade.O.engines if type(e).__name__ == "GrainSolver")
-    snapshot = solver.snapshot()
+    snapshot = Snapshot(**solver.snapshot())
     broken = sorted({crack.contact for crack in result.cracks})
     assert broken
-    grains = snapshot["contact_grains"][broken]
+    grains = snapshot.contact_grains[broken]
     assert np.all(grains[:, 0] != grains[:, 1])
-    within = snapshot["contact_grains"][:, 0] == snapshot["contact_grains"][:, 1]
-    assert np.all(snapshot["point_damage"][within] == 0.0)
+    within = snapshot.contact_grains[:, 0] == snapshot.contact_grains[:, 1]
+    assert np.all(snapshot.point_damage[within] == 0.0)
     plot_maps.crack_picture(folder / "cracks.png", snapshot)
 
 
