@@ -25,6 +25,8 @@ from .errors import BusyError, InputError
 #: A table of a TOML or JSON file: values, lists and tables.
 Table = dict[str, Any]
 
+#: Size of the largest TOML file [byte].
+_LARGEST_TOML = 10**7
 #: Begins the name of each temporary file.
 _TEMPORARY = ".flexpm-"
 _LOCK = ".flexpm.lock"
@@ -103,12 +105,17 @@ def load_toml(path: Path, what: str) -> Table:
     """
     try:
         with path.open("rb") as file:
-            return tomllib.load(file)
+            content = file.read(_LARGEST_TOML + 1)
+        if len(content) > _LARGEST_TOML:
+            raise ValueError(f"it is larger than {_LARGEST_TOML // 10**6} MB")
+        return tomllib.loads(content.decode())
     except OSError as error:
         raise InputError(
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a TOML file"
         ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except RecursionError:
+        raise InputError(f"{what} = {str(path)!r}, is nested too deeply") from None
+    except ValueError as error:  # of TOML, of UTF-8, of a number or of a name
         raise InputError(f"{what} = {str(path)!r}, is no valid TOML file: {error}") from None
 
 

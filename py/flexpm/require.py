@@ -6,10 +6,15 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from .errors import InputError
+from .files import Table
+
+#: Characters of a value that are quoted.
+_QUOTED = 80
 
 
 @dataclass(frozen=True)
@@ -51,7 +56,7 @@ def require_number(
         unit: For the message; empty for a number without one.
         shown: How the value is quoted, if not as Python would.
     """
-    text = f"{label} = {shown or repr(value)} {unit}".rstrip()
+    text = f"{label} = {shown or quoted(value)} {unit}".rstrip()
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise InputError(f"{text}, must be a number")
     try:
@@ -68,25 +73,93 @@ def require_number(
 def require_whole(label: str, value: object, bounds: Bounds = ANY) -> int:
     """Return `value` as a whole number within its bounds, or raise InputError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise InputError(f"{label} = {value!r}, must be a whole number")
+        raise InputError(f"{label} = {quoted(value)}, must be a whole number")
     number = int(value)  # numpy's integers are no integers for the kernel
     if rule := bounds.broken(number):
         raise InputError(f"{label} = {number}, must be {rule}")
     return number
 
 
+def require_table(label: str, value: object) -> Table:
+    """Return `value` as a table, of a TOML file or a dictionary, or raise InputError."""
+    if not (isinstance(value, Mapping) and all(isinstance(key, str) for key in value)):
+        raise InputError(f"{label} = {quoted(value)}, must be a table")
+    return dict(value)
+
+
+def require_tables(label: str, value: object) -> list[Table]:
+    """Return `value` as a list of tables, or raise InputError."""
+    return [
+        require_table(f"{label} {n}", one) for n, one in enumerate(require_list(label, value), 1)
+    ]
+
+
+def require_list(label: str, value: object) -> list[Any]:
+    """Return `value` as a list, or raise InputError."""
+    if not isinstance(value, list | tuple):
+        raise InputError(f"{label} = {quoted(value)}, must be a list")
+    return list(value)
+
+
+def require_text(label: str, value: object) -> str:
+    """Return `value` as a text, or raise InputError."""
+    if not isinstance(value, str):
+        raise InputError(f"{label} = {quoted(value)}, must be a text")
+    return value
+
+
+def require_file_name(label: str, value: object, suffixes: Sequence[str] = ()) -> str:
+    """Return `value` as the name of a file that stays in its folder, or raise InputError.
+
+    Args:
+        label: Name of the quantity.
+        value: What was given.
+        suffixes: One of them ends the name; none: any end.
+    """
+    name = require_text(label, value)
+    plain = name.isprintable() and not set(name) & {"/", "\\", "\0"} and not name.startswith(".")
+    if not (plain and 0 < len(name) <= _QUOTED):
+        raise InputError(
+            f"{label} = {quoted(value)}, must be the plain name of a file, at most {_QUOTED} "
+            "characters without / and without a dot in front"
+        )
+    if suffixes and not name.endswith(tuple(suffixes)):
+        raise InputError(f"{label} = {quoted(value)}, must end in {', '.join(suffixes)}")
+    return name
+
+
+def quoted(value: object) -> str:
+    """`value` as Python shows it, cut where it is long."""
+    try:
+        text = repr(value)
+    except Exception:  # the largest whole numbers have no text, and other people's classes may fail
+        text = f"<{type(value).__name__}>"
+    return text if len(text) <= _QUOTED else f"{text[:_QUOTED]}..."
+
+
 def require_one_of(label: str, value: object, choices: Sequence[object]) -> None:
     """Raise InputError unless `value` is one of a few choices."""
-    if value not in choices:
-        raise InputError(f"{label} = {value!r}, must be one of {', '.join(map(str, choices))}")
+    if not _is_among(value, choices):
+        raise InputError(
+            f"{label} = {quoted(value)}, must be one of {', '.join(map(str, choices))}"
+        )
 
 
 def require_known(label: str, name: object, known: Sequence[str]) -> None:
     """Raise InputError, with the nearest known name, unless `name` is one of `known`."""
-    if name not in known:
-        raise InputError(
-            f"{label} = {name!r}, unknown{nearest(str(name), known)}; known are {', '.join(known)}"
-        )
+    if not _is_among(name, known):
+        hint = nearest(name, known) if isinstance(name, str) else ""
+        raise InputError(f"{label} = {quoted(name)}, unknown{hint}; known are {', '.join(known)}")
+
+
+def _is_among(value: object, choices: Sequence[object]) -> bool:
+    """Whether `value` is one of the choices and of its kind: true is not 1, and no array is one."""
+    if not isinstance(value, str | numbers.Real):
+        return value in choices if value is None else False
+    return any(
+        value == choice and isinstance(value, bool) == isinstance(choice, bool)
+        for choice in choices
+    )
 
 
 def nearest(name: str, known: Sequence[str]) -> str:

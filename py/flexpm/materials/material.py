@@ -14,7 +14,7 @@ from typing import TypedDict
 
 from ..errors import InputError
 from ..files import Table, load_toml
-from ..require import nearest, require_known
+from ..require import nearest, quoted, require_known, require_table, require_text
 from . import mineral
 from .keys import (
     CHOICES,
@@ -108,12 +108,10 @@ class Material:
         Raises:
             InputError: naming the key that is unknown, missing or out of range.
         """
-        common: Table = dict(data)
-        label = str(common.pop("name", name))
-        sets = common.pop("elastic", {})
+        common: Table = require_table("material", data)
+        label = require_text("material name", common.pop("name", name))
+        sets = require_table("material elastic", common.pop("elastic", {}))
         kinds = common.pop("mineral", ())
-        if not isinstance(sets, Mapping):
-            raise InputError(f"material elastic = {sets!r}, must be tables like [elastic.flexible]")
         for key in common:
             require_known("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
         for key in ("tensile_strength", "cohesion", "friction"):
@@ -254,7 +252,7 @@ def load(
     known = preset_names()
     if material not in known:
         raise InputError(
-            f"material = {material!r}, unknown preset{nearest(str(material), known)}; "
+            f"material = {quoted(material)}, unknown preset{nearest(str(material), known)}; "
             f"known are {', '.join(known)}, or give a .toml file"
         )
     return _load_file(_PRESETS / f"{material}.toml")
@@ -265,16 +263,15 @@ def _load_file(path: Path) -> Material:
 
 
 def _elastic_from(name: str, values: object) -> ElasticSet:
-    if not isinstance(values, Mapping):
-        raise InputError(f"material elastic.{name} = {values!r}, must be a table [elastic.{name}]")
-    for key in values:
+    given = require_table(f"material [elastic.{name}]", values)
+    for key in given:
         require_known(f"material [elastic.{name}] key", key, list(ELASTIC_KEYS))
     for key in ("normal_stiffness", "shear_ratio"):
-        if key not in values:
+        if key not in given:
             raise InputError(
                 f"material [elastic.{name}] {key} is missing; give it in [{UNITS[key]}]"
             )
-    return ElasticSet(**values)
+    return ElasticSet(**given)
 
 
 def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:

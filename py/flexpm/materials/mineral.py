@@ -10,11 +10,20 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from ..files import Table
-from ..require import POSITIVE, require_known, require_number
+from ..require import (
+    POSITIVE,
+    quoted,
+    require_known,
+    require_number,
+    require_table,
+    require_text,
+)
 from .keys import COMMON_KEYS, ELASTIC_KEYS
 
 #: Fractions are to sum up to 1 within this.
 _SUM_TOLERANCE = 1e-6
+#: Minerals of a rock; each pair of them has a law of contact.
+MOST = 100
 _KEYS = tuple(key for key in COMMON_KEYS if key != "plane")
 
 
@@ -38,23 +47,28 @@ class Mineral:
             InputError: naming the key that is unknown, missing or out of range.
         """
         where = f"material [[mineral]] {number}"
-        if not isinstance(data, Mapping):
-            raise InputError(f"{where} = {data!r}, must be a table with name and fraction")
-        changes = dict(data)
+        changes = require_table(where, data)
         for key in ("name", "fraction"):
             if key not in changes:
                 raise InputError(f"{where} {key} is missing; give the mineral a {key}")
-        name, fraction = str(changes.pop("name")), changes.pop("fraction")
+        name, fraction = require_text(f"{where} name", changes.pop("name")), changes.pop("fraction")
         fraction = require_number(f"{where} fraction", fraction, POSITIVE)
         for key in changes:
             require_known(f"mineral {name} key", key, [*_KEYS, "name", "fraction", "elastic"])
+        if "elastic" in changes:
+            sets = require_table(f"{where} elastic", changes["elastic"])
+            changes["elastic"] = {
+                key: require_table(f"{where} [elastic.{key}]", own) for key, own in sets.items()
+            }
         return cls(name, fraction, changes)
 
 
 def checked(minerals: object) -> tuple[Mineral, ...]:
     """Minerals from tables; their names differ and their fractions sum up to 1."""
     if not isinstance(minerals, list | tuple):
-        raise InputError(f"material mineral = {minerals!r}, must be tables [[mineral]]")
+        raise InputError(f"material mineral = {quoted(minerals)}, must be tables [[mineral]]")
+    if len(minerals) > MOST:
+        raise InputError(f"material minerals = {len(minerals)}, must be <= {MOST}")
     made = tuple(
         table if isinstance(table, Mineral) else Mineral.from_dict(table, number)
         for number, table in enumerate(minerals, 1)

@@ -14,10 +14,25 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..files import Table, load_toml
-from ..materials.keys import ELASTIC_KEYS, UNITS
-from ..require import POSITIVE, Bounds, require_known, require_number, require_whole
+from ..laboratory import run_spec
+from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
+from ..require import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    Bounds,
+    quoted,
+    require_file_name,
+    require_known,
+    require_list,
+    require_number,
+    require_table,
+    require_tables,
+    require_text,
+    require_whole,
+)
 from ..results import strength
-from .study import flat
+from ..specimens.checks import require_seed
+from .study import MOST_RUNS, flat
 
 #: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each
 #: confinement.
@@ -42,6 +57,11 @@ _PEAKS = {
 _TABLES = ("calibration", "common", "screen", "verify", "target", "free", "ratio")
 _ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "confinements")
 _DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
+#: Options of the runs; the others are the search's own.
+_OPTIONS = [
+    *(key for key in run_spec.OPTIONS if key not in ("model", "confinement", "seed")),
+    *(f"set.{key}" for key in UNITS),
+]
 #: Confinements of an envelope [Pa].
 CONFINEMENTS = (0.0, 2e6, 4e6, 8e6, 12e6)
 
@@ -151,51 +171,62 @@ def read(path: Path | str) -> Calibration:
     content = load_toml(path, "calibration")
     for table in content:
         require_known("calibration table", table, _TABLES)
-    about = {**_DEFAULTS, **content.get("calibration", {})}
-    for key in about:
-        require_known("calibration [calibration] key", key, _ABOUT)
-    for key in ("evaluations", "rounds", "candidates"):
-        require_whole(f"calibration [calibration] {key}", about[key], Bounds(at_least=1))
+    about = _about(content, path)
     targets = [_target(name, entry) for name, entry in _table(content, "target").items()]
     free = {key: _bounds(f"[free] {key}", b) for key, b in _table(content, "free").items()}
     for key in free:
         require_known("calibration [free] key", key, [name for name in UNITS if UNITS[name]])
-    confinements = tuple(about.get("confinements", CONFINEMENTS))
     screen, screen_seeds = _runs(content, "screen", (1,))
     verify, verify_seeds = _runs(content, "verify", (11, 12, 13, 14, 15))
+    ratios = require_tables("calibration [[ratio]]", content.get("ratio", []))
     return Calibration(
-        name=about.get("name", path.stem),
-        model=about["model"],
-        material=about.get("material"),
         base=path.parent,
         targets=targets,
         free=free,
-        ratios=[*_ratios(content.get("ratio", []), free)],
+        ratios=[*_ratios(ratios, free)],
         screen=screen,
         screen_seeds=screen_seeds,
         verify=verify,
         verify_seeds=verify_seeds,
-        evaluations=about["evaluations"],
-        rounds=about["rounds"],
-        candidates=about["candidates"],
-        confinements=confinements,
+        **about,
     )
 
 
+def _about(content: Table, path: Path) -> Table:
+    """The table ``[calibration]`` with its defaults."""
+    given = require_table("calibration [calibration]", content.get("calibration", {}))
+    about = {**_DEFAULTS, "name": path.stem, "material": None, **given}
+    for key in given:
+        require_known("calibration [calibration] key", key, _ABOUT)
+    label = "calibration [calibration]"
+    for key in ("evaluations", "rounds", "candidates"):
+        require_whole(f"{label} {key}", about[key], Bounds(at_least=1, at_most=MOST_RUNS))
+    require_file_name(f"{label} name", f"{about['name']}")  # that of the preset
+    require_text(f"{label} name", about["name"])
+    require_known(f"{label} model", about["model"], list(ELASTIC_SET))
+    if about["material"] is not None:
+        require_text(f"{label} material", about["material"])
+    asked = require_list(f"{label} confinements", about.get("confinements", CONFINEMENTS))
+    pressures = [require_number(f"{label} confinements", one, NOT_NEGATIVE, "Pa") for one in asked]
+    if len(set(pressures)) != len(pressures) or len(pressures) < 2:
+        raise InputError(f"{label} confinements = {asked}, must be two or more, each once")
+    return about | {"confinements": tuple(pressures)}
+
+
 def _table(content: Table, name: str) -> Table:
-    entries: Table = content.get(name, {})
-    _require(f"[{name}]", entries, isinstance(entries, dict) and bool(entries), "a table")
+    entries = require_table(f"calibration [{name}]", content.get(name, {}))
+    _require(f"[{name}]", entries, bool(entries), "a table with entries")
     return entries
 
 
 def _target(name: str, entry: object) -> Target:
     require_known("calibration [target] key", name, list(MEASURES))
-    entry = entry if isinstance(entry, Mapping) else {"value": entry}
-    for key in entry:
+    given = entry if isinstance(entry, Mapping) else {"value": entry}
+    for key in given:
         require_known(f"calibration [target] {name} key", key, ("value", "tolerance", "weight"))
-    _require(f"[target] {name}", dict(entry), "value" in entry, "given a value")
+    _require(f"[target] {name}", dict(given), "value" in given, "given a value")
     label = f"calibration [target] {name}"
-    numbers = {key: require_number(f"{label} {key}", n, POSITIVE) for key, n in entry.items()}
+    numbers = {key: require_number(f"{label} {key}", n, POSITIVE) for key, n in given.items()}
     return Target(name, **numbers)
 
 
@@ -210,10 +241,14 @@ def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ra
 
 def _runs(content: Table, name: str, seeds: Sequence[int]) -> tuple[Table, list[int]]:
     """Options and seeds of the runs of ``[screen]`` or ``[verify]``, over those of ``[common]``."""
-    options = {**flat(content.get("common", {})), **flat(content.get(name, {}))}
-    chosen = options.pop("seeds", list(seeds))
-    _require(f"[{name}] seeds", chosen, isinstance(chosen, list) and bool(chosen), "a list")
-    return options, chosen
+    label = f"calibration [{name}]"
+    common = flat("calibration [common]", content.get("common", {}))
+    options = {**common, **flat(label, content.get(name, {}))}
+    chosen = require_list(f"{label} seeds", options.pop("seeds", list(seeds)))
+    _require(f"[{name}] seeds", chosen, bool(chosen), "a list of seeds")
+    for key in options:
+        require_known(f"{label} key", key.replace("-", "_"), _OPTIONS)
+    return options, [require_seed(f"{label} seeds", seed) for seed in chosen]
 
 
 def _bounds(label: str, bounds: object) -> tuple[float, float]:
@@ -226,4 +261,4 @@ def _bounds(label: str, bounds: object) -> tuple[float, float]:
 
 def _require(label: str, value: object, holds: bool, rule: str) -> None:
     if not holds:
-        raise InputError(f"calibration {label} = {value!r}, must be {rule}")
+        raise InputError(f"calibration {label} = {quoted(value)}, must be {rule}")

@@ -30,6 +30,7 @@ from ..files import Table, output_folder
 from ..progress import Progress
 from . import jobs
 from .calibration_problem import Calibration, Target
+from .jobs import Job
 from .pool import Pool, PoolOptions
 from .tables import write_table
 
@@ -105,6 +106,8 @@ def run(
     """
     folder = output_folder(out)
     values = {key: _started(plan, key, start) for key in plan.free}
+    for options, seeds in ((plan.screen, plan.screen_seeds), (plan.verify, plan.verify_seeds)):
+        _jobs(plan, options, seeds, values, plan.targets)  # refuses what no run could do
     with Pool(folder / "runs", **pool_options) as pool:
         search = _Search(plan, pool, progress or (lambda *_: None))
         try:
@@ -288,21 +291,8 @@ class _Search:
         targets: Sequence[Target],
     ) -> dict[str, list[float | None]]:
         plan, tests = self._plan, self._plan.tests(targets)
-        material = {} if plan.material is None else {"material": plan.material}
-        common = {
-            **options,
-            **material,
-            "model": plan.model,
-            **{f"set.{key}": value for key, value in values.items()},
-        }
         try:
-            wanted = [
-                jobs.make(
-                    {**common, "test": test, "confinement": confinement, "seed": seed}, plan.base
-                )
-                for seed in seeds
-                for test, confinement in tests
-            ]
+            wanted = _jobs(plan, options, seeds, values, targets)
         except InputError:
             if not self.history:
                 raise  # wrong from the start
@@ -330,6 +320,28 @@ class _Search:
                 for t, mean in zip(targets, means, strict=True)
             ]
         )
+
+
+def _jobs(
+    plan: Calibration,
+    options: Table,
+    seeds: Sequence[int],
+    values: Values,
+    targets: Sequence[Target],
+) -> list[Job]:
+    """Runs that the measures of targets need, seed by seed."""
+    material = {} if plan.material is None else {"material": plan.material}
+    common = {
+        **options,
+        **material,
+        "model": plan.model,
+        **{f"set.{key}": value for key, value in values.items()},
+    }
+    return [
+        jobs.make({**common, "test": test, "confinement": confinement, "seed": seed}, plan.base)
+        for seed in seeds
+        for test, confinement in plan.tests(targets)
+    ]
 
 
 def _optimiser() -> ModuleType:

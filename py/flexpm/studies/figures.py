@@ -13,11 +13,10 @@ from pathlib import Path
 import numpy as np
 import pandas
 
-from ..errors import InputError
 from ..files import Table
 from ..materials.keys import UNITS
 from ..report.style import Axes, drawing
-from ..require import require_known
+from . import picture_spec
 from .study import Study
 
 #: Factor and unit of what is drawn in other units than SI's; the rest is drawn as it is.
@@ -34,7 +33,6 @@ _SHOWN = {
     "poissons_ratio": (1.0, "-"),
 }
 _LARGE = {"Pa": (1e-6, "MPa")}
-_KEYS = ("file", "x", "y", "by", "where", "title")
 #: Colour-blind safe (Okabe and Ito), black first.
 _COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 _MARKERS = "osD^vP*"
@@ -55,6 +53,8 @@ def draw(study: Study, rows: pandas.DataFrame, folder: Path) -> list[Path]:
         InputError: for an unknown key or column.
     """
     asked = study.pictures or _default(study, rows)
+    for entries in asked:
+        picture_spec.checked(entries, rows.columns)
     return [_picture(dict(entries), rows, folder, study.name) for entries in asked]
 
 
@@ -71,15 +71,10 @@ def _default(study: Study, rows: pandas.DataFrame) -> list[Table]:
 
 
 def _picture(entries: Table, rows: pandas.DataFrame, folder: Path, name: str) -> Path:
-    for key in entries:
-        require_known("study [[picture]] key", key, _KEYS)
-    for key in ("x", "y"):
-        if key not in entries:
-            raise InputError(f"study [[picture]] {key} is missing; give the name of a column")
     x, y, by = entries["x"], entries["y"], list(entries.get("by", []))
     where = entries.get("where", {})
-    for column in (x, y, *by, *where):
-        require_known("study [[picture]] column", column, list(rows.columns))
+    # what no run has given is a column without values
+    rows = rows.reindex(columns=[*dict.fromkeys([*rows.columns, x, y, *by, *where])])
     chosen = rows
     for column, value in where.items():
         chosen = chosen[chosen[column].isin(value if isinstance(value, list) else [value])]

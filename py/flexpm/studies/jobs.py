@@ -20,14 +20,14 @@ from ..laboratory import run_spec
 from ..laboratory.run_spec import RunSpec
 from ..materials import material as materials
 from ..materials.keys import UNITS
-from ..require import require_known
+from ..require import require_known, require_text
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = (*run_spec.TESTS, run_spec.ELASTIC)
 #: Keys that change the material.
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
-_NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
+NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
 #: Exit codes of a job that would end the same way again.
 _FINAL = (0, 2, 3)
 _OUTCOME = "outcome.json"
@@ -83,6 +83,8 @@ def make(inputs: Table, base: Path) -> Job:
     used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
     for key in used:
         require_known("study key", key, [*run_spec.OPTIONS, "material", *_CHANGES])
+    if "material" in used:
+        require_text("study material", used["material"])
     if str(used.get("material", "")).endswith(".toml"):
         used["material"] = str(base / used["material"])
     model = used.get("model", RunSpec.model)
@@ -159,7 +161,7 @@ def _measures(file: Path) -> Table:
     return {
         key: value
         for key, value in content.items()
-        if key not in _NOT_MEASURES and not isinstance(value, dict | list)
+        if key not in NOT_MEASURES and not isinstance(value, dict | list)
     }
 
 

@@ -114,7 +114,15 @@ class Pool:
         if self._client is None:
             from distributed import Client
 
-            self._client = Client(self._scheduler or self._new_cluster())
+            try:
+                self._client = Client(self._scheduler or self._new_cluster())
+            except (OSError, ValueError, TypeError) as error:
+                if self._scheduler is None or isinstance(error, InputError):
+                    raise
+                raise InputError(
+                    f"scheduler = {self._scheduler!r}, cannot be reached ({error}); give the "
+                    "address of a running Dask scheduler"
+                ) from None
         return self._client
 
     def _new_cluster(self) -> _Cluster:

@@ -8,7 +8,8 @@ where it stopped; what is finished is not repeated, what failed is recorded.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,13 +18,15 @@ import pandas
 from ..errors import InputError
 from ..files import Table, load_toml, output_folder
 from ..progress import Progress
-from ..require import require_known
-from . import jobs
+from ..require import require_known, require_list, require_table, require_tables, require_text
+from . import jobs, picture_spec
 from .jobs import Job
 from .pool import Pool
 from .tables import table, write_table
 
 _TABLES = ("study", "common", "grid", "case", "picture")
+#: Combinations of a study; more are a mistake in a list.
+MOST_RUNS = 100_000
 _STUDY_KEYS = ("name", "title")
 
 
@@ -57,12 +60,16 @@ def read(path: Path | str) -> Study:
     content = load_toml(path, "study")
     for name in content:
         require_known("study table", name, _TABLES)
-    about = content.get("study", {})
-    for key in about:
+    about = require_table("study [study]", content.get("study", {}))
+    for key, text in about.items():
         require_known("study [study] key", key, _STUDY_KEYS)
+        require_text(f"study [study] {key}", text)
     made = [jobs.make(inputs, path.parent) for inputs in combinations(content)]
     distinct = {job.key: job for job in made}
-    return Study(about.get("name", path.stem), [*distinct.values()], content.get("picture", []))
+    asked = require_tables("study [[picture]]", content.get("picture", []))
+    inputs = {key for job in distinct.values() for key in job.inputs}
+    pictures = [picture_spec.checked(picture, inputs) for picture in asked]
+    return Study(about.get("name", path.stem), [*distinct.values()], pictures)
 
 
 def run(
@@ -99,21 +106,23 @@ def run(
 
 def combinations(content: Table) -> Iterator[Table]:
     """Inputs of each run that the tables of a study file ask for, in order."""
-    common, grid = flat(content.get("common", {})), flat(content.get("grid", {}))
+    common = flat("study [common]", content.get("common", {}))
+    grid = flat("study [grid]", content.get("grid", {}))
     for key, values in grid.items():
-        if not (isinstance(values, list) and values):
-            raise InputError(f"study [grid] {key} = {values!r}, must be a list of values")
-    for case in content.get("case", [{}]):
+        if not require_list(f"study [grid] {key}", values):
+            raise InputError(f"study [grid] {key} = [], must be a list of values")
+    cases = require_tables("study [[case]]", content.get("case", [{}]))
+    count = len(cases) * math.prod(map(len, grid.values()))
+    if count > MOST_RUNS:
+        raise InputError(f"study runs = {count}, must be <= {MOST_RUNS}; make several studies")
+    for number, case in enumerate(cases, 1):
+        own = flat(f"study [[case]] {number}", case)
         for values in itertools.product(*grid.values()):
-            yield {**common, **dict(zip(grid, values, strict=True)), **flat(case)}
+            yield {**common, **dict(zip(grid, values, strict=True)), **own}
 
 
-def flat(entries: Table) -> Table:
-    """Entries with the keys of the table ``set`` as ``set.KEY``."""
-    changes = entries.get("set", {})
-    if not isinstance(changes, Mapping):
-        raise InputError(
-            f"study set = {changes!r}, must be a table; for example set.cohesion = 3e7"
-        )
-    plain = {key: value for key, value in entries.items() if key != "set"}
+def flat(label: str, entries: object) -> Table:
+    """A table with the keys of its table ``set`` as ``set.KEY``."""
+    plain = require_table(label, entries)
+    changes = require_table(f"{label} set", plain.pop("set", {}))
     return plain | {f"set.{key}": value for key, value in changes.items()}

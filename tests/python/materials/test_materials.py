@@ -184,7 +184,7 @@ def test_files_round_trip_and_bad_files_are_refused(tmp_path):
         ({"density": 10**400}, "must be finite"),
         ({"tensile_strenght": 1e6}, "did you mean tensile_strength"),
         ({"elastic": {}}, "needs a set"),
-        ({"elastic": 3}, "must be tables"),
+        ({"elastic": 3}, "must be a table"),
         ({"elastic": {"rigid": 3}}, "must be a table"),
         ({"elastic": {"stiff": {"normal_stiffness": 1, "shear_ratio": 1}}}, "unknown"),
         ({"elastic": {"rigid": {"normal_stiffness": 1e13}}}, "shear_ratio is missing"),
