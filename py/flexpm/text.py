@@ -25,6 +25,12 @@ def name_of(text: object) -> str:
     return line if len(line) <= LONGEST else line[: LONGEST - 3] + "..."
 
 
+def words_of(quantity: str) -> str:
+    """Name of a quantity as it is read: without underscores, people's names as they are."""
+    words = quantity.replace("_", " ")
+    return words.replace("youngs ", "Young's ").replace("poissons ", "Poisson's ")
+
+
 def label_of(text: object) -> str:
     """A name as matplotlib shows it unchanged: a dollar sign begins no formula."""
     return name_of(text).replace("$", r"\$")

@@ -27,6 +27,7 @@ from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
 from ..materials.material import load
 from ..report import tables
 from ..require import NOT_NEGATIVE, nearest, require_known
+from ..text import name_of
 from . import compare as cli_compare
 from . import inputs as cli_library
 from . import options as cli_options
@@ -157,7 +158,7 @@ def elastic(out: Path | None, **options: Any) -> None:
         about = {name: inputs[name] for name in ("test", "model", "material")}
         about |= {"flexpm": __version__, "seed": spec.specimen.seed}
         write_text(folder / "result.json", json_text({**about, **found, "inputs": inputs}))
-    terminal.say(f"{spec.model} model, {chosen.name}, seed {spec.specimen.seed}")
+    terminal.say(f"{spec.model} model, {name_of(chosen.name)}, seed {spec.specimen.seed}")
     terminal.say(tables.elastic_table(found))
 
 
@@ -249,8 +250,8 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     pictures = figures.draw(plan, rows, folder)
     failed = rows[rows["exit_code"] != 0]
     for _, row in failed.iterrows():
-        terminal.say(f"failed: runs/{row['key']}: {row['message']}")
-    terminal.say(f"{plan.name}: {len(rows)} runs, {len(failed)} failed")
+        terminal.say(f"failed: runs/{row['key']}: {' '.join(str(row['message']).split())}")
+    terminal.say(f"{name_of(plan.name)}: {len(rows)} runs, {len(failed)} failed")
     terminal.say(f"  files  {', '.join(map(str, [folder / 'table.csv', *pictures]))}")
     if len(failed):
         raise SimulationError(f"runs = {len(failed)} of {len(rows)} failed; see the table")
@@ -273,7 +274,9 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
     calibration_report.write_preset(preset, start, plan, found)
     calibration_report.picture(picture, plan, found)
     terminal.say(
-        tables.table(calibration_report.table_rows(plan, found), f"{plan.name}, {plan.model} model")
+        tables.table(
+            calibration_report.table_rows(plan, found), f"{name_of(plan.name)}, {plan.model} model"
+        )
     )
     terminal.say(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
     missed = [name for name, met in found.met.items() if not met]

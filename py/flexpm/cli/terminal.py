@@ -65,7 +65,8 @@ class Progress:
     """Progress bar on stderr with rate and remaining time; silent unless stderr is a terminal."""
 
     _FORMAT = (
-        "{desc} {percentage:3.0f} % |{bar}| {n:.0f}/{total:.0f} [{rate_fmt}, {remaining} left]"
+        "{desc} {percentage:3.0f} % |{bar}| {n:.0f}/{total:.0f} "
+        "[{rate_noinv_fmt}, {remaining} left]"
     )
 
     def __init__(self, quiet: bool = False, unit: str = "steps") -> None:

@@ -15,6 +15,7 @@ from ..results import measures
 from ..results.cracks import SHEAR, TENSILE
 from ..results.record import Curve
 from ..results.result import Result
+from ..text import label_of
 from .style import COLOURS, MODE_NAMES, STYLE, save
 
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
@@ -90,6 +91,7 @@ def _draw_peak(axes: Axes, result: Result) -> None:
 
 def _caption(result: Result) -> str:
     confined = result.confinement or 0.0
+    name = label_of(result.material.get("name", ""))
     where = f", confinement {1e-6 * confined:g} MPa" if confined else ""
-    caption = f"{result.test}, {result.model} model, {result.material.get('name', '')}{where}"
+    caption = f"{result.test}, {result.model} model, {name}{where}"
     return caption if result.status == "ok" else f"{caption} ({result.status.replace('_', ' ')})"

@@ -22,6 +22,7 @@ from matplotlib.patches import Patch
 from ..arrays import FloatArray, IntArray
 from ..results.cracks import SHEAR, TENSILE
 from ..results.snapshot import POINT_SHARES, Snapshot
+from ..text import label_of
 from .style import COLOURS, MODE_NAMES, STYLE, can_be_drawn, save
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def specimen_picture(
             lines = LineCollection(nodes[_unique_edges(triangles)], colors=_EDGE, linewidths=0.15)
             axes.add_collection(lines)
         _draw_scale_bar(axes)
-        axes.set_title(caption, fontsize=9.5, loc="left")
+        axes.set_title(label_of(caption), fontsize=9.5, loc="left")
         save(figure, path)
 
 
@@ -85,13 +86,15 @@ def crack_picture(
         figure, axes = _map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
         handles += [
-            Patch(facecolor=_MINERALS[number % len(_MINERALS)], edgecolor=_EDGE, label=name)
+            Patch(
+                facecolor=_MINERALS[number % len(_MINERALS)], edgecolor=_EDGE, label=label_of(name)
+            )
             for number, name in enumerate(minerals)
         ]
         axes.legend(
             handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False
         )
-        axes.set_title(caption, fontsize=9.5, loc="left")
+        axes.set_title(label_of(caption), fontsize=9.5, loc="left")
         save(figure, path)
 
 
@@ -137,7 +140,7 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
         _draw_scale_bar(axes)
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
-        axes.set_title(caption or text, fontsize=9.5, loc="left")
+        axes.set_title(label_of(caption or text), fontsize=9.5, loc="left")
         save(figure, path)
 
 

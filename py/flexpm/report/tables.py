@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ..materials.references import Reference
+from ..text import name_of, words_of
 
 if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
@@ -48,7 +49,7 @@ def result_table(result: Result) -> str:
     ]
     if result.confinement:
         rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
-    name = result.material.get("name", "")
+    name = name_of(result.material.get("name", ""))
     return table(rows, f"{result.test}, {result.model} model, {name}, seed {result.seed}")
 
 
@@ -104,7 +105,7 @@ def statistics_table(found: Mapping[str, float | Mapping[str, float]]) -> str:
             rows += [(f"{name} {key}", f"{number:.4g}") for key, number in value.items()]
         else:
             rows.append((name, str(value) if isinstance(value, int) else f"{value:.6g}"))
-    return table((name.replace("_", " "), value) for name, value in rows)
+    return table((words_of(name), value) for name, value in rows)
 
 
 def elastic_table(found: dict[str, float]) -> str:

@@ -13,6 +13,7 @@ from ..files import Table, write_text
 from ..materials import material as materials
 from ..materials.material import Material
 from ..report.style import drawing
+from ..text import label_of, words_of
 from .calibration_problem import Calibration
 from .calibration_search import Outcome
 
@@ -37,7 +38,7 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
         text += "" if spread is None else f" +- {factor * spread:.2g}"
         verdict = "met" if outcome.met[target.name] else "NOT met"
         wanted = f"{factor * target.value:.4g} {unit}".rstrip()
-        rows.append((target.name.replace("_", " "), f"{text}, target {wanted}: {verdict}"))
+        rows.append((words_of(target.name), f"{text}, target {wanted}: {verdict}"))
     return rows
 
 
@@ -76,10 +77,10 @@ def picture(path: Path, plan: Calibration, outcome: Outcome) -> None:
             axes.plot(found, np.full(len(found), row), "o", ms=3.5, mfc="none", mec="#0072b2")
             axes.plot(np.mean(found), row, "D", ms=5.0, color="black")
         axes.axvline(1.0, color="0.4", lw=0.8)
-        axes.set_yticks(range(len(plan.targets)), [t.name.replace("_", " ") for t in plan.targets])
+        axes.set_yticks(range(len(plan.targets)), [words_of(t.name) for t in plan.targets])
         axes.invert_yaxis()
         axes.set_xlabel("result over target [-]; circles: packings, band: tolerance")
-        axes.set_title(f"{plan.name}, {plan.model} model", fontsize=9.5, loc="left")
+        axes.set_title(label_of(f"{plan.name}, {plan.model} model"), fontsize=9.5, loc="left")
 
 
 def _without_none(content: Table) -> Table:

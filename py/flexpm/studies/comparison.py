@@ -26,6 +26,7 @@ from ..report.tables import columns, scaled
 from ..results.result import Result
 from ..results.strength import Envelope
 from ..specimens.specimen import Specimen
+from ..text import name_of
 
 #: Columns of compare.csv before the numbers of the result.
 _FIRST = ("model", "material", "confinement", "folder")
@@ -170,7 +171,7 @@ def compare(
 def table(cases: Sequence[Case]) -> str:
     """One line for each run of a comparison."""
     header = ("run", "E [GPa]", "nu", "peak [MPa]", "strain [%]", "tensile", "shear", "fragments")
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for case in cases:
         found = case.result
         if found is None:
@@ -186,7 +187,12 @@ def table(cases: Sequence[Case]) -> str:
             str(found.fragments),
         )
         rows.append((case.name, *numbers, found.status))
-    return columns((*header, "status"), rows)
+    drawn = columns((*header, "status"), rows)
+    used = {case.model: name_of(case.material.name) for case in cases}
+    if len(set(used.values())) > 1:
+        each = ", ".join(f"{model} {name}" for model, name in used.items())
+        drawn += f"\n  materials differ: {each}; --material gives all the same"
+    return drawn
 
 
 def _materials(
@@ -244,7 +250,7 @@ def _row(case: Case) -> Table:
     if case.result is None:
         return row | {"test": case.spec.test, "status": "failed"}
     numbers = case.result.as_dict()
-    hidden = (*_FIRST, "inputs")
+    hidden = (*_FIRST, "inputs", "warnings")
     return row | {key: value for key, value in numbers.items() if key not in hidden}
 
 

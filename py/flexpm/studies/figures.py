@@ -16,6 +16,7 @@ import pandas
 from ..files import Table
 from ..materials.keys import UNITS
 from ..report.style import Axes, drawing
+from ..text import label_of, name_of, words_of
 from . import picture_spec
 from .study import Study
 
@@ -83,7 +84,7 @@ def _picture(entries: Table, rows: pandas.DataFrame, folder: Path, name: str) ->
         _lines(axes, chosen, x, y, by)
         axes.set_xlabel(_label(x))
         axes.set_ylabel(_label(y))
-        axes.set_title(entries.get("title", name), fontsize=9.5, loc="left")
+        axes.set_title(label_of(entries.get("title", name)), fontsize=9.5, loc="left")
     return path
 
 
@@ -107,7 +108,7 @@ def _lines(axes: Axes, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]
             ms=4.0,
             lw=1.2,
             capsize=2.5,
-            label=label or None,
+            label=label_of(label) or None,
         )
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     if by and len(drawn):
@@ -121,13 +122,13 @@ def _shown(column: str) -> tuple[float, str]:
 
 def _label(column: str) -> str:
     unit = _shown(column)[1]
-    name = column.removeprefix("set.").replace("_", " ")
+    name = words_of(column.removeprefix("set."))
     return f"{name} [{unit}]" if unit else name
 
 
 def _value(column: str, value: float | str) -> str:
     if isinstance(value, str):
-        return value
+        return name_of(value)
     factor, unit = _shown(column)
-    name = column.removeprefix("set.").replace("_", " ")
+    name = words_of(column.removeprefix("set."))
     return f"{name} {factor * value:g}{' ' + unit if unit not in ('', '-') else ''}"

@@ -55,6 +55,9 @@ def test_tables_and_pictures_of_a_comparison(envelope):
         assert int(row["tensile_cracks"]) == case.result.tensile_cracks
         assert row["material"] == case.material.name
     assert {case.material.name for case in found.cases} == {"augig-table7", "augig-table2-bilinear"}
+    said = comparison.table(found.cases).splitlines()[-1]
+    assert "materials differ: flexible augig-table7, rigid augig-table2-bilinear" in said
+    assert "differ" not in comparison.table(found.cases[:3])
     for name in ("compare.png", "cracks.png", "envelope.png"):
         assert imread(folder / name).shape[0] > 300
 
