@@ -25,7 +25,7 @@ from .._flexpm import (
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..progress import Progress
-from . import packing
+from . import packing, statistics
 from .checks import SHORT_EDGE, require_length, require_short_edge
 from .spec import SpecimenSpec
 
@@ -307,41 +307,13 @@ class Specimen:
         Returns:
             Counts, areas [m^2], lengths [m], angles [degree]; see the keys.
         """
-        cells = self.tessellation
-        refined, fan = self.meshes("refined"), self.meshes("fan")
-        contacts = len(cells.shared_edges)
-        lengths = self._edge_lengths()
-        shares = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
+        meshes = self.meshes("refined"), self.meshes("fan")
         return {
-            "grains": cells.cells,
-            "contacts": contacts,
-            "uncollapsed_contacts": cells.uncollapsed_shared_edges,
+            **statistics.of_cells(self.tessellation),
+            **statistics.of_meshes(*meshes),
             "removed_discs": self.removed_discs,
-            "boundary_edges": len(cells.boundary_edges),
-            "cell_vertices": len(cells.cell_vertices),
-            "refined_nodes": len(refined.nodes),
-            "refined_triangles": len(refined.triangles),
-            "fan_nodes": len(fan.nodes),
-            "fan_triangles": len(fan.triangles),
-            "refined_smallest_angle": math.degrees(refined.smallest_angle.min()),
-            "fan_smallest_angle": math.degrees(fan.smallest_angle.min()),
-            "flipped_meshes": int((1 - refined.standard).sum() - refined.fallback.sum()),
-            "fan_fallbacks": int(refined.fallback.sum()),
-            "moved_centres": int(refined.moved_centre.sum()),
-            "cell_area": math.fsum(cells.cell_areas),
-            "smallest_cell_area": float(cells.cell_areas.min()),
-            "edge_length": {f"{p:.2f}": float(np.quantile(lengths, p)) for p in shares},
-            "coordination": 2.0 * contacts / cells.cells,
             "mean_diameter": self.mean_diameter,
         }
-
-    def _edge_lengths(self) -> FloatArray:
-        """Lengths of contacts, or of the rim if there is one grain only [m]."""
-        cells = self.tessellation
-        edges = cells.shared_edges[:, 2:4]
-        ends = cells.vertices[edges if len(edges) else cells.boundary_edges[:, 1:3]]
-        lengths: FloatArray = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-        return lengths
 
 
 def _frame_of(spec: SpecimenSpec) -> packing.Frame:
