@@ -13,10 +13,12 @@ from ..files import Table
 from ..laboratory.run_spec import RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
+from ..results import doubts
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
+    from ..results.result import Result
     from ..specimens.specimen import Specimen
 
 
@@ -37,7 +39,21 @@ def material(options: Table, model: str | None = None) -> Material:
 def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
     """The run that the options describe."""
     refuse_other_sizes(shape_of(test))
-    return RunSpec.from_options(test, options | {"points": int(options["points"])}, chosen)
+    spec = RunSpec.from_options(test, options | {"points": int(options["points"])}, chosen)
+    told = click.get_current_context().meta.setdefault("flexpm.doubts", set())
+    for line in doubts.of_inputs(spec.to_json()):
+        if line not in told:
+            told.add(line)
+            terminal.say(f"warning: {line}")
+    return spec
+
+
+def tell_warnings(result: Result, name: str = "") -> None:
+    """Show the warnings of a result that have not been shown for its inputs."""
+    known = doubts.of_inputs(result.inputs) if result.inputs is not None else []
+    for line in result.warnings:
+        if line not in known:
+            terminal.say(f"warning: {name}{line}")
 
 
 def specimen_spec(kind: str, options: Table) -> SpecimenSpec:

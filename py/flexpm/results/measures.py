@@ -181,6 +181,11 @@ def end_mismatch(curve: Curve) -> float | None:
     return _while_loaded(curve, curve["end_mismatch"], np.nanmax)
 
 
+def median_end_mismatch(curve: Curve) -> float | None:
+    """Median of the same differences [-]; rows at a faster rate count as in the median ratio."""
+    return _while_loaded(curve, curve["end_mismatch"] / curve["velocity_factor"], np.nanmedian)
+
+
 def _while_loaded(
     curve: Curve, column: FloatArray, of: Callable[[FloatArray], float]
 ) -> float | None:

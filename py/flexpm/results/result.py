@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..files import Table, json_text, output_folder, write_text
-from . import measures
+from . import doubts, measures
 from .cracks import MODES, Crack, cracks_csv
 from .record import Curve
 from .snapshot import Snapshot
@@ -74,7 +74,16 @@ class Result:
     @property
     def failed(self) -> bool:
         """Whether the simulation failed: it diverged or passed no peak."""
-        return self.status in FAILED
+        return self.status in FAILED or (self.status != "ok" and self.peak_stress is None)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the numbers doubtful, one line each; see ``doubts``."""
+        record = measures.until_regained(self.curve) if self.test == "brazilian" else self.curve
+        mismatch = measures.median_end_mismatch(record)
+        rate = None if self.inputs is None else self.inputs["rate"]
+        found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
+        return found + doubts.of_result(self.status, self.energy_error, mismatch, rate)
 
     def measure(
         self,
@@ -132,6 +141,8 @@ class Result:
         stress = self.curve["axial_stress"]
         if diverged or (len(stress) and not math.isfinite(stress[-1])):
             return "diverged"
+        if self.energy_error is not None and self.energy_error > doubts.LARGEST_ENERGY_ERROR:
+            return "not_quasistatic"
         if peak is None:
             return "no_peak"
         return "not_quasistatic" if fast else "ok"
@@ -139,11 +150,13 @@ class Result:
     def as_dict(self) -> Table:
         """The content of result.json; numbers that are not finite become None."""
         hidden = ("curve", "cracks", "snapshot", "resumed_at")
-        return {
+        content = {
             name: _plain(getattr(self, name))
             for name in self.__dataclass_fields__
             if name not in hidden
         }
+        inputs = content.pop("inputs")
+        return content | {"warnings": self.warnings, "inputs": inputs}
 
     def write(self, folder: Path | str) -> None:
         """Write result.json and the tables into `folder`, each whole or not at all."""

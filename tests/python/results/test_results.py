@@ -59,6 +59,7 @@ KEYS = [
     "fragments",
     "largest_fragment",
     "status",
+    "warnings",
     "inputs",
 ]
 

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Doubts about a run, one line each: inputs in other units than SI's, too fast a loading.
+
+A doubt stops nothing: the numbers are computed as they were asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ..files import Table
+
+#: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
+_USUAL: dict[str, tuple[float, float, str]] = {
+    "young": (1e7, 1e13, "Pa; 25.8 GPa is 25.8e9"),
+    "normal_stiffness": (1e8, 1e18, "Pa/m"),
+    "tensile_strength": (1e3, 1e11, "Pa; 8.5 MPa is 8.5e6"),
+    "cohesion": (1e3, 1e11, "Pa; 30 MPa is 30e6"),
+    "friction": (0.0, 5.0, "1, the tangent of an angle; that of 30 degrees is 0.577"),
+    "density": (100.0, 3e4, "kg/m3"),
+    "confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
+    "width": (1e-6, 5.0, "m; 20 mm is 0.02"),
+    "height": (1e-6, 5.0, "m; 40 mm is 0.04"),
+    "diameter": (1e-6, 5.0, "m; 80 mm is 0.08"),
+    "thickness": (1e-6, 5.0, "m; 80 mm is 0.08"),
+}
+#: Difference of both ends' reactions that is none [-], the median up to the peak.
+LARGEST_MISMATCH = 0.05
+#: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
+LARGEST_ENERGY_ERROR = 0.01
+
+
+def of_inputs(inputs: Table) -> list[str]:
+    """Inputs of a run that are surely in other units.
+
+    Args:
+        inputs: As result.json has them.
+    """
+    material = inputs["material"]
+    tables = [("", {**inputs, **inputs["specimen"]}), ("", material)]
+    tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
+    return [line for where, values in tables for line in _of_values(where, values)]
+
+
+def of_result(
+    status: str, energy_error: float | None, mismatch: float | None, rate: float | None
+) -> list[str]:
+    """What the results say about the loading.
+
+    Args:
+        status: Of the result.
+        energy_error: Relative error of the energy balance [-].
+        mismatch: Of both ends' reactions, median up to the peak [-].
+        rate: Factor on the loading rate [-].
+    """
+    lines = []
+    now = "" if rate is None else f" (--rate, now {rate:g})"
+    if status == "not_quasistatic":
+        lines.append(f"status = not_quasistatic, too fast to tell a strength; lower the rate{now}")
+    if energy_error is not None and energy_error > LARGEST_ENERGY_ERROR:
+        limit = f"{100.0 * LARGEST_ENERGY_ERROR:g} %"
+        lines.append(
+            f"energy_error = {100.0 * energy_error:.3g} %, is above {limit}; lower the rate{now}"
+        )
+    if mismatch is not None and mismatch > LARGEST_MISMATCH:
+        lines.append(
+            f"load and reaction differ by {100.0 * mismatch:.3g} % (median up to the peak), more "
+            f"than {100.0 * LARGEST_MISMATCH:g} %; lower the rate{now}"
+        )
+    return lines
+
+
+def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:
+    for name, (low, high, meant) in _USUAL.items():
+        value = values.get(name)
+        if isinstance(value, int | float) and value != 0.0 and not low <= value <= high:
+            yield f"{where}{name} = {value:g}, is unusual; the unit is {meant}"

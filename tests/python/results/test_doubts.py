@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Doubtful inputs and results are said, the usual ones are not."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from flexpm.cli import main as cli
+from flexpm.laboratory.run_spec import TESTS, RunSpec, described, shape_of
+from flexpm.materials import material as materials
+from flexpm.models.options import MODELS
+from flexpm.results import doubts
+from flexpm.specimens.spec import SpecimenSpec
+
+TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
+
+
+@pytest.mark.parametrize("preset", [None, *materials.preset_names()])
+@pytest.mark.parametrize("test", TESTS)
+def test_no_preset_and_no_default_is_doubtful(test, preset):
+    for model in MODELS:
+        chosen = materials.load(preset, model)
+        if materials.elastic_set_name(model) in chosen.elastic:
+            specimen = SpecimenSpec(shape_of(test))
+            spec = RunSpec(test, specimen, described(chosen, model), model)
+            assert doubts.of_inputs(spec.to_json()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ("--set cohesion=30", "cohesion = 30"),
+        ("--set tensile_strength=8.5", "tensile_strength = 8.5"),
+        ("--set friction=30", "friction = 30"),
+        ("--set young=25.8", "young = 25.8"),
+        ("--width 20 --height 40", "width = 20"),
+        ("--diameters 3,4 --width 12 --height 24", "height = 24"),
+    ],
+)
+def test_inputs_in_other_units_are_said_before_the_run(capsys, monkeypatch, arguments, says):
+    monkeypatch.setattr(cli.cli_library, "load_yade", lambda: 1 / 0)  # nothing runs
+    assert cli.main(["elastic", *TINY, *arguments.split()]) == 3
+    assert f"warning: {says}, is unusual" in capsys.readouterr().out
+
+
+def test_doubts_about_a_result():
+    assert doubts.of_result("ok", 0.009, 0.04, 1.0) == []
+    assert doubts.of_result("ok", None, None, None) == []
+    lines = doubts.of_result("not_quasistatic", 0.02, 0.06, 8.0)
+    assert [line.split(" ")[0] for line in lines] == ["status", "energy_error", "load"]
+    assert all(line.endswith("lower the rate (--rate, now 8)") for line in lines)
+
+
+@pytest.mark.long
+def test_a_loading_beyond_sense_is_said_on_the_screen_and_in_the_file(capsys, tmp_path):
+    arguments = ["run", "tension", *TINY, "--rate", "1e4", "--out", str(tmp_path)]
+    assert cli.main(arguments) == 3
+    shown = [line for line in capsys.readouterr().out.splitlines() if line.startswith("warning")]
+    result = json.loads((tmp_path / "result.json").read_text())
+    assert (result["status"], result["peak_stress"]) == ("not_quasistatic", None)
+    assert shown == [f"warning: {line}" for line in result["warnings"]]
+    assert any("energy_error" in line for line in shown)
+    assert any("load and reaction" in line for line in shown)
