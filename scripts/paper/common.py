@@ -20,12 +20,11 @@ import pandas
 import flexpm
 from flexpm.cli.terminal import Progress
 from flexpm.errors import InputError
-from flexpm.report import comparison as plot_compare
+from flexpm.report import comparison
 from flexpm.results.record import Curve
 from flexpm.results.result import Result
 from flexpm.results.strength import Envelope
-from flexpm.studies import figures as study_plot
-from flexpm.studies import jobs, study
+from flexpm.studies import figures, jobs, study
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
@@ -158,7 +157,7 @@ def macroscopic_pictures(
         for letter, y in zip("abcdefg", PANELS, strict=True)
         if y in found and found[y].notna().any()
     ]
-    return study_plot.draw(study.Study(name, [], pictures), found, folder)
+    return figures.draw(study.Study(name, [], pictures), found, folder)
 
 
 def envelope_of(label: str, rows: pandas.DataFrame) -> Envelope:
@@ -197,6 +196,6 @@ def panels_of_laws(name: str, chosen: argparse.Namespace) -> list[Path]:
     for letter, law in (("a", "brittle"), ("b", "bilinear")):
         runs = curves_of(first[first["material"].str.endswith(law)], folder)
         if runs:
-            plot_compare.curves_picture(folder / f"{name}{letter}.png", runs)
+            comparison.curves_picture(folder / f"{name}{letter}.png", runs)
             pictures.append(folder / f"{name}{letter}.png")
     return pictures

@@ -4,9 +4,9 @@
 import math
 
 import numpy as np
+import yade
 
-from flexpm.bench.timing import yade
-from flexpm.materials import material as materials
+from flexpm import materials
 from flexpm.models import grains as models
 from flexpm.specimens.specimen import Specimen
 

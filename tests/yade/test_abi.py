@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from flexpm import _flexpm
-from flexpm import _plugin as _loading
+from flexpm import _flexpm, _plugin
 
 SIZES = {name: detail for name, check, _, detail in _flexpm.abi_report() if check == "size"}
 
@@ -66,7 +65,7 @@ def test_each_attribute_check_can_fail() -> None:
 
 def test_mismatch_stops_the_import_with_one_line() -> None:
     with pytest.raises(ImportError) as caught:
-        _loading.require_same_layout(rows("size:State"))
+        _plugin.require_same_layout(rows("size:State"))
     message = str(caught.value)
     assert "State" in message and "scripts/setup" in message and "\n" not in message
     assert "320 bytes in YADE, 328" in message
@@ -75,7 +74,7 @@ def test_mismatch_stops_the_import_with_one_line() -> None:
 @pytest.mark.parametrize("folder", ["/usr/lib/x86_64-linux-gnu/yade-long-double", "/usr/lib/yade"])
 def test_other_precision_is_refused(folder: str) -> None:
     with pytest.raises(ImportError, match="must end in yade-double"):
-        _loading.require_double(folder)
+        _plugin.require_double(folder)
 
 
 @pytest.mark.skipif(shutil.which("objdump") is None, reason="needs objdump (package binutils)")

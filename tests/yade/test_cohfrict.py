@@ -4,8 +4,8 @@
 import bonded_pair
 import numpy as np
 import pytest
+import yade
 
-from flexpm.bench.timing import yade
 from flexpm.laboratory import protocols
 from flexpm.laboratory import sphere_protocols as yade_protocols
 from flexpm.laboratory.checkpoint import Checkpoint

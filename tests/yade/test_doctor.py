@@ -7,8 +7,7 @@ import importlib.util
 
 import pytest
 
-from flexpm import _flexpm
-from flexpm import _plugin as _loading
+from flexpm import _flexpm, _plugin
 from flexpm.cli import doctor
 
 
@@ -52,7 +51,7 @@ def test_layout_mismatch_is_named(monkeypatch: pytest.MonkeyPatch, fault: str, p
     report = _flexpm.abi_report(fault)
     monkeypatch.setattr(_flexpm, "abi_report", lambda: report)
     wrong = {name: text for name, ok, text in doctor.checks() if not ok}
-    assert "State" in wrong[part] and _loading.REMEDY in wrong[part]
+    assert "State" in wrong[part] and _plugin.REMEDY in wrong[part]
 
 
 def test_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

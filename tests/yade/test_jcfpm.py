@@ -6,8 +6,8 @@ import json
 import bonded_pair
 import numpy as np
 import pytest
+import yade
 
-from flexpm.bench.timing import yade
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.laboratory import protocols

@@ -11,6 +11,7 @@ import pytest
 from yade import wrapper
 
 import flexpm
+from flexpm.results.snapshot import POINT_SHARES
 
 O = wrapper.Omega()  # noqa: E741 - its name in YADE
 
@@ -127,6 +128,7 @@ def test_bonds_show_their_points(half_broken):
         for name in ("opening", "slip", "damage", "traction"):
             assert (getattr(phys, name) == getattr(snapshot, f"point_{name}")[number]).all()
         assert (phys.cracked == snapshot.crack_mode[number]).all()
+        assert phys.area / phys.area.sum() == pytest.approx(POINT_SHARES[3], rel=1e-14)
         assert ((phys.cracked > 0) == (phys.damage >= 1.0)).all()
         sound = phys.damage == 0.0
         elastic = law["normal_stiffness"] * phys.opening[sound]

@@ -18,9 +18,9 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import yade
 
-from ..models import grains as models
+from ..models.grains import build
 from ..progress import Progress
-from ..results import vtu as export
+from ..results.vtu import write_vtu
 from ..specimens.specimen import Specimen
 
 #: Bytes that a step has to move with the refined mesh and three points when the arrays exceed the
@@ -59,7 +59,7 @@ def timed_set_up(
     packed = time.perf_counter()
     yade.O.reset()
     try:
-        built = models.build(specimen)
+        built = build(specimen)
         made = time.perf_counter()
         yade.O.step()
         stepped = time.perf_counter()
@@ -68,7 +68,7 @@ def timed_set_up(
         with TemporaryDirectory() as folder:
             snapshot = built.snapshot()
             begin = time.perf_counter()
-            export.write_vtu(Path(folder) / "state.vtu", snapshot)
+            write_vtu(Path(folder) / "state.vtu", snapshot)
             written = time.perf_counter() - begin
     finally:
         yade.O.reset()

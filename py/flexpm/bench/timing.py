@@ -25,7 +25,7 @@ from ..files import write_text
 from ..progress import Progress
 from ..specimens.specimen import Specimen
 from . import lammps as bench_lammps
-from . import memory as bench_size
+from . import memory
 from .cases import BUILDERS
 from .report import (
     Case,
@@ -91,7 +91,7 @@ def run(
     """
     python = bench_lammps.interpreter(plan.lammps)
     steps, threads = plan.steps, plan.threads
-    specimen, setup = bench_size.timed_set_up(_PAPER, plan.width, plan.height, plan.seed, progress)
+    specimen, setup = memory.timed_set_up(_PAPER, plan.width, plan.height, plan.seed, progress)
     timing = compare(specimen, steps=steps, threads=threads, lammps=python, progress=progress)
     data, rows = timing.as_dict(), table_rows(timing)
     if python is None:
@@ -194,7 +194,7 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
     for scale in SCALES:
         side = math.sqrt(scale)
         width, height = plan.width * side, plan.height * side
-        specimen, row = bench_size.timed_set_up(_PAPER, width, height, plan.seed, progress)
+        specimen, row = memory.timed_set_up(_PAPER, width, height, plan.seed, progress)
         steps = max(10 * TURNS, plan.steps // scale)
         timing = compare(
             specimen, steps=steps, threads=plan.threads, names=("refined",), progress=progress
@@ -202,8 +202,8 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
         case = timing.cases[0]
         row["step_time"] = case.step_time
         row["time_per_grain"] = case.step_time / row["grains"]
-        row["bandwidth"] = bench_size.bytes_per_step(case.counts) / case.step_time
-        row["triad"] = bench_size.triad()
+        row["bandwidth"] = memory.bytes_per_step(case.counts) / case.step_time
+        row["triad"] = memory.triad()
         found.append(row)
     return found
 

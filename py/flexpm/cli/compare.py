@@ -15,9 +15,8 @@ from ..laboratory.run_spec import TESTS
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
-from . import inputs as cli_library
+from . import inputs, terminal
 from . import options as cli_options
-from . import terminal
 from .options import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
@@ -71,19 +70,19 @@ def compare(
         raise InputError(
             f"confinements = {max(confinements):g} Pa, must be 0 for {test}; use biaxial"
         )
-    chosen = {model: cli_library.material(options, model) for model in models}
+    chosen = {model: inputs.material(options, model) for model in models}
     specs = [
-        cli_library.run_spec(test, options | {"model": model}, material)
+        inputs.run_spec(test, options | {"model": model}, material)
         for model, material in chosen.items()
     ]
     folder = output_folder(out)
-    cli_library.load_yade()
+    inputs.load_yade()
     from ..studies import comparison
 
     with terminal.Progress(quiet) as progress:
         found = comparison.compare(
             test,
-            cli_library.packed(specs[0].specimen, progress),
+            inputs.packed(specs[0].specimen, progress),
             models,
             chosen,
             confinements=confinements,

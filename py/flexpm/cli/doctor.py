@@ -11,7 +11,7 @@ import sys
 from collections.abc import Iterator
 from types import ModuleType
 
-from .. import _plugin as _loading
+from .. import _plugin
 
 Check = tuple[str, bool, str]
 
@@ -43,7 +43,7 @@ def checks() -> Iterator[Check]:
     if yade is None:
         return
     yield _precision(yade)
-    module, found = _plugin()
+    module, found = _compiled()
     yield found
     if module is None:
         return
@@ -79,7 +79,7 @@ def _version(name: str) -> str:
 
 def _yade() -> tuple[ModuleType | None, Check]:
     try:
-        yade = _loading.import_yade()
+        yade = _plugin.import_yade()
     except ImportError as error:
         return None, ("yade", False, str(error))
     return yade, ("yade", True, f"{yade.config.version} ({yade.config.libDir})")
@@ -87,15 +87,15 @@ def _yade() -> tuple[ModuleType | None, Check]:
 
 def _precision(yade: ModuleType) -> Check:
     try:
-        _loading.require_double(yade.config.libDir)
+        _plugin.require_double(yade.config.libDir)
     except ImportError as error:
         return "precision", False, str(error)
     return "precision", True, "double"
 
 
-def _plugin() -> tuple[ModuleType | None, Check]:
+def _compiled() -> tuple[ModuleType | None, Check]:
     try:
-        module = _loading.import_plugin()
+        module = _plugin.import_plugin()
     except ImportError as error:
         return None, ("plugin", False, str(error))
     info = module.build_info
@@ -123,7 +123,7 @@ def _layouts(module: ModuleType) -> Iterator[Check]:
         rows = [row for row in report if row[1].split()[0] == kind]
         wrong = [f"{name} ({check}: {detail})" for name, check, ok, detail in rows if not ok]
         if wrong:
-            yield text, False, f"{', '.join(wrong)} differ; {_loading.REMEDY}"
+            yield text, False, f"{', '.join(wrong)} differ; {_plugin.REMEDY}"
         elif not rows:
             yield text, False, "not examined, an earlier check failed"
         else:
@@ -149,7 +149,7 @@ def _live_scene(yade: ModuleType, module: ModuleType) -> Check:
     scene.reset()
     if agree:
         return name, True, "the plugin and YADE see the same scene"
-    return name, False, f"the plugin and YADE see different values; {_loading.REMEDY}"
+    return name, False, f"the plugin and YADE see different values; {_plugin.REMEDY}"
 
 
 def _threads() -> Check:

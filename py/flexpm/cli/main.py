@@ -29,9 +29,8 @@ from ..report import tables
 from ..require import NOT_NEGATIVE, nearest, require_known
 from ..text import name_of
 from . import compare as cli_compare
-from . import inputs as cli_library
+from . import inputs, signals, terminal
 from . import options as cli_options
-from . import signals, terminal
 from .options import Count, Quantity
 
 if TYPE_CHECKING:
@@ -104,16 +103,16 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     compression of a disc of the given diameter.
     """
     require_known("test", test, TESTS)
-    chosen = cli_library.material(options)
-    spec = cli_library.run_spec(test, options, chosen)
+    chosen = inputs.material(options)
+    spec = inputs.run_spec(test, options, chosen)
     folder = output_folder(out)
-    cli_library.load_yade()
+    inputs.load_yade()
     from ..laboratory import checkpoint, protocols
 
     if discard_checkpoint and (why := checkpoint.discard_unusable(folder, spec)):
         terminal.say(f"starts again: {why}")
     with terminal.Progress(quiet) as progress:
-        specimen = cli_library.packed(spec.specimen, progress)
+        specimen = inputs.packed(spec.specimen, progress)
         plan = protocols.plan_run(spec, specimen, chosen, folder)
         result = protocols.carry_out(plan, threads=options["threads"], progress=progress)
     terminal.say(tables.result_table(result))
@@ -142,23 +141,23 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 @cli_options.quiet_option
 def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
-    chosen = cli_library.material(options)
-    spec = cli_library.run_spec(ELASTIC, options, chosen)
+    chosen = inputs.material(options)
+    spec = inputs.run_spec(ELASTIC, options, chosen)
     folder = None if out is None else output_folder(out)
-    cli_library.load_yade()
-    from ..models import grains as models
+    inputs.load_yade()
+    from ..models import grains
 
     with terminal.Progress(options["quiet"]) as progress:
-        specimen = cli_library.packed(spec.specimen, progress)
+        specimen = inputs.packed(spec.specimen, progress)
         progress.close()
-        found = models.elastic(
+        found = grains.elastic(
             specimen, chosen, model=spec.model, points=spec.points, mesh=spec.mesh
         )
     if folder is not None:
-        inputs = spec.to_json()
-        about = {name: inputs[name] for name in ("test", "model", "material")}
+        asked = spec.to_json()
+        about = {name: asked[name] for name in ("test", "model", "material")}
         about |= {"flexpm": __version__, "seed": spec.specimen.seed}
-        write_text(folder / "result.json", json_text({**about, **found, "inputs": inputs}))
+        write_text(folder / "result.json", json_text({**about, **found, "inputs": asked}))
     terminal.say(f"{spec.model} model, {name_of(chosen.name)}, seed {spec.specimen.seed}")
     terminal.say(tables.elastic_table(found))
 
@@ -178,7 +177,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = output_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = cli_library.packed(cli_library.specimen_spec("rectangle", options), progress)
+        made = inputs.packed(inputs.specimen_spec("rectangle", options), progress)
     _describe(made, folder, mesh)
 
 
@@ -192,7 +191,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = output_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = cli_library.packed(cli_library.specimen_spec("disc", options), progress)
+        made = inputs.packed(inputs.specimen_spec("disc", options), progress)
     _describe(made, folder, mesh)
 
 
@@ -229,7 +228,7 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     """
     if json_file is not None:
         output_folder(json_file.parent)
-    cli_library.load_yade()
+    inputs.load_yade()
     from ..bench import timing
 
     with terminal.Progress(quiet) as progress:

@@ -17,15 +17,14 @@ from .._flexpm import Tessellation
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
-from ..materials import material as materials
-from ..materials import mixing as minerals
 from ..materials.material import Material
+from ..materials.material import load as load_material
+from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import Bounds, require_number, require_one_of
 from ..results.snapshot import Snapshot
-from ..specimens import inner_particles as inner
-from ..specimens import mineral_map
+from ..specimens import inner_particles, mineral_map
 from ..specimens.specimen import Specimen
-from . import spheres as yade_models
+from . import spheres
 from .collider import collider
 from .options import (
     GRAIN_MODELS,
@@ -126,7 +125,7 @@ class Model:
 
     def describe_material(self) -> Table:
         """Name and parameters of the material, of minerals also the area that they have."""
-        found = {"name": self.material.name, **minerals.description(self.material, self.name)}
+        found = {"name": self.material.name, **description(self.material, self.name)}
         if self.minerals is not None:
             kinds = found["minerals"]
             areas = mineral_map.area_fractions(self.specimen, self.minerals, len(kinds))
@@ -146,7 +145,7 @@ def build(
     dynamic: bool = False,
     gravity: float = 0.0,
     threads: int = 1,
-) -> Model | yade_models.SphereModel:
+) -> Model | spheres.SphereModel:
     """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
 
     Bodies that the scene has already are kept, its engines are replaced.
@@ -172,13 +171,13 @@ def build(
     check_options(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
     require_number("build: damping", damping, Bounds(at_least=0.0, below=1.0))
     if model in SPHERE_MODELS:
-        return yade_models.build(
+        return spheres.build(
             specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
         )
     if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
     grains = _grains(specimen, model, points, mesh)
-    chosen = _fitted(specimen, grains, materials.load(material, model), model)
+    chosen = _fitted(specimen, grains, load_material(material, model), model)
     solver = _assembled(grains, chosen, model)
     solver.damping = damping
     solver.addToScene(_grain_materials(chosen, model))
@@ -218,7 +217,7 @@ def elastic(
     """
     require_one_of("build: model", model, GRAIN_MODELS)
     grains = _grains(specimen, model, points, mesh)
-    chosen = _fitted(specimen, grains, materials.load(material, model), model)
+    chosen = _fitted(specimen, grains, load_material(material, model), model)
     solver = _assembled(grains, chosen, model)
     modulus, ratio = _constants(solver)
     return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
@@ -247,8 +246,8 @@ def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
     if model not in INNER_MODELS:
         discs = np.asarray(specimen.discs, dtype=float)
         return _Grains(specimen, specimen.tessellation, discs, options)
-    cells = inner.cells(specimen)
-    options |= {"points": 1, **inner.edge_options(cells, model)}
+    cells = inner_particles.cells(specimen)
+    options |= {"points": 1, **inner_particles.edge_options(cells, model)}
     return _Grains(specimen, cells.tessellation, cells.discs, options)
 
 
@@ -256,11 +255,13 @@ def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -
     """The material, with the stiffness of inner particles fitted to the rock's."""
     if model not in INNER_MODELS:
         return chosen
-    minerals.description(chosen, model)  # refuses a material without the set
+    description(chosen, model)  # refuses a material without the set
     if specimen.kind == "disc":  # no test of it gives a modulus
-        like = inner.rectangle_like(specimen)
+        like = inner_particles.rectangle_like(specimen)
         grains = _grains(like, model, POINTS[0], MESHES[0])
-    return inner.fitted(chosen, lambda tried: _constants(_assembled(grains, tried, model)))
+    return inner_particles.fitted(
+        chosen, lambda tried: _constants(_assembled(grains, tried, model))
+    )
 
 
 def _constants(solver: wrapper.GrainSolver) -> tuple[float, float]:
@@ -273,7 +274,7 @@ def _constants(solver: wrapper.GrainSolver) -> tuple[float, float]:
 
 def _assembled(grains: _Grains, chosen: Material, model: str) -> wrapper.GrainSolver:
     """Make the solver with the packed arrays of the bonded, unloaded grains."""
-    minerals.description(chosen, model)  # refuses minerals that do not go together
+    description(chosen, model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
     try:
         solver.assemble(
@@ -291,7 +292,7 @@ def _assembled(grains: _Grains, chosen: Material, model: str) -> wrapper.GrainSo
 
 def _grain_materials(chosen: Material, model: str) -> list[wrapper.GrainMat]:
     """Of each mineral, or of all grains."""
-    return [_grain_material(kind, model) for kind in minerals.mineral_materials(chosen)]
+    return [_grain_material(kind, model) for kind in mineral_materials(chosen)]
 
 
 def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> Table:
@@ -299,7 +300,7 @@ def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> Table:
     found = mineral_map.minerals_of(specimen, chosen)
     if found is None:
         return {}
-    pairs = minerals.pair_materials(chosen, model)
+    pairs = pair_materials(chosen, model)
     return {"minerals": found, "pairs": [_grain_material(pair, model) for pair in pairs]}
 
 

@@ -21,9 +21,6 @@ from ..arrays import FloatArray, IntArray
 from ..materials.material import Law
 from ..specimens.specimen import Specimen
 
-#: Margin on the masses of the stability bound [-].
-MASS_MARGIN = 1.1
-
 
 @dataclass(frozen=True)
 class Bonds:

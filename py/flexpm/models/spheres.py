@@ -18,17 +18,18 @@ import numpy as np
 import yade
 from yade import utils, wrapper
 
+from .._flexpm import mass_margin
 from ..arrays import FloatArray
 from ..files import Table
-from ..materials import material as materials
 from ..materials.material import Material
+from ..materials.material import load as load_material
 from ..materials.mixing import description
 from ..require import require_one_of
 from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
 from .collider import collider
 from .options import SPHERE_MODELS
-from .sphere_bonds import MASS_MARGIN, Bonds, bonds_of, stiffness_bounds
+from .sphere_bonds import Bonds, bonds_of, stiffness_bounds
 from .sphere_cracks import CrackWatch
 from .sphere_laws import LAWS, SphereLaw
 from .sphere_snapshot import snapshot
@@ -210,7 +211,7 @@ def build(
         InputError: for an unknown model or a material without what it needs.
     """
     require_one_of("build: model", model, SPHERE_MODELS)
-    chosen = materials.load(material, model)
+    chosen = load_material(material, model)
     description(chosen, model)  # refuses minerals
     law = chosen.law(model)
     kind = LAWS[model]
@@ -224,7 +225,7 @@ def build(
         for (x, y), radius in zip(specimen.centres.tolist(), radii.tolist(), strict=True)
     ]
     bounds = _touched_bounds(specimen, radii, bonds, law["normal_stiffness"], kind.bending)
-    factor = MASS_MARGIN * (1.0 + damping) / 4.0
+    factor = mass_margin * (1.0 + damping) / 4.0
     masses, inertias = factor * bounds[0], factor * bounds[1]
     yade.O.dt = 1.0
     if dynamic:

@@ -21,12 +21,11 @@ from ..results.result import Result
 from ..results.strength import Envelope, MohrCoulomb
 from .curves import fits_a_picture
 from .maps import draw_cracks
-from .style import MODE_NAMES, STYLE, can_be_drawn, save
+from .style import CYCLE, MODE_NAMES, STYLE, can_be_drawn, save
 
 Runs = Sequence[tuple[str, Result]]
 
-#: One colour for each model, apart for colour-blind readers; then one dash for each confinement.
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+#: One colour for each model, then one dash for each confinement.
 _DASHES = ("-", (0, (6, 2)), (0, (3, 2)), (0, (1, 1.5)), (0, (6, 2, 1, 2)), (0, (10, 3)))
 _MARKERS = "osD^vP"
 _MAPS_A_ROW = 4
@@ -132,7 +131,7 @@ def envelope_picture(
 
 
 def _draw_envelope(axes: Axes, one: Envelope, confinements: FloatArray, number: int) -> None:
-    colour = _COLOURS[number % len(_COLOURS)]
+    colour = CYCLE[number % len(CYCLE)]
     marker = _MARKERS[number % len(_MARKERS)]
     places = 1e-6 * np.array([one.confinements, one.peaks])
     label = (
@@ -162,7 +161,7 @@ def _styles(runs: Runs) -> list[tuple[str, object]]:
     seen = dict.fromkeys(models, 0)
     found: list[tuple[str, object]] = []
     for _, result in runs:
-        colour = _COLOURS[models.index(result.model) % len(_COLOURS)]
+        colour = CYCLE[models.index(result.model) % len(CYCLE)]
         found.append((colour, _DASHES[seen[result.model] % len(_DASHES)]))
         seen[result.model] += 1
     return found

@@ -17,8 +17,10 @@ from ..arrays import FloatArray
 from ..files import whole_file
 from ..results.cracks import SHEAR, TENSILE
 
-#: Colours that stay apart for colour-blind readers and in print.
-COLOURS = {TENSILE: "#0072b2", SHEAR: "#d55e00"}
+#: Apart for colour-blind readers (Okabe and Ito); one for each line of a picture.
+CYCLE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+#: Colours of the modes of cracks.
+COLOURS = {TENSILE: CYCLE[0], SHEAR: CYCLE[1]}
 MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks"}
 #: Settings of all pictures.
 STYLE = {

@@ -20,9 +20,6 @@ from ..errors import InputError
 from ..materials.material import Material
 from .specimen import Specimen
 
-#: Inner particles on average in a grain, paper Sec. 4.1.
-PARTICLES = 26
-
 #: Poisson's ratio is met within this [-].
 _TOLERANCE = 1e-3
 #: About how fast Poisson's ratio falls with k_s / k_n, for the first guess [-].
@@ -34,7 +31,7 @@ _ACROSS = 14.0
 
 def cells(specimen: Specimen) -> InnerCells:
     """Cut the grains of a specimen into the cells of their inner particles."""
-    return inner_cells(specimen.tessellation, float(PARTICLES))
+    return inner_cells(specimen.tessellation)
 
 
 def edge_options(inner: InnerCells, model: str) -> dict[str, IntArray | bool]:

@@ -10,8 +10,8 @@ import numpy as np
 import tomli_w
 
 from ..files import Table, write_text
-from ..materials import material as materials
 from ..materials.material import Material
+from ..materials.material import load as load_material
 from ..report.style import drawing
 from ..text import label_of, words_of
 from .calibration_problem import Calibration
@@ -59,7 +59,7 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
         *notes,
     ]
     write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))
-    return materials.load(path)
+    return load_material(path)
 
 
 def rounded(value: float) -> float:

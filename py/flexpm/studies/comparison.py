@@ -17,11 +17,11 @@ from ..files import Table, csv_text, output_folder, write_text
 from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
 from ..laboratory.run_spec import RunSpec, described
-from ..materials import material as materials
 from ..materials.material import Material
+from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
 from ..progress import Progress
-from ..report import comparison as plot_compare
+from ..report.comparison import cracks_picture, curves_picture, envelope_picture
 from ..report.tables import columns, scaled
 from ..results.result import Result
 from ..results.strength import Envelope
@@ -91,12 +91,12 @@ class Comparison:
         write_text(folder / "compare.csv", _table([_row(case) for case in self.cases]))
         shown = [(case.name, case.result) for case in self.cases if case.result]
         if shown:
-            plot_compare.curves_picture(folder / "compare.png", shown)
-            plot_compare.cracks_picture(folder / "cracks.png", shown)
+            curves_picture(folder / "compare.png", shown)
+            cracks_picture(folder / "cracks.png", shown)
         if self.envelopes:
             write_text(folder / "envelope.csv", _table([one.as_dict() for one in self.envelopes]))
             picture = folder / "envelope.png"
-            plot_compare.envelope_picture(picture, self.envelopes, self.reference)
+            envelope_picture(picture, self.envelopes, self.reference)
 
 
 def compare(
@@ -201,8 +201,8 @@ def _materials(
     """Material of each model."""
     names = _each_once("models", models)
     if isinstance(material, Mapping) and set(material) <= set(names):
-        return {model: materials.load(material.get(model), model) for model in names}
-    return {model: materials.load(material, model) for model in names}
+        return {model: load_material(material.get(model), model) for model in names}
+    return {model: load_material(material, model) for model in names}
 
 
 def _each_once(name: str, values: Sequence[Value]) -> list[Value]:

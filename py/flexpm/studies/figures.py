@@ -15,7 +15,7 @@ import pandas
 
 from ..files import Table
 from ..materials.keys import UNITS
-from ..report.style import Axes, drawing
+from ..report.style import CYCLE, Axes, drawing
 from ..text import label_of, name_of, words_of
 from . import picture_spec
 from .study import Study
@@ -34,8 +34,8 @@ _SHOWN = {
     "poissons_ratio": (1.0, "-"),
 }
 _LARGE = {"Pa": (1e-6, "MPa")}
-#: Colour-blind safe (Okabe and Ito), black first.
-_COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+#: Black first.
+_COLOURS = ("#000000", *CYCLE)
 _MARKERS = "osD^vP*"
 
 

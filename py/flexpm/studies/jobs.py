@@ -18,8 +18,8 @@ from ..errors import InputError
 from ..files import Table, json_text, write_text
 from ..laboratory import run_spec
 from ..laboratory.run_spec import RunSpec
-from ..materials import material as materials
 from ..materials.keys import UNITS
+from ..materials.material import load as load_material
 from ..require import require_known, require_text
 
 #: Tests of a study; `elastic` is the direct solve.
@@ -89,7 +89,7 @@ def make(inputs: Table, base: Path) -> Job:
         used["material"] = str(base / used["material"])
     model = used.get("model", RunSpec.model)
     changes = [f"{key.removeprefix('set.')}={used[key]}" for key in used if key in _CHANGES]
-    material = materials.load(used.get("material"), model).with_set(changes, model)
+    material = load_material(used.get("material"), model).with_set(changes, model)
     spec = RunSpec.from_options(test, used, material)
     return Job({"test": test, **used}, tuple(_arguments(test, used)), spec)
 

@@ -6,8 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from flexpm.bench import memory as bench_size
-from flexpm.bench import report as bench_report
+from flexpm.bench import memory, report
 from flexpm.bench import timing as bench
 from flexpm.cli import main as cli
 from flexpm.specimens.specimen import Specimen
@@ -68,18 +67,18 @@ def solver():
 
 def test_ratios_stand_beside_those_of_the_paper_for_each_test():
     found = timing(refined=[2.0, 4.0, 2.0], rigid=[1.0, 2.0, 1.0])
-    assert bench_report.disc_rows(found) == [("refined / rigid, brazilian", "2.00, paper 4.79")]
+    assert report.disc_rows(found) == [("refined / rigid, brazilian", "2.00, paper 4.79")]
     assert "ratio_to_jcfpm" not in found.as_dict()["models"]["rigid"]
 
 
 def test_two_threads_come_with_a_word_when_cores_are_busy():
     found = {"one": 2.0, "two": 1.0, "gain": 2.0, "load": 0.0, "cores": 2}
-    assert bench_report.threads_rows(found) == [("two threads", "2.00 times as fast as one")]
-    assert "not free (load 3.0)" in bench_report.threads_rows({**found, "load": 3.0})[0][1]
+    assert report.threads_rows(found) == [("two threads", "2.00 times as fast as one")]
+    assert "not free (load 3.0)" in report.threads_rows({**found, "load": 3.0})[0][1]
 
 
 def test_set_up_memory_and_file_are_measured(specimen):
-    again, found = bench_size.timed_set_up(0.01, 0.016, 0.032, 2, None)
+    again, found = memory.timed_set_up(0.01, 0.016, 0.032, 2, None)
     assert np.array_equal(again.discs, specimen.discs)
     assert found["grains"] == len(specimen.discs)
     assert all(found[f"{part}_time"] > 0.0 for part in ("specimen", "model", "first_step", "vtu"))
@@ -90,8 +89,8 @@ def test_memory_traffic_is_that_of_the_arrays(specimen):
     counts = bench.BUILDERS["refined"][1](specimen, 1)
     # arrays of doubles that grow with the nodes: x, y of displacement and velocity, and the mass
     lower = 5 * 8 * counts["nodes"] + 5 * 8 * counts["triangles"]
-    assert lower < bench_size.bytes_per_step(counts) < 10 * lower
-    assert bench_size.bytes_per_step(dict.fromkeys(counts, 0)) == 0
+    assert lower < memory.bytes_per_step(counts) < 10 * lower
+    assert memory.bytes_per_step(dict.fromkeys(counts, 0)) == 0
 
 
 def test_growth_is_drawn_and_described(tmp_path):
@@ -101,10 +100,10 @@ def test_growth_is_drawn_and_described(tmp_path):
         {**row, "grains": n, "step_time": n * cost, "time_per_grain": cost}
         for n, cost in ((100, 1e-6), (1000, 1.5e-6))
     ]
-    text = dict(bench_report.scaling_rows(found))
+    text = dict(report.scaling_rows(found))
     assert "1.50 of the first" in text["1000 grains"]
     assert text["100 grains"].endswith("25% of the triad's")
-    bench_report.scaling_picture(tmp_path / "growth.png", found)
+    report.scaling_picture(tmp_path / "growth.png", found)
     assert (tmp_path / "growth.png").stat().st_size > 1000
 
 
@@ -134,7 +133,7 @@ def test_the_command_writes_the_same_numbers(tmp_path, capsys):
     text, data = capsys.readouterr().out, json.loads(file.read_text())
     assert set(bench.BUILDERS) <= set(data["models"])  # LAMMPS joins where it is installed
     jcfpm = data["models"]["jcfpm"]
-    assert jcfpm[f"ratio_to_{bench_report.REFERENCE}"] == 1.0
+    assert jcfpm[f"ratio_to_{report.REFERENCE}"] == 1.0
     assert jcfpm["quartiles"][0] <= jcfpm["step_time"] <= jcfpm["quartiles"][1]
     assert f"{data['models']['refined']['grains']}, {jcfpm['contacts']}" in text
     assert f"{1e6 * jcfpm['step_time']:#.4g}".rstrip(".") in text

@@ -13,8 +13,7 @@ import pytest
 
 import flexpm
 from flexpm.cli import main as cli
-from flexpm.materials import material as materials
-from flexpm.materials.keys import UNITS
+from flexpm.materials.keys import ELASTIC_SET, UNITS
 from flexpm.report import tables
 
 PACKAGE = str(Path(flexpm.__file__).parent.parent)
@@ -197,4 +196,4 @@ def test_numbers_in_tables():
 
 
 def test_models_of_the_command_are_those_of_the_materials(capsys):
-    assert ", ".join(materials.ELASTIC_SET) in refused(capsys, "elastic", "--model", "none")
+    assert ", ".join(ELASTIC_SET) in refused(capsys, "elastic", "--model", "none")

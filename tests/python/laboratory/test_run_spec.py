@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import flexpm
+from flexpm import materials
 from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
 from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO
 from flexpm.laboratory.run_spec import ELASTIC, LOADINGS, TESTS, RunSpec, described
-from flexpm.materials import material as materials
 from flexpm.materials.keys import ELASTIC_SET
 from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
 from flexpm.models.sphere_laws import LAWS

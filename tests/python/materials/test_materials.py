@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from flexpm import materials
 from flexpm.errors import InputError
-from flexpm.materials import material as materials
-from flexpm.materials.keys import UNITS
+from flexpm.materials.keys import ELASTIC_SET, UNITS
 from flexpm.materials.material import Material
 
 NUMBERS = [key for key, unit in UNITS.items() if unit is not None]
@@ -47,7 +47,7 @@ def test_strengths_are_those_of_the_paper(name, strengths):
         assert energies == strengths[3:]
 
 
-@pytest.mark.parametrize("model", materials.ELASTIC_SET)
+@pytest.mark.parametrize("model", ELASTIC_SET)
 def test_brittle_energies_are_the_elastic_energies_of_the_models_set(model):
     law = materials.load("augig-table2-brittle").law(model)
     stiffness, ratio = law["normal_stiffness"], law["shear_ratio"]

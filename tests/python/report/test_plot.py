@@ -13,9 +13,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
 
-from flexpm.report import curves as plot
-from flexpm.report import maps as plot_maps
-from flexpm.report import style
+from flexpm.report import curves, maps, style
 from flexpm.results.cracks import SHEAR, TENSILE
 from flexpm.results.record import COLUMNS, Curve
 from flexpm.results.result import Result
@@ -47,7 +45,7 @@ def result_with_peak(stresses, cracks=0.0):
 
 def test_grain_corners_are_counter_clockwise_polygons_of_the_right_area():
     snapshot = wall(columns=3, rows=4)
-    polygons = plot_maps.grain_corners(snapshot.triangles)
+    polygons = maps.grain_corners(snapshot.triangles)
     assert sorted(tuple(sorted(polygon)) for polygon in polygons) == [
         tuple(5 * grain + corner for corner in range(4)) for grain in range(12)
     ]
@@ -59,7 +57,7 @@ def test_grain_corners_are_counter_clockwise_polygons_of_the_right_area():
 @pytest.mark.parametrize(("points", "share"), [(1, 1.0), (2, 0.5), (3, 1 / 6)])
 def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
     snapshot = wall(points=points)
-    segments = plot_maps.crack_segments(snapshot)
+    segments = maps.crack_segments(snapshot)
     for mode in (TENSILE, SHEAR):
         contacts = np.flatnonzero(snapshot.crack_mode[:, 0] == mode)
         ends = snapshot.contact_ends[contacts]
@@ -70,10 +68,10 @@ def test_a_cracked_point_covers_its_share_of_the_contact(points, share):
 
 def test_cracks_appear_in_their_colours(tmp_path):
     snapshot = wall()
-    plot_maps.crack_picture(tmp_path / "cracks.png", snapshot, "wall")
+    maps.crack_picture(tmp_path / "cracks.png", snapshot, "wall")
     modes = np.where(snapshot.crack_mode == SHEAR, 0, snapshot.crack_mode)
     snapshot = dataclasses.replace(snapshot, crack_mode=modes)
-    plot_maps.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
+    maps.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
     for mode, colour in style.COLOURS.items():
         both = pixels_like(tmp_path / "cracks.png", colour)
         without_shear = pixels_like(tmp_path / "tensile.png", colour)
@@ -83,12 +81,10 @@ def test_cracks_appear_in_their_colours(tmp_path):
 
 def test_the_mesh_is_drawn_on_request(tmp_path):
     snapshot = wall()
-    polygons = [
-        snapshot.positions[corners] for corners in plot_maps.grain_corners(snapshot.triangles)
-    ]
-    plot_maps.specimen_picture(tmp_path / "plain.png", polygons, caption="12 grains")
+    polygons = [snapshot.positions[corners] for corners in maps.grain_corners(snapshot.triangles)]
+    maps.specimen_picture(tmp_path / "plain.png", polygons, caption="12 grains")
     mesh = (snapshot.positions, snapshot.triangles)
-    plot_maps.specimen_picture(tmp_path / "mesh.png", polygons, mesh)
+    maps.specimen_picture(tmp_path / "mesh.png", polygons, mesh)
     plain, meshed = imread(tmp_path / "plain.png"), imread(tmp_path / "mesh.png")
     assert min(plain.shape[:2]) > 300
     rows = slice(int(0.15 * plain.shape[0]), int(0.8 * plain.shape[0]))
@@ -98,14 +94,14 @@ def test_the_mesh_is_drawn_on_request(tmp_path):
 def test_curve_shows_cracks_and_peak(tmp_path):
     rising = np.linspace(0.0, 100e6, 200)
     loaded = result_with_peak([*rising, *rising[::-4]], cracks=3.0)
-    plot.curve_picture(tmp_path / "curve.png", loaded)
+    curves.curve_picture(tmp_path / "curve.png", loaded)
     for colour in style.COLOURS.values():
         assert pixels_like(tmp_path / "curve.png", colour) > 100
 
 
 @pytest.mark.parametrize("stresses", [[], [0.0], [0.0, 1e6], [0.0, np.nan], np.linspace(0, 1, 9)])
 def test_records_without_a_peak_are_drawn_too(tmp_path, stresses):
-    plot.curve_picture(tmp_path / "curve.png", result_with_peak(stresses))
+    curves.curve_picture(tmp_path / "curve.png", result_with_peak(stresses))
     assert imread(tmp_path / "curve.png").shape[0] > 300
 
 
@@ -115,7 +111,7 @@ def test_pictures_need_neither_a_display_nor_pyplot():
         "assert 'matplotlib.pyplot' not in sys.modules; "
         "print('matplotlib' in sys.modules)"
     )
-    package = str(Path(plot.__file__).parents[2])
+    package = str(Path(curves.__file__).parents[2])
     found = subprocess.run(
         [sys.executable, "-c", code],
         capture_output=True,

@@ -11,10 +11,10 @@ import pytest
 flexpm = pytest.importorskip("flexpm")
 import yade  # noqa: E402  (after flexpm, which finds it)
 
+from flexpm import materials  # noqa: E402
 from flexpm.errors import InputError  # noqa: E402
-from flexpm.materials import material as materials  # noqa: E402
 from flexpm.models import grains as models  # noqa: E402
-from flexpm.report import maps as plot_maps  # noqa: E402
+from flexpm.report import maps  # noqa: E402
 from flexpm.results.snapshot import Snapshot  # noqa: E402
 from flexpm.specimens import inner_particles as inner  # noqa: E402
 
@@ -152,7 +152,7 @@ def only_between_grains_break(result: flexpm.Result, folder) -> None:
     assert np.all(grains[:, 0] != grains[:, 1])
     within = snapshot.contact_grains[:, 0] == snapshot.contact_grains[:, 1]
     assert np.all(snapshot.point_damage[within] == 0.0)
-    plot_maps.crack_picture(folder / "cracks.png", snapshot)
+    maps.crack_picture(folder / "cracks.png", snapshot)
 
 
 @pytest.mark.long

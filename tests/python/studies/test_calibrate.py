@@ -13,11 +13,9 @@ from pathlib import Path
 import pandas
 import pytest
 
+from flexpm import materials
 from flexpm.errors import InputError
-from flexpm.materials import material as materials
-from flexpm.studies import calibration_problem as calibration
-from flexpm.studies import calibration_search as calibrate
-from flexpm.studies import jobs
+from flexpm.studies import calibration_problem, calibration_search, jobs
 from flexpm.studies.calibration_report import picture, table_rows, write_preset
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -41,10 +39,10 @@ cohesion = [5e6, 90e6]
 """
 
 
-def plan_of(folder: Path, text: str = GOOD) -> calibration.Calibration:
+def plan_of(folder: Path, text: str = GOOD) -> calibration_problem.Calibration:
     path = folder / "calibration.toml"
     path.write_text(text)
-    return calibration.read(path)
+    return calibration_problem.read(path)
 
 
 @pytest.mark.parametrize(
@@ -68,7 +66,7 @@ def test_wrong_files_are_refused(tmp_path, old, new, says):
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_the_papers_granite_can_be_calibrated(model):
-    plan = calibration.read(ROOT / f"scripts/studies/augig_{model}.toml")
+    plan = calibration_problem.read(ROOT / f"scripts/studies/augig_{model}.toml")
     assert plan.model == model
     law = materials.load(plan.material_file, plan.model).law(plan.model)
     assert all(low <= law[key] <= high for key, (low, high) in plan.free.items())
@@ -80,7 +78,9 @@ def test_the_papers_granite_can_be_calibrated(model):
 
 def test_the_start_must_lie_within_the_bounds(tmp_path):
     with pytest.raises(InputError, match="cohesion = 1000000000.0"):
-        calibrate.run(plan_of(tmp_path), tmp_path, start={"tensile_strength": 5e6, "cohesion": 1e9})
+        calibration_search.run(
+            plan_of(tmp_path), tmp_path, start={"tensile_strength": 5e6, "cohesion": 1e9}
+        )
 
 
 def test_measures_of_an_envelope(tmp_path):
@@ -130,10 +130,10 @@ class MadeUp:
 
 
 def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
-    monkeypatch.setattr(calibrate, "Pool", MadeUp)
+    monkeypatch.setattr(calibration_search, "Pool", MadeUp)
     plan = plan_of(tmp_path)
     start = materials.load("augig-table7").law()
-    found = calibrate.run(plan, tmp_path, start=start)
+    found = calibration_search.run(plan, tmp_path, start=start)
     assert found.met == {"compressive_strength": True, "direct_tensile_strength": True}
     screened = [e for e in found.history if e.stage == "screen"]
     assert len(screened) <= 2 * (plan.evaluations + 1)
@@ -151,9 +151,9 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
 
 
 def test_ratios_hold_in_the_search(tmp_path, monkeypatch):
-    monkeypatch.setattr(calibrate, "Pool", MadeUp)
+    monkeypatch.setattr(calibration_search, "Pool", MadeUp)
     ratio = '[[ratio]]\nof = "cohesion"\nto = "tensile_strength"\nbounds = [5.0, 6.0]\n'
-    found = calibrate.run(
+    found = calibration_search.run(
         plan_of(tmp_path, GOOD + ratio), tmp_path, start=materials.load("augig-table7").law()
     )
     tried = [e.values for e in found.history if e.stage == "screen"][2:]
@@ -195,7 +195,7 @@ def synthetic(folder: Path) -> Path:
     common = {"width": 0.016, "height": 0.032, "thickness": 0.01, "rate": 2, **changes}
     tests = ("uniaxial", "tension", "elastic")
     made = [jobs.make({**common, "test": test}, folder) for test in tests]
-    with calibrate.Pool(folder / "truth") as pool:
+    with calibration_search.Pool(folder / "truth") as pool:
         found = [outcome["result"] for outcome in pool.run(made)]
     values = dict(zip(tests, (one.get("peak_stress") for one in found), strict=True))
     path = folder / "synthetic.toml"

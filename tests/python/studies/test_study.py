@@ -22,8 +22,7 @@ from matplotlib.image import imread
 from flexpm.cli import inputs, main
 from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
-from flexpm.studies import figures as study_plot
-from flexpm.studies import jobs, pool, study, tables
+from flexpm.studies import figures, jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
 SMALL = "width = 0.01\nheight = 0.02\nthickness = 0.01\n"
@@ -245,12 +244,12 @@ def test_pictures_show_means_over_packings(tmp_path):
     made = [job for job, _ in pairs]
     rows = tables.table(made, [outcome for _, outcome in pairs])
     assert list(rows["peak_stress"][:2]) == [1.2e7, 2.2e7]
-    pictures = study_plot.draw(study.Study("means", made), rows, tmp_path)
+    pictures = figures.draw(study.Study("means", made), rows, tmp_path)
     assert imread(pictures[0]).shape[0] > 300
     asked = [{"x": "seed", "y": "peak_stress", "by": ["model"], "file": "x.png"}]
-    assert study_plot.draw(study.Study("s", made, asked), rows, tmp_path) == [tmp_path / "x.png"]
+    assert figures.draw(study.Study("s", made, asked), rows, tmp_path) == [tmp_path / "x.png"]
     with pytest.raises(InputError, match="did you mean peak_stress"):
-        study_plot.draw(study.Study("s", made, [{"x": "seed", "y": "peak_stres"}]), rows, tmp_path)
+        figures.draw(study.Study("s", made, [{"x": "seed", "y": "peak_stres"}]), rows, tmp_path)
 
 
 def test_lines_are_told_apart_by_text_and_numbers_together(tmp_path, monkeypatch):
@@ -264,7 +263,7 @@ def test_lines_are_told_apart_by_text_and_numbers_together(tmp_path, monkeypatch
         for model, friction, x in itertools.product(("a", "b"), (0.2, 0.5), (1.0, 2.0))
     )
     asked = [{"x": "x", "y": "y", "by": ["model", "set.friction"]}]
-    study_plot.draw(study.Study("s", [], asked), rows, tmp_path)
+    figures.draw(study.Study("s", [], asked), rows, tmp_path)
     names = [label for label, _ in lines]
     assert names == [f"{m}, friction {f}" for m in ("a", "b") for f in (0.2, 0.5)]
     assert [list(drawn[1]) for _, drawn in lines] == 2 * [[1.2, 2.2], [1.5, 2.5]]

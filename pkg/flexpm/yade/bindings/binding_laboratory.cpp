@@ -7,6 +7,7 @@
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/end_rule.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include <boost/python/stl_iterator.hpp>
 
@@ -73,6 +74,7 @@ namespace {
 
 void register_laboratory_bindings()
 {
+	py::scope().attr("mass_margin") = flexpm::mass_margin;
 	py::def("contact_modulus",
 	        flexpm::contact_modulus,
 	        (py::arg("normal_stiffness"), py::arg("mean_diameter")),

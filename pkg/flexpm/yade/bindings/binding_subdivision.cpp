@@ -46,7 +46,10 @@ void register_subdivision_bindings()
 	        .add_property("discs", discs, "Rows x, y, radius [m] of the particles, one per cell.")
 	        .add_property("grain", grain, "Grain of each cell.")
 	        .add_property("outer", outer, "Per shared edge: 1 between two grains, 0 within one.");
-	py::def("inner_cells", innerCells, (py::arg("tessellation"), py::arg("mean_count")), "Cut grains into cells of about equal area.");
+	py::def("inner_cells",
+	        innerCells,
+	        (py::arg("tessellation"), py::arg("mean_count") = flexpm::inner_particles),
+	        "Cut grains into cells of about equal area.");
 }
 
 } // namespace flexpm_bindings
