@@ -62,13 +62,13 @@ def test_any_exception_is_one_line(capsys, monkeypatch, error, code, text):
     def fail(*arguments):
         raise error
 
-    monkeypatch.setattr(cli.cli_library, "material", fail)
+    monkeypatch.setattr(cli.inputs, "material", fail)
     assert cli.main(["elastic"]) == code
     assert text in one_line(capsys.readouterr().err)
 
 
 def test_a_traceback_is_shown_if_it_is_asked_for(capsys, monkeypatch):
-    monkeypatch.setattr(cli.cli_library, "material", lambda *_: 1 / None)
+    monkeypatch.setattr(cli.inputs, "material", lambda *_: 1 / None)
     monkeypatch.setenv("FLEXPM_DEBUG", "1")
     assert cli.main(["elastic"]) == 1
     errors = capsys.readouterr().err
