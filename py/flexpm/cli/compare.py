@@ -97,7 +97,7 @@ def compare(
         terminal.say(tables.envelope_table(found.envelopes, found.reference))
     for case in found.cases:
         if case.result is not None:
-            cli_library.tell_warnings(case.result, f"{case.name}: ")
+            inputs.tell_warnings(case.result, f"{case.name}: ")
     terminal.say(f"  files  {folder}/")
     _report_failures(found.cases)
 

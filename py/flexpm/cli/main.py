@@ -116,7 +116,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
         plan = protocols.plan_run(spec, specimen, chosen, folder)
         result = protocols.carry_out(plan, threads=options["threads"], progress=progress)
     terminal.say(tables.result_table(result))
-    cli_library.tell_warnings(result)
+    inputs.tell_warnings(result)
     terminal.say(f"  files                   {folder}/")
     if result.resumed_at is not None:
         again = "was complete" if result.resumed_at >= result.steps else "was taken up"
