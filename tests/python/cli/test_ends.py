@@ -123,7 +123,7 @@ def test_the_surroundings_do_not_matter(tmp_path, change):
     command = [*COMMAND, "run", *SOON, "--out", str(tmp_path)]
     done = subprocess.run(command, env=surroundings, capture_output=True, text=True)
     assert done.returncode == 3, done.stderr
-    assert "no_peak" in one_line(done.stderr)
+    assert "no strength was found" in one_line(done.stderr)
 
 
 def test_a_file_that_is_a_folder_is_named(capsys, tmp_path):

@@ -40,7 +40,7 @@ def test_no_preset_and_no_default_is_doubtful(test, preset):
     ],
 )
 def test_inputs_in_other_units_are_said_before_the_run(capsys, monkeypatch, arguments, says):
-    monkeypatch.setattr(cli.cli_library, "load_yade", lambda: 1 / 0)  # nothing runs
+    monkeypatch.setattr(cli.inputs, "load_yade", lambda: 1 / 0)  # nothing runs
     assert cli.main(["elastic", *TINY, *arguments.split()]) == 3
     assert f"warning: {says}, is unusual" in capsys.readouterr().out
 
