@@ -29,9 +29,9 @@ Assembly random_assembly(MeshKind mesh = MeshKind::refined, int points = 3)
 
 void for_each_node(const Assembly& a, const std::function<void(int grain, int node)>& visit)
 {
-    for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n)
-            visit(g, a.node(g, n));
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int n = 0; n < a.grains.nodes_of(g); ++n)
+            visit(g, a.grains.node(g, n));
     }
 }
 
@@ -40,8 +40,8 @@ void distort(Assembly& a, double amplitude)
 {
     Random random(5);
     for_each_node(a, [&](int, int n) {
-        a.velocity[n] = amplitude * (random.next() - 0.5);
-        a.velocity[n + lanes] = amplitude * (random.next() - 0.5);
+        a.grains.velocity[n] = amplitude * (random.next() - 0.5);
+        a.grains.velocity[component(n, 1)] = amplitude * (random.next() - 0.5);
     });
     step(a, StepOptions());
 }
@@ -49,14 +49,13 @@ void distort(Assembly& a, double amplitude)
 /// Force of contact `c` on end `end` of its edge on side `side`.
 Point contact_force(const Assembly& a, int c, int side, int end)
 {
-    const int row = 4 * side + 2 * end;
-    return { a.contact_force[record_index(c, row, ContactRows::forces)],
-        a.contact_force[record_index(c, row + 1, ContactRows::forces)] };
+    const double* f = &a.contacts.forces[Contacts::force_index(c, side, end)];
+    return { f[0], f[1] };
 }
 
 int contact_node(const Assembly& a, int c, int side, int end)
 {
-    return a.contact_nodes[row_index(c, 2 * side + end, ContactRows::nodes)];
+    return a.contacts.node(c, side, end);
 }
 
 Point rotate(Point p, double angle)
@@ -69,10 +68,10 @@ Point rotate(Point p, double angle)
 void spin(Assembly& a, double from, double to)
 {
     for_each_node(a, [&](int, int n) {
-        const Point p { a.reference[n], a.reference[n + lanes] };
+        const Point p = vector_at(a.grains.reference, n);
         const Point p0 = rotate(p, from), p1 = rotate(p, to);
-        a.velocity[n] = p1.x - p0.x;
-        a.velocity[n + lanes] = p1.y - p0.y;
+        a.grains.velocity[n] = p1.x - p0.x;
+        a.grains.velocity[component(n, 1)] = p1.y - p0.y;
     });
     step(a, StepOptions());
 }
@@ -80,7 +79,7 @@ void spin(Assembly& a, double from, double to)
 double largest_force(const Assembly& a)
 {
     double largest = 0.0;
-    for (double f : a.force)
+    for (double f : a.grains.force)
         largest = std::max(largest, std::fabs(f));
     return largest;
 }
@@ -95,16 +94,16 @@ TEST_CASE("every node has its own place in the packed arrays", "[assembly]")
     for_each_node(a, [&](int, int n) {
         ++nodes;
         REQUIRE(n >= 0);
-        REQUIRE(n + lanes < static_cast<int>(a.reference.size()));
-        places.insert({ n, n + lanes });
+        REQUIRE(component(n, 1) < static_cast<int>(a.grains.reference.size()));
+        places.insert({ n, component(n, 1) });
         scalars.insert(scalar_index(n));
     });
     CHECK(static_cast<int>(places.size()) == 2 * nodes);
     CHECK(static_cast<int>(scalars.size()) == nodes);
     CHECK(*scalars.begin() >= 0);
-    CHECK(*scalars.rbegin() < static_cast<int>(a.inverse_mass.size()));
-    for (int g = 0; g < a.grains; ++g)
-        CHECK(a.slot_grain[a.grain_slot[g]] == g);
+    CHECK(*scalars.rbegin() < static_cast<int>(a.grains.inverse_mass.size()));
+    for (int g = 0; g < a.grains.count; ++g)
+        CHECK(a.grains.in_slot[a.grains.slot[g]] == g);
 }
 
 TEST_CASE("grains fill the rectangle and keep their corners", "[assembly]")
@@ -112,16 +111,16 @@ TEST_CASE("grains fill the rectangle and keep their corners", "[assembly]")
     const auto s = specimens::random_grains(width, height, 3e-3, 21);
     for (const MeshKind mesh : { MeshKind::fan, MeshKind::refined }) {
         const Assembly a = random_assembly(mesh);
-        REQUIRE(a.grains == s.cells.cells());
+        REQUIRE(a.grains.count == s.cells.cells());
         double volume = 0.0;
-        for (int g = 0; g < a.grains; ++g) {
-            for (int t = 0; t < triangles_of(a, g); ++t)
-                volume += shape_of(a, g, t).volume;
+        for (int g = 0; g < a.grains.count; ++g) {
+            for (int t = 0; t < triangles_of(a.grains, g); ++t)
+                volume += shape_of(a.grains, g, t).volume;
             std::set<std::pair<double, double>> cell, grain;
             for (const Point& p : cell_polygon(s.cells, g))
                 cell.insert({ p.x, p.y });
             for (int n = 0; n < s.cells.vertices_of(g); ++n) {
-                const Point p = a.position(a.node(g, n));
+                const Point p = a.grains.position(a.grains.node(g, n));
                 grain.insert({ p.x, p.y });
             }
             CHECK(cell == grain);
@@ -134,29 +133,30 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
 {
     const int points = GENERATE(1, 2, 3);
     const Assembly a = random_assembly(MeshKind::refined, points);
-    for (int c = 0; c < a.contacts; ++c) {
+    for (int c = 0; c < a.contacts.count; ++c) {
         std::set<int> owned[2];
         for (int side = 0; side < 2; ++side) {
-            const int g = a.contact_grains[2 * c + side];
-            for (int n = 0; n < a.nodes_of(g); ++n)
-                owned[side].insert(a.node(g, n));
-            CHECK(a.contact_nodes[row_index(c, 4 + side, ContactRows::nodes)] == a.centre_slot(g));
+            const int g = a.contacts.pairs[c][side];
+            for (int n = 0; n < a.grains.nodes_of(g); ++n)
+                owned[side].insert(a.grains.node(g, n));
+            const int row = side == 0 ? NodeRow::centre_a : NodeRow::centre_b;
+            CHECK(a.contacts.nodes[row_index(c, row, NodeRow::count)] == a.grains.centre_place(g));
         }
         for (int end = 0; end < 2; ++end) {
             const int na = contact_node(a, c, 0, end), nb = contact_node(a, c, 1, end);
             REQUIRE(owned[0].count(na) == 1);
             REQUIRE(owned[1].count(nb) == 1);
-            CHECK(a.position(na).x == a.position(nb).x);
-            CHECK(a.position(na).y == a.position(nb).y);
+            CHECK(a.grains.position(na).x == a.grains.position(nb).x);
+            CHECK(a.grains.position(na).y == a.grains.position(nb).y);
         }
-        const Point p0 = a.position(contact_node(a, c, 0, 0));
-        const Point p1 = a.position(contact_node(a, c, 0, 1));
+        const Point p0 = a.grains.position(contact_node(a, c, 0, 0));
+        const Point p1 = a.grains.position(contact_node(a, c, 0, 1));
         const double length = std::hypot(p1.x - p0.x, p1.y - p0.y);
         double area = 0.0, first = 0.0, second = 0.0;
         for (int p = 0; p < points; ++p) {
-            const double w = a.weight[row_index(c, 2 * p, 2 * points)];
-            CHECK(a.weight[row_index(c, 2 * p + 1, 2 * points)] == w);
-            const double share = a.area[row_index(c, p, points)];
+            const double w = a.contacts.weight(c, p, 0);
+            CHECK(a.contacts.weight(c, p, 1) == w);
+            const double share = a.contacts.area(c, p);
             area += share;
             first += share * (w - 0.5) * length;
             second += share * (w - 0.5) * (w - 0.5) * length * length;
@@ -167,7 +167,7 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
         const double expected[] = { 0.0, 1.0 / 4.0, 1.0 / 12.0 };
         CHECK(second / (area * length * length) == Approx(expected[points - 1]).margin(1e-14));
         // the normal points out of the first grain, whose edge runs counter-clockwise
-        const Point n = normal_of(a, c);
+        const Point n = a.contacts.normal(c);
         CHECK(std::hypot(n.x, n.y) == Approx(1.0).epsilon(1e-14));
         CHECK(n.x * (p1.y - p0.y) - n.y * (p1.x - p0.x) > 0.0);
     }
@@ -176,30 +176,29 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
 TEST_CASE("padded lanes stay at rest and exert nothing", "[assembly]")
 {
     Assembly a = random_assembly();
-    REQUIRE(a.blocks() * lanes > a.grains);
+    REQUIRE(a.grains.blocks() * lanes > a.grains.count);
     scale_masses(a, 0.7);
     distort(a, 1e-7);
     for (int n = 0; n < 50; ++n)
         step(a, StepOptions());
     int padded = 0;
-    for (int slot = 0; slot < a.blocks() * lanes; ++slot) {
-        if (a.slot_grain[slot] >= 0) continue;
+    for (int slot = 0; slot < a.grains.blocks() * lanes; ++slot) {
+        if (a.grains.in_slot[slot] >= 0) continue;
         ++padded;
-        for (int k = 0; k < a.group(slot / lanes).nodes; ++k) {
-            const int n = a.block_nodes[slot / lanes] + 2 * lanes * k + slot % lanes;
-            for (int i : { n, n + lanes }) {
-                CHECK(a.held[i] == 1);
-                CHECK(a.displacement[i] == 0.0);
-                CHECK(a.velocity[i] == 0.0);
-                CHECK(a.force[i] == 0.0);
+        for (int k = 0; k < a.grains.group(slot / lanes).nodes; ++k) {
+            const int n = a.grains.block_nodes[slot / lanes] + node_stride * k + slot % lanes;
+            for (int i : { n, component(n, 1) }) {
+                CHECK(a.grains.prescribed[i] == 1);
+                CHECK(a.grains.displacement[i] == 0.0);
+                CHECK(a.grains.velocity[i] == 0.0);
+                CHECK(a.grains.force[i] == 0.0);
             }
         }
     }
-    CHECK(padded == a.blocks() * lanes - a.grains);
-    for (int c = a.contacts; c < a.contact_blocks() * lanes; ++c) {
-        for (int row = 0; row < ContactRows::forces; ++row) {
-            CHECK(a.contact_force[record_index(c, row, ContactRows::forces)] == 0.0);
-        }
+    CHECK(padded == a.grains.blocks() * lanes - a.grains.count);
+    for (int c = a.contacts.count; c < a.contacts.blocks() * lanes; ++c) {
+        for (int i = 0; i < Contacts::force_values; ++i)
+            CHECK(a.contacts.forces[Contacts::force_index(c, 0, 0) + i] == 0.0);
     }
 }
 
@@ -212,32 +211,32 @@ TEST_CASE("every force acts on the right node, and all forces sum to nothing", "
     REQUIRE(scale > 1e3);
     double sum_x = 0.0, sum_y = 0.0;
     for_each_node(a, [&](int, int n) {
-        sum_x += a.force[n];
-        sum_y += a.force[n + lanes];
+        sum_x += a.grains.force[n];
+        sum_y += a.grains.force[component(n, 1)];
     });
     CHECK(std::hypot(sum_x, sum_y) < 1e-11 * scale);
 
     // what is left without the contacts, in each grain: elements, in balance of force and moment
-    Array<double> rest = a.force;
-    for (int c = 0; c < a.contacts; ++c) {
+    Array<double> rest = a.grains.force;
+    for (int c = 0; c < a.contacts.count; ++c) {
         for (int side = 0; side < 2; ++side) {
             for (int end = 0; end < 2; ++end) {
                 const int n = contact_node(a, c, side, end);
                 const Point f = contact_force(a, c, side, end);
                 rest[n] -= f.x;
-                rest[n + lanes] -= f.y;
+                rest[component(n, 1)] -= f.y;
             }
         }
     }
-    for (int g = 0; g < a.grains; ++g) {
+    for (int g = 0; g < a.grains.count; ++g) {
         double x = 0.0, y = 0.0, moment = 0.0;
-        const Point centre = a.position(a.centre(g));
-        for (int k = 0; k < a.nodes_of(g); ++k) {
-            const int n = a.node(g, k);
-            const Point p = a.position(n);
+        const Point centre = a.grains.position(a.grains.centre(g));
+        for (int k = 0; k < a.grains.nodes_of(g); ++k) {
+            const int n = a.grains.node(g, k);
+            const Point p = a.grains.position(n);
             x += rest[n];
-            y += rest[n + lanes];
-            moment += (p.x - centre.x) * rest[n + lanes] - (p.y - centre.y) * rest[n];
+            y += rest[component(n, 1)];
+            moment += (p.x - centre.x) * rest[component(n, 1)] - (p.y - centre.y) * rest[n];
         }
         CHECK(std::hypot(x, y) < 1e-12 * scale);
         CHECK(std::fabs(moment) < 1e-12 * scale * 3e-3);
@@ -276,16 +275,16 @@ TEST_CASE("materials belong to grains and pairs of grains", "[assembly]")
     o.grain_material = { 0, 1, 1, 0 };
     const Assembly a = specimens::assemble(s, o);
     for (int g = 0; g < 4; ++g) {
-        CHECK(stiffness_of(a, g).shear
+        CHECK(stiffness_of(a.grains, g).shear
             == Approx((o.grain_material[g] + 1) * 0.5 * 25.8e9 / 1.23).epsilon(1e-14));
     }
-    for (int c = 0; c < a.contacts; ++c) {
-        const int i = o.grain_material[a.contact_grains[2 * c]];
-        const int j = o.grain_material[a.contact_grains[2 * c + 1]];
-        CHECK(a.laws[a.contact_law[c]].normal_stiffness == 1e14 * (1 + 2 * i + j));
+    for (int c = 0; c < a.contacts.count; ++c) {
+        const int i = o.grain_material[a.contacts.pairs[c][0]];
+        const int j = o.grain_material[a.contacts.pairs[c][1]];
+        CHECK(a.contacts.law_of(c).normal_stiffness == 1e14 * (1 + 2 * i + j));
     }
     // half of the grains have 1e14 and 25.8e9, half 4e14 and 51.6e9
-    const double contacts = 2.5e14 * 2.0 * a.radius[0];
+    const double contacts = 2.5e14 * 2.0 * a.grains.radius[0];
     const auto scales = flexpm::scale_inputs(a, flexpm::Sense::tension, 1.0);
     CHECK(scales.modulus == Approx(1.0 / (1.0 / 38.7e9 + 1.0 / contacts)));
 }

@@ -32,11 +32,11 @@ void contact_blocks(benchmark::State& state)
     loaded::load(a, slow);
     loaded::run(a, 50);
     for (auto _ : state) {
-        for (int b = 0; b < a.blocks(); ++b)
-            flexpm::predict_centres(a, b, 1e-6);
-        flexpm::update_contact_blocks(a, 0, a.contact_blocks(), 1e-6);
+        for (int b = 0; b < a.grains.blocks(); ++b)
+            flexpm::predict_centres(a.grains, b, 1e-6, a.plan.next_centre);
+        flexpm::update_contact_blocks(a, 0, a.contacts.blocks(), 1e-6);
     }
-    count(state, a.contacts, "contact");
+    count(state, a.contacts.count, "contact");
 }
 BENCHMARK(contact_blocks)->Arg(1)->Arg(2)->Arg(3)->ArgName("points");
 
@@ -49,7 +49,7 @@ void grain_blocks(benchmark::State& state, const char* kind)
     loaded::drive(a, slow);
     for (auto _ : state)
         flexpm::step(a, flexpm::StepOptions());
-    count(state, a.grains, "grain");
+    count(state, a.grains.count, "grain");
 }
 BENCHMARK_CAPTURE(grain_blocks, fan, "fan");
 BENCHMARK_CAPTURE(grain_blocks, refined, "refined");
@@ -64,7 +64,7 @@ void whole_step(benchmark::State& state, const char* kind)
     o.threads = static_cast<int>(state.range(0));
     for (auto _ : state)
         flexpm::step(a, o);
-    count(state, a.grains, "grain");
+    count(state, a.grains.count, "grain");
 }
 BENCHMARK_CAPTURE(whole_step, fan, "fan")->Arg(1)->ArgName("threads");
 BENCHMARK_CAPTURE(whole_step, refined, "refined")

@@ -34,7 +34,7 @@ inline flexpm::AssemblyOptions options(const std::string& kind, int points = 3)
 /// Scaled masses and a top that moves at `velocity`. Rigid grains are squeezed between plates.
 inline void drive(flexpm::Assembly& a, double velocity)
 {
-    if (a.is_rigid(0)) {
+    if (a.grains.is_rigid(0)) {
         for (int side : { flexpm::bottom_side, flexpm::top_side }) {
             const int plate = flexpm::add_side_plates(a, side, 1, {}).front();
             flexpm::set_velocity(a, plate, { 0.0, side == flexpm::top_side ? velocity : 0.0 });

@@ -26,8 +26,8 @@ int main(int argc, char** argv)
         loaded::load(a, softening ? fast : slow);
         loaded::run(a, 40);
         const flexpm::Energies e = flexpm::energies(a);
-        std::printf("%d grains, %d contacts, elastic %.3g J, damage %.3g J\n", a.grains, a.contacts,
-            e.elastic, e.damage);
+        std::printf("%d grains, %d contacts, elastic %.3g J, damage %.3g J\n", a.grains.count,
+            a.contacts.count, e.elastic, e.damage);
         return (e.damage > 0.0) == softening ? 0 : 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "step_count: %s (or: softening)\n", error.what());

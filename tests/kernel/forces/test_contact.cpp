@@ -69,9 +69,9 @@ TEST_CASE("Contact points lie at the Lobatto places and share the area of the ed
         const Assembly a = pair(points);
         for (int p = 0; p < points; ++p) {
             const ContactPoint expected = lobatto(points)[p];
-            CHECK(a.area[row_index(0, p, points)] == Approx(expected.area).epsilon(1e-14));
+            CHECK(a.contacts.area(0, p) == Approx(expected.area).epsilon(1e-14));
             for (int side = 0; side < 2; ++side) {
-                CHECK(a.weight[row_index(0, 2 * p + side, 2 * points)]
+                CHECK(a.contacts.weight(0, p, side)
                     == Approx(0.5 + expected.place / size).margin(1e-15));
             }
         }
@@ -89,8 +89,8 @@ TEST_CASE("With the point on the centre line it lies where Eq. 7 puts it for d_v
     const Assembly a = specimens::assemble(s, o);
     const double d = std::sqrt(1.09);
     const double from_a = 0.4 - 0.5 * (0.4 + 0.6 - d);
-    CHECK(a.weight[0] == Approx(0.5 + from_a * 0.3 / d).epsilon(1e-14));
-    CHECK(a.area[0] == Approx(specimens::thickness).epsilon(1e-14));
+    CHECK(a.contacts.weights[0] == Approx(0.5 + from_a * 0.3 / d).epsilon(1e-14));
+    CHECK(a.contacts.areas[0] == Approx(specimens::thickness).epsilon(1e-14));
     o.points = 3;
     CHECK_THROWS_AS(specimens::assemble(s, o), std::invalid_argument);
 }
@@ -148,16 +148,16 @@ TEST_CASE("A crack is recorded once, with its step, place and tensile mode")
     const auto points = lobatto(3);
     for (int p = 0; p < 3; ++p) {
         const double rate = end * (middle + points[p].place / (0.5 * size));
-        const int index = row_index(0, p, 3);
+        const int index = a.contacts.point_index(0, p);
         if (rate < 0.0) {
-            CHECK(a.crack_step[index] == -1);
-            CHECK(a.crack_mode[index] == flexpm::intact);
+            CHECK(a.contacts.crack_steps[index] == -1);
+            CHECK(a.contacts.crack_modes[index] == flexpm::intact);
             continue;
         }
-        CHECK(a.crack_step[index] == static_cast<int>(std::ceil(uc / rate)));
-        CHECK(a.crack_mode[index] == flexpm::tensile_crack);
-        CHECK(a.crack_position[row_index(0, 2 * p, 6)] == Approx(size).epsilon(1e-12));
-        CHECK(a.crack_position[row_index(0, 2 * p + 1, 6)]
+        CHECK(a.contacts.crack_steps[index] == static_cast<int>(std::ceil(uc / rate)));
+        CHECK(a.contacts.crack_modes[index] == flexpm::tensile_crack);
+        CHECK(a.contacts.crack_position(0, p).x == Approx(size).epsilon(1e-12));
+        CHECK(a.contacts.crack_position(0, p).y
             == Approx(0.5 * size + points[p].place).margin(1e-12 * size));
     }
 }
@@ -178,11 +178,11 @@ TEST_CASE("Sliding under pressure: peak, sign, shear cracks, then friction alone
     for (int i = 0; i <= steps; ++i) {
         const double angle = 2.0 * i * std::asin(0.5 * step / distance);
         const Point moved = { distance * std::cos(angle) - size, distance * std::sin(angle) };
-        const Point now = displacement_of(a, a.centre(1));
+        const Point now = vector_at(a.grains.displacement, a.grains.centre(1));
         set_velocity(a, 1, Point { moved.x - now.x, moved.y - now.y });
         run(a, 1);
         slip = i * step;
-        const Point f = resultant(a, 0), n = flexpm::normal_of(a, 0);
+        const Point f = resultant(a, 0), n = a.contacts.normal(0);
         CHECK(n.x == Approx(std::cos(angle)).epsilon(1e-12));
         const double shear = f.y * n.x - f.x * n.y, normal = f.x * n.x + f.y * n.y;
         const double soft =
@@ -197,9 +197,9 @@ TEST_CASE("Sliding under pressure: peak, sign, shear cracks, then friction alone
     CHECK(peak == Approx(strength * area).epsilon(5e-3));
     const double first_cracked = (law_path::critical_slip(m) + m.friction * pressure / k) / step;
     for (int p = 0; p < 3; ++p) {
-        const int index = row_index(0, p, 3);
-        CHECK(a.crack_mode[index] == flexpm::shear_crack);
-        CHECK(a.crack_step[index] == 1 + static_cast<int>(std::ceil(first_cracked)));
-        CHECK(flexpm::damage_of(a, 0, p) == 1.0);
+        const int index = a.contacts.point_index(0, p);
+        CHECK(a.contacts.crack_modes[index] == flexpm::shear_crack);
+        CHECK(a.contacts.crack_steps[index] == 1 + static_cast<int>(std::ceil(first_cracked)));
+        CHECK(flexpm::damage_of(a.contacts, 0, p) == 1.0);
     }
 }

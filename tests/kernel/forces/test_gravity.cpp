@@ -13,6 +13,7 @@
 #include "support/driven.hpp"
 
 using flexpm::Assembly;
+using flexpm::component;
 using flexpm::lanes;
 using flexpm::Point;
 
@@ -51,17 +52,17 @@ TEST_CASE("grains fall freely by g (1 - alpha), and their energy is kept", "[gra
     Assembly a = squares(2, 2, rigid);
     flexpm::set_real_masses(a, damping);
     flexpm::set_gravity(a, { 0.0, -g });
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     // without damping: the sign of a velocity of 0 makes the first step undamped
     const int n = 200;
     run(a, n, dt, damping);
     const double speed = down * (n - 1) * dt + g * dt;
     const double way = down * dt * dt * (n - 1) * (n - 2) / 2.0 + g * dt * dt * (n - 1);
-    for (int grain = 0; grain < a.grains; ++grain) {
-        for (int k = 0; k < a.nodes_of(grain); ++k) {
-            const int y = a.node(grain, k) + lanes;
-            CHECK(a.velocity[y] == Approx(-speed).epsilon(1e-9));
-            CHECK(a.displacement[y] == Approx(-way).epsilon(1e-9));
+    for (int grain = 0; grain < a.grains.count; ++grain) {
+        for (int k = 0; k < a.grains.nodes_of(grain); ++k) {
+            const int y = component(a.grains.node(grain, k), 1);
+            CHECK(a.grains.velocity[y] == Approx(-speed).epsilon(1e-9));
+            CHECK(a.grains.displacement[y] == Approx(-way).epsilon(1e-9));
         }
     }
     const auto e = flexpm::energies(a);
@@ -75,13 +76,14 @@ TEST_CASE("a column of rigid squares settles by the weights above each contact",
     const int rows = 4;
     Assembly a = squares(1, rows, true);
     const double dt = flexpm::set_real_masses(a, 0.7);
-    a.held[a.centre(0) + lanes] = 1;
+    a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
     flexpm::set_gravity(a, { 0.0, -g });
     run(a, 4000, dt, 0.7);
     double settled = 0.0;
     for (int above = rows - 1; above > 0; --above)
         settled += above * mass * g / (1e11 * size * specimens::thickness);
-    CHECK(a.displacement[a.centre(rows - 1) + lanes] == Approx(-settled).epsilon(1e-6));
+    CHECK(a.grains.displacement[component(a.grains.centre(rows - 1), 1)]
+        == Approx(-settled).epsilon(1e-6));
 }
 
 TEST_CASE("deformable grains hand their weight to what holds them", "[gravity]")
@@ -89,9 +91,9 @@ TEST_CASE("deformable grains hand their weight to what holds them", "[gravity]")
     Assembly a = squares(3, 2, false);
     const double dt = flexpm::set_real_masses(a, 0.7);
     const auto bottom = flexpm::side_nodes(a, 0);
-    flexpm::drive(a, bottom, 1, 0.0);
+    flexpm::prescribe(a, bottom, 1, 0.0);
     flexpm::set_gravity(a, { 0.0, -g });
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     run(a, 6000, dt, 0.7);
     CHECK(flexpm::reaction(a, bottom, 1) == Approx(6.0 * mass * g).epsilon(1e-6));
     const auto e = flexpm::energies(a);
@@ -103,13 +105,13 @@ TEST_CASE("gravity that is set on a moved assembly is booked", "[gravity]")
 {
     Assembly a = squares(1, 1, true);
     flexpm::set_real_masses(a, 0.0);
-    flexpm::set_motion(a, 0, { 0.0, 1.0 }, 0.0, 1e-6);
-    flexpm::open_books(a);
+    flexpm::set_motion(a.grains, 0, { 0.0, 1.0 }, 0.0, 1e-6);
+    flexpm::reset_energy_balance(a);
     run(a, 100, 1e-6, 0.0);
     flexpm::set_gravity(a, { 0.0, -g });
     run(a, 100, 1e-6, 0.0);
     const auto e = flexpm::energies(a);
-    const double height = a.displacement[a.centre(0) + lanes];
+    const double height = a.grains.displacement[component(a.grains.centre(0), 1)];
     CHECK(height > 1.9e-4);
     CHECK(e.potential == Approx(mass * g * height));
     // the half of a step in which gravity appears is its work, once
@@ -127,7 +129,7 @@ TEST_CASE("grains of the inside, too, come to rest on a wall", "[gravity][plate]
         Catch::Contains("gap between wall and grains"));
     const double damping = 0.2, dt = flexpm::set_real_masses(a, damping);
     flexpm::set_gravity(a, { 0.0, -g });
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     double error = 0.0;
     for (int i = 0; i < 200; ++i) {
         run(a, static_cast<int>(2e-4 / dt), dt, damping);
@@ -135,7 +137,7 @@ TEST_CASE("grains of the inside, too, come to rest on a wall", "[gravity][plate]
         error = std::max(error, std::fabs(balance::miss(e)));
     }
     CHECK(a.plates[wall].force.y == Approx(9.0 * mass * g).epsilon(1e-3));
-    CHECK(a.displacement[a.centre(4) + lanes] == Approx(-1e-4).epsilon(0.02));
+    CHECK(a.grains.displacement[component(a.grains.centre(4), 1)] == Approx(-1e-4).epsilon(0.02));
     CHECK(flexpm::energies(a).kinetic < 1e-9 * -flexpm::energies(a).potential);
     CHECK(error < 0.01 * -flexpm::energies(a).potential);
 }

@@ -16,6 +16,7 @@
 #include "support/driven.hpp"
 
 using flexpm::Assembly;
+using flexpm::component;
 using flexpm::lanes;
 using flexpm::Point;
 
@@ -103,11 +104,11 @@ TEST_CASE("boundary nodes of deformable grains carry their tributary length", "[
     driven::hold_all(a);
     flexpm::set_velocity(a, plate, { 0.0, -1e-9 });
     run(a, 1);
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] != flexpm::top_side) continue;
-        for (int node : flexpm::edge_nodes(a, e)) {
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] != flexpm::top_side) continue;
+        for (int node : a.edges.nodes(e)) {
             const double force = stiffness * 0.5 * size * specimens::thickness * 1e-9;
-            CHECK(a.force[node + lanes] == Approx(-force).epsilon(1e-9));
+            CHECK(a.grains.force[component(node, 1)] == Approx(-force).epsilon(1e-9));
         }
     }
     CHECK(flexpm::contact_width(a, plate) == Approx(4.0 * size - size).epsilon(0.4));
@@ -120,8 +121,9 @@ TEST_CASE("friction of a plate is Coulomb's, and its loss is booked", "[plate]")
     const int upper =
         flexpm::add_side_plates(a, flexpm::top_side, 1, { 0.0, friction, false }).front();
     flexpm::scale_masses(a, 0.0);
-    a.held[a.centre(0)] = a.held[a.centre(0) + lanes] = 1;
-    flexpm::drive_spin(a, 0, 0.0, 1.0);
+    a.grains.prescribed[a.grains.centre(0)] =
+        a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
+    flexpm::prescribe_spin(a.grains, 0, 0.0, 1.0);
     flexpm::set_velocity(a, upper, { 0.0, -1e-9 });
     run(a, 100, 0.0);
     const double normal = -flexpm::plate_force(a, flexpm::top_side).y;
@@ -197,11 +199,11 @@ TEST_CASE("a plate touches a polygon at its outermost point", "[plate]")
     CHECK(p.normal.y == -1.0);
     CHECK(*std::min_element(p.gap.begin(), p.gap.end()) == 0.0);
     CHECK(p.position.y == Approx(o.rigid ? 2.55e-3 : 2.8e-3));
-    flexpm::hold_sideways(a, plate);
+    flexpm::fix_tangential(a, plate);
     int held = 0;
-    for (int n = 0; n < a.nodes_of(0); ++n) {
-        CHECK(a.held[a.node(0, n) + lanes] == 0);
-        held += a.held[a.node(0, n)];
+    for (int n = 0; n < a.grains.nodes_of(0); ++n) {
+        CHECK(a.grains.prescribed[component(a.grains.node(0, n), 1)] == 0);
+        held += a.grains.prescribed[a.grains.node(0, n)];
     }
     CHECK(held == 1);
 }

@@ -25,8 +25,8 @@ Assembly pressed(const specimens::Specimen& s, int sides)
 
 Point edge_force(const Assembly& a, int edge, int end)
 {
-    const double* f = &a.edge_force[row_index(edge, 2 * end, flexpm::ContactRows::forces)];
-    return { f[0], f[lanes] };
+    const int first = flexpm::BoundaryEdges::force_index(edge, flexpm::EdgeRow::of_pressure);
+    return vector_at(a.edges.forces, first + end * flexpm::node_stride);
 }
 
 struct Resultant {
@@ -36,9 +36,9 @@ struct Resultant {
 Resultant resultant_of_edges(const Assembly& a)
 {
     Resultant r;
-    for (int e = 0; e < a.edges; ++e) {
+    for (int e = 0; e < a.edges.count; ++e) {
         for (int end : { 0, 1 }) {
-            const Point f = edge_force(a, e, end), p = a.position(flexpm::edge_nodes(a, e)[end]);
+            const Point f = edge_force(a, e, end), p = a.grains.position(a.edges.nodes(e)[end]);
             r.x += f.x;
             r.y += f.y;
             r.moment += p.x * f.y - p.y * f.x;
@@ -51,9 +51,9 @@ Resultant resultant_of_edges(const Assembly& a)
 double area(const Assembly& a)
 {
     double twice = 0.0;
-    for (int e = 0; e < a.edges; ++e) {
-        const auto n = flexpm::edge_nodes(a, e);
-        const Point p = a.position(n[0]), q = a.position(n[1]);
+    for (int e = 0; e < a.edges.count; ++e) {
+        const auto n = a.edges.nodes(e);
+        const Point p = a.grains.position(n[0]), q = a.grains.position(n[1]);
         twice += p.x * q.y - p.y * q.x;
     }
     return 0.5 * twice;
@@ -69,7 +69,7 @@ Point moved(Point p, double share)
 
 void move_to(Assembly& a, double share)
 {
-    aim(a, 1.0, [&](int i) { return moved({ a.reference[i], a.reference[i + lanes] }, share); });
+    aim(a, 1.0, [&](int i) { return moved(vector_at(a.grains.reference, i), share); });
     run(a, 1);
 }
 
@@ -93,10 +93,12 @@ TEST_CASE("Pressure follows the deformed edge: pressure times its present length
 {
     Assembly a = pressed(specimens::hexagon(), 6);
     move_to(a, 1.0);
-    for (int e = 0; e < a.edges; ++e) {
-        const auto n = flexpm::edge_nodes(a, e);
-        const Point p = moved({ a.reference[n[0]], a.reference[n[0] + lanes] }, 1.0);
-        const Point q = moved({ a.reference[n[1]], a.reference[n[1] + lanes] }, 1.0);
+    for (int e = 0; e < a.edges.count; ++e) {
+        const auto n = a.edges.nodes(e);
+        const Point p =
+            moved({ a.grains.reference[n[0]], a.grains.reference[component(n[0], 1)] }, 1.0);
+        const Point q =
+            moved({ a.grains.reference[n[1]], a.grains.reference[component(n[1], 1)] }, 1.0);
         const double half = 0.5 * pressure * specimens::thickness;
         for (int end : { 0, 1 }) {
             const Point f = edge_force(a, e, end);
@@ -116,5 +118,5 @@ TEST_CASE("The work of pressure is pressure times the volume given up")
         move_to(a, k / 20.0);
     const double given_up = (before - area(a)) * specimens::thickness;
     CHECK(std::fabs(given_up) > 0.1 * before * specimens::thickness);
-    CHECK(a.pressure_work == Approx(pressure * given_up).epsilon(1e-10));
+    CHECK(a.ledger.pressure_work == Approx(pressure * given_up).epsilon(1e-10));
 }

@@ -16,6 +16,7 @@
 #include <map>
 
 using flexpm::Assembly;
+using flexpm::component;
 using flexpm::lanes;
 using flexpm::Point;
 
@@ -136,29 +137,29 @@ TEST_CASE("contacts across an edge of a grain may take its normal", "[inner]")
     flexpm::scale_masses(a, 0.7);
     // the whole specimen turns: normals follow and nothing is strained
     const double angle = 0.3 / 50;
-    const Point pivot = { a.reference[a.centre(0)], a.reference[a.centre(0) + lanes] };
+    const Point pivot = vector_at(a.grains.reference, a.grains.centre(0));
     for (int i = 0; i < 50; ++i) {
-        for (int g = 0; g < a.grains; ++g) {
-            const Point p = a.position(a.centre(g));
+        for (int g = 0; g < a.grains.count; ++g) {
+            const Point p = a.grains.position(a.grains.centre(g));
             const double c = std::cos(angle) - 1.0, sn = std::sin(angle);
             const double x = p.x - pivot.x, y = p.y - pivot.y;
-            flexpm::set_motion(a, g, { c * x - sn * y, sn * x + c * y }, angle, 1.0);
+            flexpm::set_motion(a.grains, g, { c * x - sn * y, sn * x + c * y }, angle, 1.0);
         }
         flexpm::step(a, flexpm::StepOptions());
     }
     const double turned = 0.3;
-    for (int c = 0; c < a.contacts; ++c) {
+    for (int c = 0; c < a.contacts.count; ++c) {
         const auto& e = inner.cells.shared_edges[c];
         const Point p = inner.cells.vertices[e.vertex_0], q = inner.cells.vertices[e.vertex_1];
         const Point ca = inner.discs[e.cell_a].centre, cb = inner.discs[e.cell_b].centre;
         Point n = { q.y - p.y, p.x - q.x };
         if (!inner.outer[c]) n = { cb.x - ca.x, cb.y - ca.y };
         const double d = std::hypot(n.x, n.y);
-        const Point now = flexpm::normal_of(a, c);
+        const Point now = a.contacts.normal(c);
         CHECK(now.x == Approx((std::cos(turned) * n.x - std::sin(turned) * n.y) / d).margin(1e-9));
         CHECK(now.y == Approx((std::sin(turned) * n.x + std::cos(turned) * n.y) / d).margin(1e-9));
-        CHECK(std::fabs(flexpm::point_state(a, c, 0).opening) < 1e-12);
-        CHECK(std::fabs(flexpm::point_state(a, c, 0).slip) < 1e-12);
+        CHECK(std::fabs(a.contacts.point_state(c, 0).opening) < 1e-12);
+        CHECK(std::fabs(a.contacts.point_state(c, 0).slip) < 1e-12);
     }
 }
 
@@ -174,21 +175,23 @@ TEST_CASE("two grains out of line: opening and slip along the chosen normal", "[
     o.edge_normal = { static_cast<std::uint8_t>(of_edge) };
     Assembly a = specimens::assemble(s, o);
     flexpm::scale_masses(a, 0.7);
-    a.held[a.centre(0)] = a.held[a.centre(0) + lanes] = 1;
-    flexpm::drive_spin(a, 0, 0.0, 1.0);
-    a.held[a.centre(1)] = a.held[a.centre(1) + lanes] = 1;
-    flexpm::drive_spin(a, 1, 0.0, 1.0);
-    flexpm::set_motion(a, 1, { way, 0.0 }, 0.0, 1.0);
+    a.grains.prescribed[a.grains.centre(0)] =
+        a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
+    flexpm::prescribe_spin(a.grains, 0, 0.0, 1.0);
+    a.grains.prescribed[a.grains.centre(1)] =
+        a.grains.prescribed[component(a.grains.centre(1), 1)] = 1;
+    flexpm::prescribe_spin(a.grains, 1, 0.0, 1.0);
+    flexpm::set_motion(a.grains, 1, { way, 0.0 }, 0.0, 1.0);
     flexpm::step(a, flexpm::StepOptions());
 
     const double k = o.laws[0].normal_stiffness, ratio = o.laws[0].shear_ratio;
     const double area = size * specimens::thickness, far = std::hypot(size, rise);
     const Point n = of_edge ? Point { 1.0, 0.0 } : Point { size / far, rise / far };
-    const auto point = flexpm::point_state(a, 0, 0);
+    const auto point = a.contacts.point_state(0, 0);
     CHECK(point.opening == Approx(way * n.x).epsilon(1e-5));
     CHECK(std::fabs(point.slip) == Approx(way * n.y).epsilon(1e-5).margin(1e-15));
     // K_n along the normal and eta K_n across it pull the grain back
-    const Point force = flexpm::resultant_on(a, 1).force;
+    const Point force = flexpm::resultant_on(a.grains, 1).force;
     CHECK(force.x == Approx(-k * area * way * (n.x * n.x + ratio * n.y * n.y)).epsilon(1e-5));
     CHECK(
         force.y == Approx(-k * area * way * (1.0 - ratio) * n.x * n.y).epsilon(1e-5).margin(1e-7));
@@ -206,11 +209,11 @@ TEST_CASE("particles know the grain of the rock that they are part of", "[inner]
     const auto bonded = flexpm::bonded_contacts(a);
     const auto outer = std::count(inner.outer.begin(), inner.outer.end(), 1);
     CHECK(bonded.between == outer);
-    CHECK(bonded.between + bonded.within == a.contacts);
+    CHECK(bonded.between + bonded.within == a.contacts.count);
     const auto shown = flexpm::take_snapshot(a);
     for (std::size_t t = 0; t < shown.triangle_grain.size(); ++t)
         CHECK(shown.triangle_grain[t] == inner.grain[shown.triangle_particle[t]]);
-    for (int c = 0; c < a.contacts; ++c) {
+    for (int c = 0; c < a.contacts.count; ++c) {
         const bool between = shown.contact_grains[2 * c] != shown.contact_grains[2 * c + 1];
         CHECK(between == (inner.outer[c] != 0));
     }

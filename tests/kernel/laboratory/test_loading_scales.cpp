@@ -52,9 +52,9 @@ TEST_CASE("Grains and contacts stand in series; rigid grains leave the contacts 
     options.rigid = rigid;
     Assembly a = specimens::assemble(specimens::grid(3, 4, 2e-3), options);
     scale_masses(a, 0.7);
-    const LawParameters& law = a.laws[0];
-    const double contacts = law.normal_stiffness * 2.0 * a.radius[0];
-    const double young = a.elastic[0].young;
+    const LawParameters& law = a.contacts.laws[0];
+    const double contacts = law.normal_stiffness * 2.0 * a.grains.radius[0];
+    const double young = a.grains.elastic[0].young;
     const ScaleInputs in = scale_inputs(a, Sense::compression, 1.0);
     CHECK(in.modulus == Approx(rigid ? contacts : young * contacts / (young + contacts)));
     CHECK(in.strength

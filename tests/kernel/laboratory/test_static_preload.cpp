@@ -32,7 +32,7 @@ Assembly driven_grains(double velocity)
     scale_masses(a, 0.7);
     grip_bottom(a);
     move_top(a, velocity);
-    open_books(a);
+    reset_energy_balance(a);
     return a;
 }
 
@@ -53,10 +53,10 @@ void run(Assembly& a, int count)
 double utilisation(const Assembly& a)
 {
     double largest = 0.0;
-    for (int c = 0; c < a.contacts; ++c) {
-        const LawParameters& law = a.laws[a.contact_law[c]];
-        for (int p = 0; p < a.points; ++p) {
-            const PointState s = point_state(a, c, p);
+    for (int c = 0; c < a.contacts.count; ++c) {
+        const LawParameters& law = a.contacts.law_of(c);
+        for (int p = 0; p < a.contacts.points; ++p) {
+            const PointState s = a.contacts.point_state(c, p);
             const double normal = law.normal_stiffness * s.opening;
             largest = std::max(largest, normal / law.tensile_strength);
             // proportional loading: c / (|shear| + mu normal) is what is left to grow
@@ -120,10 +120,10 @@ TEST_CASE("The elastic limit follows from the strengths of the point that reache
     Assembly a = specimens::assemble(specimens::grid(1, 2, 3e-3), specimens::options());
     grip_bottom(a);
     move_top(a, 1e-9);
-    Array<double> v(a.velocity.size(), 0.0);
-    for (int n = 0; n < a.nodes_of(1); ++n)
-        v[a.node(1, n) + lanes] = 1e-9;  // the upper grain as a whole
-    const LawParameters& law = a.laws[0];
+    Array<double> v(a.grains.velocity.size(), 0.0);
+    for (int n = 0; n < a.grains.nodes_of(1); ++n)
+        v[component(a.grains.node(1, n), 1)] = 1e-9;  // the upper grain as a whole
+    const LawParameters& law = a.contacts.laws[0];
     CHECK(elastic_time(a, v) == Approx(law.elastic_opening / 1e-9));
     for (double& value : v)
         value = -value;

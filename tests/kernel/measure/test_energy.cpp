@@ -23,7 +23,7 @@ constexpr double tiny = 1e-17;  // [m]
 void shake(Assembly& a, double speed, std::uint64_t seed)
 {
     flexpm::Random random(seed);
-    for (int g = 0; g < a.grains; ++g) {
+    for (int g = 0; g < a.grains.count; ++g) {
         set_velocity(a, g, [&](Point) {
             const double x = random.next(), y = random.next();
             return Point { speed * (2.0 * x - 1.0), speed * (2.0 * y - 1.0) };
@@ -73,10 +73,10 @@ struct AxialTest {
         flexpm::scale_masses(a, 0.7);
         top = flexpm::side_nodes(a, 2);
         const auto bottom = flexpm::side_nodes(a, 0);
-        flexpm::drive(a, bottom, 1, 0.0);
-        flexpm::drive(a, { bottom.front() }, 0, 0.0);
+        flexpm::prescribe(a, bottom, 1, 0.0);
+        flexpm::prescribe(a, { bottom.front() }, 0, 0.0);
     }
-    void drive(double velocity) { flexpm::drive(a, top, 1, velocity); }
+    void drive(double velocity) { flexpm::prescribe(a, top, 1, velocity); }
 };
 
 }  // namespace
@@ -85,7 +85,7 @@ TEST_CASE("Free vibration without damping keeps the leapfrog energy to 1e-10")
 {
     Assembly a = bonded_grid(0.0);
     shake(a, tiny, 1);
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     CHECK(flexpm::energies(a).initial > 0.0);
     CHECK(largest_miss(a, 0.0, 2000) < 1e-10);
     const flexpm::Energies e = flexpm::energies(a);
@@ -99,7 +99,7 @@ TEST_CASE("Local damping takes exactly what the motion loses")
 {
     Assembly a = bonded_grid(0.7);
     shake(a, tiny, 2);
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     CHECK(largest_miss(a, 0.7, 2000) < 1e-10);
     const flexpm::Energies e = flexpm::energies(a);
     CHECK(e.damping == Approx(e.initial).epsilon(1e-6));
@@ -108,25 +108,25 @@ TEST_CASE("Local damping takes exactly what the motion loses")
 TEST_CASE("Work of driven nodes and of edge pressure is what the specimen stores and damps")
 {
     Assembly a = bonded_grid(0.7);
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     const auto bottom = flexpm::side_nodes(a, 0), top = flexpm::side_nodes(a, 2);
-    flexpm::drive(a, bottom, 1, 0.0);
+    flexpm::prescribe(a, bottom, 1, 0.0);
     const double pressure = 25.8e9 * tiny / 3e-3;  // strains of the same size
-    flexpm::drive(a, top, 1, -0.01 * tiny);
+    flexpm::prescribe(a, top, 1, -0.01 * tiny);
     CHECK(largest_miss(a, 0.7, 2000, 1, [&](int i) {
         flexpm::set_pressure(a, 1, pressure * std::min(i / 500.0, 1.0));
         flexpm::set_pressure(a, 3, pressure * std::min(i / 500.0, 1.0));
     }) < 1e-10);
-    CHECK(std::fabs(a.pressure_work) > 0.01 * flexpm::energies(a).boundary_work);
+    CHECK(std::fabs(a.ledger.pressure_work) > 0.01 * flexpm::energies(a).boundary_work);
 }
 
 TEST_CASE("Books opened in the middle of a motion count from there")
 {
     Assembly a = bonded_grid(0.3);
     shake(a, tiny, 3);
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     largest_miss(a, 0.3, 101);
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     const flexpm::Energies e = flexpm::energies(a);
     CHECK(e.damping == 0.0);
     CHECK(e.initial > 0.0);
@@ -142,7 +142,7 @@ double axial_miss(const flexpm::ContactMaterial& m, double velocity, double way,
 {
     AxialTest test(m);
     test.drive(velocity);
-    flexpm::open_books(test.a);
+    flexpm::reset_energy_balance(test.a);
     const int steps = static_cast<int>(way / std::fabs(velocity));
     const double worst =
         largest_miss(test.a, 0.7, steps, std::max(steps / 500, 1), [&](int) { each(test.a); });
@@ -152,16 +152,15 @@ double axial_miss(const flexpm::ContactMaterial& m, double velocity, double way,
 
 double* state_row(Assembly& a, int contact, int point, int row)
 {
-    return &a.point_state[row_index(
-        contact, point * flexpm::ContactRows::state + row, a.points * flexpm::ContactRows::state)];
+    return &a.contacts.state(contact, point, row);
 }
 
 /// Calls each(contact, point, state) for all points.
 template <class Each> void for_each_point(Assembly& a, Each each)
 {
-    for (int c = 0; c < a.contacts; ++c) {
-        for (int p = 0; p < a.points; ++p)
-            each(c, p, flexpm::point_state(a, c, p));
+    for (int c = 0; c < a.contacts.count; ++c) {
+        for (int p = 0; p < a.contacts.points; ++p)
+            each(c, p, a.contacts.point_state(c, p));
     }
 }
 
@@ -189,7 +188,7 @@ TEST_CASE("Wrong laws do not close the books")
     // unloading along K_n: the opening from which the elastic slope starts stays behind
     CHECK(axial_miss(m, 2e-9, 1.2e-5, [](Assembly& a) {
         for_each_point(a, [&](int c, int p, const flexpm::PointState& s) {
-            const flexpm::LawParameters& law = a.laws[a.contact_law[c]];
+            const flexpm::LawParameters& law = a.contacts.law_of(c);
             const double d = flexpm::law::damage(law, s.max_opening, s.shear_damage);
             if (d == 0.0 || d == 1.0 || s.opening >= s.max_opening) return;
             const double slope = flexpm::law::secant(law, s.max_opening, d);
@@ -213,7 +212,7 @@ TEST_CASE("A coarse rate does not close the books, halving it halves the miss")
         Assembly a = specimens::assemble(specimens::grid(2, 1, 3e-3), specimens::options(material));
         hold_all(a);
         set_velocity(a, 1, Point { fraction * law_path::critical_opening(material), 0.0 });
-        flexpm::open_books(a);
+        flexpm::reset_energy_balance(a);
         return largest_miss(a, 0.0, static_cast<int>(2.0 / fraction));
     };
     CHECK(miss_at(0.7, m) > 0.1);
@@ -228,42 +227,44 @@ TEST_CASE("energies of blocks are those of their grains and points")
 {
     AxialTest test(specimens::granite_contact());
     Assembly& a = test.a;
-    REQUIRE(a.grains % flexpm::lanes != 0);  // some lanes are empty
-    REQUIRE(a.contacts % flexpm::lanes != 0);
+    REQUIRE(a.grains.count % flexpm::lanes != 0);  // some lanes are empty
+    REQUIRE(a.contacts.count % flexpm::lanes != 0);
     test.drive(2e-8);
     for (int i = 0; i < 400; ++i)
         flexpm::step(a, flexpm::StepOptions());
 
     double strain = 0.0;
-    for (int g = 0; g < a.grains; ++g) {
-        for (int t = 0; t < flexpm::triangles_of(a, g); ++t) {
-            const auto n = flexpm::triangle_nodes(a, g, t);
-            const auto u = [&](int k) { return flexpm::displacement_of(a, a.node(g, n[k])); };
-            strain += flexpm::triangle_energy(
-                flexpm::shape_of(a, g, t), flexpm::stiffness_of(a, g), u(0), u(1), u(2));
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int t = 0; t < flexpm::triangles_of(a.grains, g); ++t) {
+            const auto n = flexpm::triangle_nodes(a.grains, g, t);
+            const auto u = [&](int k) {
+                return vector_at(a.grains.displacement, a.grains.node(g, n[k]));
+            };
+            strain += flexpm::triangle_energy(flexpm::shape_of(a.grains, g, t),
+                flexpm::stiffness_of(a.grains, g), u(0), u(1), u(2));
         }
     }
     double stored = 0.0;
     flexpm::ContactLoss lost;
-    for (int c = 0; c < a.contacts; ++c) {
-        for (int p = 0; p < a.points; ++p) {
-            const flexpm::PointState s = flexpm::point_state(a, c, p);
-            const double area = a.area[flexpm::row_index(c, p, a.points)];
-            stored += area * flexpm::law::elastic_energy(a.laws[a.contact_law[c]], s);
+    for (int c = 0; c < a.contacts.count; ++c) {
+        for (int p = 0; p < a.contacts.points; ++p) {
+            const flexpm::PointState s = a.contacts.point_state(c, p);
+            const double area = a.contacts.area(c, p);
+            stored += area * flexpm::law::elastic_energy(a.contacts.law_of(c), s);
             lost.damage += area * s.damage_energy;
             lost.friction += area * s.friction_energy;
         }
     }
     double forces = 0.0;
-    for (int c = 0; c < a.contacts; ++c) {
-        const double* f = &a.contact_force[flexpm::record_index(c, 0, flexpm::ContactRows::forces)];
+    for (int c = 0; c < a.contacts.count; ++c) {
+        const double* f = &a.contacts.forces[flexpm::Contacts::force_index(c, 0, 0)];
         forces += std::hypot(f[0] + f[2], f[1] + f[3]);
     }
-    CHECK(flexpm::sum_of_forces(a) == Approx(forces).epsilon(1e-12));
-    const flexpm::ContactLoss found = flexpm::contact_loss(a);
+    CHECK(flexpm::sum_of_forces(a.contacts) == Approx(forces).epsilon(1e-12));
+    const flexpm::ContactLoss found = flexpm::contact_loss(a.contacts);
     REQUIRE(lost.damage > 0.0);
-    CHECK(flexpm::strain_energy(a) == Approx(strain).epsilon(1e-12));
-    CHECK(flexpm::contact_energy(a) == Approx(stored).epsilon(1e-12));
+    CHECK(flexpm::strain_energy(a.grains) == Approx(strain).epsilon(1e-12));
+    CHECK(flexpm::contact_energy(a.contacts) == Approx(stored).epsilon(1e-12));
     CHECK(found.damage == Approx(lost.damage).epsilon(1e-12));
     CHECK(found.friction == Approx(lost.friction).epsilon(1e-12));
 }

@@ -14,6 +14,7 @@
 #include "support/driven.hpp"
 
 using flexpm::Assembly;
+using flexpm::component;
 using flexpm::lanes;
 using flexpm::Point;
 
@@ -47,9 +48,10 @@ void run(Assembly& a, int steps, double damping, double dt = 1.0)
 void shake(Assembly& a, double speed)
 {
     flexpm::Random random(7);
-    for (int g = 0; g < a.grains; ++g) {
+    for (int g = 0; g < a.grains.count; ++g) {
         const double x = random.next() - 0.5, y = random.next() - 0.5, s = random.next() - 0.5;
-        flexpm::set_motion(a, g, { speed * x, speed * y }, speed * s / a.radius[g], 1.0);
+        flexpm::set_motion(
+            a.grains, g, { speed * x, speed * y }, speed * s / a.grains.radius[g], 1.0);
     }
 }
 
@@ -61,17 +63,17 @@ TEST_CASE("a rigid grain keeps its shape to round-off when it turns", "[rigid]")
     flexpm::scale_masses(a, 0.7);
     const double turn = 2.5 * 3.14159265358979323846;
     const int steps = GENERATE(40, 1000);
-    flexpm::set_motion(a, 0, { 1e-4 / steps, 0.0 }, turn / steps, 1.0);
+    flexpm::set_motion(a.grains, 0, { 1e-4 / steps, 0.0 }, turn / steps, 1.0);
     run(a, steps, 0.7);
 
-    CHECK(flexpm::rotation_of(a, 0) == Approx(turn).epsilon(1e-13));
-    const int c = a.centre(0);
-    CHECK(a.displacement[c] == Approx(1e-4).epsilon(1e-12));
-    for (int n = 0; n + 1 < a.nodes_of(0); ++n) {
-        const int i = a.node(0, n);
-        const double rx = a.reference[i] - a.reference[c];
-        const double ry = a.reference[i + lanes] - a.reference[c + lanes];
-        const Point p = a.position(i), q = a.position(c);
+    CHECK(flexpm::rotation_of(a.grains, 0) == Approx(turn).epsilon(1e-13));
+    const int c = a.grains.centre(0);
+    CHECK(a.grains.displacement[c] == Approx(1e-4).epsilon(1e-12));
+    for (int n = 0; n + 1 < a.grains.nodes_of(0); ++n) {
+        const int i = a.grains.node(0, n);
+        const double rx = a.grains.reference[i] - a.grains.reference[c];
+        const double ry = a.grains.reference[component(i, 1)] - a.grains.reference[component(c, 1)];
+        const Point p = a.grains.position(i), q = a.grains.position(c);
         // a right angle and two half turns: (x, y) becomes (-y, x)
         CHECK(p.x - q.x == Approx(-ry).margin(1e-15));
         CHECK(p.y - q.y == Approx(rx).margin(1e-15));
@@ -83,9 +85,9 @@ TEST_CASE("half the turn of a rigid grain is a unit quaternion", "[rigid]")
     Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7);
     const double turn = GENERATE(1e-9, 0.4, -2.0, 3.1415926, 3.2, -4.0);
-    flexpm::set_motion(a, 0, { 0.0, 0.0 }, turn / 20, 1.0);
+    flexpm::set_motion(a.grains, 0, { 0.0, 0.0 }, turn / 20, 1.0);
     run(a, 20, 0.0);
-    const auto half = flexpm::half_turn(a, 0);
+    const auto half = flexpm::half_turn(a.grains, 0);
     CHECK(std::hypot(half.cosine, half.sine) == Approx(1.0).epsilon(1e-12));
     // a quaternion and its negative are the same turn
     const double sign = half.cosine * std::cos(turn / 2) + half.sine * std::sin(turn / 2);
@@ -97,11 +99,11 @@ TEST_CASE("a rigid grain that nothing holds has finite masses and keeps its moti
 {
     Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7);
-    CHECK(a.inverse_mass[flexpm::scalar_index(a.centre(0))] > 0.0);
-    CHECK(a.inverse_inertia[flexpm::rigid_index(a, 0)] > 0.0);
-    flexpm::set_motion(a, 0, { 1e-6, 0.0 }, 1e-4, 1.0);
+    CHECK(a.grains.inverse_mass[flexpm::scalar_index(a.grains.centre(0))] > 0.0);
+    CHECK(a.grains.inverse_inertia[a.grains.slot[0]] > 0.0);
+    flexpm::set_motion(a.grains, 0, { 1e-6, 0.0 }, 1e-4, 1.0);
     run(a, 10, 0.7);
-    CHECK(a.displacement[a.centre(0)] == Approx(1e-5).epsilon(1e-12));
+    CHECK(a.grains.displacement[a.grains.centre(0)] == Approx(1e-5).epsilon(1e-12));
     CHECK(flexpm::energies(a).kinetic > 0.0);
 }
 
@@ -109,14 +111,14 @@ TEST_CASE("nodes move in a step as far as their velocities say", "[rigid]")
 {
     Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7, 0.5);
-    flexpm::set_motion(a, 0, { 1e-4, -2e-4 }, 0.3, 0.5);
+    flexpm::set_motion(a.grains, 0, { 1e-4, -2e-4 }, 0.3, 0.5);
     run(a, 1, 0.7, 0.5);
-    const auto velocity = a.velocity;
-    const auto before = a.displacement;
+    const auto velocity = a.grains.velocity;
+    const auto before = a.grains.displacement;
     run(a, 1, 0.7, 0.5);
-    for (int n = 0; n < a.nodes_of(0); ++n) {
-        for (int i : { a.node(0, n), a.node(0, n) + lanes }) {
-            CHECK(a.displacement[i] - before[i] == Approx(0.5 * velocity[i]).margin(1e-17));
+    for (int n = 0; n < a.grains.nodes_of(0); ++n) {
+        for (int i : { a.grains.node(0, n), component(a.grains.node(0, n), 1) }) {
+            CHECK(a.grains.displacement[i] - before[i] == Approx(0.5 * velocity[i]).margin(1e-17));
         }
     }
 }
@@ -138,47 +140,47 @@ TEST_CASE("the elastic solve of rigid grains holds the forces in balance", "[rig
     const Assembly a =
         rigid(specimens::random_grains(12e-3, 18e-3, 3e-3, 5), specimens::strong_contact(1.08e13));
     std::vector<flexpm::Prescribed> held;
-    const int first = a.centre(0), other = a.centre(a.grains - 1);
+    const int first = a.grains.centre(0), other = a.grains.centre(a.grains.count - 1);
     held.push_back({ first, 0.0 });
-    held.push_back({ first + lanes, 0.0 });
+    held.push_back({ component(first, 1), 0.0 });
     held.push_back({ other, 1e-6 });
-    held.push_back({ other + lanes, 0.0 });
+    held.push_back({ component(other, 1), 0.0 });
     Assembly solved = a;
     const auto s = flexpm::solve_static(a, held);
-    solved.force = s.force;
+    solved.grains.force = s.force;
     double largest = 0.0;
     for (double f : s.force)
         largest = std::max(largest, std::fabs(f));
     REQUIRE(largest > 1.0);
-    for (int g = 1; g + 1 < a.grains; ++g) {
-        const auto sum = flexpm::resultant_on(solved, g);
+    for (int g = 1; g + 1 < a.grains.count; ++g) {
+        const auto sum = flexpm::resultant_on(solved.grains, g);
         CHECK(std::hypot(sum.force.x, sum.force.y) < 1e-8 * largest);
-        CHECK(std::fabs(sum.moment) < 1e-8 * largest * a.radius[g]);
+        CHECK(std::fabs(sum.moment) < 1e-8 * largest * a.grains.radius[g]);
     }
     CHECK_THROWS_WITH(
-        flexpm::solve_static(a, { { a.node(0, 0), 0.0 } }), Catch::Contains("rigid grain"));
+        flexpm::solve_static(a, { { a.grains.node(0, 0), 0.0 } }), Catch::Contains("rigid grain"));
 }
 
 TEST_CASE("stepping rigid grains arrives at the elastic solve", "[rigid][elastic]")
 {
     Assembly a =
         rigid(specimens::random_grains(9e-3, 12e-3, 3e-3, 5), specimens::strong_contact(1.08e13));
-    const std::vector<int> ends = { a.centre(0), a.centre(a.grains - 1) };
+    const std::vector<int> ends = { a.grains.centre(0), a.grains.centre(a.grains.count - 1) };
     const auto s = flexpm::solve_static(a,
-        { { ends[0], 0.0 }, { ends[0] + lanes, 0.0 }, { ends[1], 1e-7 },
-            { ends[1] + lanes, 0.0 } });
+        { { ends[0], 0.0 }, { component(ends[0], 1), 0.0 }, { ends[1], 1e-7 },
+            { component(ends[1], 1), 0.0 } });
     flexpm::scale_masses(a, 0.7);
     for (int i : ends)
-        a.held[i] = a.held[i + lanes] = 1;
-    flexpm::set_motion(a, a.grains - 1, { 1e-10, 0.0 }, 0.0, 1.0);
+        a.grains.prescribed[i] = a.grains.prescribed[component(i, 1)] = 1;
+    flexpm::set_motion(a.grains, a.grains.count - 1, { 1e-10, 0.0 }, 0.0, 1.0);
     run(a, 1000, 0.7);
-    flexpm::set_motion(
-        a, a.grains - 1, { 0.0, 0.0 }, a.spin[flexpm::rigid_index(a, a.grains - 1)], 1.0);
+    flexpm::set_motion(a.grains, a.grains.count - 1, { 0.0, 0.0 },
+        a.grains.spin[a.grains.slot[a.grains.count - 1]], 1.0);
     run(a, 4000, 0.7);
-    for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            for (int i : { a.node(g, n), a.node(g, n) + lanes }) {
-                CHECK(a.displacement[i] == Approx(s.displacement[i]).margin(2e-11));
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int n = 0; n < a.grains.nodes_of(g); ++n) {
+            for (int i : { a.grains.node(g, n), component(a.grains.node(g, n), 1) }) {
+                CHECK(a.grains.displacement[i] == Approx(s.displacement[i]).margin(2e-11));
             }
         }
     }
@@ -197,23 +199,24 @@ TEST_CASE("contacts of rigid grains follow those of deformable grains led along 
     const int steps = 60;  // opens the far point beyond its strength
     flexpm::scale_masses(stiff, 0.7);
     for (int g : { 0, 1 }) {
-        stiff.held[stiff.centre(g)] = stiff.held[stiff.centre(g) + lanes] = 1;
-        flexpm::drive_spin(stiff, g, 0.0, 1.0);
+        stiff.grains.prescribed[stiff.grains.centre(g)] =
+            stiff.grains.prescribed[component(stiff.grains.centre(g), 1)] = 1;
+        flexpm::prescribe_spin(stiff.grains, g, 0.0, 1.0);
     }
-    flexpm::set_motion(stiff, 1, { speed, 0.5 * speed }, spin, 1.0);
-    const int c = soft.centre(1);
+    flexpm::set_motion(stiff.grains, 1, { speed, 0.5 * speed }, spin, 1.0);
+    const int c = soft.grains.centre(1);
     for (int i = 1; i <= steps; ++i) {
         run(stiff, 1, 0.7);
         driven::aim(soft, 1.0, [&](int node) {
-            const Point reference = { soft.reference[node], soft.reference[node + lanes] };
-            if (node % lanes == c % lanes && node >= soft.node(1, 0)
-                && node <= soft.node(1, soft.nodes_of(1) - 1)) {
+            const Point reference = vector_at(soft.grains.reference, node);
+            if (node % lanes == c % lanes && node >= soft.grains.node(1, 0)
+                && node <= soft.grains.node(1, soft.grains.nodes_of(1) - 1)) {
                 const double angle = i * spin;
-                const double rx = reference.x - soft.reference[c];
-                const double ry = reference.y - soft.reference[c + lanes];
-                return Point { soft.reference[c] + i * speed + std::cos(angle) * rx
+                const double rx = reference.x - soft.grains.reference[c];
+                const double ry = reference.y - soft.grains.reference[component(c, 1)];
+                return Point { soft.grains.reference[c] + i * speed + std::cos(angle) * rx
                         - std::sin(angle) * ry,
-                    soft.reference[c + lanes] + 0.5 * i * speed + std::sin(angle) * rx
+                    soft.grains.reference[component(c, 1)] + 0.5 * i * speed + std::sin(angle) * rx
                         + std::cos(angle) * ry };
             }
             return reference;
@@ -238,15 +241,16 @@ TEST_CASE("an elastic rigid contact resists rotation with K_n t h^3 / 12", "[rig
     Assembly a = rigid(specimens::grid(2, 1, size), specimens::strong_contact(stiffness, 0.28));
     flexpm::scale_masses(a, 0.7);
     for (int g : { 0, 1 }) {
-        a.held[a.centre(g)] = a.held[a.centre(g) + lanes] = 1;
-        flexpm::drive_spin(a, g, 0.0, 1.0);
+        a.grains.prescribed[a.grains.centre(g)] =
+            a.grains.prescribed[component(a.grains.centre(g), 1)] = 1;
+        flexpm::prescribe_spin(a.grains, g, 0.0, 1.0);
     }
-    flexpm::drive_spin(a, 1, angle, 1.0);
+    flexpm::prescribe_spin(a.grains, 1, angle, 1.0);
     run(a, 1, 0.0);
     const double h = size, t = specimens::thickness;
     // the edge is half a size from the centre: shear adds its force at that arm
     const double shear = 0.28 * stiffness * h * t * 0.25 * size * size;
-    CHECK(-flexpm::resultant_on(a, 1).moment
+    CHECK(-flexpm::resultant_on(a.grains, 1).moment
         == Approx((stiffness * t * h * h * h / 12.0 + shear) * angle).epsilon(1e-6));
 }
 
@@ -269,7 +273,7 @@ TEST_CASE("scaled masses keep rigid grains stable", "[rigid][stability]")
     {
         flexpm::scale_masses(a, 0.0);
         shake(a, 1e-12);
-        flexpm::open_books(a);
+        flexpm::reset_energy_balance(a);
         run(a, 20000, 0.0);
         const auto e = flexpm::energies(a);
         CHECK(e.kinetic < 100.0 * e.initial);
@@ -283,15 +287,15 @@ TEST_CASE("real masses and inertia of rigid grains are those of their cells", "[
     Assembly a = rigid(specimens::grid(3, 2, size), specimens::strong_contact());
     const double dt = flexpm::set_real_masses(a, 0.7);
     const double mass = 2650.0 * size * size * specimens::thickness;
-    for (int g = 0; g < a.grains; ++g) {
-        CHECK(1.0 / a.inverse_mass[flexpm::scalar_index(a.centre(g))] == Approx(mass));
+    for (int g = 0; g < a.grains.count; ++g) {
         CHECK(
-            1.0 / a.inverse_inertia[flexpm::rigid_index(a, g)] == Approx(mass * size * size / 6.0));
+            1.0 / a.grains.inverse_mass[flexpm::scalar_index(a.grains.centre(g))] == Approx(mass));
+        CHECK(1.0 / a.grains.inverse_inertia[a.grains.slot[g]] == Approx(mass * size * size / 6.0));
     }
     // the bound lies above the highest frequency, at most twofold: omega^2 <= row sum of M^-1 K
     CHECK(dt > 0.0);
     shake(a, 1e-9);
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     run(a, 20000, 0.0, dt);
     CHECK(flexpm::energies(a).kinetic < 100.0 * flexpm::energies(a).initial);
 }
@@ -301,12 +305,13 @@ TEST_CASE("energy of breaking rigid grains is accounted for", "[rigid][energy]")
     Assembly a =
         rigid(specimens::random_grains(9e-3, 12e-3, 3e-3, 9), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7);
-    for (int e = 0; e < a.edges; ++e) {
-        const int c = a.centre(a.edge_grain[e]);
-        if (a.edge_side[e] == 0 || a.edge_side[e] == 2) a.held[c + lanes] = 1;
-        if (a.edge_side[e] == 2) flexpm::set_motion(a, a.edge_grain[e], { 0.0, 2e-9 }, 0.0, 1.0);
+    for (int e = 0; e < a.edges.count; ++e) {
+        const int c = a.grains.centre(a.edges.grain[e]);
+        if (a.edges.side[e] == 0 || a.edges.side[e] == 2) a.grains.prescribed[component(c, 1)] = 1;
+        if (a.edges.side[e] == 2)
+            flexpm::set_motion(a.grains, a.edges.grain[e], { 0.0, 2e-9 }, 0.0, 1.0);
     }
-    flexpm::open_books(a);
+    flexpm::reset_energy_balance(a);
     double work = 0.0, error = 0.0;
     for (int i = 0; i < 60; ++i) {
         run(a, 100, 0.7);
@@ -323,16 +328,16 @@ TEST_CASE("a retired rigid grain stands still", "[rigid]")
     Assembly a = rigid(specimens::grid(2, 2, 3e-3), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7);
     shake(a, 1e-9);
-    flexpm::retire_grain(a, 0);
-    const auto before = a.displacement[a.node(0, 0)];
+    flexpm::remove_grain(a, 0);
+    const auto before = a.grains.displacement[a.grains.node(0, 0)];
     run(a, 10, 0.7);
-    CHECK(a.displacement[a.node(0, 0)] == before);
-    CHECK(flexpm::rotation_of(a, 0) == 0.0);
+    CHECK(a.grains.displacement[a.grains.node(0, 0)] == before);
+    CHECK(flexpm::rotation_of(a.grains, 0) == 0.0);
 }
 
 TEST_CASE("spins are refused for deformable grains", "[rigid]")
 {
     Assembly a = specimens::assemble(specimens::grid(2, 1, 3e-3), specimens::options());
     CHECK_THROWS_WITH(
-        flexpm::set_motion(a, 0, { 0.0, 0.0 }, 1.0, 1.0), Catch::Contains("deformable"));
+        flexpm::set_motion(a.grains, 0, { 0.0, 0.0 }, 1.0, 1.0), Catch::Contains("deformable"));
 }

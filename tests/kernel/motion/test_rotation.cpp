@@ -34,7 +34,7 @@ void turn(Assembly& a, double angle, int steps)
 {
     const Assembly start = a;
     for (int k = 1; k <= steps; ++k) {
-        aim(a, 1.0, [&](int i) { return turned(start.position(i), angle * k / steps); });
+        aim(a, 1.0, [&](int i) { return turned(start.grains.position(i), angle * k / steps); });
         run(a, 1);
     }
 }
@@ -49,7 +49,7 @@ TEST_CASE("An unloaded pair turned by any angle carries no force")
         CHECK(std::hypot(resultant(a, 0).x, resultant(a, 0).y)
             < 1e-6 * 8.5e6 * size * specimens::thickness);
         for (int p = 0; p < 3; ++p)
-            CHECK(flexpm::damage_of(a, 0, p) == 0.0);
+            CHECK(flexpm::damage_of(a.contacts, 0, p) == 0.0);
     }
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("A loaded pair turned by 90 degrees keeps opening and slip, and its fo
             CAPTURE(gap.x, gap.y, steps);
             Assembly a = loaded(gap, m);
             const Point before = resultant(a, 0);
-            const flexpm::PointState old = flexpm::point_state(a, 0, 1);
+            const flexpm::PointState old = a.contacts.point_state(0, 1);
             turn(a, 0.5 * M_PI, steps);
             const Point after = resultant(a, 0), expected = turned(before, 0.5 * M_PI);
             const double angle =
@@ -69,7 +69,7 @@ TEST_CASE("A loaded pair turned by 90 degrees keeps opening and slip, and its fo
             const double scale = angle * std::hypot(before.x, before.y);
             CHECK(after.x == Approx(expected.x).margin(scale));
             CHECK(after.y == Approx(expected.y).margin(scale));
-            const flexpm::PointState now = flexpm::point_state(a, 0, 1);
+            const flexpm::PointState now = a.contacts.point_state(0, 1);
             const double size_of_gap = std::hypot(gap.x, gap.y);
             CHECK(now.opening == Approx(old.opening).margin(angle * size_of_gap));
             CHECK(now.slip == Approx(old.slip).margin(angle * size_of_gap));
@@ -82,10 +82,10 @@ TEST_CASE("A cracked pair that has slid far keeps its pressure when it turns")
     const auto m = specimens::granite_contact();
     Assembly a = loaded({ 0.0, 1e-4 }, m);
     for (int p = 0; p < 3; ++p)
-        REQUIRE(flexpm::damage_of(a, 0, p) == 1.0);
+        REQUIRE(flexpm::damage_of(a.contacts, 0, p) == 1.0);
     // pressed by 40 MPa along the present normal
-    const Point n = flexpm::normal_of(a, 0);
-    const double push = flexpm::point_state(a, 0, 1).opening + 40e6 / m.normal_stiffness;
+    const Point n = a.contacts.normal(0);
+    const double push = a.contacts.point_state(0, 1).opening + 40e6 / m.normal_stiffness;
     const double speed = -push / 50.0;
     set_velocity(a, 1, Point { speed * n.x, speed * n.y });
     run(a, 50);
@@ -95,7 +95,7 @@ TEST_CASE("A cracked pair that has slid far keeps its pressure when it turns")
     const Point after = resultant(a, 0);
     CHECK(std::hypot(after.x, after.y) == Approx(std::hypot(before.x, before.y)).epsilon(0.02));
     const double friction_angle = std::atan(m.friction);
-    const Point now = flexpm::normal_of(a, 0);
+    const Point now = a.contacts.normal(0);
     CHECK(-(after.x * now.x + after.y * now.y)
         >= 0.99 * std::cos(friction_angle) * std::hypot(after.x, after.y));
 }

@@ -30,14 +30,14 @@ AssemblyOptions with(MeshKind mesh, Plane plane = Plane::stress, int points = 3)
 template <class Visit>
 void for_each_triangle(const Assembly& a, const Array<double>& u, Visit visit)
 {
-    const auto at = [&](int node) { return Point { u[node], u[node + lanes] }; };
-    for (int g = 0; g < a.grains; ++g) {
-        for (int t = 0; t < triangles_of(a, g); ++t) {
-            const auto n = triangle_nodes(a, g, t);
-            const TriangleShape s = shape_of(a, g, t);
-            visit(displacement_gradient(
-                      s, at(a.node(g, n[0])), at(a.node(g, n[1])), at(a.node(g, n[2]))),
-                s, stiffness_of(a, g));
+    const auto at = [&](int node) { return vector_at(u, node); };
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int t = 0; t < triangles_of(a.grains, g); ++t) {
+            const auto n = triangle_nodes(a.grains, g, t);
+            const TriangleShape s = shape_of(a.grains, g, t);
+            visit(displacement_gradient(s, at(a.grains.node(g, n[0])), at(a.grains.node(g, n[1])),
+                      at(a.grains.node(g, n[2]))),
+                s, stiffness_of(a.grains, g));
         }
     }
 }
@@ -62,15 +62,16 @@ double largest(const Tensor& s)
 /// Forces of the uniform stress on the boundary edges, half to each end.
 Array<double> edge_loads(const Assembly& a, const Tensor& s)
 {
-    Array<double> f(a.displacement.size(), 0.0);
-    for (int e = 0; e < a.edges; ++e) {
-        const auto n = edge_nodes(a, e);
+    Array<double> f(a.grains.displacement.size(), 0.0);
+    for (int e = 0; e < a.edges.count; ++e) {
+        const auto n = a.edges.nodes(e);
         const double half = 0.5 * a.thickness;
-        const double nx = half * (a.reference[n[1] + lanes] - a.reference[n[0] + lanes]);
-        const double ny = -half * (a.reference[n[1]] - a.reference[n[0]]);
+        const double nx = half
+            * (a.grains.reference[component(n[1], 1)] - a.grains.reference[component(n[0], 1)]);
+        const double ny = -half * (a.grains.reference[n[1]] - a.grains.reference[n[0]]);
         for (int i : n) {
             f[i] += s.xx * nx + s.xy * ny;
-            f[i + lanes] += s.xy * nx + s.yy * ny;
+            f[component(i, 1)] += s.xy * nx + s.yy * ny;
         }
     }
     return f;
@@ -80,22 +81,24 @@ Array<double> edge_loads(const Assembly& a, const Tensor& s)
 /// component of another that lies apart from it.
 std::vector<Prescribed> no_rigid_motion(const Assembly& a)
 {
-    const int n0 = a.node(0, 0), n1 = a.node(0, 1);
-    const bool apart_along_x = std::fabs(a.reference[n1] - a.reference[n0])
-        > std::fabs(a.reference[n1 + lanes] - a.reference[n0 + lanes]);
-    return { { n0, 0.0 }, { n0 + lanes, 0.0 }, { apart_along_x ? n1 + lanes : n1, 0.0 } };
+    const int n0 = a.grains.node(0, 0), n1 = a.grains.node(0, 1);
+    const bool apart_along_x = std::fabs(a.grains.reference[n1] - a.grains.reference[n0])
+        > std::fabs(a.grains.reference[component(n1, 1)] - a.grains.reference[component(n0, 1)]);
+    return { { n0, 0.0 }, { component(n0, 1), 0.0 },
+        { apart_along_x ? component(n1, 1) : n1, 0.0 } };
 }
 
 /// Largest difference between a triangle's Cauchy stress and `expected` [Pa].
 double cauchy_error(const Assembly& a, const Tensor& expected)
 {
     double error = 0.0;
-    for (int g = 0; g < a.grains; ++g) {
-        for (int t = 0; t < triangles_of(a, g); ++t) {
-            const auto n = triangle_nodes(a, g, t);
-            const Tensor s = cauchy_stress(shape_of(a, g, t), stiffness_of(a, g),
-                displacement_of(a, a.node(g, n[0])), displacement_of(a, a.node(g, n[1])),
-                displacement_of(a, a.node(g, n[2])));
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int t = 0; t < triangles_of(a.grains, g); ++t) {
+            const auto n = triangle_nodes(a.grains, g, t);
+            const Tensor s = cauchy_stress(shape_of(a.grains, g, t), stiffness_of(a.grains, g),
+                vector_at(a.grains.displacement, a.grains.node(g, n[0])),
+                vector_at(a.grains.displacement, a.grains.node(g, n[1])),
+                vector_at(a.grains.displacement, a.grains.node(g, n[2])));
             error = std::max({ error, std::fabs(s.xx - expected.xx), std::fabs(s.yy - expected.yy),
                 std::fabs(s.xy - expected.xy) });
         }
@@ -122,11 +125,11 @@ TEST_CASE("patch: one grain whose boundary follows a linear field", "[patch]")
     const Assembly a = specimens::assemble(specimens::hexagon(), with(mesh, plane));
     const Gradient h { 1e-4, 3e-5, -2e-5, -4e-4 };
     std::vector<Prescribed> boundary;
-    for (int k = 0; k < a.group(0).vertices; ++k) {
-        const int n = a.node(0, k);
-        const Point p = a.position(n);
+    for (int k = 0; k < a.grains.group(0).vertices; ++k) {
+        const int n = a.grains.node(0, k);
+        const Point p = a.grains.position(n);
         boundary.push_back({ n, h.xx * p.x + h.xy * p.y });
-        boundary.push_back({ n + lanes, h.yx * p.x + h.yy * p.y });
+        boundary.push_back({ component(n, 1), h.yx * p.x + h.yy * p.y });
     }
     // Hooke's law written out anew
     const double young = 25.8e9, nu = 0.23, g = 0.5 * young / (1.0 + nu);
@@ -165,13 +168,13 @@ TEST_CASE("patch: a grid of bonded grains under uniform traction", "[patch]")
         const StaticSolution s = solve_static(a, no_rigid_motion(a), &loads);
         CHECK(stress_error(a, s.displacement, expected) < 1e-10 * largest(expected));
         // between two grains of a row: opening sigma / K_n and slip tau / (eta K_n)
-        const int left = a.contact_nodes[row_index(0, 0, ContactRows::nodes)];
-        const int right = a.contact_nodes[row_index(0, 2, ContactRows::nodes)];
-        REQUIRE(a.contact_grains[1] == 1);
+        const int left = a.contacts.node(0, 0, 0);
+        const int right = a.contacts.node(0, 1, 0);
+        REQUIRE(a.contacts.pairs[0][1] == 1);
         const double unit = largest(expected) / 1.80e14;
         CHECK(s.displacement[right] - s.displacement[left]
             == Approx(expected.xx / 1.80e14).margin(1e-9 * unit));
-        CHECK(s.displacement[right + lanes] - s.displacement[left + lanes]
+        CHECK(s.displacement[component(right, 1)] - s.displacement[component(left, 1)]
             == Approx(expected.xy / (0.28 * 1.80e14)).margin(1e-9 * unit));
     }
 }

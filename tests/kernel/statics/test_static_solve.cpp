@@ -38,9 +38,9 @@ std::vector<Prescribed> hold_sides(const Assembly& a, double top_displacement)
 {
     std::vector<Prescribed> p { { side_nodes(a, 0).front(), 0.0 } };
     for (int n : side_nodes(a, 0))
-        p.push_back({ n + lanes, 0.0 });
+        p.push_back({ component(n, 1), 0.0 });
     for (int n : side_nodes(a, 2))
-        p.push_back({ n + lanes, top_displacement });
+        p.push_back({ component(n, 1), top_displacement });
     return p;
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("the stiffness is symmetric and does not resist rigid motions", "[elas
     const std::vector<int> index = dense::components(a);
     Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(k.rows(), 3);
     for (std::size_t i = 0; i < index.size(); i += 2) {
-        const Point p = a.position(index[i]);
+        const Point p = a.grains.position(index[i]);
         const Eigen::Index r = static_cast<Eigen::Index>(i);
         rigid(r, 0) = rigid(r + 1, 1) = 0.012;
         rigid(r, 2) = -p.y;
@@ -84,11 +84,11 @@ TEST_CASE("forces balance: loads, reactions, nothing elsewhere", "[elastic]")
 {
     const Assembly a = random_assembly();
     const auto prescribed = hold_sides(a, -1e-5);
-    Array<double> loads(a.displacement.size(), 0.0);
+    Array<double> loads(a.grains.displacement.size(), 0.0);
     const int loaded = side_nodes(a, 1).front();
     loads[loaded] = 250.0;
     const StaticSolution s = solve_static(a, prescribed, &loads);
-    std::vector<char> held(a.displacement.size(), 0);
+    std::vector<char> held(a.grains.displacement.size(), 0);
     for (const Prescribed& p : prescribed)
         held[p.index] = 1;
     double reaction_y = 0.0, sum_y = 0.0, rest = 0.0;
@@ -119,16 +119,16 @@ TEST_CASE("stepping settles where the linear solve says", "[elastic]")
 
     scale_masses(a, 0.7);
     const std::vector<int> bottom = side_nodes(a, 0), top = side_nodes(a, 2);
-    drive(a, bottom, 1, 0.0);
-    drive(a, { bottom.front() }, 0, 0.0);
-    drive(a, top, 1, moved / 500.0);
+    prescribe(a, bottom, 1, 0.0);
+    prescribe(a, { bottom.front() }, 0, 0.0);
+    prescribe(a, top, 1, moved / 500.0);
     for (int n = 0; n < 500; ++n)
         step(a, StepOptions());
-    drive(a, top, 1, 0.0);
+    prescribe(a, top, 1, 0.0);
     for (int n = 0; n < 6000; ++n)
         step(a, StepOptions());
-    CHECK(difference(a.displacement, s.displacement) < 1e-7);
-    CHECK(difference(a.force, s.force) < 1e-7);
+    CHECK(difference(a.grains.displacement, s.displacement) < 1e-7);
+    CHECK(difference(a.grains.force, s.force) < 1e-7);
 }
 
 TEST_CASE("a part that moves freely is named", "[elastic]")
@@ -136,9 +136,9 @@ TEST_CASE("a part that moves freely is named", "[elastic]")
     const Assembly a = two_loose_grains();
     CHECK_THROWS_AS(solve_static(a, {}), std::runtime_error);
     std::vector<Prescribed> left;
-    for (int k = 0; k < a.nodes_of(0); ++k) {
-        left.push_back({ a.node(0, k), 0.0 });
-        left.push_back({ a.node(0, k) + lanes, 0.0 });
+    for (int k = 0; k < a.grains.nodes_of(0); ++k) {
+        left.push_back({ a.grains.node(0, k), 0.0 });
+        left.push_back({ component(a.grains.node(0, k), 1), 0.0 });
     }
     std::string message;
     try {
@@ -152,9 +152,9 @@ TEST_CASE("a part that moves freely is named", "[elastic]")
     REQUIRE(std::sscanf(message.c_str(), form, &x) == 1);
     CHECK(x >= 2e-3);  // the right grain is the free one
     // held against translation only: it still spins
-    const int corner = a.node(1, 0);
+    const int corner = a.grains.node(1, 0);
     left.push_back({ corner, 0.0 });
-    left.push_back({ corner + lanes, 0.0 });
+    left.push_back({ component(corner, 1), 0.0 });
     CHECK_THROWS_AS(solve_static(a, left), std::runtime_error);
 }
 
@@ -167,7 +167,9 @@ TEST_CASE("a free specimen is told from a stiff one", "[elastic]")
             specimens::assemble(s, specimens::options(specimens::strong_contact(1.80e18)));
         CHECK(elastic_constants(a).youngs_modulus == Approx(25.8e9).epsilon(1e-4));
         CHECK_THROWS_AS(solve_static(a, {}), std::runtime_error);
-        CHECK_THROWS_AS(solve_static(a, { { a.node(0, 0), 0.0 }, { a.node(0, 0) + lanes, 0.0 } }),
+        CHECK_THROWS_AS(
+            solve_static(
+                a, { { a.grains.node(0, 0), 0.0 }, { component(a.grains.node(0, 0), 1), 0.0 } }),
             std::runtime_error);
     }
 }
@@ -175,8 +177,8 @@ TEST_CASE("a free specimen is told from a stiff one", "[elastic]")
 TEST_CASE("wrong loads and supports are refused in one line", "[elastic]")
 {
     const Assembly a = specimens::assemble(specimens::hexagon(), specimens::options());
-    const int n = a.node(0, 0);
-    const int size = static_cast<int>(a.displacement.size());
+    const int n = a.grains.node(0, 0);
+    const int size = static_cast<int>(a.grains.displacement.size());
     const auto refused = [&](const std::vector<Prescribed>& p, const std::string& text) {
         CHECK_THROWS_AS(solve_static(a, p), std::invalid_argument);
         CHECK_THROWS_WITH(solve_static(a, p), Catch::Contains(text) && !Catch::Contains("\n"));

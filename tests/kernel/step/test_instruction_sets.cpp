@@ -98,11 +98,11 @@ TEST_CASE("The runs that are compared crack, soften, slide and touch")
         CAPTURE(cracks.tensile, cracks.shear, e.damage, e.friction, e.kinetic);
         CHECK(flexpm::find_bad_number(a).empty());
         CHECK(cracks.tensile + cracks.shear > 3);
-        CHECK(cracks.tensile + cracks.shear < a.contacts * a.points);
+        CHECK(cracks.tensile + cracks.shear < a.contacts.count * a.contacts.points);
         CHECK(e.damage > 0.0);
         CHECK(e.friction > 0.0);
         touches += static_cast<int>(
-            std::count(a.contact_bonded.begin(), a.contact_bonded.end(), std::uint8_t { 0 }));
+            std::count(a.contacts.bonded.begin(), a.contacts.bonded.end(), std::uint8_t { 0 }));
     }
     CHECK(touches > 0);
 }

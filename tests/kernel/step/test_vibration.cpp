@@ -26,7 +26,7 @@ double stepped_frequency(
     // velocities, not displacements: contacts only know what the steps have done
     const double amplitude = 1e-12 / shape.cwiseAbs().maxCoeff();  // 1e-9 of the grain: linear
     for (std::size_t i = 0; i < index.size(); ++i) {
-        a.velocity[index[i]] = amplitude * omega * shape[static_cast<Eigen::Index>(i)];
+        a.grains.velocity[index[i]] = amplitude * omega * shape[static_cast<Eigen::Index>(i)];
     }
     StepOptions o;
     o.dt = dt;
@@ -38,7 +38,7 @@ double stepped_frequency(
         double now = 0.0;
         for (std::size_t i = 0; i < index.size(); ++i) {
             const Eigen::Index k = static_cast<Eigen::Index>(i);
-            now += shape[k] * mass[k] * a.displacement[index[i]];
+            now += shape[k] * mass[k] * a.grains.displacement[index[i]];
         }
         if (now * before < 0.0) crossings.push_back(dt * (n - now / (now - before)));
         before = now;

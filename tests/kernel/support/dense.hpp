@@ -14,10 +14,10 @@ namespace dense {
 inline std::vector<int> components(const flexpm::Assembly& a)
 {
     std::vector<int> index;
-    for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            index.push_back(a.node(g, n));
-            index.push_back(a.node(g, n) + flexpm::lanes);
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int n = 0; n < a.grains.nodes_of(g); ++n) {
+            index.push_back(a.grains.node(g, n));
+            index.push_back(a.grains.node(g, n) + flexpm::lanes);
         }
     }
     return index;
@@ -27,7 +27,7 @@ inline std::vector<int> components(const flexpm::Assembly& a)
 inline Eigen::MatrixXd stiffness(const flexpm::Assembly& a)
 {
     const std::vector<int> index = components(a);
-    std::vector<int> number(a.displacement.size(), -1);
+    std::vector<int> number(a.grains.displacement.size(), -1);
     for (std::size_t i = 0; i < index.size(); ++i)
         number[index[i]] = static_cast<int>(i);
     const Eigen::Index n = static_cast<Eigen::Index>(index.size());
@@ -44,7 +44,7 @@ inline Eigen::VectorXd masses(const flexpm::Assembly& a)
     Eigen::VectorXd m(static_cast<Eigen::Index>(index.size()));
     for (std::size_t i = 0; i < index.size(); i += 2) {
         m[static_cast<Eigen::Index>(i)] = m[static_cast<Eigen::Index>(i) + 1] =
-            1.0 / a.inverse_mass[flexpm::scalar_index(index[i])];
+            1.0 / a.grains.inverse_mass[flexpm::scalar_index(index[i])];
     }
     return m;
 }

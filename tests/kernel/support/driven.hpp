@@ -10,21 +10,25 @@
 namespace driven {
 
 using flexpm::Assembly;
+using flexpm::component;
 using flexpm::lanes;
 using flexpm::Point;
-using flexpm::record_index;
-using flexpm::row_index;
+using flexpm::set_vector;
+using flexpm::vector_at;
 
-inline void hold_all(Assembly& a) { std::fill(a.held.begin(), a.held.end(), 1); }
+inline void hold_all(Assembly& a)
+{
+    std::fill(a.grains.prescribed.begin(), a.grains.prescribed.end(), 1);
+}
 
 /// Velocity of every node of a grain from its reference position, velocity(Point) [m/s].
 template <class Velocity> void set_velocity(Assembly& a, int grain, Velocity velocity)
 {
-    for (int n = 0; n < a.nodes_of(grain); ++n) {
-        const int i = a.node(grain, n);
-        const Point v = velocity(Point { a.reference[i], a.reference[i + lanes] });
-        a.velocity[i] = v.x;
-        a.velocity[i + lanes] = v.y;
+    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
+        const int i = a.grains.node(grain, n);
+        const Point v = velocity(vector_at(a.grains.reference, i));
+        a.grains.velocity[i] = v.x;
+        a.grains.velocity[component(i, 1)] = v.y;
     }
 }
 
@@ -36,12 +40,12 @@ inline void set_velocity(Assembly& a, int grain, Point v)
 /// Velocities that bring every node in one step of `dt` to target(node offset).
 template <class Target> void aim(Assembly& a, double dt, Target target)
 {
-    for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            const int i = a.node(g, n);
-            const Point now = a.position(i), then = target(i);
-            a.velocity[i] = (then.x - now.x) / dt;
-            a.velocity[i + lanes] = (then.y - now.y) / dt;
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int n = 0; n < a.grains.nodes_of(g); ++n) {
+            const int i = a.grains.node(g, n);
+            const Point now = a.grains.position(i), then = target(i);
+            a.grains.velocity[i] = (then.x - now.x) / dt;
+            a.grains.velocity[component(i, 1)] = (then.y - now.y) / dt;
         }
     }
 }
@@ -57,8 +61,7 @@ inline void run(Assembly& a, int steps, double damping = 0.0)
 /// Force of a contact on the node of its side (0: a, 1: b) and end (0, 1) [N].
 inline Point contact_force(const Assembly& a, int contact, int side, int end)
 {
-    const double* f =
-        &a.contact_force[record_index(contact, 4 * side + 2 * end, flexpm::ContactRows::forces)];
+    const double* f = &a.contacts.forces[flexpm::Contacts::force_index(contact, side, end)];
     return { f[0], f[1] };
 }
 

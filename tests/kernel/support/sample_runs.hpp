@@ -61,9 +61,9 @@ inline Assembly slid(int points)
         o.edge_normal.push_back(e % 3 == 0);
     Assembly a = specimens::assemble(s, o);
     flexpm::scale_masses(a, 0.7);
-    flexpm::drive(a, flexpm::side_nodes(a, 0), 0, 0.0);
-    flexpm::drive(a, flexpm::side_nodes(a, 0), 1, 0.0);
-    flexpm::drive(a, flexpm::side_nodes(a, 2), 0, 4e-7);
+    flexpm::prescribe(a, flexpm::side_nodes(a, 0), 0, 0.0);
+    flexpm::prescribe(a, flexpm::side_nodes(a, 0), 1, 0.0);
+    flexpm::prescribe(a, flexpm::side_nodes(a, 2), 0, 4e-7);
     for (int side : { 1, 2, 3 })
         flexpm::set_pressure(a, side, 2e7);
     step(a, 500);
@@ -95,8 +95,8 @@ inline void update_contacts(Assembly& a)
 {
     flexpm::follow_touches(a, 0.0, 1.0);
     std::vector<int> over;
-    for (int c = 0; c < a.contacts; ++c) {
-        if (flexpm::carries(a, c) && flexpm::is_over(a, c)) over.push_back(c);
+    for (int c = 0; c < a.contacts.count; ++c) {
+        if (flexpm::is_active(a.contacts, c) && flexpm::has_ended(a, c)) over.push_back(c);
     }
     std::vector<flexpm::GrainPair> touching;
     for (const flexpm::GrainPair& pair : flexpm::near_pairs(a, 1e-4)) {
@@ -115,7 +115,7 @@ inline Assembly thrown()
     flexpm::scale_masses(a, 0.0);
     for (const Point way : { Point { 0.0, 1e-6 }, Point { 1e-6, -1e-6 } }) {
         for (int g = 10; g < 15; ++g)
-            flexpm::set_motion(a, g, way, 1e-5 * g, 1.0);
+            flexpm::set_motion(a.grains, g, way, 1e-5 * g, 1.0);
         for (int i = 0; i < 20; ++i) {
             step(a, 10, 0.0);
             update_contacts(a);

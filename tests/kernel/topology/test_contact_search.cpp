@@ -18,10 +18,10 @@ constexpr double diameter = 2.8e-3, margin = 0.2 * diameter;  // [m]
 void scatter(Assembly& a, double way, std::mt19937& random)
 {
     std::uniform_real_distribution<double> part(-way, way);
-    for (int g = 0; g < a.grains; ++g) {
-        const int centre = a.centre(g);
-        a.displacement[centre] += part(random);
-        a.displacement[centre + flexpm::lanes] += part(random);
+    for (int g = 0; g < a.grains.count; ++g) {
+        const int centre = a.grains.centre(g);
+        a.grains.displacement[centre] += part(random);
+        a.grains.displacement[centre + flexpm::lanes] += part(random);
     }
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("Near pairs are searched anew when told, and for another margin")
         specimens::random_grains(0.03, 0.03, diameter, 3), specimens::options());
     flexpm::NearPairs pairs;
     pairs.find(a, margin);
-    for (double& area : a.area)
+    for (double& area : a.contacts.areas)
         area = 0.0;  // no contact holds any pair
     pairs.forget();
     CHECK(pairs.find(a, margin) == flexpm::near_pairs(a, margin));

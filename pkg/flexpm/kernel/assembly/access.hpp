@@ -3,72 +3,66 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/triangle_rows.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace flexpm {
 
-inline int triangles_of(const Assembly& a, int grain)
-{
-    return static_cast<int>(a.group(a.grain_slot[grain] / lanes).triangles.size()) / 3;
-}
-
 /// Node numbers of a grain's triangle.
-inline std::array<int, 3> triangle_nodes(const Assembly& a, int grain, int triangle)
+inline std::array<int, 3> triangle_nodes(const Grains& grains, int grain, int triangle)
 {
-    const int* t = &a.group(a.grain_slot[grain] / lanes).triangles[3 * triangle];
+    const int* t = &grains.group_of(grain).triangles[3 * triangle];
     return { t[0], t[1], t[2] };
 }
 
-inline TriangleShape shape_of(const Assembly& a, int grain, int triangle)
+inline int triangles_of(const Grains& grains, int grain)
 {
-    const int slot = a.grain_slot[grain];
-    const double* s =
-        &a.shape[a.block_triangles[slot / lanes] + 5 * lanes * triangle + slot % lanes];
-    return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes] };
+    return grains.group_of(grain).triangle_count();
 }
 
-inline PlaneStiffness stiffness_of(const Assembly& a, int grain)
+inline TriangleShape shape_of(const Grains& grains, int grain, int triangle)
 {
-    const int slot = a.grain_slot[grain];
-    const double* c = &a.stiffness[3 * lanes * (slot / lanes) + slot % lanes];
-    return { c[0], c[lanes], c[2 * lanes] };
+    return load_shape(&grains.shape[grains.block_triangles[grains.block_of(grain)]], triangle,
+        grains.lane_of(grain));
 }
 
-inline Point displacement_of(const Assembly& a, int node)
+inline PlaneStiffness stiffness_of(const Grains& grains, int grain)
 {
-    return { a.displacement[node], a.displacement[node + lanes] };
-}
-
-inline Point force_of(const Assembly& a, int node)
-{
-    return { a.force[node], a.force[node + lanes] };
+    return load_stiffness(&grains.stiffness[StiffnessRow::count * lanes * grains.block_of(grain)],
+        grains.lane_of(grain));
 }
 
 /// Law of a contact between two grains of the material of `grain`.
 inline const LawParameters& own_law(const Assembly& a, int grain)
 {
-    return a.laws[a.grain_material[grain] * (a.elastic.size() + 1)];
+    return a.contacts.laws[a.grains.law_index(grain, grain)];
 }
 
 /// Mean of value(grain) over all grains. Equal values give exactly that value.
-template <class Value> double grain_mean(const Assembly& a, Value value)
+template <class Value> double grain_mean(const Grains& grains, Value value)
 {
     const double first = value(0);
     double excess = 0.0;
-    for (int g = 1; g < a.grains; ++g)
+    for (int g = 1; g < grains.count; ++g)
         excess += value(g) - first;
-    return first + excess / a.grains;
+    return first + excess / grains.count;
 }
 
-/// State of point `point` of a contact.
-inline PointState point_state(const Assembly& a, int contact, int point)
+/// Call visit(index) for each component of each node of a grain.
+template <class Visit> void for_each_component(const Grains& grains, int grain, Visit visit)
 {
-    const double* s = &a.point_state[row_index(
-        contact, point * ContactRows::state, a.points * ContactRows::state)];
-    return { s[0], s[lanes], s[2 * lanes], s[3 * lanes], s[4 * lanes], s[5 * lanes], s[6 * lanes] };
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        for (int axis = 0; axis < dimension; ++axis)
+            visit(component(grains.node(grain, n), axis));
+    }
+}
+
+/// The same for all grains, not for padded lanes.
+template <class Visit> void for_each_component(const Grains& grains, Visit visit)
+{
+    for (int g = 0; g < grains.count; ++g)
+        for_each_component(grains, g, visit);
 }
 
 /// Contacts of the bonded specimen, those that have ended included.
@@ -80,44 +74,32 @@ struct BondedContacts {
 inline BondedContacts bonded_contacts(const Assembly& a)
 {
     BondedContacts count;
-    for (int c = 0; c < a.contacts; ++c) {
-        if (!a.contact_bonded[c]) continue;
-        const int* pair = &a.contact_grains[2 * c];
-        ++(a.aggregate[pair[0]] == a.aggregate[pair[1]] ? count.within : count.between);
+    for (int c = 0; c < a.contacts.count; ++c) {
+        if (!a.contacts.bonded[c]) continue;
+        const GrainPair pair = a.contacts.pairs[c];
+        ++(a.grains.parent[pair[0]] == a.grains.parent[pair[1]] ? count.within : count.between);
     }
     return count;
 }
 
-inline double damage_of(const Assembly& a, int contact, int point)
+inline double damage_of(const Contacts& contacts, int contact, int point)
 {
-    const PointState s = point_state(a, contact, point);
-    return law::damage(a.laws[a.contact_law[contact]], s.max_opening, s.shear_damage);
-}
-
-inline Point normal_of(const Assembly& a, int contact)
-{
-    return { a.normal[row_index(contact, 0, 2)], a.normal[row_index(contact, 1, 2)] };
+    const PointState s = contacts.point_state(contact, point);
+    return law::damage(contacts.law_of(contact), s.max_opening, s.shear_damage);
 }
 
 /// Unit normal of a contact when it was bonded, from a to b: along the centres, or across the edge of
-/// a contact without a span.
+/// a contact without a branch.
 inline Point bonded_normal(const Assembly& a, int contact)
 {
-    double x = a.span[row_index(contact, 0, 2)], y = a.span[row_index(contact, 1, 2)];
-    if (x == 0.0 && y == 0.0) {
-        const int n0 = a.contact_nodes[row_index(contact, 0, ContactRows::nodes)];
-        const int n1 = a.contact_nodes[row_index(contact, 1, ContactRows::nodes)];
-        x = a.reference[n1 + lanes] - a.reference[n0 + lanes];
-        y = a.reference[n0] - a.reference[n1];
+    Point along = a.contacts.branch(contact);
+    if (along.x == 0.0 && along.y == 0.0) {
+        const Point from = vector_at(a.grains.reference, a.contacts.node(contact, 0, 0));
+        const Point to = vector_at(a.grains.reference, a.contacts.node(contact, 0, 1));
+        along = { to.y - from.y, from.x - to.x };
     }
-    const double length = std::hypot(x, y);
-    return { x / length, y / length };
-}
-
-/// Nodes of a boundary edge: offsets of its start and end.
-inline std::array<int, 2> edge_nodes(const Assembly& a, int edge)
-{
-    return { a.edge_nodes[row_index(edge, 0, 2)], a.edge_nodes[row_index(edge, 1, 2)] };
+    const double length = norm(along);
+    return { along.x / length, along.y / length };
 }
 
 }  // namespace flexpm

@@ -46,46 +46,46 @@ struct Plate {
     double friction_energy = 0.0;
     double kinetic = 0.0;
     double unbalanced = 0.0;  ///< force on a loaded plate that nothing balances [N]
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("side", s.side);
+        visit("position_x", s.position.x);
+        visit("position_y", s.position.y);
+        visit("normal_x", s.normal.x);
+        visit("normal_y", s.normal.y);
+        visit("width", s.width);
+        visit("stiffness", s.stiffness);
+        visit("shear_stiffness", s.shear_stiffness);
+        visit("friction", s.friction);
+        visit("bonded", s.bonded);
+        visit("points", s.points);
+        visit("loaded", s.loaded);
+        visit("load", s.load);
+        visit("velocity_x", s.velocity.x);
+        visit("velocity_y", s.velocity.y);
+        visit("mass", s.mass);
+        visit("displacement_x", s.displacement.x);
+        visit("displacement_y", s.displacement.y);
+        visit("edges", s.edges);
+        visit("gap", s.gap);
+        visit("area", s.area);
+        visit("opening", s.opening);
+        visit("shear_force", s.shear_force);
+        visit("force_x", s.force.x);
+        visit("force_y", s.force.y);
+        visit("boundary_work", s.boundary_work);
+        visit("boundary_work_next", s.boundary_work_next);
+        visit("damping_work", s.damping_work);
+        visit("damping_work_next", s.damping_work_next);
+        visit("friction_energy", s.friction_energy);
+        visit("kinetic", s.kinetic);
+        visit("unbalanced", s.unbalanced);
+    }
 };
 
 /// Place of point `point` along its edge, 0 to 1.
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
-
-/// Calls visit(name, member) for all that must be saved to continue a run to the same bits.
-template <class PlateType, class Visitor> void visit_plate(PlateType& p, Visitor&& visit)
-{
-    visit("side", p.side);
-    visit("position_x", p.position.x);
-    visit("position_y", p.position.y);
-    visit("normal_x", p.normal.x);
-    visit("normal_y", p.normal.y);
-    visit("width", p.width);
-    visit("stiffness", p.stiffness);
-    visit("shear_stiffness", p.shear_stiffness);
-    visit("friction", p.friction);
-    visit("bonded", p.bonded);
-    visit("points", p.points);
-    visit("loaded", p.loaded);
-    visit("load", p.load);
-    visit("velocity_x", p.velocity.x);
-    visit("velocity_y", p.velocity.y);
-    visit("mass", p.mass);
-    visit("displacement_x", p.displacement.x);
-    visit("displacement_y", p.displacement.y);
-    visit("edges", p.edges);
-    visit("gap", p.gap);
-    visit("area", p.area);
-    visit("opening", p.opening);
-    visit("shear_force", p.shear_force);
-    visit("force_x", p.force.x);
-    visit("force_y", p.force.y);
-    visit("boundary_work", p.boundary_work);
-    visit("boundary_work_next", p.boundary_work_next);
-    visit("damping_work", p.damping_work);
-    visit("damping_work_next", p.damping_work_next);
-    visit("friction_energy", p.friction_energy);
-    visit("kinetic", p.kinetic);
-    visit("unbalanced", p.unbalanced);
-}
 
 }  // namespace flexpm

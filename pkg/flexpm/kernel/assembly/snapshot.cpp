@@ -15,11 +15,11 @@ void push(std::vector<double>& to, Point p) { to.insert(to.end(), { p.x, p.y });
 /// A rigid grain has no triangles: a fan without stress shows its shape.
 void add_fan(const Assembly& a, int grain, int first, Snapshot& s)
 {
-    const int corners = a.group(a.grain_slot[grain] / lanes).vertices;
+    const int corners = a.grains.vertices_of(grain);
     for (int k = 0; k < corners; ++k) {
         s.triangles.insert(
             s.triangles.end(), { first + k, first + (k + 1) % corners, first + corners });
-        s.triangle_grain.push_back(a.aggregate[grain]);
+        s.triangle_grain.push_back(a.grains.parent[grain]);
         s.triangle_particle.push_back(grain);
         s.triangle_stress.insert(s.triangle_stress.end(), { 0.0, 0.0, 0.0 });
     }
@@ -28,24 +28,25 @@ void add_fan(const Assembly& a, int grain, int first, Snapshot& s)
 void add_grain(const Assembly& a, int grain, Snapshot& s)
 {
     const int first = static_cast<int>(s.positions.size() / 2);
-    for (int n = 0; n < a.nodes_of(grain); ++n) {
-        const int node = a.node(grain, n);
-        push(s.positions, a.position(node));
-        push(s.reference, { a.reference[node], a.reference[node + lanes] });
-        push(s.velocities, { a.velocity[node], a.velocity[node + lanes] });
-        push(s.forces, force_of(a, node));
+    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
+        const int node = a.grains.node(grain, n);
+        push(s.positions, a.grains.position(node));
+        push(s.reference, vector_at(a.grains.reference, node));
+        push(s.velocities, vector_at(a.grains.velocity, node));
+        push(s.forces, vector_at(a.grains.force, node));
     }
-    if (a.is_rigid(grain)) add_fan(a, grain, first, s);
-    const PlaneStiffness c = stiffness_of(a, grain);
-    for (int t = 0; t < triangles_of(a, grain); ++t) {
-        const auto n = triangle_nodes(a, grain, t);
+    if (a.grains.is_rigid(grain)) add_fan(a, grain, first, s);
+    const PlaneStiffness c = stiffness_of(a.grains, grain);
+    for (int t = 0; t < triangles_of(a.grains, grain); ++t) {
+        const auto n = triangle_nodes(a.grains, grain, t);
         for (int i : n)
             s.triangles.push_back(first + i);
-        s.triangle_grain.push_back(a.aggregate[grain]);
+        s.triangle_grain.push_back(a.grains.parent[grain]);
         s.triangle_particle.push_back(grain);
-        const Tensor stress =
-            cauchy_stress(shape_of(a, grain, t), c, displacement_of(a, a.node(grain, n[0])),
-                displacement_of(a, a.node(grain, n[1])), displacement_of(a, a.node(grain, n[2])));
+        const Tensor stress = cauchy_stress(shape_of(a.grains, grain, t), c,
+            vector_at(a.grains.displacement, a.grains.node(grain, n[0])),
+            vector_at(a.grains.displacement, a.grains.node(grain, n[1])),
+            vector_at(a.grains.displacement, a.grains.node(grain, n[2])));
         s.triangle_stress.insert(s.triangle_stress.end(), { stress.xx, stress.yy, stress.xy });
     }
 }
@@ -53,20 +54,20 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
 void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
     for (int side = 0; side < 2; ++side)
-        s.contact_grains.push_back(a.aggregate[a.contact_grains[2 * contact + side]]);
+        s.contact_grains.push_back(a.grains.parent[a.contacts.pairs[contact][side]]);
     for (int end = 0; end < 2; ++end)
         push(s.contact_ends, contact_end(a, contact, end));
-    for (int p = 0; p < a.points; ++p) {
-        const int index = row_index(contact, p, a.points);
-        s.point_opening.push_back(point_state(a, contact, p).opening);
-        s.point_slip.push_back(point_state(a, contact, p).slip);
-        s.point_damage.push_back(damage_of(a, contact, p));
+    for (int p = 0; p < a.contacts.points; ++p) {
+        const int index = a.contacts.point_index(contact, p);
+        s.point_opening.push_back(a.contacts.point_state(contact, p).opening);
+        s.point_slip.push_back(a.contacts.point_state(contact, p).slip);
+        s.point_damage.push_back(damage_of(a.contacts, contact, p));
         push(s.point_traction, point_traction(a, contact, p));
-        s.crack_step.push_back(a.crack_step[index]);
-        s.crack_mode.push_back(a.crack_mode[index]);
+        s.crack_step.push_back(a.contacts.crack_steps[index]);
+        s.crack_mode.push_back(a.contacts.crack_modes[index]);
         push(s.crack_position,
-            { a.crack_position[row_index(contact, 2 * p, 2 * a.points)],
-                a.crack_position[row_index(contact, 2 * p + 1, 2 * a.points)] });
+            { a.contacts.crack_positions[row_index(contact, 2 * p, 2 * a.contacts.points)],
+                a.contacts.crack_positions[row_index(contact, 2 * p + 1, 2 * a.contacts.points)] });
     }
 }
 
@@ -74,9 +75,10 @@ void add_contact(const Assembly& a, int contact, Snapshot& s)
 
 Point point_traction(const Assembly& a, int contact, int point)
 {
-    const PointState s = point_state(a, contact, point);
-    const LawParameters& law = a.laws[a.contact_law[contact]];
-    return { law::normal_traction(law, s.opening, s.max_opening, damage_of(a, contact, point)),
+    const PointState s = a.contacts.point_state(contact, point);
+    const LawParameters& law = a.contacts.law_of(contact);
+    return { law::normal_traction(
+                 law, s.opening, s.max_opening, damage_of(a.contacts, contact, point)),
         s.shear_traction };
 }
 
@@ -84,8 +86,7 @@ Point contact_end(const Assembly& a, int contact, int end)
 {
     Point sum;
     for (int side = 0; side < 2; ++side) {
-        const Point p =
-            a.position(a.contact_nodes[row_index(contact, 2 * side + end, ContactRows::nodes)]);
+        const Point p = a.grains.position(a.contacts.node(contact, side, end));
         sum.x += 0.5 * p.x;
         sum.y += 0.5 * p.y;
     }
@@ -95,9 +96,9 @@ Point contact_end(const Assembly& a, int contact, int end)
 Snapshot take_snapshot(const Assembly& a)
 {
     Snapshot s;
-    for (int g = 0; g < a.grains; ++g)
+    for (int g = 0; g < a.grains.count; ++g)
         add_grain(a, g, s);
-    for (int c = 0; c < a.contacts; ++c)
+    for (int c = 0; c < a.contacts.count; ++c)
         add_contact(a, c, s);
     return s;
 }

@@ -2,10 +2,9 @@
 /// @file  Contacts, `lanes` at a time.
 #include <flexpm/kernel/forces/contact_forces.hpp>
 
-#include <flexpm/kernel/assembly/contact_rows.hpp>
+#include <flexpm/kernel/assembly/law_rows.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
-#include <flexpm/kernel/core/simd.hpp>
 #include <flexpm/kernel/forces/contact_kinematics.hpp>
 #include <flexpm/kernel/forces/crack_record.hpp>
 
@@ -13,20 +12,8 @@ namespace flexpm {
 
 namespace {
 
-constexpr int blocks_ahead = 2;  ///< rows, which follow each other
-constexpr int nodes_ahead = 6;   ///< blocks whose nodes lie anywhere
-
-FLEXPM_INLINE void store_state(const PointState& s, double* rows, int lane)
-{
-    double* r = rows + lane;
-    r[0] = s.opening;
-    r[lanes] = s.max_opening;
-    r[2 * lanes] = s.shear_traction;
-    r[3 * lanes] = s.slip;
-    r[4 * lanes] = s.shear_damage;
-    r[5 * lanes] = s.damage_energy;
-    r[6 * lanes] = s.friction_energy;
-}
+constexpr int block_distance = 2;  ///< blocks to the rows to ask for, which follow each other
+constexpr int node_distance = 6;   ///< blocks to the nodes to ask for, which lie anywhere
 
 /// No point of the block has any damage: true of most blocks.
 template <int Points> FLEXPM_INLINE bool is_intact(const ContactLanes& b)
@@ -36,14 +23,17 @@ template <int Points> FLEXPM_INLINE bool is_intact(const ContactLanes& b)
     for (int l = 0; l < lanes; ++l) {
         double opened = 0.0, sheared = 0.0;
         for (int p = 0; p < Points; ++p) {
-            const PointState s = load_state(b.state + p * ContactRows::state * lanes, l);
+            const PointState s = load_state(b.state + p * PointRow::count * lanes, l);
             opened = std::max(opened, s.max_opening);
             sheared = std::max(sheared, s.shear_damage);
         }
-        damaged[l] = (opened > law_of(b.law, l).elastic_opening) | (sheared > 0.0);
+        damaged[l] = (opened > load_law(b.law, l).elastic_opening) | (sheared > 0.0);
     }
     return !any_of(damaged);
 }
+
+/// Rows of a state that an elastic step changes: the first ones.
+constexpr int elastic_rows = PointRow::slip + 1;
 
 /// Traction of one point of each contact [Pa].
 struct TractionRows {
@@ -56,16 +46,17 @@ struct TractionRows {
 FLEXPM_INLINE void slide_lanes(
     const ContactLanes& b, int p, const std::int64_t* leaves, double* next, TractionRows traction)
 {
-    double* state = b.state + p * ContactRows::state * lanes;
+    double* state = b.state + p * PointRow::count * lanes;
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const PointState s = load_state(state, l);
-        const Sliding slide = slide_used_up(
-            law_of(b.law, l), traction.normal[l], next[2 * lanes + l], s.shear_traction);
+        const Sliding slide = slide_used_up(load_law(b.law, l), traction.normal[l],
+            next[PointRow::shear_traction * lanes + l], s.shear_traction);
         const bool slides = leaves[l] != 0;
         traction.shear[l] = slides ? slide.shear : traction.shear[l];
-        next[2 * lanes + l] = traction.shear[l];
-        state[6 * lanes + l] = s.friction_energy + (slides ? slide.loss : 0.0);
+        next[PointRow::shear_traction * lanes + l] = traction.shear[l];
+        state[PointRow::friction_energy * lanes + l] =
+            s.friction_energy + (slides ? slide.loss : 0.0);
     }
 }
 
@@ -75,20 +66,20 @@ template <bool Intact>
 FLEXPM_INLINE bool advance_elastic_lanes(
     const ContactLanes& b, const PointMotion& motion, int p, TractionRows traction)
 {
-    double* state = b.state + p * ContactRows::state * lanes;
+    double* state = b.state + p * PointRow::count * lanes;
     alignas(64) std::int64_t leaves[lanes], needs_law[lanes];
-    alignas(64) double next[4 * lanes];  // the members of a state that an elastic step changes
+    alignas(64) double next[elastic_rows * lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s;
         Traction t;
         const PointState old = load_state(state, l);
-        const bool elastic = advance_elastic<Intact>(
-            law_of(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
-        next[0 * lanes + l] = s.opening;
-        next[1 * lanes + l] = s.max_opening;
-        next[2 * lanes + l] = s.shear_traction;
-        next[3 * lanes + l] = s.slip;
+        const bool elastic = advance_elastic<Intact>(load_law(b.law, l),
+            motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
+        next[PointRow::opening * lanes + l] = s.opening;
+        next[PointRow::max_opening * lanes + l] = s.max_opening;
+        next[PointRow::shear_traction * lanes + l] = s.shear_traction;
+        next[PointRow::slip * lanes + l] = s.slip;
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
         leaves[l] = !elastic;
@@ -98,7 +89,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
         if (Intact || any_of(needs_law)) return false;
         slide_lanes(b, p, leaves, next, traction);
     }
-    for (int i = 0; i < 4 * lanes; ++i)
+    for (int i = 0; i < elastic_rows * lanes; ++i)
         state[i] = next[i];
     return true;
 }
@@ -107,13 +98,13 @@ FLEXPM_INLINE bool advance_elastic_lanes(
 FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion, int p,
     TractionRows traction, std::uint8_t* cracked)
 {
-    double* state = b.state + p * ContactRows::state * lanes;
+    double* state = b.state + p * PointRow::count * lanes;
     alignas(64) double fresh[lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s = load_state(state, l);
         const Traction t = advance_point(
-            law_of(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
+            load_law(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
         store_state(s, state, l);
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
@@ -135,9 +126,9 @@ FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motio
     int cracks = 0;
     for (int p = 0; p < Points; ++p) {
         const TractionRows traction = { normal + p * lanes, shear + p * lanes };
-        if (b.ahead != 0) {
-            fetch_rows(
-                b.state + (b.ahead * Points + p) * ContactRows::state * lanes, ContactRows::state);
+        if (b.prefetch_distance != 0) {
+            const int row = (b.prefetch_distance * Points + p) * PointRow::count;
+            prefetch_rows(b.state + row * lanes, PointRow::count);
         }
         if (advance_elastic_lanes<Intact>(b, motion, p, traction)) continue;
         cracks += advance_lanes(b, motion, p, traction, cracked + p * lanes);
@@ -159,9 +150,9 @@ FLEXPM_INLINE int update_lanes(const ContactLanes& b, double dt, std::uint8_t* c
     const int cracks = is_intact<Points>(b)
         ? advance_points<Points, true>(b, motion, normal, shear, cracked)
         : advance_points<Points, false>(b, motion, normal, shear, cracked);
-    if (!Whole) fetch_ahead(b, b.weight, 2 * Points);
-    fetch_ahead(b, b.area, Points, Whole ? 2 : Points);
-    fetch_ahead(b, b.force, ContactRows::forces);
+    if (!Whole) prefetch_ahead(b, b.weight, 2 * Points);
+    prefetch_ahead(b, b.area, Points, Whole ? 2 : Points);
+    prefetch_ahead(b, b.force, Contacts::force_values);
     spread_forces<Points, Whole>(b, normal, shear);
     return cracks;
 }
@@ -180,46 +171,51 @@ template <int Points> auto update_for()
     return variant_of<update_block<Points, false>, update_block<Points, true>>();
 }
 
-ContactLanes rows_from(Assembly& a, int contact, const LawRows& law)
+ContactLanes rows_from(Assembly& a, int block, const LawRows& law)
 {
-    return { a.reference.data(), a.displacement.data(), a.velocity.data(), a.next_centre.data(),
-        a.contact_nodes.data() + contact * ContactRows::nodes,
-        a.weight.data() + contact * 2 * a.points, a.area.data() + contact * a.points,
-        a.span.data() + contact * 2, a.edge_reach.data() + contact * 2,
-        a.normal.data() + contact * 2,
-        a.point_state.data() + contact * a.points * ContactRows::state,
-        a.contact_force.data() + contact * ContactRows::forces, law.values, false,
-        exceeds_caches(a) ? blocks_ahead : 0 };
+    Contacts& contacts = a.contacts;
+    const int contact = block * lanes, points = contacts.points_in(block);
+    return { a.grains.reference.data(), a.grains.displacement.data(), a.grains.velocity.data(),
+        a.plan.next_centre.data(), contacts.nodes.data() + contact * NodeRow::count,
+        contacts.weights.data() + contact * 2 * points, contacts.areas.data() + contact * points,
+        contacts.branches.data() + contact * dimension,
+        contacts.inverse_edge_lengths.data() + contact * 2,
+        contacts.normals.data() + contact * dimension,
+        contacts.states.data() + contact * points * PointRow::count,
+        contacts.forces.data() + contact * Contacts::force_values, law.values, false,
+        a.plan.prefetch.needed ? block_distance : 0 };
 }
 
 /// Go on to the rows of the next block.
 void advance_block(ContactLanes& b, int points)
 {
-    b.nodes += lanes * ContactRows::nodes;
+    b.nodes += lanes * NodeRow::count;
     b.weight += lanes * 2 * points;
     b.area += lanes * points;
-    b.span += lanes * 2;
-    b.reach += lanes * 2;
-    b.normal += lanes * 2;
-    b.state += lanes * points * ContactRows::state;
-    b.force += lanes * ContactRows::forces;
+    b.branch += lanes * dimension;
+    b.inverse_edge_length += lanes * 2;
+    b.normal += lanes * dimension;
+    b.state += lanes * points * PointRow::count;
+    b.force += lanes * Contacts::force_values;
 }
 
 }  // namespace
 
 void update_contact_blocks(Assembly& a, int first, int end, double dt)
 {
+    if (first == end) return;
     LawRows law;
-    ContactLanes rows = rows_from(a, first * lanes, law);
-    const auto update = a.points == 3 ? update_for<3>()
-        : a.points == 2               ? update_for<2>()
-                                      : update_for<1>();
-    for (int block = first; block < end; ++block, advance_block(rows, a.points)) {
-        law.fill(a, block);
-        if (rows.ahead != 0 && block + nodes_ahead < a.contact_blocks()) {
-            fetch_nodes(a, block + nodes_ahead);
+    ContactLanes rows = rows_from(a, first, law);
+    const int points = a.contacts.points_in(first);
+    const auto update = points == 3 ? update_for<3>()
+        : points == 2               ? update_for<2>()
+                                    : update_for<1>();
+    for (int block = first; block < end; ++block, advance_block(rows, points)) {
+        law.fill(a.contacts, block);
+        if (a.plan.prefetch.needed && block + node_distance < a.contacts.blocks()) {
+            prefetch_nodes(a, block + node_distance);
         }
-        rows.whole_edges = a.whole_edges[block] != 0;
+        rows.whole_edges = a.plan.whole_edges[block] != 0;
         std::uint8_t cracked[most_points * lanes] = {};
         if (update(rows, dt, cracked) > 0) record_cracks(a, block, dt, cracked);
     }

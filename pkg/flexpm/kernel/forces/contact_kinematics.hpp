@@ -24,14 +24,14 @@ struct ContactLanes {
     const int* nodes;
     const double* weight;
     const double* area;
-    const double* span;
-    const double* reach;
+    const double* branch;
+    const double* inverse_edge_length;
     double* normal;
     double* state;
     double* force;
-    const double* law;  ///< LawRows
-    bool whole_edges;   ///< see Assembly::whole_edges
-    int ahead;          ///< blocks from this one to the one to ask for; 0: the caches hold all
+    const double* law;      ///< LawRows
+    bool whole_edges;       ///< see StepPlan::whole_edges
+    int prefetch_distance;  ///< blocks to the one to ask for; 0: the caches hold all
 };
 
 /// What a block works out for its points on the way, [point][lane].
@@ -52,12 +52,19 @@ FLEXPM_INLINE bool any_of(const std::int64_t* flags)
     return (both[0] | both[1]) != 0;
 }
 
-/// A contact of the block takes its normal from its edges: it has no span, which marks it.
+/// Whether a contact takes its normal from its edges: it has no branch, which marks it.
+FLEXPM_INLINE bool has_normal_of_edge(const ContactLanes& b, int l)
+{
+    const Point branch = vector_at(b.branch, l);
+    return (branch.x == 0.0) & (branch.y == 0.0);
+}
+
+/// Whether any contact of the block does.
 FLEXPM_INLINE bool any_normal_of_edge(const ContactLanes& b)
 {
     alignas(64) std::int64_t of_edge[lanes];
     for (int l = 0; l < lanes; ++l)
-        of_edge[l] = (b.span[l] == 0.0) & (b.span[lanes + l] == 0.0);
+        of_edge[l] = has_normal_of_edge(b, l);
     return any_of(of_edge);
 }
 
@@ -65,10 +72,12 @@ FLEXPM_INLINE bool any_normal_of_edge(const ContactLanes& b)
 /// the addresses. A row is stored at once: a load of it in one register would wait for two halves.
 FLEXPM_INLINE void gather_values(const double* from, const int* nodes, double* to)
 {
+    const double* from_y = from + component(0, 1);
+    double* to_y = to + component(0, 1);
 #pragma omp simd simdlen(8)
     for (int l = 0; l < lanes; ++l) {
         to[l] = from[nodes[l]];
-        to[lanes + l] = from[nodes[l] + lanes];
+        to_y[l] = from_y[nodes[l]];
     }
 }
 
@@ -91,39 +100,42 @@ FLEXPM_INLINE double between_edges(const ContactLanes& b, int p, int l, double o
 
 /// Ask for the first rows, or all, of the block ahead of an array with `per_block` rows a block.
 template <class T>
-FLEXPM_INLINE void fetch_ahead(const ContactLanes& b, const T* rows, int per_block, int first)
+FLEXPM_INLINE void prefetch_ahead(const ContactLanes& b, const T* rows, int per_block, int first)
 {
-    if (b.ahead != 0) fetch_rows(rows + b.ahead * per_block * lanes, first);
+    if (b.prefetch_distance == 0) return;
+    prefetch_rows(rows + b.prefetch_distance * per_block * lanes, first);
 }
 template <class T>
-FLEXPM_INLINE void fetch_ahead(const ContactLanes& b, const T* rows, int per_block)
+FLEXPM_INLINE void prefetch_ahead(const ContactLanes& b, const T* rows, int per_block)
 {
-    fetch_ahead(b, rows, per_block, per_block);
+    prefetch_ahead(b, rows, per_block, per_block);
 }
 
 /// A vector along the normal at the end of the step: between the centres, rows of x and y of a and of b,
-/// or, where a contact has no span, across the mean of the two edges.
+/// or, where a contact has no branch, across the mean of the two edges.
 template <bool OfEdges>
 FLEXPM_INLINE Point direction(const ContactLanes& b, const double* centres, double dt, int l)
 {
-    const double dx = b.span[l] + (centres[2 * lanes + l] - centres[l]);
-    const double dy = b.span[lanes + l] + (centres[3 * lanes + l] - centres[lanes + l]);
-    if (!OfEdges) return { dx, dy };
-    const double *u = b.displacement, *v = b.velocity;
-    double ex = 0.0, ey = 0.0;
+    const Point from_a = vector_at(centres, l), from_b = vector_at(centres, node_stride + l);
+    const Point between = vector_at(b.branch, l) + (from_b - from_a);
+    if (!OfEdges) return between;
+    const auto way = [&](int node) {
+        return vector_at(b.displacement, node) + dt * vector_at(b.velocity, node);
+    };
+    Point edges;
     for (int side = 0; side < 2; ++side) {
-        const int n0 = b.nodes[2 * side * lanes + l], n1 = b.nodes[(2 * side + 1) * lanes + l];
-        ex += (b.reference[n1] - b.reference[n0]) + (u[n1] + dt * v[n1]) - (u[n0] + dt * v[n0]);
-        ey += (b.reference[n1 + lanes] - b.reference[n0 + lanes])
-            + (u[n1 + lanes] + dt * v[n1 + lanes]) - (u[n0 + lanes] + dt * v[n0 + lanes]);
+        const int n0 = b.nodes[(NodeRow::a0 + 2 * side) * lanes + l];
+        const int n1 = b.nodes[(NodeRow::a1 + 2 * side) * lanes + l];
+        const Point edge = vector_at(b.reference, n1) - vector_at(b.reference, n0);
+        edges = edges + (edge + way(n1) - way(n0));
     }
-    const bool of_edge = (b.span[l] == 0.0) & (b.span[lanes + l] == 0.0);
-    return { of_edge ? ey : dx, of_edge ? -ex : dy };
+    const bool of_edge = has_normal_of_edge(b, l);
+    return { of_edge ? edges.y : between.x, of_edge ? -edges.x : between.y };
 }
 
-template <bool Whole> FLEXPM_INLINE double reach_of_b(const ContactLanes& b, int l)
+template <bool Whole> FLEXPM_INLINE double inverse_length_of_b(const ContactLanes& b, int l)
 {
-    return b.reach[(Whole ? 0 : lanes) + l];
+    return b.inverse_edge_length[(Whole ? 0 : lanes) + l];
 }
 
 /// Unit normals at the end of the step, and the points' increments along the mean of the old and
@@ -135,39 +147,41 @@ template <bool Whole> FLEXPM_INLINE double reach_of_b(const ContactLanes& b, int
 template <int Points, bool OfEdges, bool Whole, bool Wide>
 FLEXPM_INLINE void move_points(const ContactLanes& b, double dt, PointMotion& motion)
 {
-    fetch_ahead(b, b.nodes, ContactRows::nodes);
-    fetch_ahead(b, b.span, 2);
-    fetch_ahead(b, b.reach, 2, Whole ? 1 : 2);
-    fetch_ahead(b, b.normal, 2);
-    alignas(64) double ends[8 * lanes], centres[4 * lanes];
-    for (int n = 0; n < 4; ++n)
-        gather_values(b.velocity, b.nodes + n * lanes, ends + 2 * n * lanes);
-    for (int side = 0; side < 2; ++side)
-        gather_pairs<Wide>(b.centres, b.nodes + (4 + side) * lanes, centres + 2 * side * lanes);
+    prefetch_ahead(b, b.nodes, NodeRow::count);
+    prefetch_ahead(b, b.branch, dimension);
+    prefetch_ahead(b, b.inverse_edge_length, 2, Whole ? 1 : 2);
+    prefetch_ahead(b, b.normal, dimension);
+    alignas(64) double velocities[4 * node_stride], centres[2 * node_stride];
+    for (int n = NodeRow::a0; n <= NodeRow::b1; ++n)
+        gather_values(b.velocity, b.nodes + n * lanes, velocities + n * node_stride);
+    for (int side = 0; side < 2; ++side) {
+        gather_pairs<Wide>(
+            b.centres, b.nodes + (NodeRow::centre_a + side) * lanes, centres + side * node_stride);
+    }
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const double* v = ends + l;
+        const auto velocity = [&](int node) {
+            return vector_at(velocities, node * node_stride + l);
+        };
         const Point along_normal = direction<OfEdges>(b, centres, dt, l);
-        const double dx = along_normal.x, dy = along_normal.y;
-        const double per_length = 1.0 / std::sqrt(dx * dx + dy * dy);
-        const double nx = per_length * dx, ny = per_length * dy;
-        const double mx = 0.5 * dt * (b.normal[l] + nx), my = 0.5 * dt * (b.normal[lanes + l] + ny);
-        b.normal[l] = nx;
-        b.normal[lanes + l] = ny;
-        // velocities of the ends of a, of b, and of the first end of b against that of a
-        const double ax = v[2 * lanes] - v[0], ay = v[3 * lanes] - v[lanes];
-        const double bx = v[6 * lanes] - v[4 * lanes], by = v[7 * lanes] - v[5 * lanes];
-        const double gx = v[4 * lanes] - v[0], gy = v[5 * lanes] - v[lanes];
-        const double a_apart = ax * mx + ay * my, a_along = ay * mx - ax * my;
-        const double b_apart = bx * mx + by * my, b_along = by * mx - bx * my;
-        const double g_apart = gx * mx + gy * my, g_along = gy * mx - gx * my;
-        const double turn = -0.5 * (b.reach[l] * a_apart + reach_of_b<Whole>(b, l) * b_apart);
+        const Point n = (1.0 / std::sqrt(dot(along_normal, along_normal))) * along_normal;
+        const Point mean = 0.5 * dt * (vector_at(b.normal, l) + n);
+        set_vector(b.normal, l, n);
+        // the ends of a, those of b, and the first end of b against that of a
+        const Point of_a = velocity(NodeRow::a1) - velocity(NodeRow::a0);
+        const Point of_b = velocity(NodeRow::b1) - velocity(NodeRow::b0);
+        const Point of_gap = velocity(NodeRow::b0) - velocity(NodeRow::a0);
+        const double a_apart = dot(of_a, mean), a_along = cross(mean, of_a);
+        const double b_apart = dot(of_b, mean), b_along = cross(mean, of_b);
+        const double g_apart = dot(of_gap, mean), g_along = cross(mean, of_gap);
+        const double turn = -0.5
+            * (b.inverse_edge_length[l] * a_apart + inverse_length_of_b<Whole>(b, l) * b_apart);
         for (int p = 0; p < Points; ++p) {
-            const double* state = b.state + p * ContactRows::state * lanes + l;
+            const double* state = b.state + p * PointRow::count * lanes + l;
             const double apart = g_apart + between_edges<Whole>(b, p, l, a_apart, b_apart);
             const double along = g_along + between_edges<Whole>(b, p, l, a_along, b_along);
-            const double opening = state[ContactRows::opening * lanes],
-                         slip = state[ContactRows::slip * lanes];
+            const double opening = state[PointRow::opening * lanes],
+                         slip = state[PointRow::slip * lanes];
             motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
             motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
         }
@@ -191,48 +205,48 @@ struct EndShares {
     }
 };
 
+/// Vector from its components along a unit normal and along the tangent that lies counter-clockwise of it.
+FLEXPM_INLINE Point in_frame(Point normal, double along_normal, double along_tangent)
+{
+    return { along_normal * normal.x - along_tangent * normal.y,
+        along_normal * normal.y + along_tangent * normal.x };
+}
+
 /// Tractions to nodal forces by the shape functions of the two edges, Eqs. 18-19. They act in the
 /// middle of the gap: each edge takes half of the gap's moment by a couple on its ends.
 template <int Points, bool Whole>
 FLEXPM_INLINE void spread_forces(const ContactLanes& b, const double* normal, const double* shear)
 {
-    alignas(64) double rows[ContactRows::forces * lanes];
+    alignas(64) double rows[Contacts::force_values * lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const double nx = b.normal[l], ny = b.normal[lanes + l];
         // along the normal and along the tangent
         double moment = 0.0, sum_n = 0.0, sum_s = 0.0;
         EndShares end_n, end_s;
         for (int p = 0; p < Points; ++p) {
             const double area = b.area[(Whole && p == 2 ? 0 : p) * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
-            const double* state = b.state + p * ContactRows::state * lanes + l;
-            moment +=
-                state[ContactRows::opening * lanes] * fs - state[ContactRows::slip * lanes] * fn;
+            const double* state = b.state + p * PointRow::count * lanes + l;
+            moment += state[PointRow::opening * lanes] * fs - state[PointRow::slip * lanes] * fn;
             sum_n += fn;
             sum_s += fs;
             end_n.add<Whole>(b, p, l, fn);
             end_s.add<Whole>(b, p, l, fs);
         }
-        const double a_n = end_n.a - 0.5 * moment * b.reach[l];
-        const double b_n = end_n.b + 0.5 * moment * reach_of_b<Whole>(b, l);
-        const double sum_x = sum_n * nx - sum_s * ny, sum_y = sum_n * ny + sum_s * nx;
-        const double a1x = a_n * nx - end_s.a * ny, a1y = a_n * ny + end_s.a * nx;
-        const double b1x = b_n * nx - end_s.b * ny, b1y = b_n * ny + end_s.b * nx;
-        double* f = rows + l;
-        f[0 * lanes] = sum_x - a1x;
-        f[1 * lanes] = sum_y - a1y;
-        f[2 * lanes] = a1x;
-        f[3 * lanes] = a1y;
-        f[4 * lanes] = b1x - sum_x;
-        f[5 * lanes] = b1y - sum_y;
-        f[6 * lanes] = -b1x;
-        f[7 * lanes] = -b1y;
+        const double a_n = end_n.a - 0.5 * moment * b.inverse_edge_length[l];
+        const double b_n = end_n.b + 0.5 * moment * inverse_length_of_b<Whole>(b, l);
+        const Point n = vector_at(b.normal, l);
+        const Point sum = in_frame(n, sum_n, sum_s);
+        const Point on_a1 = in_frame(n, a_n, end_s.a), on_b1 = in_frame(n, b_n, end_s.b);
+        set_vector(rows, NodeRow::a0 * node_stride + l, sum - on_a1);
+        set_vector(rows, NodeRow::a1 * node_stride + l, on_a1);
+        set_vector(rows, NodeRow::b0 * node_stride + l, on_b1 - sum);
+        set_vector(rows, NodeRow::b1 * node_stride + l, { -on_b1.x, -on_b1.y });
     }
     for (int l = 0; l < lanes; l += 4) {
-        for (int r = 0; r < ContactRows::forces; r += 4)
-            transpose(rows + r * lanes + l, lanes, b.force + l * ContactRows::forces + r,
-                ContactRows::forces);
+        for (int r = 0; r < Contacts::force_values; r += 4)
+            transpose(rows + r * lanes + l, lanes, b.force + l * Contacts::force_values + r,
+                Contacts::force_values);
     }
 }
 

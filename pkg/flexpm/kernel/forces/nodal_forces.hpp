@@ -7,14 +7,11 @@
 
 namespace flexpm {
 
-/// Make the gather list: per block of grains, in the order of contacts and then of edges, which forces
-/// act on which nodes.
-void list_forces(Assembly& a);
+/// Find which forces act on which nodes of each block of grains.
+ForceSources find_sources(
+    const Grains& grains, const Contacts& contacts, const BoundaryEdges& edges);
 
-/// Sort the gather list by nodes, for gather_forces().
-void sort_sources(Assembly& a);
-
-/// Sum the listed forces on the nodes of a block into `Assembly::force`, which is overwritten.
-void gather_forces(Assembly& a, int block);
+/// Sum the forces on the nodes of a block into Grains::force, which is overwritten.
+void sum_forces(Assembly& a, int block);
 
 }  // namespace flexpm

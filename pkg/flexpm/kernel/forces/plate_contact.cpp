@@ -13,34 +13,15 @@ namespace {
 
 Point tangent_of(const Plate& p) { return { -p.normal.y, p.normal.x }; }
 
-/// A value of a node array at a point of an edge.
-struct EdgeValues {
-    int n0, n1;
-    double weight;
-
-    Point of(const Array<double>& values) const
-    {
-        return { (1.0 - weight) * values[n0] + weight * values[n1],
-            (1.0 - weight) * values[n0 + lanes] + weight * values[n1 + lanes] };
-    }
-};
-
-EdgeValues values_at(const Assembly& a, const PlatePoint& p)
+void add_force(BoundaryEdges& edges, const PlatePoint& p, Point force)
 {
-    return { a.edge_nodes[row_index(p.edge, 0, 2)], a.edge_nodes[row_index(p.edge, 1, 2)],
-        p.weight };
+    const int first = BoundaryEdges::force_index(p.edge, EdgeRow::of_plates);
+    const int second = first + node_stride;
+    set_vector(edges.forces, first, vector_at(edges.forces, first) + (1.0 - p.weight) * force);
+    set_vector(edges.forces, second, vector_at(edges.forces, second) + p.weight * force);
 }
 
-void add_force(Assembly& a, const PlatePoint& p, Point force)
-{
-    double* f = &a.edge_force[row_index(p.edge, ContactRows::plate, ContactRows::forces)];
-    f[0] += (1.0 - p.weight) * force.x;
-    f[lanes] += (1.0 - p.weight) * force.y;
-    f[2 * lanes] += p.weight * force.x;
-    f[3 * lanes] += p.weight * force.y;
-}
-
-/// Shear force after a slip of the grain along the plate [m], within friction; books what rubs off.
+/// Shear force after a slip of the grain along the plate [m], within friction; what rubs off counts as energy of friction.
 double shear_force(Plate& plate, const PlatePoint& p, int index, double normal_force, double slip)
 {
     const double old = plate.shear_force[index], trial = old - p.shear_stiffness * slip;
@@ -57,23 +38,21 @@ Point touch(Assembly& a, Plate& plate, double dt)
     Point total;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const EdgeValues at = values_at(a, p);
-        const Point u = at.of(a.displacement), v = at.of(a.velocity);
-        const Point way = { u.x + dt * v.x - plate.displacement.x,
-            u.y + dt * v.y - plate.displacement.y };
+        const auto nodes = a.edges.nodes(p.edge);
+        const Point u = vector_on_edge(a.grains.displacement, nodes, p.weight);
+        const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
+        const Point way = u + dt * v - plate.displacement;
         const double gap = plate.gap[i] + dot(plate.normal, way);
         plate.opening[i] = gap;
         const double normal = gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
         if (plate.friction > 0.0) {
-            const Point slip = { dt * (v.x - plate.velocity.x), dt * (v.y - plate.velocity.y) };
+            const Point slip = dt * (v - plate.velocity);
             plate.shear_force[i] = shear_force(plate, p, i, normal, dot(tangent, slip));
         }
         const double shear = plate.shear_force[i];
-        const Point force = { normal * plate.normal.x + shear * tangent.x,
-            normal * plate.normal.y + shear * tangent.y };
-        add_force(a, p, force);
-        total.x += force.x;
-        total.y += force.y;
+        const Point force = normal * plate.normal + shear * tangent;
+        add_force(a.edges, p, force);
+        total = total + force;
     }
     return total;
 }
@@ -85,8 +64,8 @@ void integrate_loaded(Plate& plate, double dt, double damping)
     double speed = dot(plate.normal, plate.velocity);
     const double old = speed;
     StepSums sums;
-    integrate_one<true>(net, 0.0, 1.0 / plate.mass, 1.0, dt, damping, speed, sums, 0);
-    plate.velocity = { speed * plate.normal.x, speed * plate.normal.y };
+    integrate_one<true>({ net, 1.0 / plate.mass, 0.0 }, dt, damping, speed, sums, 0);
+    plate.velocity = speed * plate.normal;
     plate.damping_work += plate.damping_work_next + sums.damped[0];
     plate.damping_work_next = sums.damped_next[0];
     plate.boundary_work += plate.boundary_work_next + 0.5 * dt * plate.load * old;
@@ -98,14 +77,12 @@ void integrate_loaded(Plate& plate, double dt, double damping)
 void update_plate(Assembly& a, Plate& plate, double dt, double damping)
 {
     const Point before = plate.force;
-    plate.displacement.x += dt * plate.velocity.x;
-    plate.displacement.y += dt * plate.velocity.y;
+    plate.displacement = plate.displacement + dt * plate.velocity;
     plate.force = touch(a, plate, dt);
     if (plate.loaded) {
         integrate_loaded(plate, dt, damping);
     } else {
-        const Point mean = { 0.5 * (before.x + plate.force.x), 0.5 * (before.y + plate.force.y) };
-        plate.boundary_work += dt * dot(mean, plate.velocity);
+        plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }
 }
 
@@ -123,9 +100,9 @@ void update_plates(Assembly& a, double dt, double damping)
 {
     for (const Plate& plate : a.plates) {
         for (int edge : plate.edges) {
-            for (int row = 0; row < 4; ++row) {
-                a.edge_force[row_index(edge, ContactRows::plate + row, ContactRows::forces)] = 0.0;
-            }
+            const int first = BoundaryEdges::force_index(edge, EdgeRow::of_plates);
+            set_vector(a.edges.forces, first, {});
+            set_vector(a.edges.forces, first + node_stride, {});
         }
     }
     for (Plate& plate : a.plates)
@@ -157,8 +134,7 @@ Point plate_force(const Assembly& a, int side)
     Point sum;
     for (const Plate& p : a.plates) {
         if (p.side != side) continue;
-        sum.x += p.force.x;
-        sum.y += p.force.y;
+        sum = sum + p.force;
     }
     return sum;
 }
@@ -171,9 +147,11 @@ double contact_width(const Assembly& a, int plate)
     bool any = false;
     for (int i = 0; i < plate_points(p); ++i) {
         if (p.opening[i] >= 0.0) continue;
-        const EdgeValues at = values_at(a, plate_point(p, i));
-        const Point x = at.of(a.reference), u = at.of(a.displacement);
-        const double place = dot(tangent, { x.x + u.x, x.y + u.y });
+        const PlatePoint point = plate_point(p, i);
+        const auto nodes = a.edges.nodes(point.edge);
+        const Point x = vector_on_edge(a.grains.reference, nodes, point.weight)
+            + vector_on_edge(a.grains.displacement, nodes, point.weight);
+        const double place = dot(tangent, x);
         const double half = 0.5 * p.area[i] / a.thickness;
         first = any ? std::min(first, place - half) : place - half;
         last = any ? std::max(last, place + half) : place + half;

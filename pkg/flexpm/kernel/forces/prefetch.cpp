@@ -1,51 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Which nodes to ask for ahead.
 #include <flexpm/kernel/forces/prefetch.hpp>
 
 namespace flexpm {
 
 namespace {
 
+constexpr int cached_contacts = 1 << 14;  ///< with their grains the caches hold about as many
+
 /// Blocks of contacts whose nodes are taken to be in a near cache still.
 constexpr int blocks_kept = 48;
 
-/// Adds the lines that a block of contacts reads, unless a block shortly before has read them, too.
-struct LineList {
-    std::vector<int>& lines;
-    std::vector<int> last_read;
+/// Rows of an array that blocks of contacts read, unless a block shortly before has read them, too.
+class RowLists {
+public:
+    explicit RowLists(std::size_t values) : last_read(values / lanes, -1 - blocks_kept) { }
 
-    LineList(std::vector<int>& to, std::size_t values) :
-        lines(to),
-        last_read(values / lanes, -1 - blocks_kept)
+    void start_block() { lists.emplace_back(); }
+    void add(int offset)
     {
-    }
-
-    template <class Name> void add(int offset, int block, Name name)
-    {
+        const int block = static_cast<int>(lists.size()) - 1;
         int& before = last_read[offset / lanes];
-        if (block - before > blocks_kept) lines.push_back(name(offset / lanes));
+        if (block - before > blocks_kept) lists.back().push_back(offset / lanes);
         before = block;
     }
+    Lists<int> packed() const { return Lists<int>(lists); }
+
+private:
+    std::vector<int> last_read;
+    std::vector<std::vector<int>> lists;
 };
 
 }  // namespace
 
-void list_fetches(Assembly& a)
+PrefetchLists list_prefetches(const Grains& grains, const Contacts& contacts)
 {
-    a.fetch_first.assign(1, 0);
-    a.fetch_lines.clear();
-    if (!exceeds_caches(a)) return;
-    LineList nodes(a.fetch_lines, a.velocity.size());
-    LineList centres(a.fetch_lines, static_cast<std::size_t>(2 * lanes * a.blocks()));
-    constexpr int edge_ends = 4;
-    for (int block = 0; block < a.contact_blocks(); ++block) {
-        const int* rows = a.contact_nodes.data() + block * ContactRows::nodes * lanes;
-        for (int i = 0; i < edge_ends * lanes; ++i)
-            nodes.add(rows[i], block, [](int line) { return line; });
-        for (int i = edge_ends * lanes; i < ContactRows::nodes * lanes; ++i)
-            centres.add(rows[i], block, [](int line) { return ~line; });
-        a.fetch_first.push_back(static_cast<int>(a.fetch_lines.size()));
+    PrefetchLists lists;
+    lists.needed = contacts.count > cached_contacts;
+    if (!lists.needed) return lists;
+    RowLists nodes(grains.velocity.size());
+    RowLists centres(static_cast<std::size_t>(dimension * lanes) * grains.blocks());
+    for (int block = 0; block < contacts.blocks(); ++block) {
+        nodes.start_block();
+        centres.start_block();
+        for (int row = 0; row < NodeRow::count; ++row) {
+            for (int l = 0; l < lanes; ++l) {
+                const int offset =
+                    contacts.nodes[row_index(block * lanes + l, row, NodeRow::count)];
+                (row < NodeRow::centre_a ? nodes : centres).add(offset);
+            }
+        }
     }
+    lists.nodes = nodes.packed();
+    lists.centres = centres.packed();
+    return lists;
 }
 
 }  // namespace flexpm

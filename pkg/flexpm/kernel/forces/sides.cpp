@@ -15,9 +15,10 @@ namespace {
 /// Nodes of a rigid grain follow its centre: a hold on one of them would have no effect.
 void need_deformable(const Assembly& a, const std::vector<int>& nodes)
 {
-    for (int block = 0; block < a.blocks(); ++block) {
-        if (!a.group(block).rigid) continue;
-        const int first = a.block_nodes[block], last = first + 2 * lanes * a.group(block).nodes;
+    for (int block = 0; block < a.grains.blocks(); ++block) {
+        if (!a.grains.group(block).rigid) continue;
+        const int first = a.grains.block_nodes[block];
+        const int last = first + node_stride * a.grains.group(block).nodes;
         for (int n : nodes) {
             if (n < first || n >= last) continue;
             refuse("prescribed node", n, "", "belongs to a rigid grain; load it by a plate");
@@ -29,17 +30,16 @@ void need_deformable(const Assembly& a, const std::vector<int>& nodes)
 
 double edge_length(const Assembly& a, int edge)
 {
-    const auto n = edge_nodes(a, edge);
-    return std::hypot(a.reference[n[1]] - a.reference[n[0]],
-        a.reference[n[1] + lanes] - a.reference[n[0] + lanes]);
+    const auto n = a.edges.nodes(edge);
+    return norm(vector_at(a.grains.reference, n[1]) - vector_at(a.grains.reference, n[0]));
 }
 
 std::vector<int> side_nodes(const Assembly& a, int side)
 {
     std::vector<int> nodes;
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] != side) continue;
-        for (int n : edge_nodes(a, e))
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] != side) continue;
+        for (int n : a.edges.nodes(e))
             nodes.push_back(n);
     }
     std::sort(nodes.begin(), nodes.end());
@@ -47,50 +47,51 @@ std::vector<int> side_nodes(const Assembly& a, int side)
     return nodes;
 }
 
-void drive(Assembly& a, const std::vector<int>& nodes, int component, double velocity)
+void prescribe(Assembly& a, const std::vector<int>& nodes, int axis, double velocity)
 {
     check_finite("prescribed velocity", velocity, "m/s");
     need_deformable(a, nodes);
     for (int n : nodes) {
-        a.held[n + component * lanes] = 1;
-        a.velocity[n + component * lanes] = velocity;
+        a.grains.prescribed[component(n, axis)] = 1;
+        a.grains.velocity[component(n, axis)] = velocity;
     }
 }
 
-void rebook_driven(Assembly& a, double dt)
+void update_prescribed_work(Assembly& a, double dt)
 {
-    for (int block = 0; block < a.blocks(); ++block) {
-        const int first = a.block_nodes[block];
+    for (int block = 0; block < a.grains.blocks(); ++block) {
+        const int first = a.grains.block_nodes[block];
         double work = 0.0;
-        for (int i = first; i < first + 2 * lanes * a.group(block).nodes; ++i) {
-            work -= a.held[i] ? 0.5 * dt * a.force[i] * a.velocity[i] : 0.0;
+        for (int i = first; i < first + node_stride * a.grains.group(block).nodes; ++i) {
+            work -=
+                a.grains.prescribed[i] ? 0.5 * dt * a.grains.force[i] * a.grains.velocity[i] : 0.0;
         }
-        a.driven_work[2 * block + 1] = work;
+        a.ledger.prescribed_work[2 * block + 1] = work;
     }
 }
 
-void release(Assembly& a, const std::vector<int>& nodes, int component)
+void release(Assembly& a, const std::vector<int>& nodes, int axis)
 {
     for (int n : nodes)
-        a.held[n + component * lanes] = 0;
+        a.grains.prescribed[component(n, axis)] = 0;
 }
 
-double reaction(const Assembly& a, const std::vector<int>& nodes, int component)
+double reaction(const Assembly& a, const std::vector<int>& nodes, int axis)
 {
     double sum = 0.0;
     for (int n : nodes)
-        sum -= a.force[n + component * lanes];
+        sum -= a.grains.force[component(n, axis)];
     return sum;
 }
 
-double side_displacement(const Assembly& a, int side, int component)
+double side_displacement(const Assembly& a, int side, int axis)
 {
     double moment = 0.0, length = 0.0;
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] != side) continue;
-        const auto n = edge_nodes(a, e);
-        const double l = edge_length(a, e), *u = a.displacement.data() + component * lanes;
-        moment += 0.5 * l * (u[n[0]] + u[n[1]]);
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] != side) continue;
+        const auto [n0, n1] = a.edges.nodes(e);
+        const double l = edge_length(a, e), *u = a.grains.displacement.data();
+        moment += 0.5 * l * (u[component(n0, axis)] + u[component(n1, axis)]);
         length += l;
     }
     return moment / length;
@@ -99,8 +100,8 @@ double side_displacement(const Assembly& a, int side, int component)
 double side_length(const Assembly& a, int side)
 {
     double length = 0.0;
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] == side) length += edge_length(a, e);
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] == side) length += edge_length(a, e);
     }
     return length;
 }
@@ -108,18 +109,34 @@ double side_length(const Assembly& a, int side)
 void set_pressure(Assembly& a, int side, double pressure)
 {
     check_not_negative("pressure", pressure, "Pa");
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] == side) a.edge_pressure[e] = pressure;
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] == side) a.edges.pressure[e] = pressure;
     }
 }
 
 namespace {
 
-/// Pressure acts on an edge, or has acted until the last step.
-bool is_pressed(const Assembly& a, int edge)
+/// Whether pressure acts on an edge, or has acted until the last step.
+bool is_pressed(const BoundaryEdges& edges, int edge)
 {
-    const double* f = a.edge_force.data() + row_index(edge, 0, ContactRows::forces);
-    return a.edge_pressure[edge] != 0.0 || f[0] != 0.0 || f[lanes] != 0.0;
+    const Point f = vector_at(edges.forces, BoundaryEdges::force_index(edge, EdgeRow::of_pressure));
+    return edges.pressure[edge] != 0.0 || f.x != 0.0 || f.y != 0.0;
+}
+
+/// Update the forces of the pressure on an edge; returns their work [J].
+double press_edge(Assembly& a, int edge, double dt)
+{
+    const auto [n0, n1] = a.edges.nodes(edge);
+    const Point v0 = vector_at(a.grains.velocity, n0), v1 = vector_at(a.grains.velocity, n1);
+    const Point along = (a.grains.position(n1) - a.grains.position(n0)) + dt * (v1 - v0);
+    // the outward normal of a counter-clockwise edge is (y, -x) / length
+    const double half = 0.5 * a.edges.pressure[edge] * a.thickness;
+    const Point now = { -half * along.y, half * along.x };
+    const int first = BoundaryEdges::force_index(edge, EdgeRow::of_pressure);
+    const double work = 0.5 * dt * dot(vector_at(a.edges.forces, first) + now, v0 + v1);
+    set_vector(a.edges.forces, first, now);
+    set_vector(a.edges.forces, first + node_stride, now);
+    return work;
 }
 
 }  // namespace
@@ -127,21 +144,8 @@ bool is_pressed(const Assembly& a, int edge)
 double update_edge_block(Assembly& a, int block, double dt)
 {
     double work = 0.0;
-    for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges); ++e) {
-        if (!is_pressed(a, e)) continue;
-        double* f = a.edge_force.data() + row_index(e, 0, ContactRows::forces);
-        const int n0 = a.edge_nodes[row_index(e, 0, 2)], n1 = a.edge_nodes[row_index(e, 1, 2)];
-        const Point p0 = a.position(n0), p1 = a.position(n1);
-        const double* v = a.velocity.data();
-        const double ex = (p1.x - p0.x) + dt * (v[n1] - v[n0]);
-        const double ey = (p1.y - p0.y) + dt * (v[n1 + lanes] - v[n0 + lanes]);
-        // the outward normal of a counter-clockwise edge is (ey, -ex) / length
-        const double half = 0.5 * a.edge_pressure[e] * a.thickness;
-        const double fx = -half * ey, fy = half * ex;
-        work += 0.5 * dt
-            * ((f[0] + fx) * (v[n0] + v[n1]) + (f[lanes] + fy) * (v[n0 + lanes] + v[n1 + lanes]));
-        f[0] = f[2 * lanes] = fx;
-        f[lanes] = f[3 * lanes] = fy;
+    for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges.count); ++e) {
+        if (is_pressed(a.edges, e)) work += press_edge(a, e, dt);
     }
     return work;
 }

@@ -16,20 +16,20 @@ enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 
 std::vector<int> side_nodes(const Assembly& a, int side);
 
 /// Prescribe one velocity component of the nodes [m/s].
-void drive(Assembly& a, const std::vector<int>& nodes, int component, double velocity);
+void prescribe(Assembly& a, const std::vector<int>& nodes, int axis, double velocity);
 
 /// After velocities were prescribed between two steps: what the present forces work in the half step
 /// that follows goes with the new velocities, see integrate_one().
-void rebook_driven(Assembly& a, double dt);
+void update_prescribed_work(Assembly& a, double dt);
 
 /// Integrate the component again, from the velocity it has.
-void release(Assembly& a, const std::vector<int>& nodes, int component);
+void release(Assembly& a, const std::vector<int>& nodes, int axis);
 
 /// Force that the holder exerts on the nodes [N]: minus the sum of the nodal forces.
-double reaction(const Assembly& a, const std::vector<int>& nodes, int component);
+double reaction(const Assembly& a, const std::vector<int>& nodes, int axis);
 
 /// Mean displacement of a side, weighted by edge length [m].
-double side_displacement(const Assembly& a, int side, int component);
+double side_displacement(const Assembly& a, int side, int axis);
 
 /// Reference length of a boundary edge [m].
 double edge_length(const Assembly& a, int edge);

@@ -28,8 +28,8 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
         const double squeeze = plate_force(a, left_side).x - plate_force(a, right_side).x;
         return 0.5 * squeeze / (g.height * a.thickness);
     }
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] == right_side) return a.edge_pressure[e];
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] == right_side) return a.edges.pressure[e];
     }
     return 0.0;
 }
@@ -37,13 +37,13 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
 /// Growth of the distance between the outermost left and right grains of a disc [m].
 double disc_widening(const Assembly& a)
 {
-    int first = a.centre(0), last = first;
-    for (int g = 0; g < a.grains; ++g) {
-        const int c = a.centre(g);
-        if (a.reference[c] < a.reference[first]) first = c;
-        if (a.reference[c] > a.reference[last]) last = c;
+    int first = a.grains.centre(0), last = first;
+    for (int g = 0; g < a.grains.count; ++g) {
+        const int c = a.grains.centre(g);
+        if (a.grains.reference[c] < a.grains.reference[first]) first = c;
+        if (a.grains.reference[c] > a.grains.reference[last]) last = c;
     }
-    return a.displacement[last] - a.displacement[first];
+    return a.grains.displacement[last] - a.grains.displacement[first];
 }
 
 /// The part of an observation that every test has.

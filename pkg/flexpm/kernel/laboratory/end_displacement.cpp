@@ -18,7 +18,7 @@ constexpr int lateral = 0, axial = 1;
 void need_sides(const Assembly& a)
 {
     for (int side : { bottom_side, right_side, top_side, left_side }) {
-        if (std::count(a.edge_side.begin(), a.edge_side.end(), side) > 0) continue;
+        if (std::count(a.edges.side.begin(), a.edges.side.end(), side) > 0) continue;
         refuse("edges of side " + std::to_string(side), 0.0, "",
             "an axial test needs a rectangle of four sides; use another outline");
     }
@@ -28,18 +28,22 @@ void grip_bottom(Assembly& a)
 {
     need_sides(a);
     const std::vector<int> bottom = side_nodes(a, bottom_side);
-    drive(a, bottom, axial, 0.0);
+    prescribe(a, bottom, axial, 0.0);
     // the node nearest to the middle: the specimen then bulges evenly
     double middle = 0.0;
     for (int n : bottom)
-        middle += a.reference[n] / static_cast<double>(bottom.size());
+        middle += a.grains.reference[n] / static_cast<double>(bottom.size());
     const int nearest = *std::min_element(bottom.begin(), bottom.end(), [&](int m, int n) {
-        return std::fabs(a.reference[m] - middle) < std::fabs(a.reference[n] - middle);
+        return std::fabs(a.grains.reference[m] - middle)
+            < std::fabs(a.grains.reference[n] - middle);
     });
-    drive(a, { nearest }, lateral, 0.0);
+    prescribe(a, { nearest }, lateral, 0.0);
 }
 
-void move_top(Assembly& a, double velocity) { drive(a, side_nodes(a, top_side), axial, velocity); }
+void move_top(Assembly& a, double velocity)
+{
+    prescribe(a, side_nodes(a, top_side), axial, velocity);
+}
 
 double ramp_factor(std::int64_t step, int ramp_steps)
 {

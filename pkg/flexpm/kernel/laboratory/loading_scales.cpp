@@ -17,21 +17,22 @@ double crossing_steps(const ScaleInputs& in, double width, double height)
 
 ContactStrength mean_strength(const Assembly& a)
 {
-    return { grain_mean(a, [&](int g) { return own_law(a, g).tensile_strength; }),
-        grain_mean(a, [&](int g) { return own_law(a, g).cohesion; }),
-        grain_mean(a, [&](int g) { return own_law(a, g).friction; }) };
+    return { grain_mean(a.grains, [&](int g) { return own_law(a, g).tensile_strength; }),
+        grain_mean(a.grains, [&](int g) { return own_law(a, g).cohesion; }),
+        grain_mean(a.grains, [&](int g) { return own_law(a, g).friction; }) };
 }
 
 double mean_modulus(const Assembly& a)
 {
     double diameter = 0.0;
-    for (double r : a.radius)
-        diameter += 2.0 * r / a.grains;
+    for (double r : a.grains.radius)
+        diameter += 2.0 * r / a.grains.count;
     const double of_contacts = contact_modulus(
-        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; }), diameter);
-    if (a.is_rigid(0)) return of_contacts;
+        grain_mean(a.grains, [&](int g) { return own_law(a, g).normal_stiffness; }), diameter);
+    if (a.grains.is_rigid(0)) return of_contacts;
     return series_modulus(
-        grain_mean(a, [&](int g) { return a.elastic[a.grain_material[g]].young; }), of_contacts);
+        grain_mean(a.grains, [&](int g) { return a.grains.elastic[a.grains.material[g]].young; }),
+        of_contacts);
 }
 
 }  // namespace
@@ -71,7 +72,7 @@ ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)
     ScaleInputs in;
     in.modulus = mean_modulus(a);
     in.strength = reference_strength(sense, mean_strength(a));
-    for (double m : a.inverse_mass)
+    for (double m : a.grains.inverse_mass)
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
     in.thickness = a.thickness;
     in.dt = dt;

@@ -18,29 +18,17 @@ namespace flexpm {
 
 namespace {
 
-/// Calls visit(index) for both components of all nodes of grains, not of padded lanes.
-template <class Visit> void for_each_component(const Assembly& a, Visit visit)
-{
-    for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            visit(a.node(g, n));
-            visit(a.node(g, n) + lanes);
-        }
-    }
-}
-
 /// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
-Point relative_velocity(const Assembly& a, int contact, int point, const Array<double>& velocity)
+Point relative_velocity(
+    const Contacts& contacts, int contact, int point, const Array<double>& velocity)
 {
     Point sum;
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? -1.0 : 1.0;
-        const double w = a.weight[row_index(contact, 2 * point + side, 2 * a.points)];
+        const double w = contacts.weight(contact, point, side);
         for (int end = 0; end < 2; ++end) {
             const double part = sign * (end == 0 ? 1.0 - w : w);
-            const int n = a.contact_nodes[row_index(contact, 2 * side + end, ContactRows::nodes)];
-            sum.x += part * velocity[n];
-            sum.y += part * velocity[n + lanes];
+            sum = sum + part * vector_at(velocity, contacts.node(contact, side, end));
         }
     }
     return sum;
@@ -63,13 +51,14 @@ int middle_of(const Assembly& a, int side)
     const std::vector<int> nodes = side_nodes(a, side);
     double middle = 0.0;
     for (int n : nodes)
-        middle += a.reference[n] / static_cast<double>(nodes.size());
-    int nearest = a.centre(0);
+        middle += a.grains.reference[n] / static_cast<double>(nodes.size());
+    int nearest = a.grains.centre(0);
     double least = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < a.edges; ++e) {
-        const int c = a.centre(a.edge_grain[e]);
-        if (a.edge_side[e] != side || !(std::fabs(a.reference[c] - middle) < least)) continue;
-        least = std::fabs(a.reference[c] - middle);
+    for (int e = 0; e < a.edges.count; ++e) {
+        const int c = a.grains.centre(a.edges.grain[e]);
+        if (a.edges.side[e] != side || !(std::fabs(a.grains.reference[c] - middle) < least))
+            continue;
+        least = std::fabs(a.grains.reference[c] - middle);
         nearest = c;
     }
     return nearest;
@@ -81,26 +70,22 @@ Point velocity_before(const Assembly& a, const Plate& plate, const Array<double>
     double sum = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const auto n = edge_nodes(a, p.edge);
+        const auto n = a.edges.nodes(p.edge);
         for (int end = 0; end < 2; ++end) {
             const double part = end == 0 ? 1.0 - p.weight : p.weight;
-            sum += part
-                * (plate.normal.x * velocity[n[end]] + plate.normal.y * velocity[n[end] + lanes]);
+            sum += part * dot(plate.normal, vector_at(velocity, n[end]));
         }
     }
     const double mean = sum / plate_points(plate);
-    return { mean * plate.normal.x, mean * plate.normal.y };
+    return mean * plate.normal;
 }
 
 /// Spin of a rigid grain whose nodes have these velocities [rad/s].
-double spin_in(const Assembly& a, int grain, const Array<double>& velocity)
+double spin_in(const Grains& grains, int grain, const Array<double>& velocity)
 {
-    const int c = a.centre(grain), n = a.node(grain, 0);
-    const double x = a.reference[n] - a.reference[c];
-    const double y = a.reference[n + lanes] - a.reference[c + lanes];
-    const double vx = velocity[n] - velocity[c];
-    const double vy = velocity[n + lanes] - velocity[c + lanes];
-    return (x * vy - y * vx) / (x * x + y * y);
+    const int c = grains.centre(grain), n = grains.node(grain, 0);
+    const Point arm = vector_at(grains.reference, n) - vector_at(grains.reference, c);
+    return cross(arm, vector_at(velocity, n) - vector_at(velocity, c)) / dot(arm, arm);
 }
 
 }  // namespace
@@ -108,8 +93,8 @@ double spin_in(const Assembly& a, int grain, const Array<double>& velocity)
 Array<double> elastic_velocities(const Assembly& a)
 {
     std::vector<Prescribed> prescribed;
-    for_each_component(a, [&](int i) {
-        if (a.held[i]) prescribed.push_back({ i, a.velocity[i] });
+    for_each_component(a.grains, [&](int i) {
+        if (a.grains.prescribed[i]) prescribed.push_back({ i, a.grains.velocity[i] });
     });
     if (a.plates.empty()) return solve_static(a, prescribed).displacement;
 
@@ -131,32 +116,30 @@ void start_elastically(Assembly& a)
     for (Plate& p : a.plates) {
         if (p.loaded) p.velocity = velocity_before(a, p, velocity);
     }
-    for (int g = 0; g < a.grains; ++g) {
-        if (a.is_rigid(g)) {
-            const int c = a.centre(g);
-            const Point v = { a.velocity[c] + velocity[c],
-                a.velocity[c + lanes] + velocity[c + lanes] };
-            set_motion(a, g, v, a.spin[rigid_index(a, g)] + spin_in(a, g, velocity), 1.0);
+    Grains& grains = a.grains;
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.is_rigid(g)) {
+            const int c = grains.centre(g);
+            const Point v = vector_at(grains.velocity, c) + vector_at(velocity, c);
+            const double spin = grains.spin[grains.slot[g]] + spin_in(grains, g, velocity);
+            set_motion(grains, g, v, spin, 1.0);
             continue;
         }
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            for (int i : { a.node(g, n), a.node(g, n) + lanes }) {
-                if (!a.held[i]) a.velocity[i] += velocity[i];
-            }
-        }
+        for_each_component(grains, g, [&](int i) {
+            if (!grains.prescribed[i]) grains.velocity[i] += velocity[i];
+        });
     }
 }
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)
 {
     double least = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < a.contacts; ++c) {
+    for (int c = 0; c < a.contacts.count; ++c) {
         const Point n = bonded_normal(a, c);
-        const LawParameters& law = a.laws[a.contact_law[c]];
-        for (int p = 0; p < a.points; ++p) {
-            const Point v = relative_velocity(a, c, p, velocity);
-            least = std::min(
-                least, time_to_strength(law, v.x * n.x + v.y * n.y, v.y * n.x - v.x * n.y));
+        const LawParameters& law = a.contacts.law_of(c);
+        for (int p = 0; p < a.contacts.points_of(c); ++p) {
+            const Point v = relative_velocity(a.contacts, c, p, velocity);
+            least = std::min(least, time_to_strength(law, dot(v, n), v.y * n.x - v.x * n.y));
         }
     }
     return least;
@@ -171,21 +154,21 @@ void preload(Assembly& a, double share, int steps, double dt)
     const Array<double> velocity = elastic_velocities(a);
     const double factor = share * elastic_time(a, velocity) / (steps * dt);
     check_positive("velocity to the elastic limit over that of the test", factor, "");
-    for_each_component(a, [&](int i) {
-        a.held[i] = 1;
-        a.velocity[i] = factor * velocity[i];
+    for_each_component(a.grains, [&](int i) {
+        a.grains.prescribed[i] = 1;
+        a.grains.velocity[i] = factor * velocity[i];
     });
 }
 
 void release_preload(Assembly& a, double velocity, double dt)
 {
-    const double now = a.velocity[side_nodes(a, top_side).front() + lanes];
-    for_each_component(a, [&](int i) { a.velocity[i] *= velocity / now; });
-    rebook_driven(a, dt);
-    for_each_component(a, [&](int i) { a.held[i] = 0; });
+    const double now = a.grains.velocity[component(side_nodes(a, top_side).front(), 1)];
+    for_each_component(a.grains, [&](int i) { a.grains.velocity[i] *= velocity / now; });
+    update_prescribed_work(a, dt);
+    for_each_component(a.grains, [&](int i) { a.grains.prescribed[i] = 0; });
     grip_bottom(a);
     move_top(a, velocity);
-    a.initial_energy += kinetic_of_velocities(a);
+    a.ledger.initial += kinetic_of_velocities(a.grains);
 }
 
 }  // namespace flexpm

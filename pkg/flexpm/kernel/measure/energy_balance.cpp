@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 
 namespace flexpm {
 
@@ -37,20 +36,23 @@ FLEXPM_INLINE bool all_finite(const double* values, int count)
 
 }  // namespace
 
-double kinetic_of_velocities(const Assembly& a)
+double kinetic_of_velocities(const Grains& grains)
 {
     double total = 0.0;
-    for (int g = 0; g < a.grains; ++g) {
-        const int i = rigid_index(a, g);
-        if (a.is_rigid(g) && !a.spin_held[i] && a.inverse_inertia[i] > 0.0) {
-            total += 0.5 * a.spin[i] * a.spin[i] / a.inverse_inertia[i];
+    for (int g = 0; g < grains.count; ++g) {
+        const int slot = grains.slot[g];
+        const double inverse_inertia = grains.inverse_inertia[slot], spin = grains.spin[slot];
+        if (grains.is_rigid(g) && !grains.spin_prescribed[slot] && inverse_inertia > 0.0) {
+            total += 0.5 * spin * spin / inverse_inertia;
         }
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            const int node = a.node(g, n);
-            const double inverse_mass = a.inverse_mass[scalar_index(node)];
+        for (int n = 0; n < grains.nodes_of(g); ++n) {
+            const int node = grains.node(g, n);
+            const double inverse_mass = grains.inverse_mass[scalar_index(node)];
             if (inverse_mass == 0.0) continue;
-            for (int i : { node, node + lanes }) {
-                if (!a.held[i]) total += 0.5 * a.velocity[i] * a.velocity[i] / inverse_mass;
+            for (int axis = 0; axis < dimension; ++axis) {
+                const int i = component(node, axis);
+                if (grains.prescribed[i]) continue;
+                total += 0.5 * grains.velocity[i] * grains.velocity[i] / inverse_mass;
             }
         }
     }
@@ -59,11 +61,11 @@ double kinetic_of_velocities(const Assembly& a)
 
 Dissipation dissipation(const Assembly& a)
 {
-    const ContactLoss contact = contact_loss(a);
+    const ContactLoss contact = contact_loss(a.contacts);
     Dissipation d;
-    d.damage = contact.damage + a.past_damage;
-    d.friction = contact.friction + a.past_friction;
-    d.boundary_work = first_of_pairs(a.driven_work) + a.pressure_work;
+    d.damage = contact.damage + a.ledger.removed_damage;
+    d.friction = contact.friction + a.ledger.removed_friction;
+    d.boundary_work = first_of_pairs(a.ledger.prescribed_work) + a.ledger.pressure_work;
     for (const Plate& p : a.plates) {
         d.friction += p.friction_energy;
         d.boundary_work += p.boundary_work;
@@ -75,12 +77,12 @@ Energies energies(const Assembly& a)
 {
     const Dissipation d = dissipation(a);
     Energies e;
-    for (double k : a.kinetic)
+    for (double k : a.ledger.kinetic)
         e.kinetic += k;
-    e.elastic = strain_energy(a) + contact_energy(a);
+    e.elastic = strain_energy(a.grains) + contact_energy(a.contacts);
     e.damage = d.damage;
     e.friction = d.friction;
-    e.damping = first_of_pairs(a.damping_work);
+    e.damping = first_of_pairs(a.ledger.damping_work);
     e.potential = potential_energy(a);
     e.boundary_work = d.boundary_work;
     for (const Plate& p : a.plates) {
@@ -88,46 +90,46 @@ Energies energies(const Assembly& a)
         e.elastic += elastic_energy(p);
         e.damping += p.damping_work;
     }
-    e.initial = a.initial_energy;
+    e.initial = a.ledger.initial;
     return e;
 }
 
-void open_books(Assembly& a)
+void reset_energy_balance(Assembly& a)
 {
-    for (int c = 0; c < a.contacts; ++c) {
-        for (int p = 0; p < a.points; ++p) {
-            for (int row : { 5, 6 }) {  // the two dissipated energies
-                a.point_state[row_index(
-                    c, p * ContactRows::state + row, a.points * ContactRows::state)] = 0.0;
-            }
+    Contacts& contacts = a.contacts;
+    for (int c = 0; c < contacts.count; ++c) {
+        for (int p = 0; p < contacts.points_of(c); ++p) {
+            for (int row : { PointRow::damage_energy, PointRow::friction_energy })
+                contacts.state(c, p, row) = 0.0;
         }
     }
     // the halves of the last step's works that fall into the next step stay
-    for (auto* work : { &a.damping_work, &a.driven_work }) {
+    for (auto* work : { &a.ledger.damping_work, &a.ledger.prescribed_work }) {
         for (std::size_t i = 0; i < work->size(); i += 2)
             (*work)[i] = 0.0;
     }
-    a.pressure_work = a.past_damage = a.past_friction = 0.0;
+    a.ledger.pressure_work = a.ledger.removed_damage = a.ledger.removed_friction = 0.0;
     for (Plate& p : a.plates)
         p.boundary_work = p.damping_work = p.friction_energy = 0.0;
-    if (a.step == 0) a.kinetic[0] = kinetic_of_velocities(a);
+    if (a.step == 0) a.ledger.kinetic[0] = kinetic_of_velocities(a.grains);
     const Energies now = energies(a);
-    a.initial_energy = now.kinetic + now.elastic + now.potential;
+    a.ledger.initial = now.kinetic + now.elastic + now.potential;
 }
 
 double unbalanced_ratio(const Assembly& a)
 {
-    double largest = *std::max_element(a.largest_force.begin(), a.largest_force.end());
+    const auto& forces = a.ledger.largest_force;
+    double largest = *std::max_element(forces.begin(), forces.end());
     for (const Plate& p : a.plates)
         largest = std::max(largest, p.unbalanced);
-    const double sum = sum_of_forces(a);
-    return sum > 0.0 ? largest * a.contacts / sum : 0.0;
+    const double sum = sum_of_forces(a.contacts);
+    return sum > 0.0 ? largest * a.contacts.count / sum : 0.0;
 }
 
 CrackCount count_cracks(const Assembly& a)
 {
     CrackCount count;
-    for (std::uint8_t mode : a.crack_mode) {
+    for (std::uint8_t mode : a.contacts.crack_modes) {
         count.tensile += mode == tensile_crack;
         count.shear += mode == shear_crack;
     }
@@ -136,21 +138,18 @@ CrackCount count_cracks(const Assembly& a)
 
 std::string find_bad_number(const Assembly& a)
 {
-    const int values = static_cast<int>(a.force.size());
+    const Grains& grains = a.grains;
+    const int values = static_cast<int>(grains.force.size());
     const auto finite = variant_of<all_finite>();
-    if (finite(a.force.data(), values) && finite(a.velocity.data(), values)) return {};
-    for (int g = 0; g < a.grains; ++g) {
-        for (int n = 0; n < a.nodes_of(g); ++n) {
-            for (int c = 0; c < 2; ++c) {
-                const int i = a.node(g, n) + c * lanes;
-                const bool force = std::isfinite(a.force[i]);
-                if (force && std::isfinite(a.velocity[i])) continue;
-                std::ostringstream text;
-                text << (force ? "velocity" : "force") << " of node " << n << " of grain " << g
-                     << " is not a finite number at step " << a.step
-                     << "; lower the loading rate or check the material";
-                return text.str();
-            }
+    if (finite(grains.force.data(), values) && finite(grains.velocity.data(), values)) return {};
+    for (int g = 0; g < grains.count; ++g) {
+        for (int n = 0; n < grains.nodes_of(g); ++n) {
+            const int node = grains.node(g, n);
+            const bool force = is_finite(vector_at(grains.force, node));
+            if (force && is_finite(vector_at(grains.velocity, node))) continue;
+            return std::string(force ? "velocity" : "force") + " of node " + std::to_string(n)
+                + " of grain " + std::to_string(g) + " is not a finite number at step "
+                + std::to_string(a.step) + "; lower the loading rate or check the material";
         }
     }
     return {};

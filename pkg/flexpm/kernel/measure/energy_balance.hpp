@@ -9,7 +9,7 @@
 
 namespace flexpm {
 
-/// Energy books at the last step [J]. What went in, boundary_work + initial, equals the sum of the
+/// Energy balance at the last step [J]. What went in, boundary_work + initial, equals the sum of the
 /// others but for the discrete steps of the law.
 struct Energies {
     double kinetic = 0.0;  ///< 1/2 m v(n-1/2) v(n+1/2); of the last measured step
@@ -18,7 +18,7 @@ struct Energies {
     double friction = 0.0;
     double damping = 0.0;
     double potential = 0.0;      ///< in the field of gravity, 0 at the reference
-    double boundary_work = 0.0;  ///< of held nodes and of edge pressure
+    double boundary_work = 0.0;  ///< of prescribed velocities, plates and edge pressure
     double initial = 0.0;
 };
 
@@ -33,13 +33,13 @@ struct Dissipation {
 
 Dissipation dissipation(const Assembly& a);
 
-/// Open the energy books: the present energy becomes the initial energy, works and
+/// Start a new energy balance: the present energy becomes the initial energy, works and
 /// dissipation count from zero. Before the first step the kinetic energy is that of the velocities
 /// set; later it is that of the last step, which must have been measured.
-void open_books(Assembly& a);
+void reset_energy_balance(Assembly& a);
 
 /// Kinetic energy as if no force acted on the present velocities: 1/2 m v^2 [J].
-double kinetic_of_velocities(const Assembly& a);
+double kinetic_of_velocities(const Grains& grains);
 
 /// Largest force component on a free node over the mean contact force [-]; of the last measured
 /// step. 0 without contact forces.

@@ -2,7 +2,7 @@
 /// @file  Energies, `lanes` at a time.
 #include <flexpm/kernel/measure/energy_sums.hpp>
 
-#include <flexpm/kernel/assembly/contact_rows.hpp>
+#include <flexpm/kernel/assembly/law_rows.hpp>
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
@@ -34,9 +34,9 @@ FLEXPM_INLINE void add_strain(const TriangleRows& b, LaneSum& energy)
         const TriangleNodes n = nodes_of(b, t);
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
-            sum.lane[l] +=
-                triangle_energy(shape_of(b, t, l), stiffness_of(b, l), displacement_of(b, n.n0, l),
-                    displacement_of(b, n.n1, l), displacement_of(b, n.n2, l));
+            sum.lane[l] += triangle_energy(load_shape(b.shape, t, l),
+                load_stiffness(b.stiffness, l), displacement_of(b, n.n0, l),
+                displacement_of(b, n.n1, l), displacement_of(b, n.n2, l));
         }
     }
     energy = sum;
@@ -47,11 +47,11 @@ FLEXPM_INLINE void add_stored(
 {
     LaneSum sum = energy;
     for (int p = 0; p < points; ++p) {
-        const double *a = area + p * lanes, *state = states + p * ContactRows::state * lanes;
+        const double *a = area + p * lanes, *state = states + p * PointRow::count * lanes;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const PointState s = load_state(state, l);
-            sum.lane[l] += a[l] * law::elastic_energy(law_of(law, l), s);
+            sum.lane[l] += a[l] * law::elastic_energy(load_law(law, l), s);
         }
     }
     energy = sum;
@@ -62,7 +62,7 @@ FLEXPM_INLINE void add_lost(
 {
     LaneSum of_damage = damage, of_friction = friction;
     for (int r = 0; r < rows; ++r) {
-        const double *a = area + r * lanes, *state = states + r * ContactRows::state * lanes;
+        const double *a = area + r * lanes, *state = states + r * PointRow::count * lanes;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const PointState s = load_state(state, l);
@@ -79,10 +79,10 @@ FLEXPM_INLINE void add_forces(const double* forces, int contacts, LaneSum& total
 {
     LaneSum sum = total;
     for (int c = 0; c < contacts; c += lanes) {
-        const double* f = forces + c * ContactRows::forces;
+        const double* f = forces + c * Contacts::force_values;
         alignas(64) double rows[4 * lanes];  // what acts on the first grain
         for (int l = 0; l < lanes; l += 4)
-            transpose(f + l * ContactRows::forces, ContactRows::forces, rows + l, lanes);
+            transpose(f + l * Contacts::force_values, Contacts::force_values, rows + l, lanes);
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const double x = rows[l] + rows[2 * lanes + l];
@@ -95,41 +95,45 @@ FLEXPM_INLINE void add_forces(const double* forces, int contacts, LaneSum& total
 
 }  // namespace
 
-double strain_energy(const Assembly& a)
+double strain_energy(const Grains& grains)
 {
     LaneSum sum;
     const auto add = variant_of<add_strain>();
-    for (int block = 0; block < a.blocks(); ++block)
-        add(triangle_rows(a, block), sum);
+    for (int block = 0; block < grains.blocks(); ++block)
+        add(triangle_rows(grains, block), sum);
     return sum.total();
 }
 
-double contact_energy(const Assembly& a)
+double contact_energy(const Contacts& contacts)
 {
     LaneSum sum;
     LawRows law;
     const auto add = variant_of<add_stored>();
-    for (int block = 0; block < a.contact_blocks(); ++block) {
-        const int first = block * lanes * a.points;
-        law.fill(a, block);
-        add(a.area.data() + first, a.point_state.data() + first * ContactRows::state, law.values,
-            a.points, sum);
+    for (int block = 0; block < contacts.blocks(); ++block) {
+        const int points = contacts.points_in(block), first = block * lanes * points;
+        law.fill(contacts, block);
+        add(contacts.areas.data() + first, contacts.states.data() + first * PointRow::count,
+            law.values, points, sum);
     }
     return sum.total();
 }
 
-ContactLoss contact_loss(const Assembly& a)
+ContactLoss contact_loss(const Contacts& contacts)
 {
     LaneSum damage, friction;
-    variant_of<add_lost>()(
-        a.area.data(), a.point_state.data(), a.contact_blocks() * a.points, damage, friction);
+    const auto add = variant_of<add_lost>();
+    for (int block = 0; block < contacts.blocks(); ++block) {
+        const int points = contacts.points_in(block), first = block * lanes * points;
+        add(contacts.areas.data() + first, contacts.states.data() + first * PointRow::count, points,
+            damage, friction);
+    }
     return { damage.total(), friction.total() };
 }
 
-double sum_of_forces(const Assembly& a)
+double sum_of_forces(const Contacts& contacts)
 {
     LaneSum sum;
-    variant_of<add_forces>()(a.contact_force.data(), a.contact_blocks() * lanes, sum);
+    variant_of<add_forces>()(contacts.forces.data(), contacts.blocks() * lanes, sum);
     return sum.total();
 }
 

@@ -12,8 +12,8 @@ namespace {
 std::vector<SideShare> shares_of(const Assembly& a, int side)
 {
     std::vector<SideShare> shares;
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] == side) shares.push_back({ a.edge_grain[e], edge_length(a, e) });
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] == side) shares.push_back({ a.edges.grain[e], edge_length(a, e) });
     }
     return shares;
 }
@@ -21,10 +21,10 @@ std::vector<SideShare> shares_of(const Assembly& a, int side)
 StrainGauge gauge_of(const Assembly& a, double height)
 {
     double diameters = 0.0;
-    for (double r : a.radius)
+    for (double r : a.grains.radius)
         diameters += 2.0 * r;
-    const double bottom = a.reference[side_nodes(a, bottom_side).front() + lanes];
-    return { bottom, height, diameters / a.grains, shares_of(a, left_side),
+    const double bottom = a.grains.reference[component(side_nodes(a, bottom_side).front(), 1)];
+    return { bottom, height, diameters / a.grains.count, shares_of(a, left_side),
         shares_of(a, right_side) };
 }
 
@@ -35,18 +35,16 @@ SpecimenStrain specimen_strain(const Assembly& a)
     const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     check_positive("length of the bottom side", width, "m");
     check_positive("length of the left side", height, "m");
-    if (!a.is_rigid(0)) {
+    if (!a.grains.is_rigid(0)) {
         return { (side_displacement(a, top_side, 1) - side_displacement(a, bottom_side, 1))
                 / height,
             (side_displacement(a, right_side, 0) - side_displacement(a, left_side, 0)) / width };
     }
-    const auto index = [&](int grain, int component) {
-        return a.centre(grain) + component * lanes;
-    };
+    const auto index = [&](int grain, int axis) { return component(a.grains.centre(grain), axis); };
     return centre_strain(
-        gauge_of(a, height), a.grains,
-        [&](int grain, int component) { return a.reference[index(grain, component)]; },
-        [&](int grain, int component) { return a.displacement[index(grain, component)]; });
+        gauge_of(a, height), a.grains.count,
+        [&](int grain, int axis) { return a.grains.reference[index(grain, axis)]; },
+        [&](int grain, int axis) { return a.grains.displacement[index(grain, axis)]; });
 }
 
 }  // namespace flexpm

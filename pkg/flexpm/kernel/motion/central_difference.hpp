@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Central differences with local damping for one degree of freedom, paper Eqs. 1-3, and the
-/// books of its energy.
+/// works of its forces.
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>
@@ -15,13 +15,13 @@ namespace flexpm {
 /// Cleared and copied by loops over lanes: of a whole struct the compiler makes slow string instructions.
 struct StepSums {
     alignas(64) double damped[lanes], damped_next[lanes];
-    alignas(64) double driven[lanes], driven_next[lanes];
+    alignas(64) double prescribed[lanes], prescribed_next[lanes];
     alignas(64) double kinetic[lanes], largest[lanes];
 
     FLEXPM_INLINE StepSums()
     {
         for (int l = 0; l < lanes; ++l) {
-            damped[l] = damped_next[l] = driven[l] = driven_next[l] = 0.0;
+            damped[l] = damped_next[l] = prescribed[l] = prescribed_next[l] = 0.0;
             kinetic[l] = largest[l] = 0.0;
         }
     }
@@ -31,41 +31,48 @@ struct StepSums {
         for (int l = 0; l < lanes; ++l) {
             to.damped[l] = damped[l];
             to.damped_next[l] = damped_next[l];
-            to.driven[l] = driven[l];
-            to.driven_next[l] = driven_next[l];
+            to.prescribed[l] = prescribed[l];
+            to.prescribed_next[l] = prescribed_next[l];
             to.kinetic[l] = kinetic[l];
             to.largest[l] = largest[l];
         }
     }
 };
 
-/// New velocity of a degree of freedom of lane `l`, and the work of damping and of its holder: a force
-/// F at step n works over half of the step before and half of the step after,
+/// What moves a degree of freedom.
+struct Freedom {
+    double force;         ///< generalised force without damping; of a rotation the moment
+    double inverse_mass;  ///< generalised; of a rotation that of the moment of inertia
+    double prescribed;    ///< 1: the velocity is given; 0: it is integrated
+    double length =
+        1.0;  ///< makes a force of it for the unbalanced ratio: 1, or the arm of a moment [m]
+};
+
+/// New velocity of a degree of freedom in a lane, and the works of damping and of what prescribes the velocity: a
+/// force F at step n works over half of the step before and half of the step after,
 /// F dt (v(n-1/2) + v(n+1/2)) / 2.
 ///
-/// @param force   generalised force without damping; of a rotation the moment
-/// @param length  what makes a force of it for the unbalanced ratio: 1, or an arm [m] of a moment
-/// @tparam Held   false: `held` is 0, there is no holder's work
-template <bool Measure, bool Held = true>
-FLEXPM_INLINE void integrate_one(double force, double held, double inverse_mass, double length,
-    double dt, double damping, double& velocity, StepSums& sums, int l)
+/// @tparam Prescribed  false: the velocity is not prescribed, which need not be looked at
+template <bool Measure, bool Prescribed = true>
+FLEXPM_INLINE void integrate_one(
+    const Freedom& f, double dt, double damping, double& velocity, StepSums& sums, int lane)
 {
-    const double old = velocity, free = Held ? 1.0 - held : 1.0;
+    const double old = velocity, free = Prescribed ? 1.0 - f.prescribed : 1.0;
     const double against = old > 0.0 ? -1.0 : (old < 0.0 ? 1.0 : 0.0);
-    const double damp = free * against * damping * std::fabs(force);
-    const double next = old + dt * (free * force + damp) * inverse_mass;
+    const double damp = free * against * damping * std::fabs(f.force);
+    const double next = old + dt * (free * f.force + damp) * f.inverse_mass;
     velocity = next;
-    sums.damped[l] -= 0.5 * dt * damp * old;
-    sums.damped_next[l] -= 0.5 * dt * damp * next;
-    if (Held) {
-        const double reaction = (free - 1.0) * force;
-        sums.driven[l] += 0.5 * dt * reaction * old;
-        sums.driven_next[l] += 0.5 * dt * reaction * next;
+    sums.damped[lane] -= 0.5 * dt * damp * old;
+    sums.damped_next[lane] -= 0.5 * dt * damp * next;
+    if (Prescribed) {
+        const double reaction = (free - 1.0) * f.force;
+        sums.prescribed[lane] += 0.5 * dt * reaction * old;
+        sums.prescribed_next[lane] += 0.5 * dt * reaction * next;
     }
     if (Measure) {
-        const double mass = inverse_mass > 0.0 ? free / inverse_mass : 0.0;
-        sums.kinetic[l] += 0.5 * mass * old * next;
-        sums.largest[l] = std::max(sums.largest[l], free * std::fabs(force) / length);
+        const double mass = f.inverse_mass > 0.0 ? free / f.inverse_mass : 0.0;
+        sums.kinetic[lane] += 0.5 * mass * old * next;
+        sums.largest[lane] = std::max(sums.largest[lane], free * std::fabs(f.force) / f.length);
     }
 }
 

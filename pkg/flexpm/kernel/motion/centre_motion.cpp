@@ -14,57 +14,63 @@ FLEXPM_INLINE void half_turns(const double* rotation, double* cosine, double* si
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const HalfTurn half = half_turn_of(rotation[l], rotation[lanes + l]);
+        const HalfTurn half = half_turn_of(rotation[RotationRow::cosine_less_one * lanes + l],
+            rotation[RotationRow::sine * lanes + l]);
         cosine[l] = half.cosine;
         sine[l] = half.sine;
     }
 }
 
-void find_turns(const Assembly& a, int block, CentreMotion& motion)
+void find_turns(const Grains& grains, int block, CentreMotion& motion)
 {
-    variant_of<half_turns>()(
-        a.rotation.data() + 3 * lanes * block, motion.half_cosine, motion.half_sine);
+    variant_of<half_turns>()(grains.rotation.data() + RotationRow::count * lanes * block,
+        motion.half_cosine, motion.half_sine);
     for (int l = 0; l < lanes; ++l) {
-        motion.spin[l] = a.spin[lanes * block + l];
-        const int grain = a.slot_grain[lanes * block + l];
+        motion.spin[l] = grains.spin[lanes * block + l];
+        const int grain = grains.in_slot[lanes * block + l];
         if (motion.half_cosine[l] >= least_half_cosine || grain < 0) continue;
-        const HalfTurn half = half_turn(a, grain);
+        const HalfTurn half = half_turn(grains, grain);
         motion.half_cosine[l] = half.cosine;
         motion.half_sine[l] = half.sine;
     }
+}
+
+/// Offset of the centres of a block's grains in the node arrays.
+int centres_of(const Grains& grains, int block)
+{
+    return grains.block_nodes[block] + node_stride * grains.group(block).vertices;
 }
 
 FLEXPM_INLINE void move_pairs(const double* u, const double* v, double dt, double* pairs)
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        pairs[2 * l] = u[l] + dt * v[l];
-        pairs[2 * l + 1] = u[lanes + l] + dt * v[lanes + l];
+        const int x = component(l, 0), y = component(l, 1);
+        pairs[dimension * l] = u[x] + dt * v[x];
+        pairs[dimension * l + 1] = u[y] + dt * v[y];
     }
 }
 
 }  // namespace
 
-void predict_centres(Assembly& a, int block, double dt)
+void predict_centres(const Grains& grains, int block, double dt, Array<double>& next_centre)
 {
-    const int first = a.block_nodes[block] + 2 * lanes * a.group(block).vertices;
-    variant_of<move_pairs>()(a.displacement.data() + first, a.velocity.data() + first, dt,
-        a.next_centre.data() + 2 * lanes * block);
+    const int first = centres_of(grains, block);
+    variant_of<move_pairs>()(grains.displacement.data() + first, grains.velocity.data() + first, dt,
+        next_centre.data() + dimension * lanes * block);
 }
 
-void find_centre_motion(const Assembly& a, int block, CentreMotion& motion)
+void find_centre_motion(const Grains& grains, int block, CentreMotion& motion)
 {
-    const MeshGroup& group = a.group(block);
-    const int first = a.block_nodes[block] + 2 * lanes * group.vertices;
-    const double *reference = a.reference.data() + first, *u = a.displacement.data() + first;
-    const double* v = a.velocity.data() + first;
+    const int first = centres_of(grains, block);
     for (int l = 0; l < lanes; ++l) {
-        motion.x[l] = reference[l] + u[l];
-        motion.y[l] = reference[lanes + l] + u[lanes + l];
-        motion.vx[l] = v[l];
-        motion.vy[l] = v[lanes + l];
+        const Point p = grains.position(first + l), v = vector_at(grains.velocity, first + l);
+        motion.x[l] = p.x;
+        motion.y[l] = p.y;
+        motion.vx[l] = v.x;
+        motion.vy[l] = v.y;
     }
-    if (group.rigid) find_turns(a, block, motion);
+    if (grains.group(block).rigid) find_turns(grains, block, motion);
 }
 
 }  // namespace flexpm

@@ -3,7 +3,7 @@
 /// step by step. SI units, rotations counter-clockwise.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/grains.hpp>
 
 namespace flexpm {
 
@@ -17,9 +17,10 @@ struct CentreMotion {
     alignas(64) double spin[lanes];                           ///< [rad/s]
 };
 
-/// Fill `next_centre` of a block of grains, which contacts read.
-void predict_centres(Assembly& a, int block, double dt);
+/// Displacements of the centres of a block of grains at the end of the step, into StepPlan::next_centre: contacts
+/// read them there.
+void predict_centres(const Grains& grains, int block, double dt, Array<double>& next_centre);
 
-void find_centre_motion(const Assembly& a, int block, CentreMotion& motion);
+void find_centre_motion(const Grains& grains, int block, CentreMotion& motion);
 
 }  // namespace flexpm

@@ -34,12 +34,14 @@ FLEXPM_INLINE Turn turn_by(double angle)
 /// Forces and moments of a block's grains about their centres, and for the unbalanced ratio the
 /// squares of the longest arms.
 struct Resultants {
-    alignas(64) double x[lanes], y[lanes], moment[lanes], reach[lanes];
+    alignas(64) double x[lanes], y[lanes], moment[lanes], square_arm[lanes];
 };
 
 FLEXPM_INLINE void move_centres(const RigidRows& b, int centre, double dt)
 {
-    double *along = b.rotation, *across = b.rotation + lanes, *angle = b.rotation + 2 * lanes;
+    double* along = b.rotation + RotationRow::cosine_less_one * lanes;
+    double* across = b.rotation + RotationRow::sine * lanes;
+    double* angle = b.rotation + RotationRow::angle * lanes;
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Turn turn = turn_by(dt * b.spin[l]);
@@ -50,8 +52,9 @@ FLEXPM_INLINE void move_centres(const RigidRows& b, int centre, double dt)
         along[l] = k - excess * (1.0 + k);
         across[l] = s - excess * s;
         angle[l] += dt * b.spin[l];
-        b.displacement[centre + l] += dt * b.velocity[centre + l];
-        b.displacement[centre + lanes + l] += dt * b.velocity[centre + lanes + l];
+        const int x = component(centre + l, 0), y = component(centre + l, 1);
+        b.displacement[x] += dt * b.velocity[x];
+        b.displacement[y] += dt * b.velocity[y];
     }
 }
 
@@ -60,14 +63,15 @@ FLEXPM_INLINE void move_centres(const RigidRows& b, int centre, double dt)
 template <bool Move, bool Measure>
 FLEXPM_INLINE void find_arms(const RigidRows& b, int centre, Resultants& sum)
 {
-    const double *along = b.rotation, *across = b.rotation + lanes;
+    const double* along = b.rotation + RotationRow::cosine_less_one * lanes;
+    const double* across = b.rotation + RotationRow::sine * lanes;
     const double *origin = b.reference + centre, *way = b.displacement + centre;
-    for (int i = 0; i < centre; i += 2 * lanes) {
+    for (int i = 0; i < centre; i += node_stride) {
         const double *reference = b.reference + i, *force = b.force + i;
         double *u = b.displacement + i, *arm = b.velocity + i;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
-            const int y = lanes + l;
+            const int y = component(l, 1);
             const double x0 = reference[l] - origin[l], y0 = reference[y] - origin[y];
             if (Move) {
                 u[l] = way[l] + (along[l] * x0 - across[l] * y0);
@@ -79,7 +83,7 @@ FLEXPM_INLINE void find_arms(const RigidRows& b, int centre, Resultants& sum)
             sum.x[l] += force[l];
             sum.y[l] += force[y];
             sum.moment[l] += rx * force[y] - ry * force[l];
-            if (Measure) sum.reach[l] = std::max(sum.reach[l], rx * rx + ry * ry);
+            if (Measure) sum.square_arm[l] = std::max(sum.square_arm[l], rx * rx + ry * ry);
         }
     }
 }
@@ -94,46 +98,51 @@ FLEXPM_INLINE void spread_lanes(const RigidRows& b, int centre, double dt)
         across[l] = turn.across / dt;
     }
     const double* of_centre = b.velocity + centre;
-    for (int i = 0; i < centre; i += 2 * lanes) {
+    for (int i = 0; i < centre; i += node_stride) {
         double* v = b.velocity + i;
         FLEXPM_INDEPENDENT
 #pragma GCC unroll 1  // unrolled, the compiler takes the nodes for lanes
         for (int l = 0; l < lanes; ++l) {
-            const double rx = v[l], ry = v[lanes + l];
+            const int y = component(l, 1);
+            const double rx = v[l], ry = v[y];
             v[l] = of_centre[l] + (along[l] * rx - across[l] * ry);
-            v[lanes + l] = of_centre[lanes + l] + (across[l] * rx + along[l] * ry);
+            v[y] = of_centre[y] + (across[l] * rx + along[l] * ry);
         }
     }
 }
 
-bool holds_any(const RigidRows& b)
+bool prescribes_any(const RigidRows& b)
 {
     std::uint8_t any = 0;
+    for (int i = 0; i < node_stride; ++i)
+        any |= b.prescribed[i];
     for (int l = 0; l < lanes; ++l)
-        any |= b.held[l] | b.held[lanes + l] | b.spin_held[l];
+        any |= b.spin_prescribed[l];
     return any != 0;
 }
 
-template <bool Measure, bool Held>
+template <bool Measure, bool Prescribed>
 FLEXPM_INLINE void integrate_lanes(
     const RigidRows& b, int centre, const Resultants& f, double dt, double damping, StepSums& total)
 {
-    StepSums sums;                            // a local, which no row aliases
-    alignas(64) double held[3 * lanes] = {};  // bytes and doubles in one loop are not vectorised
-    if (Held) {
-        std::copy_n(b.held, 2 * lanes, held);
-        std::copy_n(b.spin_held, lanes, held + 2 * lanes);
+    StepSums sums;  // a local, which no row aliases
+    // bytes and doubles in one loop are not vectorised
+    alignas(64) double prescribed[node_stride] = {}, spin_prescribed[lanes] = {};
+    if (Prescribed) {
+        std::copy_n(b.prescribed, node_stride, prescribed);
+        std::copy_n(b.spin_prescribed, lanes, spin_prescribed);
     }
     double* v = b.velocity + centre;
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const int y = lanes + l;
-        integrate_one<Measure, Held>(
-            f.x[l], held[l], b.inverse_mass[l], 1.0, dt, damping, v[l], sums, l);
-        integrate_one<Measure, Held>(
-            f.y[l], held[y], b.inverse_mass[l], 1.0, dt, damping, v[y], sums, l);
-        integrate_one<Measure, Held>(f.moment[l], held[2 * lanes + l], b.inverse_inertia[l],
-            Measure ? std::sqrt(f.reach[l]) : 1.0, dt, damping, b.spin[l], sums, l);
+        const int y = component(l, 1);
+        const Freedom along_x = { f.x[l], b.inverse_mass[l], prescribed[l] };
+        const Freedom along_y = { f.y[l], b.inverse_mass[l], prescribed[y] };
+        const Freedom turn = { f.moment[l], b.inverse_inertia[l], spin_prescribed[l],
+            Measure ? std::sqrt(f.square_arm[l]) : 1.0 };
+        integrate_one<Measure, Prescribed>(along_x, dt, damping, v[l], sums, l);
+        integrate_one<Measure, Prescribed>(along_y, dt, damping, v[y], sums, l);
+        integrate_one<Measure, Prescribed>(turn, dt, damping, b.spin[l], sums, l);
     }
     sums.copy_to(total);
 }
@@ -141,16 +150,16 @@ FLEXPM_INLINE void integrate_lanes(
 template <bool Measure>
 FLEXPM_INLINE void step_lanes(const RigidRows& b, double dt, double damping, StepSums& sums)
 {
-    const int centre = 2 * (b.nodes - 1) * lanes;
+    const int centre = node_stride * (b.nodes - 1);
     move_centres(b, centre, dt);
     Resultants f;
     for (int l = 0; l < lanes; ++l) {
         f.x[l] = b.force[centre + l];
-        f.y[l] = b.force[centre + lanes + l];
-        f.moment[l] = f.reach[l] = 0.0;
+        f.y[l] = b.force[component(centre + l, 1)];
+        f.moment[l] = f.square_arm[l] = 0.0;
     }
     find_arms<true, Measure>(b, centre, f);
-    if (holds_any(b)) {
+    if (prescribes_any(b)) {
         integrate_lanes<Measure, true>(b, centre, f, dt, damping, sums);
     } else {
         integrate_lanes<Measure, false>(b, centre, f, dt, damping, sums);
@@ -168,7 +177,7 @@ void step_rigid(const RigidRows& b, double dt, double damping, bool measure, Ste
 
 void spread_velocities(const RigidRows& b, double dt)
 {
-    const int centre = 2 * (b.nodes - 1) * lanes;
+    const int centre = node_stride * (b.nodes - 1);
     Resultants unused = {};
     find_arms<false, false>(b, centre, unused);
     spread_lanes(b, centre, dt);

@@ -3,6 +3,7 @@
 /// Eq. 2 on both. The nodes follow by exact rotation from the reference, however far it goes.
 #pragma once
 
+#include <flexpm/kernel/assembly/grains.hpp>
 #include <flexpm/kernel/motion/central_difference.hpp>
 
 #include <cstdint>
@@ -16,11 +17,11 @@ struct RigidRows {
     double* displacement;
     double* velocity;
     const double* force;
-    const std::uint8_t* held;    ///< of the centre
-    const double* inverse_mass;  ///< of the centre
-    double* rotation;            ///< [cos - 1, sin, angle]
+    const std::uint8_t* prescribed;  ///< of the centre
+    const double* inverse_mass;      ///< of the centre
+    double* rotation;                ///< [RotationRow]
     double* spin;
-    const std::uint8_t* spin_held;
+    const std::uint8_t* spin_prescribed;
     const double* inverse_inertia;
 };
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One rigid grain at a time.
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 
-#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -13,83 +10,80 @@ namespace flexpm {
 
 namespace {
 
-void need_rigid(const Assembly& a, int grain)
+void need_rigid(const Grains& grains, int grain)
 {
-    if (!a.is_rigid(grain)) {
-        refuse("grain", grain, "", "is deformable, only a rigid grain has a spin; drive its nodes");
+    if (!grains.is_rigid(grain)) {
+        refuse("grain", grain, "",
+            "is deformable, only a rigid grain has a spin; prescribe its nodes");
     }
 }
 
 }  // namespace
 
-RigidRows rigid_rows(Assembly& a, int block)
+RigidRows rigid_rows(Grains& grains, int block)
 {
-    const int first = a.block_nodes[block], nodes = a.group(block).nodes;
-    const int centre = first + 2 * lanes * (nodes - 1);
-    return { nodes, a.reference.data() + first, a.displacement.data() + first,
-        a.velocity.data() + first, a.force.data() + first, a.held.data() + centre,
-        a.inverse_mass.data() + centre / 2, a.rotation.data() + 3 * lanes * block,
-        a.spin.data() + lanes * block, a.spin_held.data() + lanes * block,
-        a.inverse_inertia.data() + lanes * block };
+    const int first = grains.block_nodes[block], nodes = grains.group(block).nodes;
+    const int centre = first + node_stride * (nodes - 1);
+    return { nodes, grains.reference.data() + first, grains.displacement.data() + first,
+        grains.velocity.data() + first, grains.force.data() + first,
+        grains.prescribed.data() + centre, grains.inverse_mass.data() + centre / dimension,
+        grains.rotation.data() + RotationRow::count * lanes * block,
+        grains.spin.data() + lanes * block, grains.spin_prescribed.data() + lanes * block,
+        grains.inverse_inertia.data() + lanes * block };
 }
 
-int rigid_index(const Assembly& a, int grain, int row, int rows)
+void set_motion(Grains& grains, int grain, Point velocity, double spin, double dt)
 {
-    const int slot = a.grain_slot[grain];
-    return (slot / lanes * rows + row) * lanes + slot % lanes;
-}
-
-void set_motion(Assembly& a, int grain, Point velocity, double spin, double dt)
-{
-    need_rigid(a, grain);
+    need_rigid(grains, grain);
     check_finite("velocity", velocity.x, "m/s");
     check_finite("velocity", velocity.y, "m/s");
     check_finite("spin", spin, "rad/s");
-    const int centre = a.centre(grain);
-    a.velocity[centre] = velocity.x;
-    a.velocity[centre + lanes] = velocity.y;
-    a.spin[rigid_index(a, grain)] = spin;
-    spread_velocities(rigid_rows(a, a.grain_slot[grain] / lanes), dt);
+    const int centre = grains.centre(grain);
+    set_vector(grains.velocity, centre, velocity);
+    grains.spin[grains.slot[grain]] = spin;
+    spread_velocities(rigid_rows(grains, grains.block_of(grain)), dt);
 }
 
-void drive_spin(Assembly& a, int grain, double spin, double dt)
+void prescribe_spin(Grains& grains, int grain, double spin, double dt)
 {
-    const int centre = a.centre(grain);
-    set_motion(a, grain, { a.velocity[centre], a.velocity[centre + lanes] }, spin, dt);
-    a.spin_held[rigid_index(a, grain)] = 1;
+    const int centre = grains.centre(grain);
+    set_motion(grains, grain, vector_at(grains.velocity, centre), spin, dt);
+    grains.spin_prescribed[grains.slot[grain]] = 1;
 }
 
-double rotation_of(const Assembly& a, int grain) { return a.rotation[rigid_index(a, grain, 2, 3)]; }
-
-HalfTurn half_turn(const Assembly& a, int grain)
+double rotation_of(const Grains& grains, int grain)
 {
-    const HalfTurn half = half_turn_of(
-        a.rotation[rigid_index(a, grain, 0, 3)], a.rotation[rigid_index(a, grain, 1, 3)]);
+    return grains.rotation[row_index(grains.slot[grain], RotationRow::angle, RotationRow::count)];
+}
+
+HalfTurn half_turn(const Grains& grains, int grain)
+{
+    const auto row = [&](int row) {
+        return grains.rotation[row_index(grains.slot[grain], row, RotationRow::count)];
+    };
+    const HalfTurn half = half_turn_of(row(RotationRow::cosine_less_one), row(RotationRow::sine));
     if (half.cosine >= least_half_cosine) return half;
-    const double angle = 0.5 * rotation_of(a, grain);
+    const double angle = 0.5 * rotation_of(grains, grain);
     return { std::cos(angle), std::sin(angle) };
 }
 
-PolygonSection cell_section(const Assembly& a, int grain)
+PolygonSection cell_section(const Grains& grains, int grain)
 {
-    const auto reference = [&](int node) {
-        return Point { a.reference[node], a.reference[node + lanes] };
-    };
-    std::vector<Point> corners(a.group(a.grain_slot[grain] / lanes).vertices);
+    std::vector<Point> corners(grains.vertices_of(grain));
     for (std::size_t k = 0; k < corners.size(); ++k)
-        corners[k] = reference(a.node(grain, static_cast<int>(k)));
-    return polygon_section(corners, reference(a.centre(grain)));
+        corners[k] = vector_at(grains.reference, grains.node(grain, static_cast<int>(k)));
+    return polygon_section(corners, vector_at(grains.reference, grains.centre(grain)));
 }
 
-Resultant resultant_on(const Assembly& a, int grain)
+Resultant resultant_on(const Grains& grains, int grain)
 {
     Resultant sum = { { 0.0, 0.0 }, 0.0 };
-    const Point c = a.position(a.centre(grain));
-    for (int n = 0; n < a.nodes_of(grain); ++n) {
-        const Point f = force_of(a, a.node(grain, n)), p = a.position(a.node(grain, n));
-        sum.force.x += f.x;
-        sum.force.y += f.y;
-        sum.moment += (p.x - c.x) * f.y - (p.y - c.y) * f.x;
+    const Point c = grains.position(grains.centre(grain));
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        const Point f = vector_at(grains.force, node);
+        sum.force = sum.force + f;
+        sum.moment += cross(grains.position(node) - c, f);
     }
     return sum;
 }

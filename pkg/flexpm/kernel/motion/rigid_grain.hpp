@@ -2,7 +2,7 @@
 /// @file  One rigid grain at a time: its motion and its geometry. SI units, rotations counter-clockwise.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/grains.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/motion/rigid_block.hpp>
@@ -12,26 +12,23 @@
 
 namespace flexpm {
 
-RigidRows rigid_rows(Assembly& a, int block);
-
-/// Index of a grain in the arrays with one value per rigid grain; [block][row] if there are `rows`.
-int rigid_index(const Assembly& a, int grain, int row = 0, int rows = 1);
+RigidRows rigid_rows(Grains& grains, int block);
 
 /// Velocity of the centre [m/s] and spin [rad/s]; the nodes follow. Use this, not the velocities of
 /// nodes, for a rigid grain.
-void set_motion(Assembly& a, int grain, Point velocity, double spin, double dt);
+void set_motion(Grains& grains, int grain, Point velocity, double spin, double dt);
 
 /// Prescribe the spin [rad/s] instead of integrating it.
-void drive_spin(Assembly& a, int grain, double spin, double dt);
+void prescribe_spin(Grains& grains, int grain, double spin, double dt);
 
 /// Angle from the reference [rad].
-double rotation_of(const Assembly& a, int grain);
+double rotation_of(const Grains& grains, int grain);
 
 /// Cosine and sine of half the angle from the reference, a quaternion's components.
 struct HalfTurn {
     double cosine, sine;
 };
-HalfTurn half_turn(const Assembly& a, int grain);
+HalfTurn half_turn(const Grains& grains, int grain);
 
 /// The same from cos - 1 and sin of the whole angle, up to a cosine of half of it of
 /// `least_half_cosine`: near half a turn the quotient would lose its digits.
@@ -43,13 +40,13 @@ FLEXPM_INLINE HalfTurn half_turn_of(double along, double across)
 }
 
 /// Section of the grain's cell in its reference shape.
-PolygonSection cell_section(const Assembly& a, int grain);
+PolygonSection cell_section(const Grains& grains, int grain);
 
 /// Sum of the nodal forces on a grain [N], and their moment about its centre [N m].
 struct Resultant {
     Point force;
     double moment;
 };
-Resultant resultant_on(const Assembly& a, int grain);
+Resultant resultant_on(const Grains& grains, int grain);
 
 }  // namespace flexpm

@@ -25,12 +25,10 @@ Point static_force(const Assembly& a, const Plate& plate)
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
-        const auto n = edge_nodes(a, p.edge);
-        const double *u0 = &a.displacement[n[0]], *u1 = &a.displacement[n[1]], w = p.weight;
-        const double x = plate.displacement.x - ((1.0 - w) * u0[0] + w * u1[0]);
-        const double y = plate.displacement.y - ((1.0 - w) * u0[lanes] + w * u1[lanes]);
-        sum.x += k.xx * x + k.xy * y;
-        sum.y += k.yx * x + k.yy * y;
+        const auto n = a.edges.nodes(p.edge);
+        const Point u = plate.displacement - vector_on_edge(a.grains.displacement, n, p.weight);
+        sum.x += k.xx * u.x + k.xy * u.y;
+        sum.y += k.yx * u.x + k.yy * u.y;
     }
     return sum;
 }
@@ -41,21 +39,21 @@ constexpr double test_strain = 1e-3;  // any value: the solve is linear
 std::vector<Prescribed> hold_ends(Assembly& a, double height)
 {
     const std::vector<int> bottom = side_nodes(a, bottom_side), top = side_nodes(a, top_side);
-    if (a.is_rigid(0)) {
+    if (a.grains.is_rigid(0)) {
         const PlateContact smooth = { 0.0, 0.0, true };
         add_side_plates(a, bottom_side, 1, smooth);
         const int upper = add_side_plates(a, top_side, 1, smooth).front();
         a.plates[upper].displacement = { 0.0, test_strain * height };
         int held = 0;
-        while (a.edge_side[held] != bottom_side)
+        while (a.edges.side[held] != bottom_side)
             ++held;
-        return { { a.centre(a.edge_grain[held]), 0.0 } };
+        return { { a.grains.centre(a.edges.grain[held]), 0.0 } };
     }
     std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
     for (int n : bottom)
-        prescribed.push_back({ n + lanes, 0.0 });
+        prescribed.push_back({ component(n, 1), 0.0 });
     for (int n : top)
-        prescribed.push_back({ n + lanes, test_strain * height });
+        prescribed.push_back({ component(n, 1), test_strain * height });
     return prescribed;
 }
 
@@ -72,8 +70,8 @@ ElasticConstants elastic_constants(const Assembly& a)
     solved.plates.clear();
     const std::vector<Prescribed> prescribed = hold_ends(solved, height);
     StaticSolution s = solve_static(solved, prescribed);
-    solved.displacement = std::move(s.displacement);
-    solved.force = std::move(s.force);
+    solved.grains.displacement = std::move(s.displacement);
+    solved.grains.force = std::move(s.force);
 
     double top = 0.0;
     for (const Plate& p : solved.plates) {

@@ -32,11 +32,11 @@ void add_plate_loads(const Assembly& a, Array<double>& loads)
             const PlatePoint p = plate_point(plate, i);
             const StiffnessBlock k = plate_springs(plate, i);
             const Point u = plate.displacement;
-            const auto n = edge_nodes(a, p.edge);
+            const auto n = a.edges.nodes(p.edge);
             const double part[] = { 1.0 - p.weight, p.weight };
             for (int r = 0; r < 2; ++r) {
                 loads[n[r]] += part[r] * (k.xx * u.x + k.xy * u.y);
-                loads[n[r] + lanes] += part[r] * (k.yx * u.x + k.yy * u.y);
+                loads[component(n[r], 1)] += part[r] * (k.yx * u.x + k.yy * u.y);
             }
         }
     }
@@ -77,20 +77,20 @@ template <class Visit> void for_each_term(const Unknowns& n, int entry, Visit vi
 }
 
 /// Let the nodes of a rigid grain follow its centre; its rotation becomes an unknown.
-void follow_centre(const Assembly& a, int grain, Unknowns& n)
+void follow_centre(const Grains& grains, int grain, Unknowns& n)
 {
-    const int centre = a.centre(grain);
-    const int rotation = static_cast<int>(a.displacement.size()) + a.grain_slot[grain];
+    const int centre = grains.centre(grain);
+    const int rotation = static_cast<int>(grains.displacement.size()) + grains.slot[grain];
     n.kind[rotation] = Kind::unknown;
-    for (int k = 0; k < a.nodes_of(grain); ++k) {
-        const int node = a.node(grain, k);
+    for (int k = 0; k < grains.nodes_of(grain); ++k) {
+        const int node = grains.node(grain, k);
         if (node == centre) continue;
-        const double rx = a.reference[node] - a.reference[centre];
-        const double ry = a.reference[node + lanes] - a.reference[centre + lanes];
-        for (int c = 0; c < 2; ++c) {
-            n.kind[node + c * lanes] = Kind::follower;
-            n.leader[node + c * lanes] = centre + c * lanes;
-            n.lever[node + c * lanes] = { rotation, c == 0 ? -ry : rx };
+        const Point arm = vector_at(grains.reference, node) - vector_at(grains.reference, centre);
+        for (int axis = 0; axis < dimension; ++axis) {
+            const int entry = component(node, axis);
+            n.kind[entry] = Kind::follower;
+            n.leader[entry] = component(centre, axis);
+            n.lever[entry] = { rotation, axis == 0 ? -arm.y : arm.x };
         }
     }
 }
@@ -102,19 +102,16 @@ void follow_centre(const Assembly& a, int grain, Unknowns& n)
 
 /// Mark what is prescribed and number the rest, node by node; fill `u` with the given values.
 Unknowns number_unknowns(
-    const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
+    const Grains& grains, const std::vector<Prescribed>& prescribed, Array<double>& u)
 {
     Unknowns n;
-    n.kind.assign(a.displacement.size() + a.slot_grain.size(), Kind::padding);
+    n.kind.assign(grains.displacement.size() + grains.in_slot.size(), Kind::padding);
     n.number.assign(n.kind.size(), 0);
-    n.leader.assign(a.displacement.size(), 0);
-    n.lever.assign(a.displacement.size(), { 0, 0.0 });
-    for (int g = 0; g < a.grains; ++g) {
-        for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int c = 0; c < 2; ++c)
-                n.kind[a.node(g, k) + c * lanes] = Kind::unknown;
-        }
-        if (a.is_rigid(g)) follow_centre(a, g, n);
+    n.leader.assign(grains.displacement.size(), 0);
+    n.lever.assign(grains.displacement.size(), { 0, 0.0 });
+    for (int g = 0; g < grains.count; ++g) {
+        for_each_component(grains, g, [&](int i) { n.kind[i] = Kind::unknown; });
+        if (grains.is_rigid(g)) follow_centre(grains, g, n);
     }
     for (const Prescribed& p : prescribed) {
         if (!std::isfinite(p.value)) refuse_prescribed(p, "must be a finite number");
@@ -135,12 +132,9 @@ Unknowns number_unknowns(
         n.number[i] = static_cast<int>(n.index.size());
         n.index.push_back(i);
     };
-    for (int g = 0; g < a.grains; ++g) {
-        for (int k = 0; k < a.nodes_of(g); ++k) {
-            for (int i : { a.node(g, k), a.node(g, k) + lanes })
-                count(i);
-        }
-        count(static_cast<int>(a.displacement.size()) + a.grain_slot[g]);
+    for (int g = 0; g < grains.count; ++g) {
+        for_each_component(grains, g, count);
+        count(static_cast<int>(grains.displacement.size()) + grains.slot[g]);
     }
     return n;
 }
@@ -171,15 +165,15 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
     return k;
 }
 
-[[noreturn]] void report_free_motion(const Assembly& a, int index, double ratio)
+[[noreturn]] void report_free_motion(const Grains& grains, int index, double ratio)
 {
-    const int size = static_cast<int>(a.displacement.size());
+    const int size = static_cast<int>(grains.displacement.size());
     const bool turns = index >= size;
-    const bool along_y = !turns && index % (2 * lanes) >= lanes;  // rows of x and y alternate
-    const Point p = a.position(
-        turns ? a.centre(a.slot_grain[index - size]) : (along_y ? index - lanes : index));
+    const int axis = turns ? 0 : axis_of(index);
+    const Point p = grains.position(
+        turns ? grains.centre(grains.in_slot[index - size]) : index - component(0, axis));
     const std::string at = " at x, y = " + number(p.x) + ", " + number(p.y) + " m ";
-    const char* motion = turns ? "about z" : along_y ? "along y" : "along x";
+    const char* motion = turns ? "about z" : axis == 1 ? "along y" : "along x";
     fail("solve_static: pivot / stiffness", number(ratio) + at + motion,
         "must be above " + number(smallest_pivot)
             + "; hold nodes against every rigid motion of this part");
@@ -193,7 +187,7 @@ void check_pivots(const Assembly& a, const Unknowns& n, const SparseMatrix& k, c
     for (Eigen::Index i = 0; i < pivots.size(); ++i) {
         const double ratio = pivots[i] / diagonal[original[i]];
         // in this form a pivot that is not a number is caught too
-        if (!(ratio > smallest_pivot)) report_free_motion(a, n.index[original[i]], ratio);
+        if (!(ratio > smallest_pivot)) report_free_motion(a.grains, n.index[original[i]], ratio);
     }
 }
 
@@ -218,9 +212,9 @@ StaticSolution solve_static(
     const Assembly& a, const std::vector<Prescribed>& prescribed, const Array<double>* loads)
 {
     StaticSolution s;
-    s.displacement.assign(a.displacement.size(), 0.0);
-    s.force.assign(a.displacement.size(), 0.0);
-    const Unknowns n = number_unknowns(a, prescribed, s.displacement);
+    s.displacement.assign(a.grains.displacement.size(), 0.0);
+    s.force.assign(a.grains.displacement.size(), 0.0);
+    const Unknowns n = number_unknowns(a.grains, prescribed, s.displacement);
     const std::vector<StiffnessEntry> entries = stiffness_entries(a);
 
     if (loads && loads->size() != s.displacement.size()) {

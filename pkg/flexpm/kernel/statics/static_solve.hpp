@@ -11,7 +11,7 @@ namespace flexpm {
 
 /// A displacement component with a given value.
 struct Prescribed {
-    int index;     ///< into Assembly::displacement: node offset + component * lanes
+    int index;     ///< into Assembly::displacement: node component(offset, axis)
     double value;  ///< [m]
 };
 

@@ -13,22 +13,23 @@ namespace {
 
 void add_block(std::vector<StiffnessEntry>& entries, int row, int column, const StiffnessBlock& k)
 {
+    const int row_y = component(row, 1), column_y = component(column, 1);
     entries.push_back({ row, column, k.xx });
-    entries.push_back({ row, column + lanes, k.xy });
-    entries.push_back({ row + lanes, column, k.yx });
-    entries.push_back({ row + lanes, column + lanes, k.yy });
+    entries.push_back({ row, column_y, k.xy });
+    entries.push_back({ row_y, column, k.yx });
+    entries.push_back({ row_y, column_y, k.yy });
 }
 
-void add_grain(const Assembly& a, int grain, std::vector<StiffnessEntry>& entries)
+void add_grain(const Grains& grains, int grain, std::vector<StiffnessEntry>& entries)
 {
-    const PlaneStiffness c = stiffness_of(a, grain);
-    for (int t = 0; t < triangles_of(a, grain); ++t) {
-        const auto n = triangle_nodes(a, grain, t);
-        const TriangleShape s = shape_of(a, grain, t);
+    const PlaneStiffness c = stiffness_of(grains, grain);
+    for (int t = 0; t < triangles_of(grains, grain); ++t) {
+        const auto n = triangle_nodes(grains, grain, t);
+        const TriangleShape s = shape_of(grains, grain, t);
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
-                add_block(
-                    entries, a.node(grain, n[i]), a.node(grain, n[j]), stiffness_block(s, c, i, j));
+                add_block(entries, grains.node(grain, n[i]), grains.node(grain, n[j]),
+                    stiffness_block(s, c, i, j));
             }
         }
     }
@@ -48,25 +49,24 @@ void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& en
     const Point n = bonded_normal(a, contact);
     // share[i][j]: sum over points of area times the parts of nodes i and j in the relative motion
     std::array<std::array<double, 4>, 4> share = {};
-    for (int p = 0; p < a.points; ++p) {
-        const double area = a.area[row_index(contact, p, a.points)];
-        const double wa = a.weight[row_index(contact, 2 * p, 2 * a.points)];
-        const double wb = a.weight[row_index(contact, 2 * p + 1, 2 * a.points)];
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        const double area = a.contacts.area(contact, p);
+        const double wa = a.contacts.weight(contact, p, 0);
+        const double wb = a.contacts.weight(contact, p, 1);
         const std::array<double, 4> part = { wa - 1.0, -wa, 1.0 - wb, wb };
         for (int i = 0; i < 4; ++i) {
             for (int j = 0; j < 4; ++j)
                 share[i][j] += area * part[i] * part[j];
         }
     }
-    const LawParameters& law = a.laws[a.contact_law[contact]];
+    const LawParameters& law = a.contacts.law_of(contact);
     const double kn = law.normal_stiffness, ks = law.shear_stiffness;
     const StiffnessBlock k = spring_block(n, kn, ks);
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
             const double s = share[i][j];
-            add_block(entries, a.contact_nodes[row_index(contact, i, ContactRows::nodes)],
-                a.contact_nodes[row_index(contact, j, ContactRows::nodes)],
-                { s * k.xx, s * k.xy, s * k.yx, s * k.yy });
+            add_block(entries, a.contacts.node(contact, i / 2, i % 2),
+                a.contacts.node(contact, j / 2, j % 2), { s * k.xx, s * k.xy, s * k.yx, s * k.yy });
         }
     }
 }
@@ -77,7 +77,7 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
-        const auto n = edge_nodes(a, p.edge);
+        const auto n = a.edges.nodes(p.edge);
         const double part[] = { 1.0 - p.weight, p.weight };
         for (int r = 0; r < 2; ++r) {
             for (int c = 0; c < 2; ++c) {
@@ -99,9 +99,9 @@ StiffnessBlock plate_springs(const Plate& plate, int point)
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a)
 {
     std::vector<StiffnessEntry> entries;
-    for (int g = 0; g < a.grains; ++g)
-        add_grain(a, g, entries);
-    for (int c = 0; c < a.contacts; ++c)
+    for (int g = 0; g < a.grains.count; ++g)
+        add_grain(a.grains, g, entries);
+    for (int c = 0; c < a.contacts.count; ++c)
         add_contact(a, c, entries);
     for (const Plate& p : a.plates)
         add_plate(a, p, entries);

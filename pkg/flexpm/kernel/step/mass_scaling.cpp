@@ -8,6 +8,7 @@
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -23,15 +24,15 @@ double norm(const StiffnessBlock& k)
     return std::sqrt(0.5 * (sum + std::sqrt(std::max(sum * sum - 4.0 * det * det, 0.0))));
 }
 
-void add_elements(const Assembly& a, int grain, Array<double>& bound)
+void add_elements(const Grains& grains, int grain, Array<double>& bound)
 {
-    if (a.is_rigid(grain)) return;
-    const int nodes = a.nodes_of(grain);
+    if (grains.is_rigid(grain)) return;
+    const int nodes = grains.nodes_of(grain);
     std::vector<StiffnessBlock> rows(nodes * nodes, StiffnessBlock { 0.0, 0.0, 0.0, 0.0 });
-    const PlaneStiffness c = stiffness_of(a, grain);
-    for (int t = 0; t < triangles_of(a, grain); ++t) {
-        const auto n = triangle_nodes(a, grain, t);
-        const TriangleShape s = shape_of(a, grain, t);
+    const PlaneStiffness c = stiffness_of(grains, grain);
+    for (int t = 0; t < triangles_of(grains, grain); ++t) {
+        const auto n = triangle_nodes(grains, grain, t);
+        const TriangleShape s = shape_of(grains, grain, t);
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) {
                 const StiffnessBlock k = stiffness_block(s, c, i, j);
@@ -42,7 +43,7 @@ void add_elements(const Assembly& a, int grain, Array<double>& bound)
     }
     for (int i = 0; i < nodes; ++i) {
         for (int j = 0; j < nodes; ++j) {
-            bound[scalar_index(a.node(grain, i))] += norm(rows[i * nodes + j]);
+            bound[scalar_index(grains.node(grain, i))] += norm(rows[i * nodes + j]);
         }
     }
 }
@@ -52,31 +53,29 @@ void add_elements(const Assembly& a, int grain, Array<double>& bound)
 struct SpringSide {
     bool rigid = false;
     int grain = 0;
-    int node[2] = { 0, 0 };          ///< of a deformable grain
+    std::array<int, 2> node {};      ///< of a deformable grain
     double share[2] = { 0.0, 0.0 };  ///< of its nodes; of a rigid grain: translation, rotation
 
     double size() const { return std::fabs(share[0]) + std::fabs(share[1]); }
 };
 
 /// A spring along `direction` at share `w` between two nodes of an edge.
-SpringSide spring_side(const Assembly& a, int grain, int n0, int n1, double w, Point direction)
+SpringSide spring_side(
+    const Grains& grains, int grain, std::array<int, 2> edge, double w, Point direction)
 {
-    if (!a.is_rigid(grain)) return { false, grain, { n0, n1 }, { 1.0 - w, w } };
-    const int c = a.centre(grain);
-    const double x = (1.0 - w) * a.reference[n0] + w * a.reference[n1] - a.reference[c];
-    const double y =
-        (1.0 - w) * a.reference[n0 + lanes] + w * a.reference[n1 + lanes] - a.reference[c + lanes];
-    return { true, grain, { c, c },
-        { 1.0, (x * direction.y - y * direction.x) / a.radius[grain] } };
+    if (!grains.is_rigid(grain)) return { false, grain, edge, { 1.0 - w, w } };
+    const int c = grains.centre(grain);
+    const Point arm = vector_on_edge(grains.reference, edge, w) - vector_at(grains.reference, c);
+    return { true, grain, { c, c }, { 1.0, cross(arm, direction) / grains.radius[grain] } };
 }
 
 /// Row sums of the spring's stiffness: each degree of freedom takes its share times all shares.
-void add_spring(const Assembly& a, const SpringSide& s, double stiffness, StiffnessBound& bound)
+void add_spring(const Grains& grains, const SpringSide& s, double stiffness, StiffnessBound& bound)
 {
     bound.node[scalar_index(s.node[0])] += stiffness * std::fabs(s.share[0]);
     if (s.rigid) {
-        const double r = a.radius[s.grain];
-        bound.rotation[rigid_index(a, s.grain)] += r * r * stiffness * std::fabs(s.share[1]);
+        const double r = grains.radius[s.grain];
+        bound.rotation[grains.slot[s.grain]] += r * r * stiffness * std::fabs(s.share[1]);
     } else {
         bound.node[scalar_index(s.node[1])] += stiffness * std::fabs(s.share[1]);
     }
@@ -84,23 +83,22 @@ void add_spring(const Assembly& a, const SpringSide& s, double stiffness, Stiffn
 
 void add_contact(const Assembly& a, int contact, StiffnessBound& bound)
 {
-    const LawParameters& law = a.laws[a.contact_law[contact]];
+    const Contacts& contacts = a.contacts;
+    const LawParameters& law = contacts.law_of(contact);
     const Point n = bonded_normal(a, contact);
-    for (int p = 0; p < a.points; ++p) {
-        const double area = a.area[row_index(contact, p, a.points)];
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        const double area = contacts.area(contact, p);
         for (const auto& [direction, stiffness] : { std::pair { n, law.normal_stiffness },
                  std::pair { Point { -n.y, n.x }, law.shear_stiffness } }) {
             SpringSide sides[2];
             for (int s = 0; s < 2; ++s) {
-                sides[s] = spring_side(a, a.contact_grains[2 * contact + s],
-                    a.contact_nodes[row_index(contact, 2 * s, ContactRows::nodes)],
-                    a.contact_nodes[row_index(contact, 2 * s + 1, ContactRows::nodes)],
-                    a.weight[row_index(contact, 2 * p + s, 2 * a.points)], direction);
+                sides[s] = spring_side(a.grains, contacts.pairs[contact][s],
+                    contacts.edge(contact, s), contacts.weight(contact, p, s), direction);
             }
             // sizes of the shares: 2 in all, more where a point beyond its edge extrapolates
             const double k = stiffness * area * (sides[0].size() + sides[1].size());
             for (const SpringSide& side : sides)
-                add_spring(a, side, k, bound);
+                add_spring(a.grains, side, k, bound);
         }
     }
 }
@@ -112,13 +110,12 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
     const Point n = plate.normal;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const int n0 = a.edge_nodes[row_index(p.edge, 0, 2)];
-        const int n1 = a.edge_nodes[row_index(p.edge, 1, 2)];
         for (const auto& [direction, stiffness] : { std::pair { n, p.stiffness },
                  std::pair { Point { -n.y, n.x }, p.shear_stiffness } }) {
-            const SpringSide s = spring_side(a, a.edge_grain[p.edge], n0, n1, p.weight, direction);
+            const SpringSide s = spring_side(
+                a.grains, a.edges.grain[p.edge], a.edges.nodes(p.edge), p.weight, direction);
             const double k = stiffness * (s.size() + 1.0);
-            add_spring(a, s, k, bound);
+            add_spring(a.grains, s, k, bound);
             own += k;
         }
     }
@@ -129,12 +126,12 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
 /// would ask for, so that its masses are finite.
 void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
 {
-    if (!a.is_rigid(grain)) return;
-    const double r = a.radius[grain];
-    const double least = a.laws.front().normal_stiffness * r * a.thickness;
-    double& node = bound.node[scalar_index(a.centre(grain))];
+    if (!a.grains.is_rigid(grain)) return;
+    const double r = a.grains.radius[grain];
+    const double least = a.contacts.laws.front().normal_stiffness * r * a.thickness;
+    double& node = bound.node[scalar_index(a.grains.centre(grain))];
     if (node == 0.0) node = least;
-    double& rotation = bound.rotation[rigid_index(a, grain)];
+    double& rotation = bound.rotation[a.grains.slot[grain]];
     rotation = std::max(rotation, 0.01 * r * r * node);
 }
 
@@ -145,15 +142,15 @@ void check_damping(double damping)
     }
 }
 
-template <class Visit> void for_each_node(const Assembly& a, Visit visit)
+template <class Visit> void for_each_node(const Grains& grains, Visit visit)
 {
-    for (int g = 0; g < a.grains; ++g) {
-        if (a.is_rigid(g)) {
-            visit(scalar_index(a.centre(g)));
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.is_rigid(g)) {
+            visit(scalar_index(grains.centre(g)));
             continue;
         }
-        for (int n = 0; n < a.nodes_of(g); ++n)
-            visit(scalar_index(a.node(g, n)));
+        for (int n = 0; n < grains.nodes_of(g); ++n)
+            visit(scalar_index(grains.node(g, n)));
     }
 }
 
@@ -172,24 +169,24 @@ void scale_plates(Assembly& a, double damping, double dt)
 
 }  // namespace
 
-Array<double> element_bound(const Assembly& a)
+Array<double> element_bound(const Grains& grains)
 {
-    Array<double> bound(a.inverse_mass.size(), 0.0);
-    for (int g = 0; g < a.grains; ++g)
-        add_elements(a, g, bound);
+    Array<double> bound(grains.inverse_mass.size(), 0.0);
+    for (int g = 0; g < grains.count; ++g)
+        add_elements(grains, g, bound);
     return bound;
 }
 
 StiffnessBound stiffness_bound(const Assembly& a)
 {
     StiffnessBound bound;
-    bound.node = a.element_bound.empty() ? element_bound(a) : a.element_bound;
-    bound.rotation.assign(a.inverse_inertia.size(), 0.0);
-    for (int c = 0; c < a.contacts; ++c)
+    bound.node = a.plan.element_bound.empty() ? element_bound(a.grains) : a.plan.element_bound;
+    bound.rotation.assign(a.grains.inverse_inertia.size(), 0.0);
+    for (int c = 0; c < a.contacts.count; ++c)
         add_contact(a, c, bound);
     for (const Plate& p : a.plates)
         add_plate(a, p, bound);
-    for (int g = 0; g < a.grains; ++g)
+    for (int g = 0; g < a.grains.count; ++g)
         complete_rigid(a, g, bound);
     return bound;
 }
@@ -199,12 +196,12 @@ void scale_masses(Assembly& a, double damping, double dt)
     check_damping(damping);
     check_positive("time step", dt, "s");
     const StiffnessBound bound = stiffness_bound(a);
-    for_each_node(
-        a, [&](int i) { a.inverse_mass[i] = 1.0 / mass_for(bound.node[i], damping, dt); });
-    for (int g = 0; g < a.grains; ++g) {
-        const int i = rigid_index(a, g);
-        if (!a.is_rigid(g)) continue;
-        a.inverse_inertia[i] = 1.0 / mass_for(bound.rotation[i], damping, dt);
+    for_each_node(a.grains,
+        [&](int i) { a.grains.inverse_mass[i] = 1.0 / mass_for(bound.node[i], damping, dt); });
+    for (int g = 0; g < a.grains.count; ++g) {
+        const int i = a.grains.slot[g];
+        if (!a.grains.is_rigid(g)) continue;
+        a.grains.inverse_inertia[i] = 1.0 / mass_for(bound.rotation[i], damping, dt);
     }
     scale_plates(a, damping, dt);
 }
@@ -214,17 +211,17 @@ namespace {
 /// Real mass of a grain on its nodes; of a rigid one its moment of inertia too.
 void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>& inertia)
 {
-    const double density = a.elastic[a.grain_material[g]].density;
-    if (a.is_rigid(g)) {
-        const PolygonSection section = cell_section(a, g);
-        mass[scalar_index(a.centre(g))] = density * a.thickness * section.area;
-        inertia[rigid_index(a, g)] = density * a.thickness * section.polar;
+    const double density = a.grains.elastic[a.grains.material[g]].density;
+    if (a.grains.is_rigid(g)) {
+        const PolygonSection section = cell_section(a.grains, g);
+        mass[scalar_index(a.grains.centre(g))] = density * a.thickness * section.area;
+        inertia[a.grains.slot[g]] = density * a.thickness * section.polar;
         return;
     }
-    for (int t = 0; t < triangles_of(a, g); ++t) {
-        const double share = density / 3.0 * shape_of(a, g, t).volume;
-        for (int n : triangle_nodes(a, g, t))
-            mass[scalar_index(a.node(g, n))] += share;
+    for (int t = 0; t < triangles_of(a.grains, g); ++t) {
+        const double share = density / 3.0 * shape_of(a.grains, g, t).volume;
+        for (int n : triangle_nodes(a.grains, g, t))
+            mass[scalar_index(a.grains.node(g, n))] += share;
     }
 }
 
@@ -235,10 +232,12 @@ double stable_step(const Assembly& a, double damping)
     check_damping(damping);
     const StiffnessBound bound = stiffness_bound(a);
     double most = 0.0;  // of stiffness / mass
-    for_each_node(a, [&](int i) { most = std::max(most, bound.node[i] * a.inverse_mass[i]); });
-    for (int g = 0; g < a.grains; ++g) {
-        const int i = rigid_index(a, g);
-        if (a.is_rigid(g)) most = std::max(most, bound.rotation[i] * a.inverse_inertia[i]);
+    for_each_node(
+        a.grains, [&](int i) { most = std::max(most, bound.node[i] * a.grains.inverse_mass[i]); });
+    for (int g = 0; g < a.grains.count; ++g) {
+        const int i = a.grains.slot[g];
+        if (a.grains.is_rigid(g))
+            most = std::max(most, bound.rotation[i] * a.grains.inverse_inertia[i]);
     }
     return 2.0 / std::sqrt(mass_margin * (1.0 + damping) * most);
 }
@@ -246,13 +245,14 @@ double stable_step(const Assembly& a, double damping)
 double set_real_masses(Assembly& a, double damping)
 {
     check_damping(damping);
-    Array<double> mass(a.inverse_mass.size(), 0.0), inertia(a.inverse_inertia.size(), 0.0);
-    for (int g = 0; g < a.grains; ++g)
+    Array<double> mass(a.grains.inverse_mass.size(), 0.0),
+        inertia(a.grains.inverse_inertia.size(), 0.0);
+    for (int g = 0; g < a.grains.count; ++g)
         add_real_mass(a, g, mass, inertia);
-    for_each_node(a, [&](int i) { a.inverse_mass[i] = 1.0 / mass[i]; });
-    for (int g = 0; g < a.grains; ++g) {
-        const int i = rigid_index(a, g);
-        if (a.is_rigid(g)) a.inverse_inertia[i] = 1.0 / inertia[i];
+    for_each_node(a.grains, [&](int i) { a.grains.inverse_mass[i] = 1.0 / mass[i]; });
+    for (int g = 0; g < a.grains.count; ++g) {
+        const int i = a.grains.slot[g];
+        if (a.grains.is_rigid(g)) a.grains.inverse_inertia[i] = 1.0 / inertia[i];
     }
     const double dt = stable_step(a, damping);
     scale_plates(a, damping, dt);

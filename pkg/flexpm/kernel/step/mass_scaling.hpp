@@ -23,7 +23,7 @@ struct StiffnessBound {
 StiffnessBound stiffness_bound(const Assembly& a);
 
 /// The part of the elements in StiffnessBound::node, which changes only when a grain is taken out.
-Array<double> element_bound(const Assembly& a);
+Array<double> element_bound(const Grains& grains);
 
 /// Masses for the time step `dt`, m = s (1 + alpha) K_t dt^2 / 4, of nodes and loaded plates, and
 /// moments of inertia of rigid grains by the same rule. Call it again after adding plates.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What a step needs and a saved state does not hold.
 #include <flexpm/kernel/step/step_plan.hpp>
 
 #include <flexpm/kernel/forces/nodal_forces.hpp>
@@ -11,39 +10,39 @@ namespace flexpm {
 
 namespace {
 
-bool between_whole_edges(const Assembly& a, int block)
+/// Whether the points of a contact lie at the ends and in the middle of an edge that both grains share as a whole.
+bool is_between_whole_edges(const Contacts& contacts, int contact)
 {
-    const int first = block * lanes;
-    const double *w = a.weight.data() + 6 * first, *area = a.area.data() + 3 * first,
-                 *reach = a.edge_reach.data() + 2 * first;
-    for (int l = 0; l < lanes; ++l) {
-        for (int p = 0; p < 3; ++p) {
-            for (int side = 0; side < 2; ++side)
-                if (w[(2 * p + side) * lanes + l] != 0.5 * p) return false;
-        }
-        if (area[l] != area[2 * lanes + l] || reach[l] != reach[lanes + l]) return false;
+    for (int p = 0; p < 3; ++p) {
+        for (int side = 0; side < 2; ++side)
+            if (contacts.weight(contact, p, side) != 0.5 * p) return false;
     }
-    return true;
+    return contacts.area(contact, 0) == contacts.area(contact, 2)
+        && contacts.inverse_edge_length(contact, 0) == contacts.inverse_edge_length(contact, 1);
 }
 
-void find_whole_edges(Assembly& a)
+std::vector<std::uint8_t> find_whole_edges(const Contacts& contacts)
 {
-    a.whole_edges.assign(a.contact_blocks(), 0);
-    if (a.points != 3) return;
-    for (int b = 0; b < a.contact_blocks(); ++b)
-        a.whole_edges[b] = between_whole_edges(a, b);
+    std::vector<std::uint8_t> whole(contacts.blocks(), 0);
+    for (int b = 0; b < contacts.blocks(); ++b) {
+        whole[b] = contacts.points_in(b) == 3;
+        for (int c = b * lanes; c < (b + 1) * lanes && whole[b]; ++c)
+            whole[b] = is_between_whole_edges(contacts, c);
+    }
+    return whole;
 }
 
 }  // namespace
 
 void prepare_step(Assembly& a)
 {
-    list_forces(a);
-    sort_sources(a);
-    list_chunks(a);
-    list_fetches(a);
-    find_whole_edges(a);
-    if (a.element_bound.empty()) a.element_bound = element_bound(a);
+    StepPlan& plan = a.plan;
+    plan.sources = find_sources(a.grains, a.contacts, a.edges);
+    plan.tiles = make_tiles(a.grains, a.contacts);
+    plan.prefetch = list_prefetches(a.grains, a.contacts);
+    plan.whole_edges = find_whole_edges(a.contacts);
+    if (plan.element_bound.empty()) plan.element_bound = element_bound(a.grains);
+    plan.next_centre.resize(static_cast<std::size_t>(dimension * lanes) * a.grains.blocks());
 }
 
 }  // namespace flexpm

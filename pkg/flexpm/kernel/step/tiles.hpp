@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The order in which a step goes through its blocks: some contacts, then the grains that have no
-/// contact left, and so on. What contacts read and write is then still in a cache when the grains follow.
+/// @file  The tiles of a step: contacts that are updated before the grains that have no contact left.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 
 namespace flexpm {
 
-/// Contact blocks of one chunk: as many as fit a second-level cache with their grains, and few enough
+/// Contact blocks of one tile: as many as fit a second-level cache with their grains, and few enough
 /// to share a small specimen out to threads.
-constexpr int chunk_length = 64;
+constexpr int tile_length = 64;
 
-/// Fill `chunk_first`, `chunk_blocks` and `first_chunk` from the contacts. Grains without contacts follow the
-/// first chunk.
-void list_chunks(Assembly& a);
+/// Tiles from the contacts. Grains without contacts belong to the first tile.
+Tiles make_tiles(const Grains& grains, const Contacts& contacts);
 
 }  // namespace flexpm

@@ -58,7 +58,7 @@ struct Block {
 std::vector<Block> group_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
 {
     std::map<std::pair<int, std::vector<int>>, std::vector<int>> members;
-    for (int g = 0; g < a.grains; ++g) {
+    for (int g = 0; g < a.grains.count; ++g) {
         std::vector<int> triangles;
         for (const auto& t : grains[g].mesh.triangles)
             triangles.insert(triangles.end(), t.begin(), t.end());
@@ -66,9 +66,10 @@ std::vector<Block> group_grains(Assembly& a, const std::vector<MeshedGrain>& gra
     }
     std::vector<Block> blocks;
     for (const auto& [key, ids] : members) {
-        const int group = static_cast<int>(a.groups.size());
-        a.groups.push_back({ key.first, static_cast<int>(grains[ids.front()].mesh.nodes.size()),
-            key.second, key.second.empty() });
+        const int group = static_cast<int>(a.grains.groups.size());
+        a.grains.groups.push_back(
+            { key.first, static_cast<int>(grains[ids.front()].mesh.nodes.size()), key.second,
+                key.second.empty() });
         for (auto first = ids.begin(); first != ids.end();) {
             const auto end = first + std::min<std::ptrdiff_t>(lanes, ids.end() - first);
             blocks.push_back({ group, { first, end } });
@@ -83,67 +84,61 @@ std::vector<Block> group_grains(Assembly& a, const std::vector<MeshedGrain>& gra
 void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
 {
     int nodes = 0, triangles = 0;
-    a.grain_slot.assign(a.grains, -1);
+    a.grains.slot.assign(a.grains.count, -1);
     for (const Block& b : group_grains(a, grains)) {
-        const MeshGroup& group = a.groups[b.group];
+        const MeshGroup& group = a.grains.groups[b.group];
         for (int l = 0; l < lanes; ++l) {
             const bool real = l < static_cast<int>(b.grains.size());
-            a.slot_grain.push_back(real ? b.grains[l] : -1);
-            if (real) a.grain_slot[b.grains[l]] = a.blocks() * lanes + l;
+            a.grains.in_slot.push_back(real ? b.grains[l] : -1);
+            if (real) a.grains.slot[b.grains[l]] = a.grains.blocks() * lanes + l;
         }
-        a.block_group.push_back(b.group);
-        a.block_nodes.push_back(nodes);
-        a.block_triangles.push_back(triangles);
-        nodes += 2 * lanes * group.nodes;
-        triangles += 5 * lanes * static_cast<int>(group.triangles.size() / 3);
+        a.grains.block_group.push_back(b.group);
+        a.grains.block_nodes.push_back(nodes);
+        a.grains.block_triangles.push_back(triangles);
+        nodes += node_stride * group.nodes;
+        triangles += ShapeRow::count * lanes * group.triangle_count();
     }
-    for (auto* array : { &a.reference, &a.displacement, &a.velocity, &a.force })
+    for (auto* array :
+        { &a.grains.reference, &a.grains.displacement, &a.grains.velocity, &a.grains.force })
         array->assign(nodes, 0.0);
-    a.held.assign(nodes, 0);
-    a.inverse_mass.assign(nodes / 2, 0.0);
-    a.shape.assign(triangles, 0.0);
-    a.stiffness.assign(3 * lanes * a.blocks(), 0.0);
-    a.rotation.assign(3 * lanes * a.blocks(), 0.0);
-    a.spin.assign(lanes * a.blocks(), 0.0);
-    a.inverse_inertia.assign(lanes * a.blocks(), 0.0);
-    a.spin_held.assign(lanes * a.blocks(), 0);
-    a.damping_work.assign(2 * a.blocks(), 0.0);
-    a.driven_work.assign(2 * a.blocks(), 0.0);
-    a.kinetic.assign(a.blocks(), 0.0);
-    a.largest_force.assign(a.blocks(), 0.0);
+    a.grains.prescribed.assign(nodes, 0);
+    a.grains.inverse_mass.assign(nodes / dimension, 0.0);
+    a.grains.shape.assign(triangles, 0.0);
+    a.grains.stiffness.assign(StiffnessRow::count * lanes * a.grains.blocks(), 0.0);
+    a.grains.rotation.assign(RotationRow::count * lanes * a.grains.blocks(), 0.0);
+    a.grains.spin.assign(lanes * a.grains.blocks(), 0.0);
+    a.grains.inverse_inertia.assign(lanes * a.grains.blocks(), 0.0);
+    a.grains.spin_prescribed.assign(lanes * a.grains.blocks(), 0);
+    a.ledger.damping_work.assign(2 * a.grains.blocks(), 0.0);
+    a.ledger.prescribed_work.assign(2 * a.grains.blocks(), 0.0);
+    a.ledger.kinetic.assign(a.grains.blocks(), 0.0);
+    a.ledger.largest_force.assign(a.grains.blocks(), 0.0);
 }
 
 /// One slot: a grain, or in a padded lane a held copy of the block's first grain without stiffness.
 void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
 {
-    const bool real = a.slot_grain[slot] >= 0;
+    const bool real = a.grains.in_slot[slot] >= 0;
     const int block = slot / lanes, lane = slot % lanes;
-    const int g = real ? a.slot_grain[slot] : a.slot_grain[block * lanes];
+    const int g = real ? a.grains.in_slot[slot] : a.grains.in_slot[block * lanes];
     const GrainMesh& mesh = grains[g].mesh;
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-        const int node = a.block_nodes[block] + 2 * lanes * static_cast<int>(n) + lane;
-        a.reference[node] = mesh.nodes[n].x;
-        a.reference[node + lanes] = mesh.nodes[n].y;
-        a.held[node] = a.held[node + lanes] = !real;
+        const int node = a.grains.block_nodes[block] + node_stride * static_cast<int>(n) + lane;
+        set_vector(a.grains.reference, node, mesh.nodes[n]);
+        for (int axis = 0; axis < dimension; ++axis)
+            a.grains.prescribed[component(node, axis)] = !real;
     }
-    a.spin_held[slot] = !real;
+    a.grains.spin_prescribed[slot] = !real;
     if (mesh.triangles.empty()) return;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto& t = mesh.triangles[i];
-        const TriangleShape s =
+        TriangleShape s =
             triangle_shape(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], a.thickness);
-        double* row = &a.shape[a.block_triangles[block] + 5 * lanes * i + lane];
-        row[0] = s.g1x;
-        row[lanes] = s.g1y;
-        row[2 * lanes] = s.g2x;
-        row[3 * lanes] = s.g2y;
-        row[4 * lanes] = real ? s.volume : 0.0;
+        if (!real) s.volume = 0.0;
+        store_shape(s, &a.grains.shape[a.grains.block_triangles[block]], static_cast<int>(i), lane);
     }
-    const PlaneStiffness c = plane_stiffness(a.elastic[a.grain_material[g]]);
-    double* row = &a.stiffness[3 * lanes * block + lane];
-    row[0] = c.normal;
-    row[lanes] = c.cross;
-    row[2 * lanes] = c.shear;
+    store_stiffness(plane_stiffness(a.grains.elastic[a.grains.material[g]]),
+        &a.grains.stiffness[StiffnessRow::count * lanes * block], lane);
 }
 
 /// Place and share of area of each point along an edge: Lobatto, paper Sec. 2.5.
@@ -171,50 +166,49 @@ double centre_line_weight(Point p0, Point p1, const Disc& a, const Disc& b)
     return ((x - p0.x) * ex + (y - p0.y) * ey) / (ex * ex + ey * ey);
 }
 
-int node_of_vertex(const Assembly& a, const std::vector<MeshedGrain>& grains, int grain, int vertex)
+int node_of_vertex(
+    const Grains& grains, const std::vector<MeshedGrain>& meshed, int grain, int vertex)
 {
-    const auto& v = grains[grain].vertices;
-    return a.node(grain, static_cast<int>(std::find(v.begin(), v.end(), vertex) - v.begin()));
+    const auto& v = meshed[grain].vertices;
+    return grains.node(grain, static_cast<int>(std::find(v.begin(), v.end(), vertex) - v.begin()));
 }
 
 /// Rows of contact `c` from shared edge `e` (padded contacts repeat the last edge, without area).
 void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<MeshedGrain>& grains,
     const EdgePoints& points, bool of_edge)
 {
-    const bool real = c < a.contacts;
-    const int nodes[] = { node_of_vertex(a, grains, e.cell_a, e.vertex_0),
-        node_of_vertex(a, grains, e.cell_a, e.vertex_1),
-        node_of_vertex(a, grains, e.cell_b, e.vertex_0),
-        node_of_vertex(a, grains, e.cell_b, e.vertex_1), a.centre_slot(e.cell_a),
-        a.centre_slot(e.cell_b) };
-    for (int i = 0; i < ContactRows::nodes; ++i) {
-        a.contact_nodes[row_index(c, i, ContactRows::nodes)] = nodes[i];
-    }
-    const Point p0 = a.position(nodes[0]), p1 = a.position(nodes[1]);
+    const bool real = c < a.contacts.count;
+    const int nodes[] = { node_of_vertex(a.grains, grains, e.cell_a, e.vertex_0),
+        node_of_vertex(a.grains, grains, e.cell_a, e.vertex_1),
+        node_of_vertex(a.grains, grains, e.cell_b, e.vertex_0),
+        node_of_vertex(a.grains, grains, e.cell_b, e.vertex_1), a.grains.centre_place(e.cell_a),
+        a.grains.centre_place(e.cell_b) };
+    for (int row = 0; row < NodeRow::count; ++row)
+        a.contacts.nodes[row_index(c, row, NodeRow::count)] = nodes[row];
+    const Point p0 = a.grains.position(nodes[0]), p1 = a.grains.position(nodes[1]);
     const double area = std::hypot(p1.x - p0.x, p1.y - p0.y) * a.thickness;
-    for (int p = 0; p < a.points; ++p) {
-        a.area[row_index(c, p, a.points)] = real ? points.share[p] * area : 0.0;
+    for (int p = 0; p < a.contacts.points_of(c); ++p) {
+        a.contacts.area(c, p) = real ? points.share[p] * area : 0.0;
         for (int side = 0; side < 2; ++side) {
-            a.weight[row_index(c, 2 * p + side, 2 * a.points)] = points.weight[p];
+            a.contacts.weight(c, p, side) = points.weight[p];
         }
     }
-    const Point ca = a.position(a.centre(e.cell_a)), cb = a.position(a.centre(e.cell_b));
-    a.span[row_index(c, 0, 2)] = of_edge ? 0.0 : cb.x - ca.x;
-    a.span[row_index(c, 1, 2)] = of_edge ? 0.0 : cb.y - ca.y;
+    const Point ca = a.grains.position(a.grains.centre(e.cell_a)),
+                cb = a.grains.position(a.grains.centre(e.cell_b));
+    a.contacts.set_branch(c, of_edge ? Point {} : cb - ca);
     const Point n = bonded_normal(a, c);
-    a.normal[row_index(c, 0, 2)] = n.x;
-    a.normal[row_index(c, 1, 2)] = n.y;
+    a.contacts.set_normal(c, n);
     const double along = (p1.y - p0.y) * n.x - (p1.x - p0.x) * n.y;
-    a.edge_reach[row_index(c, 0, 2)] = a.edge_reach[row_index(c, 1, 2)] = 1.0 / along;
+    a.contacts.inverse_edge_length(c, 0) = a.contacts.inverse_edge_length(c, 1) = 1.0 / along;
 }
 
-void size_contacts(Assembly& a)
+void size_contacts(Contacts& contacts)
 {
-    const int padded = a.contact_blocks() * lanes;
-    visit_contact_rows(a, [&](auto& values, int rows, auto) {
-        values.assign(static_cast<std::size_t>(padded) * rows, 0);
-    });
-    std::fill(a.crack_step.begin(), a.crack_step.end(), -1);
+    const std::size_t padded = static_cast<std::size_t>(contacts.blocks()) * lanes;
+    Contacts::visit_rows(
+        contacts, [&](auto& values, int rows, auto) { values.assign(padded * rows, 0); });
+    std::fill(contacts.crack_steps.begin(), contacts.crack_steps.end(), -1);
+    contacts.append_no_force();
 }
 
 /// Grains that meet in a point, share no edge, and whose discs overlap: they touch later.
@@ -226,16 +220,18 @@ void find_close_pairs(Assembly& a, const Tessellation& t)
             cells_at[t.cell_vertices[i]].push_back(c);
         }
     }
-    std::set<std::pair<int, int>> bonded;
+    std::set<GrainPair> bonded;
     for (const SharedEdge& e : t.shared_edges)
         bonded.insert({ e.cell_a, e.cell_b });
     for (const auto& cells : cells_at) {
         for (int g : cells) {
             for (int h : cells) {
                 if (g >= h || bonded.count({ g, h })) continue;
-                const Point p = a.position(a.centre(g)), q = a.position(a.centre(h));
+                const Point p = a.grains.position(a.grains.centre(g)),
+                            q = a.grains.position(a.grains.centre(h));
                 const double d = std::hypot(q.x - p.x, q.y - p.y);
-                if (d < a.radius[g] + a.radius[h]) a.close_pairs[{ g, h }] = d;
+                if (d < a.grains.radius[g] + a.grains.radius[h])
+                    a.contacts.close_pairs[{ g, h }] = d;
             }
         }
     }
@@ -244,40 +240,38 @@ void find_close_pairs(Assembly& a, const Tessellation& t)
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
     const std::vector<MeshedGrain>& grains, const AssemblyOptions& options)
 {
-    a.contacts = static_cast<int>(t.shared_edges.size());
-    size_contacts(a);
-    EdgePoints points = edge_points(a.points);
-    const int materials = static_cast<int>(options.elastic.size());
-    for (int c = 0; c < a.contact_blocks() * lanes; ++c) {
-        const SharedEdge& e = t.shared_edges[std::min(c, a.contacts - 1)];
+    a.contacts.count = static_cast<int>(t.shared_edges.size());
+    size_contacts(a.contacts);
+    EdgePoints points = edge_points(a.contacts.points);
+    for (int c = 0; c < a.contacts.blocks() * lanes; ++c) {
+        const SharedEdge& e = t.shared_edges[std::min(c, a.contacts.count - 1)];
         if (options.on_centre_line) {
             points.weight[0] = centre_line_weight(t.vertices[e.vertex_0], t.vertices[e.vertex_1],
                 discs[t.disc_of_cell[e.cell_a]], discs[t.disc_of_cell[e.cell_b]]);
         }
-        const int edge = std::min(c, a.contacts - 1);
+        const int edge = std::min(c, a.contacts.count - 1);
         const bool of_edge = !options.edge_normal.empty() && options.edge_normal[edge] != 0;
         fill_contact(a, c, e, grains, points, of_edge);
-        if (c >= a.contacts) continue;
-        a.contact_grains.insert(a.contact_grains.end(), { e.cell_a, e.cell_b });
-        a.contact_bonded.push_back(1);
-        a.contact_law.push_back(!options.edge_law.empty()
+        if (c >= a.contacts.count) continue;
+        a.contacts.pairs.push_back({ e.cell_a, e.cell_b });
+        a.contacts.bonded.push_back(1);
+        a.contacts.law.push_back(!options.edge_law.empty()
                 ? options.edge_law[c]
-                : a.grain_material[e.cell_a] * materials + a.grain_material[e.cell_b]);
+                : a.grains.law_index(e.cell_a, e.cell_b));
     }
 }
 
 void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedGrain>& grains)
 {
-    a.edges = static_cast<int>(t.boundary_edges.size());
-    a.edge_nodes.assign(a.edge_blocks() * lanes * 2, 0);
-    a.edge_force.assign(a.edge_blocks() * lanes * ContactRows::forces, 0.0);
-    a.edge_pressure.assign(a.edges, 0.0);
-    for (int i = 0; i < a.edges; ++i) {
+    a.edges.count = static_cast<int>(t.boundary_edges.size());
+    a.edges.resize_rows();
+    a.edges.pressure.assign(a.edges.count, 0.0);
+    for (int i = 0; i < a.edges.count; ++i) {
         const BoundaryEdge& e = t.boundary_edges[i];
-        a.edge_grain.push_back(e.cell);
-        a.edge_side.push_back(e.side);
-        a.edge_nodes[row_index(i, 0, 2)] = node_of_vertex(a, grains, e.cell, e.vertex_0);
-        a.edge_nodes[row_index(i, 1, 2)] = node_of_vertex(a, grains, e.cell, e.vertex_1);
+        a.edges.grain.push_back(e.cell);
+        a.edges.side.push_back(e.side);
+        a.edges.set_nodes(i, node_of_vertex(a.grains, grains, e.cell, e.vertex_0),
+            node_of_vertex(a.grains, grains, e.cell, e.vertex_1));
     }
 }
 
@@ -332,26 +326,26 @@ Assembly make_assembly(
 {
     check(t, options);
     Assembly a;
-    a.grains = t.cells();
-    a.points = options.points;
+    a.grains.count = t.cells();
+    a.contacts.points = options.points;
     a.thickness = options.thickness;
-    a.elastic = options.elastic;
-    a.grain_material = options.grain_material;
-    a.grain_material.resize(a.grains, 0);
-    a.aggregate = options.aggregate;
-    if (a.aggregate.empty()) {
-        a.aggregate.resize(a.grains);
-        std::iota(a.aggregate.begin(), a.aggregate.end(), 0);
+    a.grains.elastic = options.elastic;
+    a.grains.material = options.grain_material;
+    a.grains.material.resize(a.grains.count, 0);
+    a.grains.parent = options.aggregate;
+    if (a.grains.parent.empty()) {
+        a.grains.parent.resize(a.grains.count);
+        std::iota(a.grains.parent.begin(), a.grains.parent.end(), 0);
     }
     for (const auto& law : options.laws)
-        a.laws.push_back(make_law(law));
+        a.contacts.laws.push_back(make_law(law));
     std::vector<MeshedGrain> grains;
-    for (int c = 0; c < a.grains; ++c) {
+    for (int c = 0; c < a.grains.count; ++c) {
         grains.push_back(mesh_cell(t, discs, c, options));
-        a.radius.push_back(discs[t.disc_of_cell[c]].radius);
+        a.grains.radius.push_back(discs[t.disc_of_cell[c]].radius);
     }
     lay_out_grains(a, grains);
-    for (int slot = 0; slot < a.blocks() * lanes; ++slot)
+    for (int slot = 0; slot < a.grains.blocks() * lanes; ++slot)
         fill_slot(a, slot, grains);
     bond(a, t, discs, grains, options);
     lay_out_edges(a, t, grains);

@@ -12,12 +12,12 @@ namespace {
 
 /// Calls visit(pair) for all pairs of grains that lie in the same cell, or in two that touch, of a
 /// lattice of squares of side `size`.
-template <class Visit> void for_each_neighbour(const Assembly& a, double size, Visit visit)
+template <class Visit> void for_each_neighbour(const Grains& grains, double size, Visit visit)
 {
     using Place = std::pair<double, double>;  // row and column, whole numbers of any size
     std::vector<std::pair<Place, int>> places;
-    for (int g = 0; g < a.grains; ++g) {
-        const Point p = a.position(a.centre(g));
+    for (int g = 0; g < grains.count; ++g) {
+        const Point p = grains.position(grains.centre(g));
         places.push_back({ { std::floor(p.y / size), std::floor(p.x / size) }, g });
     }
     std::sort(places.begin(), places.end());
@@ -37,19 +37,18 @@ template <class Visit> void for_each_neighbour(const Assembly& a, double size, V
     }
 }
 
-bool is_near(const Assembly& a, GrainPair pair, double margin)
+bool is_near(const Grains& grains, GrainPair pair, double margin)
 {
-    const double reach = a.radius[pair[0]] + a.radius[pair[1]] + margin;
-    return square_distance(a, pair) < reach * reach;
+    const double distance = grains.radius[pair[0]] + grains.radius[pair[1]] + margin;
+    return square_distance(grains, pair) < distance * distance;
 }
 
-/// A centre is further than `way` from where it was.
-bool any_moved(const Assembly& a, const std::vector<Point>& from, double way)
+/// A centre is further than `distance` from where it was.
+bool any_moved(const Grains& grains, const std::vector<Point>& from, double distance)
 {
-    for (int g = 0; g < a.grains; ++g) {
-        const Point p = a.position(a.centre(g));
-        const double dx = p.x - from[g].x, dy = p.y - from[g].y;
-        if (!(dx * dx + dy * dy <= way * way)) return true;
+    for (int g = 0; g < grains.count; ++g) {
+        const Point way = grains.position(grains.centre(g)) - from[g];
+        if (!(dot(way, way) <= distance * distance)) return true;
     }
     return false;
 }
@@ -58,18 +57,17 @@ bool any_moved(const Assembly& a, const std::vector<Point>& from, double way)
 
 std::vector<GrainPair> near_pairs(const Assembly& a, double margin)
 {
-    std::vector<std::pair<int, int>> held;
-    for (int c = 0; c < a.contacts; ++c) {
-        if (carries(a, c)) held.push_back({ a.contact_grains[2 * c], a.contact_grains[2 * c + 1] });
+    std::vector<GrainPair> bound;  // by an active contact
+    for (int c = 0; c < a.contacts.count; ++c) {
+        if (is_active(a.contacts, c)) bound.push_back(a.contacts.pairs[c]);
     }
-    if (!std::is_sorted(held.begin(), held.end())) std::sort(held.begin(), held.end());
-    const double largest = *std::max_element(a.radius.begin(), a.radius.end());
+    if (!std::is_sorted(bound.begin(), bound.end())) std::sort(bound.begin(), bound.end());
+    const double largest = *std::max_element(a.grains.radius.begin(), a.grains.radius.end());
     std::vector<GrainPair> near;
     // a little more, so that round-off does not choose
-    for_each_neighbour(a, 1.001 * (2.0 * largest + margin), [&](GrainPair pair) {
-        if (!is_near(a, pair, margin)) return;
-        const std::pair<int, int> key { pair[0], pair[1] };
-        if (!std::binary_search(held.begin(), held.end(), key)) near.push_back(pair);
+    for_each_neighbour(a.grains, 1.001 * (2.0 * largest + margin), [&](GrainPair pair) {
+        if (!is_near(a.grains, pair, margin)) return;
+        if (!std::binary_search(bound.begin(), bound.end(), pair)) near.push_back(pair);
     });
     std::sort(near.begin(), near.end());
     return near;
@@ -78,16 +76,16 @@ std::vector<GrainPair> near_pairs(const Assembly& a, double margin)
 const std::vector<GrainPair>& NearPairs::find(const Assembly& a, double margin)
 {
     // two grains that move by a quarter of the margin each come no closer than half of it
-    if (from.empty() || margin != watched_margin || any_moved(a, from, 0.24 * margin)) {
+    if (from.empty() || margin != watched_margin || any_moved(a.grains, from, 0.24 * margin)) {
         watched = near_pairs(a, 1.5 * margin);
         watched_margin = margin;
         from.clear();
-        for (int g = 0; g < a.grains; ++g)
-            from.push_back(a.position(a.centre(g)));
+        for (int g = 0; g < a.grains.count; ++g)
+            from.push_back(a.grains.position(a.grains.centre(g)));
     }
     near.clear();
     std::copy_if(watched.begin(), watched.end(), std::back_inserter(near),
-        [&](GrainPair pair) { return is_near(a, pair, margin); });
+        [&](GrainPair pair) { return is_near(a.grains, pair, margin); });
     return near;
 }
 

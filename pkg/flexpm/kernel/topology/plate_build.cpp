@@ -16,11 +16,6 @@ namespace flexpm {
 
 namespace {
 
-Point reference_of(const Assembly& a, int node)
-{
-    return { a.reference[node], a.reference[node + lanes] };
-}
-
 /// Start and end of a boundary edge, the grain on its left.
 struct Edge {
     Point start, end;
@@ -30,8 +25,8 @@ struct Edge {
 
 Edge edge_of(const Assembly& a, int edge)
 {
-    const auto n = edge_nodes(a, edge);
-    return { reference_of(a, n[0]), reference_of(a, n[1]) };
+    const auto n = a.edges.nodes(edge);
+    return { vector_at(a.grains.reference, n[0]), vector_at(a.grains.reference, n[1]) };
 }
 
 double along(Point direction, Point p) { return direction.x * p.x + direction.y * p.y; }
@@ -41,9 +36,9 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
     check_not_negative("plate stiffness", contact.stiffness, "Pa/m");
     check_not_negative("plate friction", contact.friction, "");
     const double normal_stiffness =
-        grain_mean(a, [&](int g) { return own_law(a, g).normal_stiffness; });
+        grain_mean(a.grains, [&](int g) { return own_law(a, g).normal_stiffness; });
     const double shear_stiffness =
-        grain_mean(a, [&](int g) { return own_law(a, g).shear_stiffness; });
+        grain_mean(a.grains, [&](int g) { return own_law(a, g).shear_stiffness; });
     Plate p;
     p.normal = normal;
     p.stiffness = contact.stiffness > 0.0 ? contact.stiffness : normal_stiffness;
@@ -56,7 +51,7 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
 /// Points that touch a plate on each edge: grains of either kind, all of one kind.
 int points_on_edge(const Assembly& a, const Plate& p)
 {
-    return a.is_rigid(a.edge_grain[p.edges.front()]) ? 1 : 2;
+    return a.grains.is_rigid(a.edges.grain[p.edges.front()]) ? 1 : 2;
 }
 
 /// Gaps and tributary areas of the plate's points; the state at the reference.
@@ -90,20 +85,18 @@ Point unit(Point normal)
 void list_inner_edges(Assembly& a)
 {
     std::set<int> known;  // first nodes
-    for (int e = 0; e < a.edges; ++e)
-        known.insert(edge_nodes(a, e)[0]);
-    for (int g = 0; g < a.grains; ++g) {
-        const int corners = a.group(a.grain_slot[g] / lanes).vertices;
+    for (int e = 0; e < a.edges.count; ++e)
+        known.insert(a.edges.nodes(e)[0]);
+    for (int g = 0; g < a.grains.count; ++g) {
+        const int corners = a.grains.vertices_of(g);
         for (int k = 0; k < corners; ++k) {
-            if (known.count(a.node(g, k)) != 0) continue;
-            const int e = a.edges++;
-            a.edge_grain.push_back(g);
-            a.edge_side.push_back(-1);
-            a.edge_pressure.push_back(0.0);
-            a.edge_nodes.resize(a.edge_blocks() * lanes * 2, 0);
-            a.edge_force.resize(a.edge_blocks() * lanes * ContactRows::forces, 0.0);
-            a.edge_nodes[row_index(e, 0, 2)] = a.node(g, k);
-            a.edge_nodes[row_index(e, 1, 2)] = a.node(g, (k + 1) % corners);
+            if (known.count(a.grains.node(g, k)) != 0) continue;
+            const int e = a.edges.count++;
+            a.edges.grain.push_back(g);
+            a.edges.side.push_back(-1);
+            a.edges.pressure.push_back(0.0);
+            a.edges.resize_rows();
+            a.edges.set_nodes(e, a.grains.node(g, k), a.grains.node(g, (k + 1) % corners));
         }
     }
     prepare_step(a);
@@ -122,8 +115,8 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
 {
     if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
     std::vector<int> edges;
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_side[e] == side) edges.push_back(e);
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] == side) edges.push_back(e);
     }
     if (edges.empty())
         refuse("side", side, "", "has no boundary edges; name a side of the outline");
@@ -165,9 +158,9 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
 {
     Plate p = plate_of(a, unit(normal), contact);
     double nearest = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < a.edges; ++e) {
+    for (int e = 0; e < a.edges.count; ++e) {
         const Edge edge = edge_of(a, e);
-        const bool outer = a.edge_side[e] >= 0;
+        const bool outer = a.edges.side[e] >= 0;
         if (outer && along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
     }
     if (p.edges.empty())
@@ -188,19 +181,19 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
     return static_cast<int>(a.plates.size()) - 1;
 }
 
-void hold_sideways(Assembly& a, int plate)
+void fix_tangential(Assembly& a, int plate)
 {
     check_index(a, plate);
     const Plate& p = a.plates[plate];
     const auto first =
         static_cast<int>(std::min_element(p.gap.begin(), p.gap.end()) - p.gap.begin());
-    const int edge = p.edges[first / p.points], grain = a.edge_grain[edge];
-    const int node = a.is_rigid(grain)
-        ? a.centre(grain)
-        : edge_nodes(a, edge)[plate_weight(p, first % p.points) > 0.5];
-    const int component = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
-    a.held[node + component * lanes] = 1;
-    a.velocity[node + component * lanes] = 0.0;
+    const int edge = p.edges[first / p.points], grain = a.edges.grain[edge];
+    const int node = a.grains.is_rigid(grain)
+        ? a.grains.centre(grain)
+        : a.edges.nodes(edge)[plate_weight(p, first % p.points) > 0.5];
+    const int axis = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
+    a.grains.prescribed[component(node, axis)] = 1;
+    a.grains.velocity[component(node, axis)] = 0.0;
 }
 
 int add_wall(Assembly& a, Point position, Point normal, const PlateContact& contact)
@@ -208,7 +201,7 @@ int add_wall(Assembly& a, Point position, Point normal, const PlateContact& cont
     Plate p = plate_of(a, unit(normal), contact);
     p.position = position;
     list_inner_edges(a);
-    for (int e = 0; e < a.edges; ++e)
+    for (int e = 0; e < a.edges.count; ++e)
         p.edges.push_back(e);
     p.points = 2;  // rigid grains, too, rest on their corners
     lay(a, p);

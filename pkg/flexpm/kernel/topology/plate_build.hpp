@@ -27,7 +27,7 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact);
 
 /// Keep the first point that the plate touches from sliding along it: the node of a deformable grain, or
 /// the centre of a rigid one. A disc that stands on single points would roll.
-void hold_sideways(Assembly& a, int plate);
+void fix_tangential(Assembly& a, int plate);
 
 /// Lay a plate through `position`, apart from the specimen, that any grain may come to touch: its
 /// corners do. All edges of all grains become boundary edges for it. Returns its number.

@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Taking grains and contacts out of an assembly.
 #include <flexpm/kernel/topology/removal.hpp>
 
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/assembly/triangle_rows.hpp>
+
+#include <algorithm>
 
 namespace flexpm {
 
-void retire_contact(Assembly& a, int contact)
+void remove_contact(Contacts& contacts, int contact)
 {
-    for (int p = 0; p < a.points; ++p)
-        a.area[row_index(contact, p, a.points)] = 0.0;
-    for (int r = 0; r < ContactRows::forces; ++r) {
-        a.contact_force[record_index(contact, r, ContactRows::forces)] = 0.0;
-    }
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        contacts.area(contact, p) = 0.0;
+    std::fill_n(
+        &contacts.forces[Contacts::force_index(contact, 0, 0)], Contacts::force_values, 0.0);
 }
 
-void retire_grain(Assembly& a, int grain)
+void remove_grain(Assembly& a, int grain)
 {
-    const int slot = a.grain_slot[grain], block = slot / lanes, lane = slot % lanes;
-    const int triangles = static_cast<int>(a.group(block).triangles.size()) / 3;
-    for (int t = 0; t < triangles; ++t) {
-        a.shape[a.block_triangles[block] + (5 * t + 4) * lanes + lane] = 0.0;
+    Grains& grains = a.grains;
+    const int block = grains.block_of(grain);
+    for (int t = 0; t < grains.group(block).triangle_count(); ++t) {
+        const int row = ShapeRow::count * t + ShapeRow::volume;
+        grains.shape[grains.block_triangles[block] + row * lanes + grains.lane_of(grain)] = 0.0;
     }
-    a.element_bound.clear();
-    for (int n = 0; n < a.nodes_of(grain); ++n) {
-        for (int i : { a.node(grain, n), a.node(grain, n) + lanes }) {
-            a.velocity[i] = 0.0;
-            a.held[i] = 1;
-        }
+    a.plan.element_bound.clear();
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        set_vector(grains.velocity, node, {});
+        for (int axis = 0; axis < dimension; ++axis)
+            grains.prescribed[component(node, axis)] = 1;
     }
-    if (a.is_rigid(grain)) {
-        a.spin[rigid_index(a, grain)] = 0.0;
-        a.spin_held[rigid_index(a, grain)] = 1;
+    if (grains.is_rigid(grain)) {
+        grains.spin[grains.slot[grain]] = 0.0;
+        grains.spin_prescribed[grains.slot[grain]] = 1;
     }
-    for (int e = 0; e < a.edges; ++e) {
-        if (a.edge_grain[e] == grain) a.edge_pressure[e] = 0.0;
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.grain[e] == grain) a.edges.pressure[e] = 0.0;
     }
 }
 

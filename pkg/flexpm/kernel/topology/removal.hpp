@@ -6,10 +6,10 @@
 
 namespace flexpm {
 
-/// The contact carries nothing any more; its stored energy leaves the system with it.
-void retire_contact(Assembly& a, int contact);
+/// Take away what a contact carries; its stored energy leaves the system with it.
+void remove_contact(Contacts& contacts, int contact);
 
-/// The grain stands still, exerts nothing, and is not loaded any more. Its contacts are not touched.
-void retire_grain(Assembly& a, int grain);
+/// Let a grain stand still, exert nothing and take no load any more. Its contacts are not touched.
+void remove_grain(Assembly& a, int grain);
 
 }  // namespace flexpm

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  How Boost saves the kernel's assembly: all members that flexpm::visit_state names.
+/// @file  How Boost saves the kernel's assembly: all members that flexpm::visit_members names.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/serialization.hpp>
 
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/vector.hpp>
@@ -15,24 +16,22 @@
 namespace boost {
 namespace serialization {
 
-	template <class Archive> auto archiver(Archive& archive)
+	template <class Archive, class Part> void archiveMembers(Archive& archive, Part& part)
 	{
-		return [&archive](const char* name, auto& value) { archive& make_nvp(name, value); };
+		flexpm::visit_members(part, [&archive](const char* name, auto& value) { archive& make_nvp(name, value); });
 	}
 
-	template <class Archive> void serialize(Archive& archive, flexpm::MeshGroup& group, unsigned) { flexpm::visit_group(group, archiver(archive)); }
+	template <class Archive> void serialize(Archive& archive, flexpm::MeshGroup& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::ElasticMaterial& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::Plate& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::Grains& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::Contacts& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::BoundaryEdges& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::EnergyLedger& part, unsigned) { archiveMembers(archive, part); }
 
-	template <class Archive> void serialize(Archive& archive, flexpm::ElasticMaterial& material, unsigned)
-	{
-		flexpm::visit_elastic(material, archiver(archive));
-	}
-
-	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& law, unsigned) { flexpm::visit_law(law, archiver(archive)); }
-
-	template <class Archive> void serialize(Archive& archive, flexpm::Plate& plate, unsigned) { flexpm::visit_plate(plate, archiver(archive)); }
-
-	/// Of what visit_state() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 2;
+	/// Of what visit_members() lists and how it lies in memory: to be raised with each change of either.
+	constexpr unsigned assemblyVersion = 3;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{
@@ -41,7 +40,7 @@ namespace serialization {
 			        "state of the grains = version " + std::to_string(version) + ", must be " + std::to_string(assemblyVersion)
 			        + " to fit this flexpm; build and run the specimen again");
 		}
-		flexpm::visit_state(assembly, archiver(archive));
+		archiveMembers(archive, assembly);
 	}
 
 } // namespace serialization

@@ -24,14 +24,14 @@ OwnedAssembly assemblyOf(const Scene& scene)
 OwnedAssembly assemblyOfGrain(int grain)
 {
 	auto found = assemblyOf(*Omega::instance().getScene());
-	if (grain >= 0 && grain < found->grains) return found;
+	if (grain >= 0 && grain < found->grains.count) return found;
 	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
 }
 
 OwnedAssembly assemblyOfContact(int contact)
 {
 	auto found = assemblyOf(*Omega::instance().getScene());
-	if (contact >= 0 && contact < found->contacts) return found;
+	if (contact >= 0 && contact < found->contacts.count) return found;
 	throw std::runtime_error("contact = " + std::to_string(contact) + ", is no contact of the solver; build the specimen first (flexpm.build)");
 }
 

@@ -17,13 +17,13 @@ void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>
 	const int   grain = static_cast<const LaguerreCell&>(*shape).grain;
 	const auto& a     = *assemblyOf(*scene);
 	if (!bound) bound = boost::make_shared<Aabb>();
-	const Real     r = a.radius[grain];
-	const auto     c = a.position(a.centre(grain));
+	const Real     r = a.grains.radius[grain];
+	const auto     c = a.grains.position(a.grains.centre(grain));
 	const Vector3r centre(c.x, c.y, 0);
 	bound->min = centre - Vector3r(r, r, r);
 	bound->max = centre + Vector3r(r, r, r);
-	for (int n = 0; n < a.nodes_of(grain); ++n) {
-		const auto     p = a.position(a.node(grain, n));
+	for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
+		const auto     p = a.grains.position(a.grains.node(grain, n));
 		const Vector3r corner(p.x, p.y, 0);
 		bound->min = bound->min.cwiseMin(corner);
 		bound->max = bound->max.cwiseMax(corner);

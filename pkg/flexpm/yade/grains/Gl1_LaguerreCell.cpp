@@ -19,22 +19,23 @@ namespace {
 
 	/// Draws nodes of one grain about its body's position, which is OpenGL's origin.
 	struct Pen {
-		const flexpm::Assembly& a;
-		int                     grain;
-		Vector3r                origin;
-		Real                    scale;
+		const flexpm::Grains& grains;
+		int                   grain;
+		Vector3r              origin;
+		Real                  scale;
 
 		void vertex(int n) const
 		{
-			const int node = a.node(grain, n), y = node + flexpm::lanes;
-			glVertex3d(a.reference[node] + scale * a.displacement[node] - origin[0], a.reference[y] + scale * a.displacement[y] - origin[1], 0.);
+			const int  node = grains.node(grain, n);
+			const auto p = flexpm::vector_at(grains.reference, node), u = flexpm::vector_at(grains.displacement, node);
+			glVertex3d(p.x + scale * u.x - origin[0], p.y + scale * u.y - origin[1], 0.);
 		}
 
 		void triangles(GLenum kind) const
 		{
-			for (int t = 0; t < flexpm::triangles_of(a, grain); ++t) {
+			for (int t = 0; t < flexpm::triangles_of(grains, grain); ++t) {
 				glBegin(kind);
-				for (int n : flexpm::triangle_nodes(a, grain, t))
+				for (int n : flexpm::triangle_nodes(grains, grain, t))
 					vertex(n);
 				glEnd();
 			}
@@ -43,7 +44,7 @@ namespace {
 		void outline() const
 		{
 			glBegin(GL_LINE_LOOP);
-			for (int n = 0; n < a.group(a.grain_slot[grain] / flexpm::lanes).vertices; ++n)
+			for (int n = 0; n < grains.vertices_of(grain); ++n)
 				vertex(n);
 			glEnd();
 		}
@@ -58,8 +59,8 @@ void Gl1_LaguerreCell::go(const shared_ptr<Shape>& shape, const shared_ptr<State
 	const int grain = static_cast<const LaguerreCell&>(*shape).grain;
 	// a window must not fail when a script has taken the solver out of O.engines
 	const auto owned = findAssembly(*Omega::instance().getScene());
-	if (!owned.engine || grain < 0 || grain >= owned->grains) return;
-	const Pen pen { *owned, grain, state->pos, scale };
+	if (!owned.engine || grain < 0 || grain >= owned->grains.count) return;
+	const Pen pen { owned->grains, grain, state->pos, scale };
 	glDisable(GL_LIGHTING);
 	glColor3d(shape->color[0], shape->color[1], shape->color[2]);
 	glEnable(GL_POLYGON_OFFSET_FILL); // lines lie in the plane of the faces and must win

@@ -19,13 +19,18 @@ YADE_PLUGIN((LaguerreCell));
 namespace {
 
 	/// (nodes, 2) view of the rows of one grain in a node array.
-	template <class T> py::object nodeView(int grain, flexpm::Array<T> flexpm::Assembly::*values, Access access)
+	template <class T> py::object nodeView(const OwnedAssembly& owned, int grain, const flexpm::Array<T>& values, Access access)
 	{
-		const auto           owned = assemblyOfGrain(grain);
-		const auto&          a     = *owned;
-		const std::ptrdiff_t row   = flexpm::lanes * sizeof(T);
-		const T*             first = (a.*values).data() + a.node(grain, 0);
-		return flexpm_bindings::array_view(first, { a.nodes_of(grain), 2 }, { 2 * row, row }, py::object(owned.engine), access);
+		const auto&          grains = owned->grains;
+		const std::ptrdiff_t row = flexpm::lanes * sizeof(T), node = flexpm::node_stride * sizeof(T);
+		const T*             first = values.data() + grains.node(grain, 0);
+		return flexpm_bindings::array_view(first, { grains.nodes_of(grain), flexpm::dimension }, { node, row }, py::object(owned.engine), access);
+	}
+
+	template <class T> py::object nodeView(int grain, flexpm::Array<T> flexpm::Grains::*values, Access access)
+	{
+		const auto owned = assemblyOfGrain(grain);
+		return nodeView(owned, grain, owned->grains.*values, access);
 	}
 
 } // namespace
@@ -34,43 +39,39 @@ LaguerreCell::~LaguerreCell() { ++destroyedContacts(); }
 
 py::object LaguerreCell::positions() const
 {
-	auto& a = *assemblyOfGrain(grain);
-	if (a.shown_position.empty()) flexpm::show_positions(a);
-	return nodeView(grain, &flexpm::Assembly::shown_position, Access::readOnly);
+	const auto owned = assemblyOfGrain(grain);
+	if (owned->plan.shown_position.empty()) flexpm::show_positions(*owned);
+	return nodeView(owned, grain, owned->plan.shown_position, Access::readOnly);
 }
 
-py::object LaguerreCell::displacements() const { return nodeView(grain, &flexpm::Assembly::displacement, Access::readWrite); }
+py::object LaguerreCell::displacements() const { return nodeView(grain, &flexpm::Grains::displacement, Access::readWrite); }
 
-py::object LaguerreCell::velocities() const { return nodeView(grain, &flexpm::Assembly::velocity, Access::readWrite); }
+py::object LaguerreCell::velocities() const { return nodeView(grain, &flexpm::Grains::velocity, Access::readWrite); }
 
-py::object LaguerreCell::forces() const { return nodeView(grain, &flexpm::Assembly::force, Access::readOnly); }
+py::object LaguerreCell::forces() const { return nodeView(grain, &flexpm::Grains::force, Access::readOnly); }
 
-py::object LaguerreCell::held() const { return nodeView(grain, &flexpm::Assembly::held, Access::readWrite); }
+py::object LaguerreCell::held() const { return nodeView(grain, &flexpm::Grains::prescribed, Access::readWrite); }
 
 py::list LaguerreCell::triangles() const
 {
-	const auto& a = *assemblyOfGrain(grain);
+	const auto& grains = assemblyOfGrain(grain)->grains;
 	py::list    all;
-	for (int t = 0; t < flexpm::triangles_of(a, grain); ++t) {
-		const auto n = flexpm::triangle_nodes(a, grain, t);
+	for (int t = 0; t < flexpm::triangles_of(grains, grain); ++t) {
+		const auto n = flexpm::triangle_nodes(grains, grain, t);
 		all.append(py::make_tuple(n[0], n[1], n[2]));
 	}
 	return all;
 }
 
-bool LaguerreCell::rigid() const { return assemblyOfGrain(grain)->is_rigid(grain); }
+bool LaguerreCell::rigid() const { return assemblyOfGrain(grain)->grains.is_rigid(grain); }
 
-int LaguerreCell::aggregate() const { return assemblyOfGrain(grain)->aggregate[grain]; }
+int LaguerreCell::aggregate() const { return assemblyOfGrain(grain)->grains.parent[grain]; }
 
 void LaguerreCell::setMotion(Vector3r velocity, Real spin) const
 {
-	flexpm::set_motion(*assemblyOfGrain(grain), grain, { velocity[0], velocity[1] }, spin, Omega::instance().getScene()->dt);
+	flexpm::set_motion(assemblyOfGrain(grain)->grains, grain, { velocity[0], velocity[1] }, spin, Omega::instance().getScene()->dt);
 }
 
-int LaguerreCell::vertices() const
-{
-	const auto& a = *assemblyOfGrain(grain);
-	return a.group(a.grain_slot[grain] / flexpm::lanes).vertices;
-}
+int LaguerreCell::vertices() const { return assemblyOfGrain(grain)->grains.vertices_of(grain); }
 
 } // namespace yade

@@ -17,24 +17,24 @@ YADE_PLUGIN((LobattoGeom)(LobattoPhys));
 namespace {
 
 	/// (points,) view of row `row` of the `rows` rows of each point of a contact.
-	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Assembly::*values, int row = 0, int rows = 1)
+	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Contacts::*values, int row = 0, int rows = 1)
 	{
-		const auto           owned = assemblyOfContact(contact);
-		const auto&          a     = *owned;
-		const std::ptrdiff_t step  = rows * flexpm::lanes * sizeof(T);
-		const T*             first = (a.*values).data() + flexpm::row_index(contact, row, rows * a.points);
-		return flexpm_bindings::array_view(first, { a.points }, { step }, py::object(owned.engine), Access::readOnly);
+		const auto           owned    = assemblyOfContact(contact);
+		const auto&          contacts = owned->contacts;
+		const std::ptrdiff_t step     = rows * flexpm::lanes * sizeof(T);
+		const T*             first    = (contacts.*values).data() + contacts.point_index(contact, 0, row, rows);
+		return flexpm_bindings::array_view(first, { contacts.points_of(contact) }, { step }, py::object(owned.engine), Access::readOnly);
 	}
 
 	/// The same for a member of flexpm::PointState.
-	py::object stateView(int contact, int member) { return pointView(contact, &flexpm::Assembly::point_state, member, flexpm::ContactRows::state); }
+	py::object stateView(int contact, int row) { return pointView(contact, &flexpm::Contacts::states, row, flexpm::PointRow::count); }
 
 	/// (points,) or (points, columns) copy of what `value(point)` appends.
 	template <class Value> py::object pointCopy(int contact, int columns, Value value)
 	{
 		const auto&         a = *assemblyOfContact(contact);
 		std::vector<double> all;
-		for (int p = 0; p < a.points; ++p)
+		for (int p = 0; p < a.contacts.points_of(contact); ++p)
 			value(a, p, all);
 		return flexpm_bindings::copied(all, columns);
 	}
@@ -51,7 +51,7 @@ LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
 
 Vector3r LobattoGeom::normal() const
 {
-	const auto n = flexpm::normal_of(*assemblyOfContact(contact), contact);
+	const auto n = assemblyOfContact(contact)->contacts.normal(contact);
 	return Vector3r(n.x, n.y, 0);
 }
 
@@ -71,17 +71,17 @@ py::object LobattoGeom::ends() const
 
 LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
 
-py::object LobattoPhys::opening() const { return stateView(contact, flexpm::ContactRows::opening); }
+py::object LobattoPhys::opening() const { return stateView(contact, flexpm::PointRow::opening); }
 
-py::object LobattoPhys::slip() const { return stateView(contact, flexpm::ContactRows::slip); }
+py::object LobattoPhys::slip() const { return stateView(contact, flexpm::PointRow::slip); }
 
-py::object LobattoPhys::area() const { return pointView(contact, &flexpm::Assembly::area); }
+py::object LobattoPhys::area() const { return pointView(contact, &flexpm::Contacts::areas); }
 
-py::object LobattoPhys::cracked() const { return pointView(contact, &flexpm::Assembly::crack_mode); }
+py::object LobattoPhys::cracked() const { return pointView(contact, &flexpm::Contacts::crack_modes); }
 
 py::object LobattoPhys::damage() const
 {
-	return pointCopy(contact, 0, [this](const auto& a, int p, auto& all) { all.push_back(flexpm::damage_of(a, contact, p)); });
+	return pointCopy(contact, 0, [this](const auto& a, int p, auto& all) { all.push_back(flexpm::damage_of(a.contacts, contact, p)); });
 }
 
 py::object LobattoPhys::traction() const

@@ -20,7 +20,7 @@ void EndDisplacementController::action()
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop) return;
 	flexpm::move_top(assembly, velocity);
-	flexpm::rebook_driven(assembly, scene->dt);
+	flexpm::update_prescribed_work(assembly, scene->dt);
 	if (!gripped && elasticStart) flexpm::start_elastically(assembly);
 	gripped  = true;
 	drivenAt = velocity;

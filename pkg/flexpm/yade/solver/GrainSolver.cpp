@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/centre_motion.hpp>
+#include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>
@@ -28,10 +29,15 @@ namespace {
 
 } // namespace
 
+void GrainSolver::postLoad(GrainSolver&)
+{
+	if (assembly.grains.count > 0) flexpm::prepare_step(assembly);
+}
+
 void GrainSolver::takeStep()
 {
 	if (destroyedContacts() != seenDestroyed) retireErased();
-	if (assembly.step == 0) flexpm::open_books(assembly);
+	if (assembly.step == 0) flexpm::reset_energy_balance(assembly);
 	flexpm::StepOptions options;
 	options.dt      = scene->dt;
 	options.damping = damping;
@@ -55,11 +61,11 @@ void GrainSolver::action()
 namespace {
 
 	/// A node has used up half of the way that its grain's bound leaves it; what is left is for the steps until the next look.
-	bool nearBound(const flexpm::Assembly& a, int grain, const Bound& bound)
+	bool nearBound(const flexpm::Grains& grains, int grain, const Bound& bound)
 	{
 		const Real margin = .5 * bound.sweepLength;
-		for (int n = 0; n < a.nodes_of(grain); ++n) {
-			const auto p = a.position(a.node(grain, n));
+		for (int n = 0; n < grains.nodes_of(grain); ++n) {
+			const auto p = grains.position(grains.node(grain, n));
 			if (p.x < bound.min[0] + margin || p.x > bound.max[0] - margin || p.y < bound.min[1] + margin || p.y > bound.max[1] - margin)
 				return true;
 		}
@@ -76,19 +82,19 @@ void GrainSolver::check()
 	retireErased(); // a script that keeps a handle delays its destruction
 	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
-	for (int grain = 0; grain < assembly.grains; ++grain) {
+	for (int grain = 0; grain < assembly.grains.count; ++grain) {
 		const auto& b = (*scene->bodies)[bodyIds[grain]];
-		if (b && b->bound && nearBound(assembly, grain, *b->bound)) scene->doSort = true;
+		if (b && b->bound && nearBound(assembly.grains, grain, *b->bound)) scene->doSort = true;
 	}
 }
 
 void GrainSolver::findStates()
 {
-	const auto slots  = assembly.slot_grain.size();
+	const auto slots  = assembly.grains.in_slot.size();
 	const auto bodies = Omega::instance().getScene()->bodies; // an engine knows its scene from its first step on
 	states.assign(slots, nullptr);
 	for (std::size_t slot = 0; slot < slots; ++slot) {
-		const int grain = assembly.slot_grain[slot];
+		const int grain = assembly.grains.in_slot[slot];
 		if (grain < 0) continue;
 		const auto& body = (*bodies)[bodyIds[grain]];
 		if (body) states[slot] = body->state;
@@ -119,13 +125,13 @@ namespace {
 
 void GrainSolver::mirrorBodies()
 {
-	if (states.size() != assembly.slot_grain.size()) findStates();
+	if (states.size() != assembly.grains.in_slot.size()) findStates();
 	flexpm::CentreMotion motion;
-	for (int block = 0; block < assembly.blocks(); ++block) {
+	for (int block = 0; block < assembly.grains.blocks(); ++block) {
 		const auto* later = states.data() + std::min(flexpm::lanes * (block + statesAhead), int(states.size()) - flexpm::lanes);
 		const auto* now   = states.data() + flexpm::lanes * block;
-		const bool  rigid = assembly.group(block).rigid;
-		flexpm::find_centre_motion(assembly, block, motion);
+		const bool  rigid = assembly.grains.group(block).rigid;
+		flexpm::find_centre_motion(assembly.grains, block, motion);
 		for (int lane = 0; lane < flexpm::lanes; ++lane) {
 			if (later[lane]) prefetch(*later[lane]);
 			if (now[lane]) mirror(motion, lane, rigid, *now[lane]);

@@ -17,6 +17,8 @@ class GrainSolver : public GlobalEngine, public AssemblyOwner {
 public:
 	~GrainSolver() override;
 	void action() override;
+	/// YADE calls it after it has loaded a scene.
+	void postLoad(GrainSolver&);
 
 	flexpm::Assembly& arrays() override { return assembly; }
 

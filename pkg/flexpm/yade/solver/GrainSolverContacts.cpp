@@ -12,7 +12,7 @@ namespace yade {
 
 bool GrainSolver::hasInteraction(int contact)
 {
-	const Body::id_t id1 = bodyIds[assembly.contact_grains[2 * contact]], id2 = bodyIds[assembly.contact_grains[2 * contact + 1]];
+	const Body::id_t id1 = bodyIds[assembly.contacts.pairs[contact][0]], id2 = bodyIds[assembly.contacts.pairs[contact][1]];
 	auto&            all   = *scene->interactions;
 	auto&            place = places[contact];
 	if (place < all.size()) { // most are where they were: finding costs more
@@ -28,20 +28,20 @@ void GrainSolver::retireErased()
 {
 	seenDestroyed = destroyedContacts();
 	listed        = false;
-	places.resize(assembly.contacts);
-	for (int c = 0; c < assembly.contacts; ++c) {
+	places.resize(assembly.contacts.count);
+	for (int c = 0; c < assembly.contacts.count; ++c) {
 		if (hasInteraction(c)) continue;
-		if (flexpm::carries(assembly, c)) nearPairs.forget(); // what was erased may touch again
-		flexpm::retire_contact(assembly, c);
+		if (flexpm::is_active(assembly.contacts, c)) nearPairs.forget(); // what was erased may touch again
+		flexpm::remove_contact(assembly.contacts, c);
 	}
-	for (int grain = 0; grain < assembly.grains; ++grain) {
-		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::retire_grain(assembly, grain);
+	for (int grain = 0; grain < assembly.grains.count; ++grain) {
+		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::remove_grain(assembly, grain);
 	}
 }
 
 void GrainSolver::listCandidates()
 {
-	candidates          = nearPairs.find(assembly, touchMargin * 2 * assembly.radius[0]);
+	candidates          = nearPairs.find(assembly, touchMargin * 2 * assembly.grains.radius[0]);
 	const auto isErased = [&](const flexpm::GrainPair& pair) { return !(*scene->bodies)[bodyIds[pair[0]]] || !(*scene->bodies)[bodyIds[pair[1]]]; };
 	candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isErased), candidates.end());
 	listed = true;
@@ -53,8 +53,8 @@ void GrainSolver::changeContacts()
 	if (!listed) listCandidates(); // also in a scene that was loaded
 	if (assembly.step % checkPeriod == 0) {
 		listCandidates();
-		for (int c = 0; c < assembly.contacts; ++c) {
-			if (flexpm::is_over(assembly, c)) over.push_back(c);
+		for (int c = 0; c < assembly.contacts.count; ++c) {
+			if (flexpm::has_ended(assembly, c)) over.push_back(c);
 		}
 		if (flexpm::follow_touches(assembly, damping, scaled ? scene->dt : 0.)) limitStep();
 	}
@@ -64,7 +64,7 @@ void GrainSolver::changeContacts()
 	}
 	if (over.empty() && touching.empty()) return;
 	for (int c : over)
-		scene->interactions->requestErase(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+		scene->interactions->requestErase(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
 	flexpm::change_contacts(assembly, over, touching, damping, scaled ? scene->dt : 0.);
 	if (!touching.empty()) limitStep();
 	renumberContacts();
@@ -80,10 +80,10 @@ void GrainSolver::limitStep()
 
 void GrainSolver::renumberContacts()
 {
-	for (int c = 0; c < assembly.contacts; ++c) {
-		const Body::id_t id1 = bodyIds[assembly.contact_grains[2 * c]], id2 = bodyIds[assembly.contact_grains[2 * c + 1]];
+	for (int c = 0; c < assembly.contacts.count; ++c) {
+		const Body::id_t id1 = bodyIds[assembly.contacts.pairs[c][0]], id2 = bodyIds[assembly.contacts.pairs[c][1]];
 		auto             pair = scene->interactions->find(id1, id2);
-		if (assembly.contact_bonded[c] && (!pair || !pair->isReal())) continue; // it has ended
+		if (assembly.contacts.bonded[c] && (!pair || !pair->isReal())) continue; // it has ended
 		if (!pair) {
 			pair = boost::make_shared<Interaction>(id1, id2);
 			scene->interactions->insert(pair);

@@ -44,21 +44,21 @@ py::tuple GrainSolver::cracks() const
 py::dict GrainSolver::counts() const
 {
 	int nodes = 0, triangles = 0;
-	for (int g = 0; g < assembly.grains; ++g) {
-		nodes += assembly.nodes_of(g);
-		triangles += flexpm::triangles_of(assembly, g);
+	for (int g = 0; g < assembly.grains.count; ++g) {
+		nodes += assembly.grains.nodes_of(g);
+		triangles += flexpm::triangles_of(assembly.grains, g);
 	}
 	const auto bonded = flexpm::bonded_contacts(assembly);
 	py::dict   d;
-	d["grains"]         = *std::max_element(assembly.aggregate.begin(), assembly.aggregate.end()) + 1;
-	d["particles"]      = assembly.grains;
+	d["grains"]         = *std::max_element(assembly.grains.parent.begin(), assembly.grains.parent.end()) + 1;
+	d["particles"]      = assembly.grains.count;
 	d["contacts"]       = bonded.between; // as in the specimen; others have touched since
 	d["inner_contacts"] = bonded.within;
-	d["touching"]       = assembly.contacts - bonded.between - bonded.within;
+	d["touching"]       = assembly.contacts.count - bonded.between - bonded.within;
 	d["nodes"]          = nodes;
 	d["triangles"]      = triangles;
-	d["groups"]         = assembly.groups.size();
-	d["edges"]          = assembly.edges;
+	d["groups"]         = assembly.grains.groups.size();
+	d["edges"]          = assembly.edges.count;
 	return d;
 }
 
@@ -68,9 +68,9 @@ py::object GrainSolver::sideNodes(int side) const
 {
 	std::vector<std::int32_t> rows;
 	for (int node : flexpm::side_nodes(assembly, side)) {
-		for (int g = 0; g < assembly.grains; ++g) {
-			const int first = assembly.node(g, 0), row = 2 * flexpm::lanes;
-			if (node < first || (node - first) % row != 0 || (node - first) / row >= assembly.nodes_of(g)) continue;
+		for (int g = 0; g < assembly.grains.count; ++g) {
+			const int first = assembly.grains.node(g, 0), row = 2 * flexpm::lanes;
+			if (node < first || (node - first) % row != 0 || (node - first) / row >= assembly.grains.nodes_of(g)) continue;
 			rows.insert(rows.end(), { g, (node - first) / row });
 		}
 	}
@@ -80,7 +80,7 @@ py::object GrainSolver::sideNodes(int side) const
 py::dict GrainSolver::snapshot() const
 {
 	const auto s = flexpm::take_snapshot(assembly);
-	const int  p = assembly.points;
+	const int  p = assembly.contacts.points;
 	py::dict   d;
 	d["positions"]         = copied(s.positions, 2);
 	d["reference"]         = copied(s.reference, 2);

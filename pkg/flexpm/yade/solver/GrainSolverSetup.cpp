@@ -82,20 +82,20 @@ void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
 	bodyIds.clear();
 	const auto& world = Omega::instance().getScene();
 	// bodies and states each in a row: every step walks through them
-	vector<shared_ptr<Body>>  bodies(assembly.grains);
-	vector<shared_ptr<State>> states(assembly.grains);
+	vector<shared_ptr<Body>>  bodies(assembly.grains.count);
+	vector<shared_ptr<State>> states(assembly.grains.count);
 	for (auto& body : bodies)
 		body = boost::make_shared<Body>();
 	for (auto& state : states)
 		state = boost::make_shared<State>();
-	for (int grain = 0; grain < assembly.grains; ++grain) {
+	for (int grain = 0; grain < assembly.grains.count; ++grain) {
 		const auto& body = bodies[grain];
 		body->state      = states[grain];
 		auto cell        = boost::make_shared<LaguerreCell>();
 		cell->grain      = grain;
 		body->shape      = cell;
-		body->material   = materials[assembly.grain_material[grain]];
-		const auto p     = assembly.position(assembly.centre(grain));
+		body->material   = materials[assembly.grains.material[grain]];
+		const auto p     = assembly.grains.position(assembly.grains.centre(grain));
 		body->state->pos = body->state->refPos = Vector3r(p.x, p.y, 0);
 		body->state->blockedDOFs               = State::DOF_ALL;
 		body->setBounded(true);
@@ -106,8 +106,8 @@ void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
 void GrainSolver::insertContacts()
 {
 	const auto& world = Omega::instance().getScene();
-	for (int c = 0; c < assembly.contacts; ++c) {
-		auto bond     = boost::make_shared<Interaction>(bodyIds[assembly.contact_grains[2 * c]], bodyIds[assembly.contact_grains[2 * c + 1]]);
+	for (int c = 0; c < assembly.contacts.count; ++c) {
+		auto bond     = boost::make_shared<Interaction>(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
 		auto geom     = boost::make_shared<LobattoGeom>();
 		auto phys     = boost::make_shared<LobattoPhys>();
 		geom->contact = phys->contact = c;
@@ -131,7 +131,7 @@ Real GrainSolver::useRealMasses()
 	return flexpm::set_real_masses(assembly, damping);
 }
 
-void GrainSolver::openBooks() { flexpm::open_books(assembly); }
+void GrainSolver::openBooks() { flexpm::reset_energy_balance(assembly); }
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The saved state of all contacts: bonds of the specimen and discs that have come to touch.
+#pragma once
+
+#include <flexpm/kernel/assembly/layout.hpp>
+#include <flexpm/kernel/assembly/point_rows.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace flexpm {
+
+using GrainPair = std::array<int, 2>;  ///< two grains, the smaller number first
+
+/// How a point of contact cracked.
+enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2 };
+
+/// Rows of a contact's nodes: ends of the edges of grains a and b, and the places of their centres in
+/// StepPlan::next_centre.
+struct NodeRow {
+    enum : int { a0, a1, b0, b1, centre_a, centre_b, count };
+};
+
+/// Contacts in the order of their grain pair. Arrays named in the plural are laid out [block][row][lane]; the function
+/// in the singular is one value of one contact.
+struct Contacts {
+    static constexpr int force_values = 4 * dimension;  ///< components on the nodes a0, a1, b0, b1
+
+    int count = 0;
+    int points = 3;  ///< of a contact: 1, 2 or 3; read it by points_of() and points_in()
+    std::vector<LawParameters> laws;
+    std::vector<GrainPair> pairs;
+    std::vector<int> law;              ///< index into `laws`
+    std::vector<std::uint8_t> bonded;  ///< 1: since the specimen was bonded, 0: touched later
+    /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
+    std::map<GrainPair, double> close_pairs;
+    Array<int> nodes;       ///< [NodeRow]
+    Array<double> weights;  ///< [point][side]: share of the edge's second node [-]
+    Array<double> areas;    ///< [point] [m^2]
+    /// [component] from centre a to centre b when bonded [m]; zero: the normal is that of the edges.
+    Array<double> branches;
+    Array<double> inverse_edge_lengths;  ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
+    Array<double> normals;               ///< [component] of the current unit normal, from a to b
+    Array<double> states;                ///< [point][PointRow]
+    Array<int> crack_steps;              ///< [point]: step of the crack, -1 while intact
+    Array<std::uint8_t> crack_modes;     ///< [point]: CrackMode
+    Array<double> crack_positions;       ///< [point][component] where it cracked [m]
+    /// `force_values` of each contact, one contact after the other, as nodes gather them [N]; a force of
+    /// zero follows the last block, see no_force().
+    Array<double> forces;
+
+    int blocks() const { return blocks_of(count); }
+    int points_in(int /*block*/) const { return points; }
+    int points_of(int contact) const { return points_in(contact / lanes); }
+
+    const LawParameters& law_of(int contact) const { return laws[law[contact]]; }
+
+    /// Index of a value of a point in an array with `rows` rows for each point.
+    int point_index(int contact, int point, int row = 0, int rows = 1) const
+    {
+        return row_index(contact, point * rows + row, points * rows);
+    }
+
+    /// Offset of a node: an end (0, 1) of the edge of a side (0: grain a, 1: grain b).
+    int& node(int contact, int side, int end) { return nodes[node_index(contact, side, end)]; }
+    int node(int contact, int side, int end) const { return nodes[node_index(contact, side, end)]; }
+
+    /// Both nodes of the edge of a side.
+    std::array<int, 2> edge(int contact, int side) const
+    {
+        return { node(contact, side, 0), node(contact, side, 1) };
+    }
+
+    double& weight(int contact, int point, int side)
+    {
+        return weights[point_index(contact, point, side, 2)];
+    }
+    double weight(int contact, int point, int side) const
+    {
+        return weights[point_index(contact, point, side, 2)];
+    }
+
+    double& area(int contact, int point) { return areas[point_index(contact, point)]; }
+    double area(int contact, int point) const { return areas[point_index(contact, point)]; }
+
+    double& inverse_edge_length(int contact, int side)
+    {
+        return inverse_edge_lengths[row_index(contact, side, 2)];
+    }
+    double inverse_edge_length(int contact, int side) const
+    {
+        return inverse_edge_lengths[row_index(contact, side, 2)];
+    }
+
+    double& state(int contact, int point, int row)
+    {
+        return states[point_index(contact, point, row, PointRow::count)];
+    }
+    double state(int contact, int point, int row) const
+    {
+        return states[point_index(contact, point, row, PointRow::count)];
+    }
+    PointState point_state(int contact, int point) const
+    {
+        return load_state(&states[point_index(contact, point, 0, PointRow::count)], 0);
+    }
+
+    Point branch(int contact) const { return vector_at(branches, vector_index(contact)); }
+    void set_branch(int contact, Point p) { set_vector(branches, vector_index(contact), p); }
+    Point normal(int contact) const { return vector_at(normals, vector_index(contact)); }
+    void set_normal(int contact, Point p) { set_vector(normals, vector_index(contact), p); }
+    Point crack_position(int contact, int point) const
+    {
+        return vector_at(crack_positions, point_index(contact, point, 0, dimension));
+    }
+    void set_crack_position(int contact, int point, Point p)
+    {
+        set_vector(crack_positions, point_index(contact, point, 0, dimension), p);
+    }
+
+    /// Index of the x component of the force on a node, as node() has them; y follows.
+    static int force_index(int contact, int side, int end)
+    {
+        return contact * force_values + (2 * side + end) * dimension;
+    }
+
+    /// The same of a force of zero behind all others: it stands for no contact.
+    int no_force() const { return blocks() * lanes * force_values; }
+    void append_no_force() { forces.resize(static_cast<std::size_t>(no_force()) + dimension, 0.0); }
+
+    /// Calls visit(array, rows, index) for all arrays with rows per contact; index(contact, row, rows) is the
+    /// place of a value.
+    template <class Self, class Visitor> static void visit_rows(Self& s, Visitor&& visit)
+    {
+        visit(s.nodes, static_cast<int>(NodeRow::count), row_index);
+        visit(s.weights, 2 * s.points, row_index);
+        visit(s.areas, s.points, row_index);
+        visit(s.branches, dimension, row_index);
+        visit(s.inverse_edge_lengths, 2, row_index);
+        visit(s.normals, dimension, row_index);
+        visit(s.states, s.points * PointRow::count, row_index);
+        visit(s.crack_steps, s.points, row_index);
+        visit(s.crack_modes, s.points, row_index);
+        visit(s.crack_positions, s.points * dimension, row_index);
+        visit(s.forces, force_values, record_index);
+    }
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("count", s.count);
+        visit("points", s.points);
+        visit("laws", s.laws);
+        visit("pairs", s.pairs);
+        visit("law", s.law);
+        visit("bonded", s.bonded);
+        visit("close_pairs", s.close_pairs);
+        visit("nodes", s.nodes);
+        visit("weights", s.weights);
+        visit("areas", s.areas);
+        visit("branches", s.branches);
+        visit("inverse_edge_lengths", s.inverse_edge_lengths);
+        visit("normals", s.normals);
+        visit("states", s.states);
+        visit("crack_steps", s.crack_steps);
+        visit("crack_modes", s.crack_modes);
+        visit("crack_positions", s.crack_positions);
+        visit("forces", s.forces);
+    }
+
+private:
+    static int node_index(int contact, int side, int end)
+    {
+        return row_index(contact, 2 * side + end, NodeRow::count);
+    }
+    static int vector_index(int contact) { return row_index(contact, 0, dimension); }
+};
+
+}  // namespace flexpm
