@@ -16,6 +16,7 @@ from ._version import __version__ as __version__
 if TYPE_CHECKING:
     from ._api import (
         InputError,
+        Loading,
         Material,
         Model,
         Result,
@@ -24,12 +25,14 @@ if TYPE_CHECKING:
         build,
         compare,
         elastic,
+        rig,
         run,
     )
 
 #: What users call; imported when first used. The classes of the plugin are added as they load.
 __all__ = [
     "InputError",
+    "Loading",
     "Material",
     "Model",
     "Result",
@@ -38,6 +41,7 @@ __all__ = [
     "build",
     "compare",
     "elastic",
+    "rig",
     "run",
 ]
 #: Modules that scripts use as attributes of the package.

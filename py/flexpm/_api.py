@@ -7,7 +7,9 @@ matplotlib, which the classes of the plugin and the command's help do without.
 
 from . import materials
 from .errors import InputError, SimulationError
+from .laboratory.loading_rate import Loading
 from .laboratory.protocols import run
+from .laboratory.rigs import rig
 from .materials import Material
 from .models.grains import Model, build, elastic
 from .report import curves as plot
@@ -19,6 +21,7 @@ from .studies.comparison import compare
 
 __all__ = [
     "InputError",
+    "Loading",
     "Material",
     "Model",
     "Result",
@@ -30,6 +33,7 @@ __all__ = [
     "export",
     "materials",
     "plot",
+    "rig",
     "run",
     "strength",
 ]

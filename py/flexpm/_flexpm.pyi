@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The compiled module: what of it is no class of YADE. SI units."""
 
+from collections.abc import Iterable
+from enum import IntEnum
 from typing import TypedDict
 
 from .arrays import FloatArray, IntArray
@@ -77,10 +79,58 @@ class InnerCells:
     @property
     def outer(self) -> IntArray: ...
 
+class EnumClass_TestState(IntEnum):  # noqa: N801
+    """The plugin puts it into the module yade."""
+
+    running = 0
+    past_peak = 1
+    least_strain_reached = 2
+    largest_strain_reached = 3
+
+class StrainGauge:
+    def __init__(
+        self,
+        bottom: float,
+        height: float,
+        mean_diameter: float,
+        left: Iterable[tuple[int, float]],
+        right: Iterable[tuple[int, float]],
+    ) -> None: ...
+    def strains(self, centres: FloatArray, displacements: FloatArray) -> tuple[float, float]: ...
+
 build_info: BuildInfo
 #: On the masses of the stability bound [-].
 mass_margin: float
 
+def contact_modulus(normal_stiffness: float, mean_diameter: float) -> float: ...
+def reference_strength(
+    tension: bool, tensile_strength: float, cohesion: float, friction: float
+) -> float: ...
+def rectangle_scales(
+    modulus: float,
+    strength: float,
+    mass: float,
+    thickness: float,
+    dt: float,
+    width: float,
+    height: float,
+) -> dict[str, float]: ...
+def disc_scales(
+    modulus: float, strength: float, mass: float, thickness: float, dt: float, diameter: float
+) -> dict[str, float]: ...
+def axial_stress(bottom: float, top: float, area: float, tension: bool) -> float: ...
+def end_mismatch(bottom: float, top: float) -> float: ...
+def splitting_area(diameter: float, thickness: float) -> float: ...
+def ramp_factor(step: int, ramp_steps: int) -> float: ...
+def test_state(
+    stress: float,
+    peak: float,
+    strain: float,
+    stop_ratio: float,
+    least_peak: float,
+    min_strain: float,
+    max_strain: float,
+) -> EnumClass_TestState: ...
 def disc_count(area: float, d_min: float, d_max: float, porosity: float) -> int: ...
 def disc_radii(count: int, d_min: float, d_max: float, seed: int) -> FloatArray: ...
 def insert_discs(radii: FloatArray, outline: Outline, shrink: float, seed: int) -> FloatArray: ...

@@ -3,14 +3,12 @@
 
 import numpy as np
 import pytest
-import yade
 
 import flexpm
 from flexpm.errors import InputError
 from flexpm.laboratory import loading_rate as rates
-from flexpm.laboratory.run_spec import LOADINGS, RunSpec
-from flexpm.laboratory.schedule import schedule
-from flexpm.specimens.spec import SpecimenSpec
+from flexpm.laboratory.loading_rate import Loading, Scales, schedule
+from flexpm.laboratory.run_spec import LOADINGS
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]
@@ -87,7 +85,7 @@ def test_adaptive_loading_gives_the_measures_of_constant_loading(specimen, model
     assert adaptive.energy_error < 1e-4
     assert adaptive.steps < (1.0 - saved) * constant.steps
     factor = adaptive.curve["velocity_factor"]
-    assert factor[0] == pytest.approx(rates.fastest_pace("uniaxial", model))
+    assert factor[0] == pytest.approx(rates.fastest_factor("uniaxial", model))
     assert factor[int(np.argmax(adaptive.curve["axial_stress"]))] == pytest.approx(1.0, abs=0.5)
     assert set(constant.curve["velocity_factor"]) == {1.0}
 
@@ -95,11 +93,11 @@ def test_adaptive_loading_gives_the_measures_of_constant_loading(specimen, model
 def test_adaptive_loading_keeps_to_the_fastest_rate_at_any_factor():
     k = rates.rate_constant("uniaxial", "flexible")
     for factor in (0.1, 1.0, 2.0, 1e3):
-        fastest = rates.fastest_pace("uniaxial", "flexible", factor)
+        fastest = rates.fastest_factor("uniaxial", "flexible", factor)
         assert fastest >= 1.0
         assert fastest * factor * k <= max(rates.FASTEST_CONSTANT, factor * k) * (1.0 + 1e-12)
-    assert rates.fastest_pace("uniaxial", "flexible", 0.1) == pytest.approx(
-        rates.fastest_pace("uniaxial", "flexible")
+    assert rates.fastest_factor("uniaxial", "flexible", 0.1) == pytest.approx(
+        rates.fastest_factor("uniaxial", "flexible")
     )
 
 
@@ -115,10 +113,8 @@ def test_an_unknown_loading_is_refused(specimen):
 
 
 def test_the_rate_scales_with_its_factor_and_the_wave():
-    scales = {"strength": 1e8, "modulus": 2e10, "crossing_steps": 500.0, "height": 0.1}
-    yade.O.dt = 1.0  # scaled masses
-    one = schedule(scales, RunSpec("uniaxial", SpecimenSpec(), {}))
-    two = schedule(scales, RunSpec("uniaxial", SpecimenSpec(), {}, rate=2.0))
+    scales = Scales(crossing_steps=500.0, modulus=2e10, strength=1e8, height=0.1, width=0.05)
+    one, two = (schedule("uniaxial", "flexible", Loading(rate), scales) for rate in (1.0, 2.0))
     k = rates.rate_constant("uniaxial", "flexible")
     assert one.velocity == pytest.approx(k * (1e8 / 2e10) * 0.1 / 500.0)
     assert two.velocity == pytest.approx(2.0 * one.velocity)

@@ -10,7 +10,7 @@ import pytest
 import yade
 
 import flexpm
-from flexpm.laboratory import grain_loading as loading
+from flexpm.laboratory.grain_rig import PlateRig
 from flexpm.models import grains as models
 
 THICKNESS = 0.08
@@ -131,7 +131,7 @@ def test_the_membrane_has_16_plates_a_side_that_move_on_their_own():
     specimen = flexpm.Specimen.rectangle(0.02, 0.10, thickness=THICKNESS, seed=2)
     yade.O.reset()
     built = models.build(specimen, "augig-table2-bilinear", "rigid")
-    loading.PlateLoading().confine(built, 4e6, 500)
+    PlateRig(built)._press(4e6, 500)
     built.run(2000)
     ends, sides = built.solver.plates()[:2], built.solver.plates()[2:]
     assert len(ends) == 2

@@ -7,10 +7,8 @@ import pytest
 import yade
 
 from flexpm.laboratory import protocols
-from flexpm.laboratory import sphere_protocols as yade_protocols
-from flexpm.laboratory.checkpoint import Checkpoint
-from flexpm.laboratory.run_spec import RunSpec
-from flexpm.laboratory.runner import Course
+from flexpm.laboratory.loading_rate import Loading
+from flexpm.laboratory.rigs import rig as rig_of
 from flexpm.models import grains as models
 from flexpm.models import sphere_bonds as yade_bonds
 from flexpm.specimens.specimen import Specimen
@@ -91,9 +89,10 @@ def test_a_fast_test_says_that_it_is_not_quasistatic(rectangle):
 
 def test_grains_carry_the_stresses_of_the_specimen(rectangle):
     built = models.build(rectangle, None, MODEL)
-    spec = RunSpec("biaxial", rectangle.spec, {}, MODEL, confinement=4e6, rate=4.0, max_strain=5e-4)
-    course = Course(Checkpoint(None, spec), None)
-    record = yade_protocols.run_biaxial(built, spec, course).curve
+    rig = rig_of(built)
+    rig.confine(4e6)
+    rig.load(Loading(rate=4.0, max_strain=5e-4))
+    record = rig.record
     state = built.snapshot()
     first = np.unique(state.triangle_grain, return_index=True)[1]
     stress, areas = state.triangle_stress[first], np.array(rectangle.tessellation.cell_areas)

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 import yade
 
-from ..laboratory import protocols
-from ..laboratory.run_spec import RunSpec, described
+from ..laboratory.loading_rate import Loading
+from ..laboratory.rigs import rig
 from ..models import grains as models
 from ..models import spheres as yade_models
 from ..specimens.specimen import Specimen
@@ -25,9 +25,7 @@ def build_own(
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
     built = models.build(specimen, None, model, mesh=mesh, threads=threads)
     assert isinstance(built, models.Model), model
-    test = "brazilian" if specimen.kind == "disc" else "uniaxial"
-    material = described(built.material, model)
-    protocols.load(built, RunSpec(test, specimen.spec, material, model, rate=_RATE))
+    rig(built).start(Loading(rate=_RATE, adaptive=True))
     return built.counts()
 
 

@@ -17,6 +17,7 @@ import re
 import shutil
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, TypeGuard
 
@@ -41,18 +42,27 @@ _ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "Newton
 _MOST_STAGES = 9
 
 
+@dataclass
+class Position:
+    """How far a run has come."""
+
+    stage: int = 0  #: number of the stage that was prepared last, 0 before the first
+    stage_start: int = 0  #: step at which it was prepared
+    stage_end: int = 0  #: step at which it ends in any case
+    stage_likely: int = 0  #: step at which it probably ends
+    step_time: float | None = None  #: median wall time of a step so far [s]
+
+
 class Checkpoint:
-    """What a run needs to go on from where it was, kept in memory and in its folder.
+    """What a run needs to go on from where it was, in its folder.
 
     Attributes:
-        stage: Number of the stage that was prepared last, 0 before the first.
-        stage_start: Step at which it was prepared.
-        step_time: Median wall time of a step so far [s], or None.
+        position: How far the run has come.
         resumed_at: Step at which an earlier run was taken up, or None.
     """
 
-    def __init__(self, folder: Path | None, spec: RunSpec, interval: float = INTERVAL) -> None:
-        """Look for a checkpoint in `folder`; None keeps none.
+    def __init__(self, folder: Path, spec: RunSpec, interval: float = INTERVAL) -> None:
+        """Look for a checkpoint in `folder`.
 
         Args:
             folder: Folder of the run's files; it exists.
@@ -69,11 +79,10 @@ class Checkpoint:
         self._made = _versions(spec) | {"inputs": spec.to_json()}
         self._saved = time.monotonic()
         self._scene: Path | None = None
-        self.stage, self.stage_start = 0, 0
-        self.step_time: float | None = None
+        self.position = Position()
         self.resumed_at: int | None = None
-        self._lock = None if folder is None else FolderLock(folder)
-        if folder is not None and (folder / _NAME).exists():
+        self._lock = FolderLock(folder)
+        if (folder / _NAME).exists():
             self._read(folder / _NAME)
 
     @property
@@ -84,7 +93,7 @@ class Checkpoint:
     @property
     def due(self) -> bool:
         """Whether it is time to save."""
-        return self._folder is not None and time.monotonic() - self._saved > self._interval
+        return time.monotonic() - self._saved > self._interval
 
     def restore(self) -> None:
         """Replace YADE's scene by the saved one."""
@@ -111,8 +120,6 @@ class Checkpoint:
         Raises:
             OSError: if the disk does not take it; an earlier checkpoint is left as it was.
         """
-        if self._folder is None:
-            return
         scene = self._folder / _SCENE.format(step=yade.O.iter)
         if scene == self._scene:  # the file that checkpoint.json names must stay as it is
             scene = scene.with_suffix(".1.bin")
@@ -132,13 +139,7 @@ class Checkpoint:
         self._remove_others(scene)
 
     def _about(self, scene: Path) -> Table:
-        return {
-            "scene": scene.name,
-            "stage": self.stage,
-            "stage_start": self.stage_start,
-            "step_time": self.step_time,
-            **self._made,
-        }
+        return {"scene": scene.name, **asdict(self.position), **self._made}
 
     def _read(self, file: Path) -> None:
         content = _content(file)
@@ -158,8 +159,7 @@ class Checkpoint:
             )
         _refuse_differences(file.parent, there, _flat(self._made))
         self._scene = scene
-        self.stage, self.stage_start = content["stage"], content["stage_start"]
-        self.step_time = content["step_time"]
+        self.position = Position(**{name: content[name] for name in asdict(self.position)})
 
     def _remove_others(self, scene: Path) -> None:
         for other in self._folder.glob(_SCENE.format(step="*")):
@@ -195,6 +195,8 @@ def _content(file: Path) -> Table:
         "scene": lambda name: isinstance(name, str) and bool(_SCENE_PATTERN.fullmatch(name)),
         "stage": lambda stage: _is_count(stage) and stage <= _MOST_STAGES,
         "stage_start": _is_count,
+        "stage_end": _is_count,
+        "stage_likely": _is_count,
         "step_time": lambda time: time is None
         or (isinstance(time, float) and math.isfinite(time) and time > 0.0),
         "inputs": lambda inputs: isinstance(inputs, dict),

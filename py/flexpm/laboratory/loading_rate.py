@@ -8,6 +8,9 @@ documentation.
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
 #: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %.
 RATE_CONSTANT = {
@@ -18,7 +21,7 @@ RATE_CONSTANT = {
     "jcfpm": {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025},
     "cohfrict": {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025},
 }
-#: The rate of a test with an adaptive pace is up to this k while the specimen is elastic [-].
+#: The rate of an adaptive loading is up to this k while the specimen is elastic [-].
 FASTEST_CONSTANT = 0.04
 #: A test whose median unbalanced-force ratio up to its peak exceeds this is not quasi-static [-]:
 #: about what the fastest rate gives at which halving still moves the mean peak by less than 2 %.
@@ -34,8 +37,51 @@ QUASISTATIC_RATIO = {
 STOP_RATIO = 0.5
 #: Largest part that can be asked for [-]: a smaller fall makes no peak (``measures.PEAK_DROP``).
 LARGEST_STOP_RATIO = 0.9
+#: A test ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
+#: slowly, and the interlocking edges of inner particles, carry more than the reference.
+_LARGEST_STRAINS = 8.0
+#: The same for discs: plates press into them, and softening lets them carry more.
+_LARGEST_DISC_STRAINS = 16.0
+#: A fall of the stress counts once this share of the reference strength has been reached [-].
+_LEAST_PEAK = 0.2
 #: Models that are driven like another one.
 _LIKE = {"inner-un": "inner"}
+
+
+@dataclass(frozen=True)
+class Loading:
+    """How the ends of a specimen are driven, and when its test ends."""
+
+    rate: float = 1.0  #: factor on the default loading rate [-]
+    adaptive: bool = False  #: faster while the specimen is elastic; for grains
+    static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
+    max_strain: float | None = None  #: axial strain at which the test ends [-]; None: the default
+    stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
+
+
+@dataclass(frozen=True)
+class Scales:
+    """What the loading rate and the end of a test follow from."""
+
+    crossing_steps: float  #: steps in which a wave crosses the specimen
+    modulus: float  #: stress over strain of the record, roughly [Pa]
+    strength: float  #: that the contacts alone would give [Pa]
+    height: float  #: [m]
+    width: float  #: [m]
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """How fast and how far a test is driven."""
+
+    velocity: float  #: of the moving end at factor 1 [m/step, or m/s with real masses]
+    fastest: float  #: largest factor on the velocity [-]
+    reference_strain: float  #: strain of the reference strength [-]
+    max_strain: float  #: at which the test ends [-]
+    stop_ratio: float  #: part of its peak to which the stress falls in the end [-]
+    least_peak: float  #: stress above the confinement before which no fall counts [Pa]
+    steps: int  #: up to the largest strain at factor 1
+    min_strain: float = -1e300  #: at which the test ends, too [-]
 
 
 def rate_constant(test: str, model: str) -> float:
@@ -43,8 +89,8 @@ def rate_constant(test: str, model: str) -> float:
     return RATE_CONSTANT[_LIKE.get(model, model)][test]
 
 
-def fastest_pace(test: str, model: str, rate: float = 1.0) -> float:
-    """Largest pace of a test [-]: the loading rate over that of the constant times `rate` [-].
+def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:
+    """Largest factor on the velocity [-]: the rate over that of the constant times `rate`.
 
     A lower `rate` slows the whole test; a higher one does not raise the fastest rate.
     """
@@ -54,3 +100,42 @@ def fastest_pace(test: str, model: str, rate: float = 1.0) -> float:
 def quasistatic_ratio(test: str, model: str) -> float:
     """Largest median unbalanced-force ratio of a quasi-static test on a model [-]."""
     return QUASISTATIC_RATIO[_LIKE.get(model, model)][test]
+
+
+def schedule(
+    test: str,
+    model: str,
+    loading: Loading,
+    scales: Scales,
+    *,
+    confinement: float = 0.0,
+    dt: float = 1.0,
+) -> Schedule:
+    """Loading rate and end of a test.
+
+    v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
+    and eps_ref the strain of the reference strength.
+
+    Args:
+        test: Name of the test, which has a constant of its own.
+        model: Name of the model, which has, too.
+        loading: Rate and end as asked for.
+        scales: Of the specimen.
+        confinement: Lateral pressure [Pa].
+        dt: Time step [s], or 1 with scaled masses.
+    """
+    # each pascal of confinement adds at least one to the strength of a frictional contact
+    reference = (scales.strength + confinement) / scales.modulus
+    crossing_time = scales.crossing_steps * dt
+    velocity = loading.rate * rate_constant(test, model) * reference / crossing_time * scales.height
+    multiple = _LARGEST_DISC_STRAINS if test == "brazilian" else _LARGEST_STRAINS
+    largest = loading.max_strain or multiple * reference
+    return Schedule(
+        velocity,
+        fastest_factor(test, model, loading.rate) if loading.adaptive else 1.0,
+        reference,
+        largest,
+        loading.stop_ratio,
+        _LEAST_PEAK * scales.strength,
+        math.ceil(largest * scales.height / (velocity * dt)),
+    )

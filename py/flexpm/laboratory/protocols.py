@@ -3,59 +3,31 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import yade
-from yade import wrapper
 
 from .._version import __version__
-from ..errors import SimulationError
 from ..files import output_folder
 from ..materials import material as materials
 from ..materials.material import Material
-from ..models import grains as models
-from ..models.grains import Model
-from ..models.options import SPHERE_MODELS
+from ..models.grains import build
 from ..progress import Progress
 from ..report import curves as plot
 from ..report import maps as plot_maps
 from ..require import require_known
 from ..results import vtu as export
 from ..results.cracks import cracks_from_snapshot
-from ..results.record import COLUMNS, Curve
 from ..results.result import Result
 from ..specimens.specimen import Specimen
 from .checkpoint import INTERVAL, Checkpoint
-from .grain_loading import loading_of, squeeze_disc
-from .loading_rate import quasistatic_ratio
+from .loading_rate import Loading, quasistatic_ratio
+from .rig import TestRig
+from .rigs import rig as rig_of
 from .run_spec import RunSpec, described
-from .runner import Course
-from .schedule import Schedule, schedule
-
-#: A fall of the stress counts once this share of the reference strength has been reached [-].
-_LEAST_PEAK = 0.2
-#: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
-#: the rate constant's part of the reference strain meanwhile.
-_ROWS_A_CROSSING = 8
-#: Most steps from one row to the next: so often numbers are checked.
-_LONGEST_PERIOD = 100
-#: Steps by which the recorder may be late [-].
-_LATEST_LOOK = 1000
-#: Wave crossings over which an isotropic pressure rises.
-_RAMP_CROSSINGS = 10
-#: Forces balance once the largest unbalanced one is below this part of the mean contact force [-].
-_AT_REST = 0.01
-#: Most wave crossings to wait for that.
-_LONGEST_REST = 100
-#: Share of the elastic limit up to which ``static`` goes [-].
-_STATIC_SHARE = 0.9
-#: Steps, all of them recorded, that lead there.
-_STATIC_STEPS = 20
+from .runner import Runner
 
 
 @dataclass(frozen=True)
@@ -66,7 +38,7 @@ class Plan:
     specimen: Specimen
     material: Material
     folder: Path | None
-    checkpoint: Checkpoint  #: of an earlier start of the same run, if there was one
+    checkpoint: Checkpoint | None  #: in the folder, with what an earlier start has left
 
 
 def run(
@@ -175,14 +147,15 @@ def plan_run(
     """
     require_known("run: test", spec.test, list(TESTS))
     folder = None if out is None else output_folder(out)
-    return Plan(spec, specimen, material, folder, Checkpoint(folder, spec, checkpoint_interval))
+    checkpoint = None if folder is None else Checkpoint(folder, spec, checkpoint_interval)
+    return Plan(spec, specimen, material, folder, checkpoint)
 
 
 def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None) -> Result:
     """Do a run; arguments and outcome as for ``run``."""
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     yade.O.reset()
-    built = models.build(
+    built = build(
         plan.specimen,
         plan.material,
         spec.model,
@@ -192,191 +165,72 @@ def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None)
         gravity=spec.gravity,
         threads=threads,
     )
-    if checkpoint.found:
+    if checkpoint is not None and checkpoint.found:
         checkpoint.restore()
         built.rebind()
         built.set_threads(threads)
     elif folder is not None:
         export.write_vtu(folder / "specimen.vtu", built.snapshot())
-    result = tests_of(spec.model)[spec.test](built, spec, Course(checkpoint, progress))
-    result.inputs = spec.to_json()
-    result.resumed_at = checkpoint.resumed_at
-    result.measure_fragments(built.snapshot())
+    runner = Runner(checkpoint, progress)
+    rig = rig_of(built, tension=spec.test == "tension", runner=runner)
+    for stage in TESTS[spec.test]:
+        stage(rig, spec)
+    rig.finish()
+    result = _result(rig, spec)
+    result.step_time = runner.step_time
+    result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
     if folder is not None:
         write_files(folder, result)
     return result
 
 
-def run_uniaxial(built: Model, spec: RunSpec, course: Course) -> Result:
-    """Compress a built specimen axially without lateral pressure."""
-    return _run_axial(built, spec, course)
+def _confine(rig: TestRig, spec: RunSpec) -> None:
+    rig.confine(spec.confinement)
 
 
-def run_tension(built: Model, spec: RunSpec, course: Course) -> Result:
-    """Pull a built specimen axially."""
-    return _run_axial(built, spec, course)
+def _load(rig: TestRig, spec: RunSpec) -> None:
+    adaptive, static = spec.loading == "adaptive", spec.start == "static"
+    rig.load(Loading(spec.rate, adaptive, static, spec.max_strain, spec.stop_ratio))
 
 
-def run_biaxial(built: Model, spec: RunSpec, course: Course) -> Result:
-    """Press a built specimen from all sides, then compress it axially under lateral pressure.
-
-    Strains count from the isotropic state.
-    """
-
-    loading = loading_of(built)
-
-    def prepare() -> None:
-        crossing = math.ceil(wrapper.AxialRecorder().scales()["crossing_steps"])
-        loading.confine(built, spec.confinement, _RAMP_CROSSINGS * crossing)
-
-    course.stage(prepare, lambda: _settle(built, course, loading.ramp(built)))
-    return _run_axial(built, spec, course, lambda: loading.hold(built), fromNow=True)
-
-
-def run_brazilian(built: Model, spec: RunSpec, course: Course) -> Result:
-    """Press a built disc between two plates; stress 2 P / (pi D t), strain closure / D."""
-    result = _finish(built, spec, course, lambda: load(built, spec))
-    result.youngs_modulus = None  # the slope of the plates' closure is no modulus of the rock
-    result.poissons_ratio = None
-    result.contact_width = float(np.mean([p["contact_width"] for p in built.solver.plates()]))
-    return result
-
-
-def load(built: Model, spec: RunSpec, **options: Any) -> None:
-    """Put the engines that load and record a test into the scene.
-
-    Args:
-        built: The specimen; for ``biaxial`` already under its lateral pressure.
-        spec: Test, rate, loading and end.
-        options: Attributes of the ``AxialRecorder``.
-    """
-    disc, tension = spec.test == "brazilian", spec.test == "tension"
-    diameter = built.specimen.dimensions["diameter"] if disc else 0.0
-    recorder = wrapper.AxialRecorder(diameter=diameter, tension=tension, **options)
-    built.add_engines(after=(recorder,))
-    plan = _limit(recorder, built, spec)
-    # the elastic velocities raise no wave, so a test that has them may begin at the fastest rate
-    pace = 1.0 if disc else plan.fastest_pace
-    velocity = pace * plan.velocity
-    if disc:
-        recorder.loading = squeeze_disc(built, velocity)
-    else:
-        recorder.loading = loading_of(built).drive(built, velocity if tension else -velocity)
-    recorder.loading.velocityFactor = pace
-    if plan.fastest_pace > 1.0:
-        engine = wrapper.LoadingRateController(
-            loading=recorder.loading,
-            fastest=plan.fastest_pace,
-            crossingSteps=recorder.scales()["crossing_steps"],
-        )
-        built.add_engines(last=(engine,))
-
-
-TESTS: dict[str, Callable[..., Result]] = {
-    "uniaxial": run_uniaxial,
-    "tension": run_tension,
-    "biaxial": run_biaxial,
-    "brazilian": run_brazilian,
+#: Stages of each test, the same for all models.
+TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
+    "uniaxial": (_load,),
+    "tension": (_load,),
+    "biaxial": (_confine, _load),
+    "brazilian": (_load,),
 }
 
 
-def tests_of(model: str) -> dict[str, Callable[..., Result]]:
-    """Tests that a model can do, by name."""
-    if model in SPHERE_MODELS:
-        from . import sphere_protocols as yade_protocols  # which needs this module
-
-        return yade_protocols.TESTS
-    return TESTS
-
-
-def _run_axial(
-    built: Model,
-    spec: RunSpec,
-    course: Course,
-    before: Callable[[], None] = bool,
-    **options: Any,
-) -> Result:
-    """Drive the top of a built specimen until the test is over."""
-
-    def prepare() -> None:
-        before()
-        load(built, spec, **options)
-
-    if spec.start == "static":
-        course.stage(
-            lambda: _lead(built, prepare),
-            lambda: course.run_to(
-                course.stage_start + _STATIC_STEPS,
-                expected=_STATIC_STEPS,
-                over=lambda: built.engine("AxialRecorder").state != 0,
-            ),
-        )
-        return _finish(built, spec, course, lambda: _go_on(built))
-    return _finish(built, spec, course, prepare)
-
-
-def _lead(built: Model, prepare: Callable[[], None]) -> None:
-    """Record each step of the way along the elastic solution."""
-    prepare()
-    built.engine("EndDisplacementController").preload(_STATIC_SHARE, _STATIC_STEPS)
-    built.solver.measurePeriod = 1
-
-
-def _go_on(built: Model) -> None:
-    built.solver.measurePeriod = _row_period(built.engine("AxialRecorder").scales())
-    built.engine("EndDisplacementController").release()
-
-
-def _row_period(scales: dict[str, float]) -> int:
-    """Steps from one row of the record to the next."""
-    return min(math.ceil(scales["crossing_steps"] / _ROWS_A_CROSSING), _LONGEST_PERIOD)
-
-
-def _limit(recorder: Any, built: Model, spec: RunSpec) -> Schedule:
-    """Tell the recorder when the test is over."""
-    scales = recorder.scales()
-    plan = schedule(scales, spec)
-    built.solver.measurePeriod = _row_period(scales)
-    built.solver.mirrorPeriod = built.solver.checkPeriod  # nothing in a test reads the bodies
-    recorder.maxStrain = plan.max_strain
-    recorder.stopRatio = plan.stop_ratio
-    recorder.leastPeak = spec.confinement + _LEAST_PEAK * scales["strength"]
-    return plan
-
-
-def _finish(built: Model, spec: RunSpec, course: Course, prepare: Callable[[], None]) -> Result:
-    """Do the last stage of a test, in which its recorder works."""
-    diverged = False
-
-    def advance() -> None:
-        nonlocal diverged
-        recorder = built.engine("AxialRecorder")
-        plan = schedule(recorder.scales(), spec)
-        diverged = _drive(plan, built, course)
-
-    course.stage(prepare, advance)
-    built.solver.mirrorPeriod = 1  # a script may go on from here
-    built.solver.mirrorBodies()
-    if not diverged:
-        course.finish()
-    return _result(spec.test, built, diverged, course.step_time)
-
-
-def _settle(built: Model, course: Course, ramp: int) -> None:
-    """Raise the pressure in `ramp` steps and run until the forces balance, looking now and then."""
-    steps = math.ceil(ramp / _RAMP_CROSSINGS)
-    expected = course.stage_start + ramp + 10 * steps
-    for look in range(1, _LONGEST_REST + 1):
-        end = course.stage_start + ramp + look * steps
-        if end < yade.O.iter:
-            continue  # a resumed run has looked then
-        course.run_to(end, expected=expected, text=lambda: "isotropic pressure")
-        if built.solver.unbalanced() < _AT_REST:
-            return
-    raise SimulationError(
-        f"run: unbalanced-force ratio = {built.solver.unbalanced():.2g} after the isotropic stage, "
-        f"must fall below {_AT_REST}; lower the confinement"
+def _result(rig: TestRig, spec: RunSpec) -> Result:
+    counts, snapshot = rig.built.counts(), rig.built.snapshot()
+    result = Result(
+        flexpm=__version__,
+        yade=yade.config.version,
+        test=spec.test,
+        model=spec.model,
+        material=rig.built.describe_material(),
+        seed=rig.built.specimen.seed,
+        grains=counts["grains"],
+        contacts=counts["contacts"],
+        nodes=counts.get("nodes"),
+        triangles=counts.get("triangles"),
+        particles=counts.get("particles"),
+        inner_contacts=counts.get("inner_contacts"),
     )
+    result.inputs = spec.to_json()
+    result.curve = rig.record
+    result.cracks = cracks_from_snapshot(snapshot, result.curve)
+    result.measure(
+        quasistatic_ratio(spec.test, spec.model),
+        diverged=rig.diverged,
+        initial_energy=rig.initial_energy,
+    )
+    if rig.disc:  # the slopes of the plates' closure are no constants of the rock
+        result.youngs_modulus = result.poissons_ratio = None
+    result.contact_width = rig.contact_width
+    result.measure_fragments(snapshot)
+    return result
 
 
 def write_files(folder: Path, result: Result) -> None:
@@ -387,52 +241,3 @@ def write_files(folder: Path, result: Result) -> None:
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
     plot_maps.crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
     plot_maps.fragment_picture(folder / "fragments.png", result.snapshot)
-
-
-def _drive(plan: Schedule, built: Model, course: Course) -> bool:
-    """Run until the recorder stops the simulation; tell whether a number was not finite."""
-    recorder = built.engine("AxialRecorder")
-    # most tests end well before the largest strain; the bar grows if one does not
-    likely = math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
-    try:
-        course.run_to(
-            # the recorder looks now and then, so it may find the end a little late
-            course.stage_start + plan.steps + _LATEST_LOOK,
-            expected=course.stage_start + min(plan.steps, likely),
-            text=lambda: f"peak {recorder.peak * 1e-6:5.1f} MPa",
-            over=lambda: recorder.state != 0,
-        )
-    except RuntimeError:
-        if not built.solver.diverged:
-            raise
-        return True
-    return False
-
-
-def _result(test: str, built: Model, diverged: bool, step_time: float | None) -> Result:
-    counts, recorder = built.solver.counts(), built.engine("AxialRecorder")
-    result = Result(
-        flexpm=__version__,
-        yade=yade.config.version,
-        test=test,
-        model=built.name,
-        material=built.describe_material(),
-        seed=built.specimen.seed,
-        grains=counts["grains"],
-        contacts=counts["contacts"],
-        nodes=counts["nodes"],
-        triangles=counts["triangles"],
-        particles=counts["particles"],
-        inner_contacts=counts["inner_contacts"],
-        step_time=step_time,
-    )
-    names = recorder.names
-    columns = [names.index(name) for name in COLUMNS]
-    result.curve = Curve.from_array(recorder.rows[:, columns])
-    result.cracks = cracks_from_snapshot(built.snapshot(), result.curve)
-    result.measure(
-        quasistatic_ratio(result.test, built.name),
-        diverged=diverged,
-        initial_energy=built.solver.energies()["initial_energy"],
-    )
-    return result

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The course of a test: stages, progress, checkpoints, and an orderly end when interrupted."""
+"""Runner of a test: stages, progress, checkpoints, and an orderly end when interrupted."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 from statistics import median
-from typing import Any
+from typing import NamedTuple
 
 import yade
 
 from ..progress import Progress
-from .checkpoint import Checkpoint
+from .checkpoint import Checkpoint, Position
 
 #: Name of YADE's scene in memory.
 _MARK = "flexpm"
@@ -19,126 +19,122 @@ _MARK = "flexpm"
 _LOOK_UP = 0.1
 
 
-class Course:
+class Span(NamedTuple):
+    """Length of a stage in steps."""
+
+    longest: int  #: it ends there in any case
+    likely: int  #: for the progress
+
+
+class Runner:
     """Runs the stages of a test one after the other; a resumed run skips those that are over.
 
-    All that a stage needs to go on is in YADE's scene, or follows from it and the inputs.
+    All that a stage needs to go on is in YADE's scene or its `position`.
+
+    Attributes:
+        position: How far the run has come.
     """
 
-    def __init__(self, checkpoint: Checkpoint, progress: Progress | None) -> None:
+    def __init__(
+        self, checkpoint: Checkpoint | None = None, progress: Progress | None = None
+    ) -> None:
+        """Go on from a checkpoint's position.
+
+        Args:
+            checkpoint: Where the scene is saved; None saves nothing.
+            progress: Called with (steps done, steps expected, text).
+        """
         self._checkpoint, self._progress = checkpoint, progress
+        self.position = checkpoint.position if checkpoint else Position()
         self._stages = 0
         self._spans: list[float] = []
-
-    def __call__(self, done: float, expected: float, text: str) -> None:
-        """Show progress."""
-        if self._progress is not None:
-            self._progress(done, expected, text)
-
-    @property
-    def stage_start(self) -> int:
-        """Step at which the present stage began."""
-        return self._checkpoint.stage_start
-
-    @property
-    def resumed_at(self) -> int | None:
-        """Step at which an earlier run was taken up, or None."""
-        return self._checkpoint.resumed_at
 
     @property
     def step_time(self) -> float | None:
         """Median wall time of a step [s], of the earlier run if this one did none."""
-        return median(self._spans) if self._spans else self._checkpoint.step_time
+        return median(self._spans) if self._spans else self.position.step_time
 
-    def stage(self, prepare: Callable[[], None], advance: Callable[[], Any]) -> Any:
-        """Do the next stage of the test.
+    def enter(self, prepare: Callable[[], Span]) -> bool:
+        """Begin the next stage of the test.
 
         Args:
-            prepare: Sets the scene up for the stage; done once, not when the stage is resumed.
-            advance: Runs to the end of the stage from any step of it.
+            prepare: Sets the scene up for the stage; called once, not when the stage is resumed.
 
         Returns:
-            What `advance` has returned, None for a stage that is over.
+            Whether there are steps to do: False for a stage that an earlier start has finished.
         """
         self._stages += 1
-        if self._checkpoint.stage > self._stages:
-            return None
-        if self._checkpoint.stage < self._stages:
-            prepare()
-            self._checkpoint.stage = self._stages
-            self._checkpoint.stage_start = yade.O.iter
-        return advance()
+        position = self.position
+        if position.stage < self._stages:
+            span = prepare()
+            position.stage, position.stage_start = self._stages, yade.O.iter
+            position.stage_end = position.stage_start + span.longest
+            position.stage_likely = position.stage_start + span.likely
+        return position.stage == self._stages
 
-    def step(self, count: int) -> None:
-        """Step `count` times."""
-        begin = time.perf_counter()
-        for _ in range(count):
-            yade.O.step()
-        self._spans.append((time.perf_counter() - begin) / count)
+    def run(
+        self,
+        step: Callable[[], None],
+        over: Callable[[], bool],
+        text: Callable[[], str],
+        *,
+        save: bool = True,
+    ) -> None:
+        """Run to the end of the stage, or until it is over.
 
-    def renew(self, rebind: Callable[[], None]) -> None:
+        An interruption saves a checkpoint before it goes on to the caller.
+
+        Args:
+            step: Does a step.
+            over: Whether the stage is over before its end.
+            text: Tells how the test stands.
+            save: The scene may be saved after any step.
+
+        Raises:
+            RuntimeError: if an engine has failed.
+        """
+        try:
+            while yade.O.iter < self.position.stage_end and not over():
+                self._step_on(step, over)
+                self._show(text())
+                if save and self._checkpoint is not None and self._checkpoint.due:
+                    self.save()
+        except Exception:
+            raise
+        except BaseException:  # an interruption, which Python lets through between two steps
+            if save:
+                self.save()
+            raise
+
+    def reload(self) -> None:
         """Save the scene and go on from it as a file would give it back.
 
         YADE does not save the order of its interactions and what its collider has found. A run
         that depends on these has the same bits whether it is killed or not only if it loads its
         scene at each checkpoint, and has its checkpoints at fixed steps.
-
-        Args:
-            rebind: Takes over the objects of the scene that has been loaded.
         """
-        self._save()
+        self.save()
         yade.O.saveTmp(_MARK, quiet=True)
         yade.O.loadTmp(_MARK, quiet=True)
-        rebind()
 
-    def finish(self) -> None:
-        """Save the last state, so that a run into the same folder finds it done."""
-        self._save()
+    def save(self) -> None:
+        """Save the present state."""
+        self.position.step_time = self.step_time
+        if self._checkpoint is not None:
+            self._checkpoint.save()
 
-    def run_to(
-        self,
-        end: int,
-        *,
-        expected: float,
-        text: Callable[[], str] = str,
-        over: Callable[[], bool] = bool,
-    ) -> None:
-        """Run until step `end` or until `over` is true, which an engine brings about.
-
-        An interruption saves a checkpoint before it goes on to the caller.
-
-        Args:
-            end: Step at which to end.
-            expected: Steps that the whole test will probably take, for the progress.
-            text: Tells how the test stands.
-            over: Whether the test is over before `end`.
-
-        Raises:
-            RuntimeError: if an engine has failed.
-        """
-        omega = yade.O
-        try:
-            while omega.iter < end and not over():
-                self._step_on(end, over)
-                self(omega.iter, max(expected, 1.05 * omega.iter), text())
-                if self._checkpoint.due:
-                    self._save()
-        except Exception:
-            raise
-        except BaseException:  # an interruption, which Python lets through between two steps
-            self._save()
-            raise
-
-    def _step_on(self, end: int, over: Callable[[], bool]) -> None:
+    def _step_on(self, step: Callable[[], None], over: Callable[[], bool]) -> None:
         """Step until it is time to look up."""
         # O.run works in a thread, and waiting for it loses exceptions of engines that come early
-        step, number = yade.O.step, yade.O.iter
-        first, begin = number, time.perf_counter()
+        number = first = yade.O.iter
+        end = self.position.stage_end
+        begin = time.perf_counter()
         while number < end and time.perf_counter() - begin < _LOOK_UP and not over():
             step()
             number += 1
         self._spans.append((time.perf_counter() - begin) / (number - first))
 
-    def _save(self) -> None:
-        self._checkpoint.step_time = self.step_time
-        self._checkpoint.save()
+    def _show(self, text: str) -> None:
+        if self._progress is not None:
+            done = yade.O.iter
+            self._progress(done, max(self.position.stage_likely, 1.05 * done), text)

@@ -8,6 +8,7 @@ per step, and only slow loading means anything.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import yade
@@ -34,6 +35,8 @@ from .options import (
     SPHERE_MODELS,
     check_options,
 )
+
+Engine = TypeVar("Engine", bound=wrapper.Engine)
 
 #: Local damping of all tests [-], paper Sec. 4.1.
 DAMPING = 0.7
@@ -97,14 +100,18 @@ class Model:
         self.engines += last
         yade.O.engines = self.engines
 
-    def remove_engines(self, *engines: wrapper.Engine) -> None:
+    def remove_engines(self, *engines: wrapper.Engine | None) -> None:
         """Take engines of a protocol out again."""
         self.engines = [engine for engine in self.engines if engine not in engines]
         yade.O.engines = self.engines
 
-    def engine(self, kind: str) -> wrapper.Engine:
-        """The engine of a class."""
-        return next(engine for engine in self.engines if type(engine).__name__ == kind)
+    def engine(self, kind: type[Engine]) -> Engine | None:
+        """The first engine of a class, or None."""
+        return next((engine for engine in self.engines if isinstance(engine, kind)), None)
+
+    def required(self, kind: type[Engine]) -> Engine:
+        """The first engine of a class, which the scene must have."""
+        return next(engine for engine in self.engines if isinstance(engine, kind))
 
     def set_threads(self, threads: int) -> None:
         """Threads of a step; results do not depend on it."""
@@ -113,7 +120,7 @@ class Model:
     def rebind(self) -> None:
         """Take over the engines of a scene that has been loaded."""
         self.engines = list(yade.O.engines)
-        self.solver = next(e for e in self.engines if isinstance(e, wrapper.GrainSolver))
+        self.solver = self.required(wrapper.GrainSolver)
 
     def counts(self) -> dict[str, int]:
         """Numbers of grains, particles, contacts, nodes and triangles, by name."""

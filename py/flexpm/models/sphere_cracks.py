@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,8 +11,7 @@ from yade import wrapper
 
 from ..arrays import FloatArray
 from ..files import Table
-from ..results.cracks import SHEAR, TENSILE, Crack
-from ..results.record import Curve
+from ..results.cracks import SHEAR, TENSILE
 from .sphere_bonds import Bonds
 from .sphere_laws import SphereLaw
 
@@ -79,23 +77,6 @@ class CrackWatch:
                 self.steps[row] = yade.O.iter
                 self.modes[row] = self._mode(bond, row)
                 self.places[row] += self._moved(row)
-
-    def cracks(self, curve: Curve) -> list[Crack]:
-        """All cracks in the order of their steps; strains are interpolated in `curve`."""
-        rows = np.flatnonzero(self.steps >= 0)
-        rows = rows[np.argsort(self.steps[rows], kind="stable")]
-        steps = self.steps[rows]
-        strains = (
-            np.interp(steps, curve["step"], curve["axial_strain"])
-            if len(curve)
-            else np.full(len(rows), math.nan)
-        )
-        return [
-            Crack(int(step), float(strain), float(x), float(y), int(mode), int(row), 0)
-            for row, step, strain, mode, (x, y) in zip(
-                rows, steps, strains, self.modes[rows], self.places[rows], strict=True
-            )
-        ]
 
     def _mode(self, bond: wrapper.IPhys, row: int) -> int:
         tension = -self._normal_force(bond, row)

@@ -121,6 +121,10 @@ class SphereModel:
             "triangles": None,
         }
 
+    def describe_material(self) -> Table:
+        """Name and parameters of the material."""
+        return {"name": self.material.name, **self.material.law(self.name)}
+
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
         self.cracks.look()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE as far as flexpm uses it: types for the type checker alone."""
 
+from flexpm._flexpm import EnumClass_TestState as EnumClass_TestState
+
 from . import log as log
 from . import utils as utils
 from . import wrapper as wrapper

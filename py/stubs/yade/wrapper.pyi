@@ -5,7 +5,7 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from flexpm._flexpm import Tessellation
+from flexpm._flexpm import EnumClass_TestState, Tessellation
 
 # ---- values
 
@@ -137,10 +137,56 @@ class InteractionLoop(Engine):
 class DiscLoop(InteractionLoop):
     mirror: bool
 
+class LoadingController(Engine):
+    velocityFactor: float
+
+class EndDisplacementController(LoadingController):
+    velocity: float
+    holdTop: bool
+    def preload(self, share: float, steps: int) -> None: ...
+    def release(self) -> None: ...
+
+class PlateController(LoadingController):
+    plates: list[int]
+    loaded: bool
+    pressure: float
+    @property
+    def velocity(self) -> Vector3: ...
+    @velocity.setter
+    def velocity(self, value: _Vector) -> None: ...
+
+class ConfinementController(Engine):
+    pressure: float
+    sides: list[int]
+
+class LoadingRateController(Engine):
+    loading: LoadingController | None
+
+class AxialRecorder(Engine):
+    loading: LoadingController | None
+    stopRatio: float
+    leastPeak: float
+    minStrain: float
+    maxStrain: float
+    fromNow: bool
+    stress: float
+    strain: float
+    peak: float
+    state: EnumClass_TestState
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def rows(self) -> npt.NDArray[np.float64]: ...
+    def scales(self) -> dict[str, float]: ...
+
 class GrainSolver(Engine):
     damping: float
     checkPeriod: int
+    measurePeriod: int
+    mirrorPeriod: int
     bodyIds: list[int]
+    diverged: bool
+    def mirrorBodies(self) -> None: ...
     @property
     def gravity(self) -> Vector3: ...
     @gravity.setter

@@ -8,7 +8,7 @@ using namespace flexpm;
 
 namespace {
 
-const TestEnd rule = { 0.5, 20e6, 4e-3 };
+const TestEnd rule = { 0.5, 20e6, -1e-3, 4e-3 };
 
 }  // namespace
 
@@ -23,6 +23,12 @@ TEST_CASE("A fall from less than the least peak does not count")
 {
     CHECK(test_state(1e6, 19e6, 1e-3, rule) == TestState::running);
     CHECK(test_state(1e6, 20e6, 1e-3, rule) == TestState::past_peak);
+}
+
+TEST_CASE("A test that unloads is over at its least strain")
+{
+    CHECK(test_state(1e6, 10e6, -0.9e-3, rule) == TestState::running);
+    CHECK(test_state(1e6, 10e6, -1e-3, rule) == TestState::least_strain_reached);
 }
 
 TEST_CASE("A test is over at its largest strain in any case")

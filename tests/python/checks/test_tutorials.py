@@ -32,3 +32,21 @@ def test_two_minerals(package_parent, tmp_path):
     assert float(cracked["quartz - quartz"]) < float(cracked["feldspar - feldspar"])
     for rock in ("feldspar", "two-minerals"):
         assert (tmp_path / rock / "cracks.png").stat().st_size > 10000
+
+
+@pytest.mark.long
+def test_load_unload_reload(package_parent):
+    text = printed("load_unload_reload.py", package_parent)
+    for model in ("flexible", "rigid", "jcfpm"):
+        slopes = re.findall(rf"^{model} +\w+ +E = +([\d.]+) GPa", text, re.MULTILINE)
+        load, unload, reload = map(float, slopes)
+        assert unload == pytest.approx(load, rel=0.01)
+        assert reload == pytest.approx(unload, rel=0.005)
+    assert [float(error) < 1e-6 for error in re.findall("energy error (.*)", text)] == [True, True]
+
+
+def test_a_test_of_ones_own_takes_few_lines():
+    """At most 30, without comments and what is printed about it."""
+    text = (TUTORIALS / "load_unload_reload.py").read_text().split('"""')[2]
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    assert len(lines) <= 30

@@ -12,7 +12,7 @@ flexpm = pytest.importorskip("flexpm")
 import yade  # noqa: E402  (after flexpm, which finds it)
 
 from flexpm.errors import InputError  # noqa: E402
-from flexpm.laboratory import grain_loading as loading  # noqa: E402
+from flexpm.laboratory.loading_rate import Loading  # noqa: E402
 from flexpm.models import grains as models  # noqa: E402
 
 SIZE = 4e-3
@@ -116,7 +116,7 @@ def test_a_disc_is_needed_for_the_brazilian_test(rectangle: flexpm.Specimen) -> 
 def test_rigid_grains_continue_after_loading(tmp_path, rectangle: flexpm.Specimen) -> None:
     yade.O.reset()
     built = flexpm.build(rectangle, model="rigid")
-    loading.PlateLoading().drive(built, -1e-7)
+    flexpm.rig(built).start(Loading(rate=10.0))
     built.run(150)
     file = str(tmp_path / "scene.yade.gz")
     yade.O.save(file, quiet=True)

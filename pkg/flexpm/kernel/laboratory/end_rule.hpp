@@ -10,10 +10,11 @@ namespace flexpm {
 struct TestEnd {
     double stop_ratio = 0.5;  ///< over once the stress has fallen below this part of its peak [-]
     double least_peak = 0.0;  ///< no fall counts before the stress has reached this [Pa]
-    double largest_strain = std::numeric_limits<double>::infinity();  ///< over here in any case [-]
+    double least_strain = -std::numeric_limits<double>::infinity();   ///< over at this or below [-]
+    double largest_strain = std::numeric_limits<double>::infinity();  ///< over at this or above [-]
 };
 
-enum class TestState { running, past_peak, largest_strain_reached };
+enum class TestState { running, past_peak, least_strain_reached, largest_strain_reached };
 
 /// State of a test with these last readings, positive in the sense of the loading.
 ///

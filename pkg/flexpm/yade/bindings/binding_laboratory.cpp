@@ -41,9 +41,9 @@ namespace {
 
 	double endMismatch(double bottom, double top) { return flexpm::end_mismatch({ bottom, top }); }
 
-	flexpm::TestState testState(double stress, double peak, double strain, double stopRatio, double leastPeak, double maxStrain)
+	flexpm::TestState testState(double stress, double peak, double strain, double stopRatio, double leastPeak, double minStrain, double maxStrain)
 	{
-		return flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, maxStrain });
+		return flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
 	}
 
 	std::vector<flexpm::SideShare> shares(const py::object& pairs)
@@ -103,7 +103,13 @@ void register_laboratory_bindings()
 	py::def("ramp_factor", flexpm::ramp_factor, (py::arg("step"), py::arg("ramp_steps")), "Part of the full load in the coming step of a ramp [-].");
 	py::def("test_state",
 	        testState,
-	        (py::arg("stress"), py::arg("peak"), py::arg("strain"), py::arg("stop_ratio"), py::arg("least_peak"), py::arg("max_strain")),
+	        (py::arg("stress"),
+	         py::arg("peak"),
+	         py::arg("strain"),
+	         py::arg("stop_ratio"),
+	         py::arg("least_peak"),
+	         py::arg("min_strain"),
+	         py::arg("max_strain")),
 	        "Whether a test is over; stresses are those above the confinement [Pa].");
 	py::class_<StrainGauge, std::shared_ptr<StrainGauge>>(
 	        "StrainGauge", "Bands and sides of a rectangle between which the strains of its grains are measured.", py::no_init)

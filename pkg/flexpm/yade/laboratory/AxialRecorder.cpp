@@ -9,7 +9,7 @@
 
 namespace yade {
 
-YADE_ENUM(flexpm, TestState, (running)(past_peak)(largest_strain_reached));
+YADE_ENUM(flexpm, TestState, (running)(past_peak)(least_strain_reached)(largest_strain_reached));
 YADE_PLUGIN((AxialRecorder));
 
 namespace {
@@ -70,7 +70,7 @@ void AxialRecorder::action()
 	stress = now.axial_stress;
 	strain = now.axial_strain;
 	peak   = std::max(peak, stress);
-	state  = flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, maxStrain });
+	state  = flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
 	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
 }
 

@@ -14,33 +14,33 @@ EndDisplacementController::~EndDisplacementController() = default;
 
 void EndDisplacementController::action()
 {
-	velocity *= factorChange();
-	if (gripped && (!holdTop || velocity == drivenAt)) return;
+	const Real before = drivenAt;
+	follow(velocity, seenVelocity, drivenAt);
+	if (gripped && (!holdTop || drivenAt == before)) return;
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop) return;
-	flexpm::move_top(assembly, velocity);
+	flexpm::move_top(assembly, drivenAt);
 	flexpm::update_prescribed_work(assembly, scene->dt);
 	if (!gripped && elasticStart) flexpm::start_elastically(assembly);
-	gripped  = true;
-	drivenAt = velocity;
+	gripped = true;
 }
 
 void EndDisplacementController::preload(Real share, int steps)
 {
 	const auto world    = Omega::instance().getScene();
 	auto&      assembly = GrainSolver::ofScene(*world)->assembly;
+	follow(velocity, seenVelocity, drivenAt);
 	flexpm::grip_bottom(assembly);
-	flexpm::move_top(assembly, velocity);
+	flexpm::move_top(assembly, drivenAt);
 	flexpm::preload(assembly, share, steps, world->dt);
-	gripped  = true;
-	drivenAt = velocity;
+	gripped = true;
 }
 
 void EndDisplacementController::release()
 {
 	const auto world = Omega::instance().getScene();
-	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, velocity, world->dt);
+	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, drivenAt, world->dt);
 }
 
 } // namespace yade

@@ -17,10 +17,11 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(EndDisplacementController, LoadingController,
 		"Holds the bottom nodes of a rectangular specimen axially (one of them also laterally) and moves the top nodes; "
 		"no friction on either. Place it before :yref:`GrainSolver`.",
-		((Real, velocity, 0.,, "Present velocity of the top, positive away from the bottom [m/s, or m per step with scaled masses] |yupdate|."))
+		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom [m/s, or m per step with scaled masses]."))
 		((bool, holdTop, true,, "Drive the top; if not, only the bottom is held and the top is free."))
 		((bool, elasticStart, true,, "Start all nodes with the velocities of the elastic solution, so that no wave runs through the specimen."))
 		((bool, gripped, false, Attr::readonly, "The top has been taken hold of |yupdate|."))
+		((Real, seenVelocity, 0., Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
 		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top's nodes have [m/s, or m per step]."))
 		, /* ctor */
 		, .def("preload", &EndDisplacementController::preload, (boost::python::arg("share"), boost::python::arg("steps")),

@@ -7,11 +7,4 @@ YADE_PLUGIN((LoadingController));
 
 LoadingController::~LoadingController() = default;
 
-Real LoadingController::factorChange()
-{
-	const Real change = seenFactor > 0 ? velocityFactor / seenFactor : 1;
-	seenFactor        = velocityFactor;
-	return change;
-}
-
 } // namespace yade

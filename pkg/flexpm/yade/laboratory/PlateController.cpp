@@ -14,13 +14,13 @@ PlateController::~PlateController() = default;
 
 void PlateController::action()
 {
-	velocity *= factorChange();
+	follow(velocity, seenVelocity, drivenAt);
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int plate : plates) {
 		if (loaded)
 			flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
 		else
-			flexpm::set_velocity(assembly, plate, { velocity[0], velocity[1] });
+			flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
 	}
 	if (elasticStart && !started) flexpm::start_elastically(assembly);
 	started = true;

@@ -17,10 +17,12 @@ public:
 		"(several plates on a side make a membrane). Place it before :yref:`GrainSolver`.",
 		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
 		((bool, loaded, false,, "Let the plates move under the pressure; otherwise they move at the velocity."))
-		((Vector3r, velocity, Vector3r::Zero(),, "Present velocity of the plates [m/s, or m per step with scaled masses] |yupdate|."))
+		((Vector3r, velocity, Vector3r::Zero(),, "Velocity of the plates at factor 1 [m/s, or m per step with scaled masses]."))
 		((Real, pressure, 0.,, "Pressure on the width of each plate, compressive positive [Pa]."))
 		((int, rampSteps, 0,, "Steps over which the pressure rises evenly to its value [-]."))
 		((bool, elasticStart, false,, "Start all grains with the velocities of the elastic solution for the plates' velocity, so that no wave runs through the specimen."))
+		((Vector3r, seenVelocity, Vector3r::Zero(), Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
+		((Vector3r, drivenAt, Vector3r::Zero(), Attr::hidden, "Velocity that the plates have [m/s, or m per step]."))
 		((bool, started, false, Attr::readonly, "The elastic velocities are set |yupdate|."))
 	);
 	// clang-format on

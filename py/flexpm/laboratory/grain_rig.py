@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigs for flexpm's grains, which engines of the plugin load and observe, paper Sec. 4.1. SI units.
+
+Deformable grains between driven ends: boundary nodes are moved and boundary edges pressed directly.
+Rigid grains, and discs of any: rigid plates with one-point contacts, sides pressed by a membrane of
+independent plates.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+
+import numpy as np
+from yade import EnumClass_TestState as TestState
+from yade import wrapper
+
+from ..models.grains import Model
+from ..results.record import Curve
+from .loading_rate import Scales, Schedule
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
+from .runner import Runner
+
+#: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
+#: the rate constant's part of the reference strain meanwhile.
+_ROWS_A_CROSSING = 8
+#: Most steps from one row to the next: so often numbers are checked.
+_LONGEST_PERIOD = 100
+#: Share of the elastic limit up to which a preload goes [-].
+_PRELOAD_SHARE = 0.9
+#: Plates of the membrane on each side, paper Sec. 4.1.
+_MEMBRANE_PLATES = 16
+
+
+class GrainRig(TestRig):
+    """Record and loading rate of grains; how their ends are held depends on the kind of rig."""
+
+    built: Model
+
+    def __init__(
+        self, built: Model, *, tension: bool = False, runner: Runner | None = None
+    ) -> None:
+        """Take grains that have just been built, or whose scene has been loaded."""
+        super().__init__(built, tension=tension, runner=runner)
+        diameter = built.specimen.dimensions["diameter"] if self.disc else 0.0
+        self._recorder = built.engine(wrapper.AxialRecorder) or wrapper.AxialRecorder(
+            diameter=diameter, tension=tension
+        )
+
+    @property
+    def record(self) -> Curve:
+        """The record so far."""
+        return Curve.from_columns(self._recorder.names, self._recorder.rows)
+
+    @property
+    def confinement(self) -> float | None:
+        """Lateral pressure that was asked for [Pa], None without."""
+        pressing = self._pressing()
+        return pressing.pressure if pressing else None
+
+    @property
+    def diverged(self) -> bool:
+        """Whether a number is not finite any more."""
+        return self.built.solver.diverged
+
+    @property
+    def initial_energy(self) -> float:
+        """Energy when the work began to count [J]."""
+        return self.built.solver.energies()["initial_energy"]
+
+    @property
+    def contact_width(self) -> float | None:
+        """Mean width on which the plates touch a disc [m]."""
+        widths = [plate["contact_width"] for plate in self.built.solver.plates()]
+        return float(np.mean(widths)) if self.disc else None
+
+    def scales(self) -> Scales:
+        """What the loading rate follows from, of the specimen as it is."""
+        return Scales(**self._recorder.scales())
+
+    def unbalanced(self) -> float:
+        """Largest unbalanced force over the mean contact force [-], at the last measured step."""
+        return self.built.solver.unbalanced()
+
+    @property
+    def _readings(self) -> Readings:
+        return self._recorder
+
+    def _drive(self, plan: Schedule) -> None:
+        recorder, factor = self._recorder, 1.0
+        recorder.stopRatio, recorder.leastPeak = plan.stop_ratio, plan.least_peak
+        recorder.minStrain, recorder.maxStrain = plan.min_strain, plan.max_strain
+        recorder.state, recorder.peak = TestState.running, 0.0
+        if recorder.loading is None:
+            self._begin_record()
+            recorder.loading = self._take_hold()
+            # elastic velocities raise no wave: a loading that has them may begin at full speed
+            factor = 1.0 if self.disc else plan.fastest
+        self._move(plan.velocity if self.tension else -plan.velocity, factor)
+        self.built.remove_engines(self.built.engine(wrapper.LoadingRateController))
+        if plan.fastest > 1.0:
+            engine = wrapper.LoadingRateController(
+                loading=recorder.loading,
+                fastest=plan.fastest,
+                crossingSteps=self.scales().crossing_steps,
+            )
+            self.built.add_engines(last=(engine,))
+
+    def _begin_record(self) -> None:
+        solver = self.built.solver
+        self._set_row_period()
+        solver.mirrorPeriod = solver.checkPeriod  # nothing in a test reads the bodies
+        self._recorder.fromNow = self.confinement is not None
+        self.built.add_engines(after=(self._recorder,))
+
+    def _set_row_period(self) -> None:
+        steps = math.ceil(self.scales().crossing_steps / _ROWS_A_CROSSING)
+        self.built.solver.measurePeriod = min(steps, _LONGEST_PERIOD)
+
+    def _synchronize(self) -> None:
+        self.built.solver.mirrorPeriod = 1  # a script may go on from here
+        self.built.solver.mirrorBodies()
+
+    @abstractmethod
+    def _pressing(self) -> wrapper.ConfinementController | wrapper.PlateController | None:
+        """The engine that presses on the sides."""
+
+    @abstractmethod
+    def _take_hold(self) -> wrapper.LoadingController:
+        """Hold the lower end, and take the pressure off the upper one, which is driven next."""
+
+    @abstractmethod
+    def _move(self, velocity: float, factor: float) -> None:
+        """Set the velocity of the upper end, positive away from the lower one."""
+
+
+class NodeRig(GrainRig):
+    """Boundary nodes and edges of deformable grains."""
+
+    def _ends(self) -> wrapper.EndDisplacementController:
+        return self.built.required(wrapper.EndDisplacementController)
+
+    def _pressing(self) -> wrapper.ConfinementController | None:
+        return self.built.engine(wrapper.ConfinementController)
+
+    def _press(self, pressure: float, ramp: int) -> None:
+        edges = wrapper.ConfinementController(
+            pressure=pressure, sides=[RIGHT, TOP, LEFT], rampSteps=ramp
+        )
+        ends = wrapper.EndDisplacementController(holdTop=False)
+        self.built.add_engines(before=(edges, ends))
+
+    def _take_hold(self) -> wrapper.LoadingController:
+        if edges := self._pressing():
+            edges.sides = [RIGHT, LEFT]  # the reaction of the top takes over there
+            self.built.solver.clearPressure(TOP)
+            self._ends().holdTop = True
+        else:
+            self.built.add_engines(before=(wrapper.EndDisplacementController(),))
+        return self._ends()
+
+    def _move(self, velocity: float, factor: float) -> None:
+        self._ends().velocity, self._ends().velocityFactor = velocity, factor
+
+    def _preload(self, steps: int) -> None:
+        self._ends().preload(_PRELOAD_SHARE, steps)
+        self.built.solver.measurePeriod = 1
+
+    def _release(self) -> None:
+        self._set_row_period()
+        self._ends().release()
+
+
+class PlateRig(GrainRig):
+    """Rigid plates: the first is the lower one, the second the upper one."""
+
+    def _pressing(self) -> wrapper.PlateController | None:
+        plates = self.built.engine(wrapper.PlateController)
+        return plates if plates and plates.loaded else None
+
+    def _press(self, pressure: float, ramp: int) -> None:
+        self._lay_ends()
+        pressed = [1, *self._lay_membranes()]
+        self.built.set_masses()
+        engine = wrapper.PlateController(
+            plates=pressed, loaded=True, pressure=pressure, rampSteps=ramp
+        )
+        self.built.add_engines(before=(engine,))
+
+    def _take_hold(self) -> wrapper.LoadingController:
+        if membrane := self._pressing():
+            membrane.plates = membrane.plates[1:]
+        elif self.disc:
+            self._lay_touching()
+        else:
+            self._lay_ends()
+        # no elastic velocities follow from plates that touch a disc at a point
+        upper = wrapper.PlateController(plates=[1], elasticStart=not self.disc)
+        self.built.add_engines(before=(upper,))
+        return upper
+
+    def _move(self, velocity: float, factor: float) -> None:
+        upper = self._recorder.loading
+        assert isinstance(upper, wrapper.PlateController)
+        upper.velocity, upper.velocityFactor = (0.0, velocity, 0.0), factor
+
+    def _lay_ends(self) -> None:
+        for side in (BOTTOM, TOP):
+            self.built.solver.addSidePlates(side, bonded=self.tension)
+        self.built.set_masses()
+
+    def _lay_membranes(self) -> list[int]:
+        # a short specimen has fewer boundary grains than the paper's has plates
+        specimen = self.built.specimen
+        fitting = int(specimen.dimensions["height"] / (2.0 * specimen.mean_diameter))
+        pieces = max(min(_MEMBRANE_PLATES, fitting), 1)
+        plates: list[int] = []
+        for side in (LEFT, RIGHT):
+            plates += self.built.solver.addSidePlates(side, pieces=pieces)
+        return plates
+
+    def _lay_touching(self) -> None:
+        """Lay plates against a disc.
+
+        Deviation D28: the points that touch first are kept from sliding, else the disc would roll.
+        """
+        for normal in ((0.0, 1.0, 0.0), (0.0, -1.0, 0.0)):
+            self.built.solver.holdSideways(self.built.solver.addTouchingPlate(normal))
+        self.built.set_masses()

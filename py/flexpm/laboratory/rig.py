@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What loads, observes and steps a specimen: the parts that tests are written with. SI units.
+
+Stress and axial strain are positive in the sense of the loading: compression, or tension where the
+rig pulls. The lateral strain is positive as Poisson's effect.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import Protocol
+
+import yade
+from yade import EnumClass_TestState as TestState
+
+from ..errors import SimulationError
+from ..models.grains import Model
+from ..models.spheres import SphereModel
+from ..results.record import Curve
+from .loading_rate import Loading, Scales, Schedule, schedule
+from .runner import Runner, Span
+
+BOTTOM, RIGHT, TOP, LEFT = range(4)
+
+#: Wave crossings over which an isotropic pressure rises.
+_RAMP_CROSSINGS = 10
+#: Most wave crossings until the forces then balance.
+_REST_CROSSINGS = 100
+#: Forces balance once the largest unbalanced one is below this part of the mean contact force [-].
+_AT_REST = 0.01
+#: Steps, all of them recorded, of the way along the elastic solution.
+_PRELOAD_STEPS = 20
+#: Steps by which the end of a stage may be seen late.
+_LATEST_LOOK = 1000
+#: A strain is reached within this multiple of the steps that the ends need for it.
+_PATIENCE = 4
+
+
+class Readings(Protocol):
+    """What the last row of a record says."""
+
+    @property
+    def stress(self) -> float: ...  # noqa: D102
+    @property
+    def strain(self) -> float: ...  # noqa: D102
+    @property
+    def peak(self) -> float: ...  # noqa: D102
+    @property
+    def state(self) -> int: ...  # noqa: D102
+
+
+class TestRig(ABC):
+    """A specimen in YADE's scene between ends that load it.
+
+    A test is a sequence of its stages: calls of `confine`, `load` and `strain_to`. Each sets the
+    scene up and steps to its end. In a run that is taken up from a checkpoint, stages that were
+    over are passed, and the one that was under way goes on.
+
+    Attributes:
+        built: The specimen and its model.
+        tension: The ends pull; else they press.
+        disc: The specimen is a disc between two plates.
+    """
+
+    __test__ = False  # no test of pytest
+    #: Whether a scene that was saved after any step continues to the same bits.
+    saves_anywhere = True
+
+    def __init__(
+        self, built: Model | SphereModel, *, tension: bool = False, runner: Runner | None = None
+    ) -> None:
+        """Take a specimen that has just been built, or whose scene has been loaded."""
+        self.built, self.tension = built, tension
+        self.disc = built.specimen.kind == "disc"
+        self._runner = runner or Runner()
+
+    def confine(self, pressure: float) -> None:
+        """Press on the top and the sides, the bottom held, until the forces balance.
+
+        Strains count from there on.
+
+        Args:
+            pressure: On all sides [Pa].
+
+        Raises:
+            SimulationError: if the forces do not come to balance.
+        """
+        begin = partial(self._begin_confinement, pressure)
+        if self._stage(begin, self._at_rest, "isotropic pressure") and not self._at_rest():
+            raise SimulationError(
+                f"confine: unbalanced-force ratio = {self.unbalanced():.2g} under the pressure, "
+                f"must fall below {_AT_REST}; lower the confinement"
+            )
+
+    def load(self, loading: Loading | None = None) -> None:
+        """Drive the ends until the stress has fallen from its peak, or to the largest strain.
+
+        Args:
+            loading: Rate, start and end; None for the defaults.
+        """
+        loading = loading or Loading()
+        begin = partial(self.start, loading)
+        if loading.static:
+            self._stage(partial(self._begin_preload, loading), self._is_over)
+            begin = partial(self._begin_release, loading)
+        self._stage(begin, self._is_over)
+
+    def strain_to(self, strain: float, rate: float = 1.0) -> None:
+        """Load or unload at a constant rate until the record's axial strain has come to `strain`.
+
+        Args:
+            strain: Where to stop, at the next row of the record [-].
+            rate: Factor on the default loading rate [-].
+
+        Raises:
+            SimulationError: if the strain does not come there.
+        """
+        entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
+        if entered and (self.diverged or not self._is_over()):
+            raise SimulationError(
+                f"strain_to: axial strain = {self.strain:.6g}, must come to {strain:.6g}; the "
+                "specimen strains elsewhere"
+            )
+
+    def start(self, loading: Loading) -> Span:
+        """Set the scene up as `load` does, without a step, and tell how many it takes."""
+        plan = self._schedule(loading)
+        self._drive(plan)
+        return _span(plan)
+
+    def finish(self) -> None:
+        """Bring YADE's objects up to date, for scripts that go on, and save the last state."""
+        self._synchronize()
+        if not self.diverged:
+            self._runner.save()
+
+    @property
+    def kind(self) -> str:
+        """Name of the test that has the same ends, whose loading rate is taken."""
+        if self.disc:
+            return "brazilian"
+        if self.tension:
+            return "tension"
+        return "uniaxial" if self.confinement is None else "biaxial"
+
+    @property
+    def reference_strain(self) -> float:
+        """Strain of the reference strength, at about which a brittle specimen fails [-]."""
+        return self._schedule(Loading()).reference_strain
+
+    @property
+    def stress(self) -> float:
+        """Axial stress of the last row of the record [Pa]."""
+        return self._readings.stress
+
+    @property
+    def strain(self) -> float:
+        """Axial strain of the last row of the record [-]."""
+        return self._readings.strain
+
+    @property
+    @abstractmethod
+    def record(self) -> Curve:
+        """The record so far."""
+
+    @property
+    @abstractmethod
+    def confinement(self) -> float | None:
+        """Lateral pressure that was asked for [Pa], None without."""
+
+    @property
+    @abstractmethod
+    def diverged(self) -> bool:
+        """Whether a number is not finite any more."""
+
+    @property
+    def initial_energy(self) -> float | None:
+        """Energy when the work began to count [J], None if that is not known."""
+        return None
+
+    @property
+    def contact_width(self) -> float | None:
+        """Mean width on which the plates touch a disc [m], None if that is not known."""
+        return None
+
+    @abstractmethod
+    def scales(self) -> Scales:
+        """What the loading rate follows from, of the specimen as it is."""
+
+    @abstractmethod
+    def unbalanced(self) -> float:
+        """Largest unbalanced force over the mean contact force [-]."""
+
+    # What each kind of rig does in its own way
+
+    @property
+    @abstractmethod
+    def _readings(self) -> Readings: ...
+
+    @abstractmethod
+    def _press(self, pressure: float, ramp: int) -> None:
+        """Press on the top and the sides, rising over `ramp` steps, and hold the bottom."""
+
+    @abstractmethod
+    def _drive(self, plan: Schedule) -> None:
+        """Drive the ends by a plan from now on; the first time, take hold and begin the record."""
+
+    def _preload(self, steps: int) -> None:
+        """Let so many steps go along the elastic solution, close to the first crack."""
+        raise SimulationError(f"load: static = True, must be False for model {self.built.name}")
+
+    def _release(self) -> None:
+        raise NotImplementedError
+
+    def _step(self) -> None:
+        yade.O.step()
+
+    @abstractmethod
+    def _synchronize(self) -> None:
+        """Bring YADE's objects up to date."""
+
+    # Stages
+
+    def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
+        """Do a stage; False if an earlier start of the run has finished it."""
+        if not self._runner.enter(begin):
+            return False
+        try:
+            self._runner.run(
+                self._step, over, lambda: text or self._standing(), save=self.saves_anywhere
+            )
+        except RuntimeError:
+            if not self.diverged:
+                raise
+        return True
+
+    def _begin_confinement(self, pressure: float) -> Span:
+        crossing = math.ceil(self.scales().crossing_steps)
+        self._press(pressure, _RAMP_CROSSINGS * crossing)
+        return Span((_RAMP_CROSSINGS + _REST_CROSSINGS) * crossing, 2 * _RAMP_CROSSINGS * crossing)
+
+    def _begin_preload(self, loading: Loading) -> Span:
+        self.start(loading)
+        self._preload(_PRELOAD_STEPS)
+        return Span(_PRELOAD_STEPS, _PRELOAD_STEPS)
+
+    def _begin_release(self, loading: Loading) -> Span:
+        self._release()
+        return _span(self._schedule(loading))
+
+    def _begin_way(self, strain: float, rate: float) -> Span:
+        way = strain - self.strain
+        plan = self._schedule(Loading(rate, max_strain=abs(way)))
+        least, largest = (-1e300, strain) if way > 0.0 else (strain, 1e300)
+        velocity = math.copysign(plan.velocity, way)
+        endless = replace(plan, velocity=velocity, least_peak=1e300)
+        self._drive(replace(endless, min_strain=least, max_strain=largest))
+        return Span(_PATIENCE * plan.steps + _LATEST_LOOK, plan.steps)
+
+    def _at_rest(self) -> bool:
+        """Whether forces balance under the full pressure; looked at each crossing of a wave."""
+        start, end = self._runner.position.stage_start, self._runner.position.stage_end
+        crossings, rest = divmod(
+            yade.O.iter - start, (end - start) // (_RAMP_CROSSINGS + _REST_CROSSINGS)
+        )
+        return rest == 0 and crossings > _RAMP_CROSSINGS and self.unbalanced() < _AT_REST
+
+    def _is_over(self) -> bool:
+        return self.diverged or self._readings.state != TestState.running
+
+    def _standing(self) -> str:
+        return f"peak {self._readings.peak * 1e-6:5.1f} MPa"
+
+    def _schedule(self, loading: Loading) -> Schedule:
+        pressure, dt = self.confinement or 0.0, yade.O.dt
+        scales = self.scales()
+        return schedule(self.kind, self.built.name, loading, scales, confinement=pressure, dt=dt)
+
+
+def _span(plan: Schedule) -> Span:
+    # most tests end well before the largest strain
+    likely = math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
+    return Span(plan.steps + _LATEST_LOOK, min(plan.steps, likely))

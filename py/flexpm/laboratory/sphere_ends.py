@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What loads YADE's bonded spheres: plates, grips and lateral pressure, paper Sec. 4. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import yade
+
+from ..arrays import FloatArray
+from ..models.sphere_bonds import tributary_lengths
+from ..models.spheres import SphereModel
+from ..specimens.specimen import Circle, Specimen
+from .rig import BOTTOM, TOP
+
+
+class Ends:
+    """What holds a specimen at its ends: a plate each, or the outermost layers of spheres."""
+
+    def __init__(self, bottom: Sequence[int], top: Sequence[int]) -> None:
+        """Take the bodies of both ends."""
+        self._bottom, self._top = bottom, top
+
+    def move(self, velocity: float) -> None:
+        """Move the upper end, positive away from the lower one [m/s, or m per step]."""
+        for bodies, speed in ((self._bottom, 0.0), (self._top, velocity)):
+            for body in bodies:
+                state = yade.O.bodies[body].state
+                state.vel = (state.vel[0], speed, 0.0)
+
+    def forces(self) -> tuple[float, float]:
+        """Forces along y that the lower and the upper end exert on the specimen [N]."""
+        bottom, top = (
+            -sum(yade.O.forces.f(body)[1] for body in bodies)
+            for bodies in (self._bottom, self._top)
+        )
+        return bottom, top
+
+    def travel(self) -> float:
+        """Displacement of the upper end, positive away from the lower one [m]."""
+        return yade.O.bodies[self._top[0]].state.displ()[1]
+
+
+def heights(specimen: Specimen) -> tuple[float, float]:
+    """Of the lower and the upper end of a rectangle [m]."""
+    assert not isinstance(specimen.outline, Circle)
+    return float(specimen.outline[:, 1].min()), float(specimen.outline[:, 1].max())
+
+
+def plates_of(built: SphereModel) -> Ends:
+    """The two frictionless horizontal plates that have been laid; the lower one stands still."""
+    bottom, top = built.plates
+    return Ends([bottom], [top])
+
+
+def grips_of(built: SphereModel) -> Ends:
+    """The outermost layers of spheres at both ends."""
+    bottom, top = (
+        [built.ids[grain] for grain in tributary_lengths(built.specimen, side)]
+        for side in (BOTTOM, TOP)
+    )
+    return Ends(bottom, top)
+
+
+def close_grips(built: SphereModel) -> None:
+    """Hold the outermost layers of spheres axially; they stay free to move sideways."""
+    for side in (BOTTOM, TOP):
+        for grain in tributary_lengths(built.specimen, side):
+            state = yade.O.bodies[built.ids[grain]].state
+            state.blockedDOFs = "yzXY"
+            state.isDamped = False  # else YADE counts a part of the grips' work as damped
+    hold_middle(built)
+
+
+def squeeze_rectangle(built: SphereModel, pressure: float | None) -> None:
+    """Put plates on bottom and top of a rectangle; they take over its pressure [Pa], if any."""
+    faces = heights(built.specimen)
+    for side, face, sense in ((BOTTOM, faces[0], -1), (TOP, faces[1], 1)):
+        lengths = tributary_lengths(built.specimen, side)
+        moved = np.mean([yade.O.bodies[built.ids[grain]].state.displ()[1] for grain in lengths])
+        built.touch(built.add_plate(float(face + moved), sense), lengths)
+    if pressure is None:
+        hold_middle(built)
+        return
+    yade.O.step()
+    Pressure(built, (BOTTOM, TOP)).update(0.0)
+    for plate in built.plates:
+        built.press(plate, pressure)
+
+
+def squeeze_disc(built: SphereModel) -> None:
+    """Lay plates against a disc.
+
+    Deviation D28: the spheres that touch first cannot move sideways, else the disc would roll.
+    """
+    radii = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
+    heights = built.specimen.centres[:, 1]
+    built.add_plate(float(np.min(heights - radii)), -1)
+    built.add_plate(float(np.max(heights + radii)), 1)
+    for grain in (np.argmin(heights - radii), np.argmax(heights + radii)):
+        _hold_sideways(built, int(grain))
+
+
+def strain_evenly(built: SphereModel, velocity: float) -> None:
+    """Give the spheres the velocities of a uniform axial strain rate, so that no wave runs.
+
+    Args:
+        built: A rectangle.
+        velocity: Of its upper end, positive away from the lower one [m/s, or m per step].
+    """
+    bottom, top = heights(built.specimen)
+    for body, y in zip(built.ids, built.specimen.centres[:, 1].tolist(), strict=True):
+        state = yade.O.bodies[body].state
+        state.vel = (state.vel[0], velocity * (y - bottom) / (top - bottom), 0.0)
+
+
+class Pressure:
+    """Pressure on sides of a rectangle, following the grains: each turns its part of the side.
+
+    YADE's permanent forces carry it; :meth:`update` lets them follow the deformation.
+    """
+
+    def __init__(self, built: SphereModel, sides: Sequence[int]) -> None:
+        """Find the outer edges of the grains on the sides."""
+        self._built = built
+        cells = built.specimen.tessellation
+        edges = np.array(cells.boundary_edges, dtype=int)
+        self._edges = edges[np.isin(edges[:, 3], sides)]
+        ends = np.array(cells.vertices)[self._edges[:, 1:3]]
+        along = ends[:, 1] - ends[:, 0]
+        # the outline runs counter-clockwise, so that inwards is to the left of its edges
+        self._inward = np.column_stack((-along[:, 1], along[:, 0])) * built.specimen.thickness
+        self._arms = ends.mean(axis=1) - built.specimen.centres[self._edges[:, 0]]
+
+    def update(self, pressure: float) -> None:
+        """Apply a pressure [Pa] to the sides where they are now."""
+        total: dict[int, FloatArray] = {}
+        for grain, inward, arm in zip(
+            self._edges[:, 0].tolist(), self._inward, self._arms, strict=True
+        ):
+            axis, angle = yade.O.bodies[self._built.ids[grain]].state.ori.toAxisAngle()
+            turn = math.copysign(1.0, axis[2]) * angle
+            force, lever = pressure * _turned(inward, turn), _turned(arm, turn)
+            moment = lever[0] * force[1] - lever[1] * force[0]
+            total[grain] = total.get(grain, np.zeros(3)) + np.array((*force, moment))
+        for grain, (x, y, moment) in total.items():
+            self._built.load(self._built.ids[grain], float(x), float(y), float(moment))
+
+    def lateral_stress(self, height: float) -> float:
+        """Mean of the horizontal forces on left and right over the height's area [Pa]."""
+        pushes = [
+            abs(yade.O.forces.permF(self._built.ids[grain])[0])
+            for grain in np.unique(self._edges[:, 0]).tolist()
+        ]
+        return 0.5 * sum(pushes) / (height * self._built.specimen.thickness)
+
+
+def hold_middle(built: SphereModel) -> None:
+    """Keep the place sideways of the grain of the lower end that is nearest to its middle."""
+    grains = list(tributary_lengths(built.specimen, BOTTOM))
+    away = np.abs(built.specimen.centres[grains, 0] - built.specimen.centres[:, 0].mean())
+    _hold_sideways(built, grains[int(np.argmin(away))])
+
+
+def _hold_sideways(built: SphereModel, grain: int) -> None:
+    state = yade.O.bodies[built.ids[grain]].state
+    state.blockedDOFs = "x" + str(state.blockedDOFs)
+
+
+def _turned(vector: FloatArray, angle: float) -> FloatArray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])

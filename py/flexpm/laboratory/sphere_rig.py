@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rig for YADE's bonded spheres, paper Sec. 4. SI units.
+
+Plates without friction (grips in tension) and the rules of the grains: scales, stresses, strains
+and the end of a test are the kernel's. YADE's classes do every step; rows of the record are taken
+between steps. Quantities that YADE's models do not keep are nan: the energies lost in cracks and
+friction. The elastic energy is that of unbroken bonds and plates (JCFpm) or of all contacts
+(CohFrict).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+import yade
+from yade import EnumClass_TestState as TestState
+from yade import utils
+
+from .._flexpm import (
+    StrainGauge,
+    axial_stress,
+    contact_modulus,
+    disc_scales,
+    end_mismatch,
+    ramp_factor,
+    rectangle_scales,
+    reference_strength,
+    splitting_area,
+    test_state,
+)
+from ..models.sphere_bonds import tributary_lengths
+from ..models.spheres import SphereModel
+from ..results.record import Curve
+from . import sphere_ends as ends
+from .loading_rate import Scales, Schedule
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
+from .runner import Runner
+
+#: Rows of the record up to the reference strain.
+_ROWS = 200
+#: Looks while a wave crosses the specimen under a rising pressure.
+_LOOKS_A_CROSSING = 8
+#: Looks from one checkpoint to the next; loading the scene there is a part of the run.
+_LOOKS_KEPT = 50
+#: Name of the rig's state in what goes with the scene.
+_STATE = "rig"
+
+
+@dataclass
+class _State:
+    """What YADE does not hold of a test: plain values that go with its scene."""
+
+    period: int = 1  #: steps from one look to the next
+    looks: int = 0
+    confinement: float | None = None  #: [Pa]
+    ramp: int = 0  #: steps over which it rises
+    sides: list[int] = field(default_factory=list)  #: on which it acts
+    recording: bool = False
+    end: list[float] = field(default_factory=list)  #: of the test, as the kernel takes it
+    zero: tuple[float, float] = (0.0, 0.0)  #: axial and lateral strain that count as zero [-]
+    stress: float = 0.0  #: of the last row [Pa]
+    strain: float = 0.0  #: of the last row [-]
+    travel: float = 0.0  #: of the moving end at the last row, in the sense of the loading [m]
+    peak: float = 0.0  #: largest stress above the confinement [Pa]
+    state: int = TestState.running
+    diverged: bool = False
+    work: float = 0.0  #: of the ends [J]
+    rows: list[list[float]] = field(default_factory=list)  #: the record, as far as it was saved
+
+
+class SphereRig(TestRig):
+    """Plates, grips and pressure on spheres, looked at every so many steps."""
+
+    built: SphereModel
+    saves_anywhere = False
+
+    def __init__(
+        self, built: SphereModel, *, tension: bool = False, runner: Runner | None = None
+    ) -> None:
+        """Take spheres that have just been built, or whose scene has been loaded."""
+        super().__init__(built, tension=tension, runner=runner)
+        specimen, sizes = built.specimen, built.specimen.dimensions
+        self._height = sizes["diameter"] if self.disc else sizes["height"]
+        self._area = splitting_area(self._height, specimen.thickness)
+        if not self.disc:
+            self._area = sizes["width"] * specimen.thickness
+            sides = (tributary_lengths(specimen, side).items() for side in (LEFT, RIGHT))
+            self._gauge = StrainGauge(
+                ends.heights(specimen)[0], self._height, specimen.mean_diameter, *sides
+            )
+        self._take_up()
+
+    def _take_up(self) -> None:
+        """Take what goes with the scene."""
+        self._now = _State(**self.built.memory.get(_STATE, {}))
+        self._curve = Curve.from_array(np.array(self._now.rows))
+        self._pressed = ends.Pressure(self.built, self._now.sides)
+        if self._now.recording:
+            self._ends = ends.grips_of(self.built) if self.tension else ends.plates_of(self.built)
+
+    @property
+    def record(self) -> Curve:
+        """The record so far."""
+        return self._curve
+
+    @property
+    def confinement(self) -> float | None:
+        """Lateral pressure that was asked for [Pa], None without."""
+        return self._now.confinement
+
+    @property
+    def diverged(self) -> bool:
+        """Whether a number is not finite any more."""
+        return self._now.diverged
+
+    def scales(self) -> Scales:
+        """What the loading rate follows from, of the contacts alone."""
+        specimen, law = self.built.specimen, self.built.material.law(self.built.name)
+        strengths = law["tensile_strength"], law["cohesion"], law["friction"]
+        inputs = (
+            contact_modulus(law["normal_stiffness"], specimen.mean_diameter),
+            reference_strength(self.tension or self.disc, *strengths),
+            sum(yade.O.bodies[body].state.mass for body in self.built.ids),
+            specimen.thickness,
+            yade.O.dt,
+        )
+        if self.disc:
+            return Scales(**disc_scales(*inputs, self._height))
+        width = specimen.dimensions["width"]
+        return Scales(**rectangle_scales(*inputs, width, self._height))
+
+    def unbalanced(self) -> float:
+        """Largest resultant on what is free to move over the mean contact force [-].
+
+        YADE's own ratio counts the reactions of grips, too; it serves to get the mean contact
+        force.
+        """
+        largest, free = 0.0, 0.0
+        for body in self.built.ids:
+            force, blocked = yade.O.forces.f(body), str(yade.O.bodies[body].state.blockedDOFs)
+            moving = (force[k] if "xy"[k] not in blocked else 0.0 for k in (0, 1))
+            largest = max(largest, math.hypot(force[0], force[1]))
+            free = max(free, math.hypot(*moving))
+        return utils.unbalancedForce(useMaxForce=True) * free / largest if largest > 0.0 else 0.0
+
+    @property
+    def _readings(self) -> Readings:
+        return self._now
+
+    def _press(self, pressure: float, ramp: int) -> None:
+        ends.hold_middle(self.built)
+        self._now.confinement, self._now.ramp = pressure, ramp
+        self._now.period = max(1, math.ceil(self.scales().crossing_steps / _LOOKS_A_CROSSING))
+        self._press_on(BOTTOM, RIGHT, TOP, LEFT)
+
+    def _press_on(self, *sides: int) -> None:
+        self._now.sides, self._pressed = list(sides), ends.Pressure(self.built, sides)
+        self._follow_sides()
+
+    def _follow_sides(self) -> None:
+        ramp = ramp_factor(yade.O.iter, self._now.ramp)
+        self._pressed.update(ramp * (self.confinement or 0.0))
+
+    def _drive(self, plan: Schedule) -> None:
+        now, way = self._now, plan.reference_strain * self._height
+        now.end = [plan.stop_ratio, plan.least_peak, plan.min_strain, plan.max_strain]
+        now.state, now.peak = TestState.running, 0.0
+        now.period = max(1, round(way / (abs(plan.velocity) * yade.O.dt * _ROWS)))
+        if not now.recording:
+            self._take_hold()
+            now.recording = yade.O.trackEnergy = True
+        outward = plan.velocity if self.tension else -plan.velocity
+        if not self.disc:
+            ends.strain_evenly(self.built, outward)
+        self._ends.move(outward)
+
+    def _take_hold(self) -> None:
+        if self.tension:
+            ends.close_grips(self.built)
+            self._ends = ends.grips_of(self.built)
+            return
+        if self.disc:
+            ends.squeeze_disc(self.built)
+        else:
+            ends.squeeze_rectangle(self.built, self.confinement)
+        self._ends = ends.plates_of(self.built)
+        if self.confinement is not None:
+            self._press_on(LEFT, RIGHT)
+            self._now.zero = self._strains()
+
+    def _step(self) -> None:
+        yade.O.step()
+        if yade.O.iter % self._now.period != 0:
+            return
+        self._look()
+        if self._now.looks % _LOOKS_KEPT == 0 and not self._is_over():
+            self._synchronize()
+            self._runner.reload()
+            self.built.rebind()
+            self._take_up()
+
+    def _synchronize(self) -> None:
+        self._now.rows = self._curve.array.tolist()
+        self.built.memory[_STATE] = asdict(self._now)
+        self.built.remember()
+
+    def _look(self) -> None:
+        """Let the pressure follow the sides and add a row to the record."""
+        self._now.looks += 1
+        lateral = 0.0
+        if self.confinement is not None:
+            travel = self._ends.travel() if self._now.recording else 0.0
+            lateral = self._pressed.lateral_stress(self._height + travel)
+            self._follow_sides()
+        if self._now.recording:
+            self._add_row(lateral)
+
+    def _add_row(self, confinement: float) -> None:
+        now, forces = self._now, self._ends.forces()
+        stress = axial_stress(*forces, self._area, self.tension)
+        travel = self._ends.travel() * (1.0 if self.tension else -1.0)
+        axial, lateral = (travel / self._height, math.nan) if self.disc else self._strains()
+        axial, lateral = axial - now.zero[0], lateral - now.zero[1]
+        now.diverged = not math.isfinite(stress + axial)
+        if now.diverged:
+            return
+        now.work += 0.5 * (stress + now.stress) * self._area * (travel - now.travel)
+        now.stress, now.strain, now.travel = stress, axial, travel
+        now.peak = max(now.peak, stress - confinement)
+        now.state = int(test_state(stress - confinement, now.peak, axial, *now.end))
+        self.built.cracks.look()
+        tensile, shear = self.built.cracks.counts
+        self._curve.append(
+            step=yade.O.iter,
+            axial_strain=axial,
+            lateral_strain=lateral,
+            axial_stress=stress,
+            confinement=confinement,
+            tensile_cracks=tensile,
+            shear_cracks=shear,
+            unbalanced_ratio=self.unbalanced(),
+            kinetic_energy=utils.kineticEnergy(),
+            elastic_energy=self.built.elastic_energy(),
+            damage_energy=math.nan,
+            friction_energy=math.nan,
+            damping_energy=dict(yade.O.energy.items()).get("nonviscDamp", 0.0),
+            potential_energy=0.0,
+            # nobody counts that of the pressure
+            boundary_work=now.work if self.confinement is None else math.nan,
+            end_mismatch=end_mismatch(*forces),
+            velocity_factor=1.0,
+        )
+
+    def _strains(self) -> tuple[float, float]:
+        """Axial strain in the sense of the loading, lateral strain as Poisson's effect [-]."""
+        centres = np.array(self.built.specimen.centres, dtype=float)
+        states = (yade.O.bodies[body].state for body in self.built.ids)
+        places = np.array([(state.pos[0], state.pos[1]) for state in states])
+        axial, lateral = self._gauge.strains(centres, places - centres)
+        return (axial, -lateral) if self.tension else (-axial, lateral)

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tutorial: a test of one's own. A specimen is loaded, unloaded and loaded again.
+
+The test is written once, for deformable grains between driven nodes, rigid grains between plates
+and YADE's bonded spheres. Each call of ``strain_to`` is a stage of the test.
+
+    PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/load_unload_reload.py
+"""
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import numpy as np
+from yade import O
+
+from flexpm.results.measures import energy_error
+
+specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=3)
+for model in ("flexible", "rigid", "jcfpm"):
+    O.reset()
+    rig = flexpm.rig(flexpm.build(specimen, model=model))
+    top = 0.3 * rig.reference_strain  # hardly a contact softens so early
+    for name, strain in (("load", top), ("unload", 0.3 * top), ("reload", 1.2 * top)):
+        first = len(rig.record)
+        rig.strain_to(strain)
+        axial, stress = (rig.record[column][first:] for column in ("axial_strain", "axial_stress"))
+        rows = (axial > 0.4 * top) & (axial < 0.9 * top)  # apart from where the ends turn round
+        modulus = np.polyfit(axial[rows], stress[rows], 1)[0]
+        print(f"{model:9} {name:7} E = {modulus / 1e9:6.2f} GPa")
+    error = energy_error(rig.record, rig.initial_energy)
+    if error is not None:  # YADE's models do not keep all energies
+        print(f"{model:9} energy error {error:.1e}")
