@@ -77,6 +77,11 @@ double end_mismatch(const EndForces& ends)
 
 double splitting_area(double diameter, double thickness) { return 0.5 * pi * diameter * thickness; }
 
+double differential_stress(const AxialObservation& now)
+{
+    return now.axial_stress - now.confinement;
+}
+
 AxialGeometry rectangle_of(const Assembly& a, Sense sense)
 {
     need_sides(a);

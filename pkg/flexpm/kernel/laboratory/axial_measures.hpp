@@ -47,6 +47,9 @@ struct AxialObservation {
     Energies energies;
 };
 
+/// Axial stress above the confinement [Pa]: what the end of a test goes by.
+double differential_stress(const AxialObservation& now);
+
 AxialGeometry rectangle_of(const Assembly& a, Sense sense);
 
 /// Of the last step, which must have been measured.

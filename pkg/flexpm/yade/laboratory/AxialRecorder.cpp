@@ -69,8 +69,8 @@ void AxialRecorder::action()
 		values.push_back(column.value(now));
 	stress = now.axial_stress;
 	strain = now.axial_strain;
-	peak   = std::max(peak, stress);
-	state  = flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
+	peak   = std::max(peak, flexpm::differential_stress(now));
+	state  = flexpm::test_state(flexpm::differential_stress(now), peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
 	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
 }
 
