@@ -11,8 +11,7 @@ import yade
 
 from ..laboratory.loading_rate import Loading
 from ..laboratory.rigs import rig
-from ..models import grains as models
-from ..models import spheres as yade_models
+from ..models import grains, spheres
 from ..specimens.specimen import Specimen
 
 #: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.
@@ -21,17 +20,17 @@ _RATE = 0.1
 
 def build_own(
     specimen: Specimen, threads: int, model: str = "flexible", mesh: str = "refined"
-) -> Mapping[str, int | None]:
+) -> Mapping[str, int]:
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
-    built = models.build(specimen, None, model, mesh=mesh, threads=threads)
-    assert isinstance(built, models.Model), model
+    built = grains.build(specimen, None, model, mesh=mesh, threads=threads)
+    assert isinstance(built, grains.Model), model
     rig(built).start(Loading(rate=_RATE, adaptive=True))
     return built.counts()
 
 
-def _build_yade(specimen: Specimen, threads: int, model: str) -> Mapping[str, int | None]:
+def _build_yade(specimen: Specimen, threads: int, model: str) -> Mapping[str, int]:
     """Bonded spheres squeezed at about the same rate, without plates and record."""
-    built = yade_models.build(specimen, None, model, damping=models.DAMPING, threads=threads)
+    built = spheres.build(specimen, None, model, damping=grains.DAMPING, threads=threads)
     heights = specimen.centres[:, 1]
     rate = 1e-8 / np.ptp(heights)
     for body, height in zip(built.ids, heights.tolist(), strict=True):
@@ -40,7 +39,7 @@ def _build_yade(specimen: Specimen, threads: int, model: str) -> Mapping[str, in
 
 
 #: Name, label and builder of each model, in the order of a turn.
-BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], Mapping[str, int | None]]]] = {
+BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], Mapping[str, int]]]] = {
     "refined": (
         "flexible, refined, 3 points",
         lambda specimen, threads: build_own(specimen, threads, mesh="refined"),

@@ -83,9 +83,9 @@ def timed_set_up(
     }
 
 
-def bytes_per_step(counts: Mapping[str, int | None]) -> int:
+def bytes_per_step(counts: Mapping[str, int]) -> int:
     """Memory traffic of a step, refined mesh and three points [B]."""
-    return sum(size * (counts[name] or 0) for name, size in _TRAFFIC.items())
+    return sum(size * counts[name] for name, size in _TRAFFIC.items())
 
 
 def triad() -> float:

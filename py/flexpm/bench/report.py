@@ -18,7 +18,7 @@ from .._version import __version__
 from ..files import Table
 from ..report.style import drawing
 from ..report.tables import scaled
-from .lammps import Worker
+from .lammps_client import Worker
 
 #: Model to which the others are compared.
 REFERENCE = "jcfpm"
@@ -35,7 +35,7 @@ class Case:
     name: str
     label: str
     scene: int | None  #: None: a process of its own
-    counts: Mapping[str, int | None]
+    counts: Mapping[str, int]
     times: list[float] = field(default_factory=list)  #: wall time of a step, turn by turn [s]
     cpu_times: list[float] = field(default_factory=list)  #: of the calling thread alone [s]
     worker: Worker | None = None  #: does the steps, if there is no scene

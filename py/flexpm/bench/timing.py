@@ -24,8 +24,7 @@ import yade
 from ..files import write_text
 from ..progress import Progress
 from ..specimens.specimen import Specimen
-from . import lammps as bench_lammps
-from . import memory
+from . import lammps_client, memory
 from .cases import BUILDERS
 from .report import (
     Case,
@@ -89,13 +88,13 @@ def run(
     Returns:
         Rows (name, value) for a table.
     """
-    python = bench_lammps.interpreter(plan.lammps)
+    python = lammps_client.interpreter(plan.lammps)
     steps, threads = plan.steps, plan.threads
     specimen, setup = memory.timed_set_up(_PAPER, plan.width, plan.height, plan.seed, progress)
     timing = compare(specimen, steps=steps, threads=threads, lammps=python, progress=progress)
     data, rows = timing.as_dict(), table_rows(timing)
     if python is None:
-        rows.append(("LAMMPS", f"not timed: this Python has none; {bench_lammps.REMEDY}"))
+        rows.append(("LAMMPS", f"not timed: this Python has none; {lammps_client.REMEDY}"))
     data["set_up"] = setup
     rows += size_rows(setup)
     disc = compare(
@@ -164,7 +163,7 @@ def compare(
     """
     chunk = math.ceil(steps / TURNS)
     turns = math.ceil(steps / chunk)
-    with _threads(threads), bench_lammps.workers(lammps, specimen) as workers:
+    with _threads(threads), lammps_client.workers(lammps, specimen) as workers:
         yade.O.reset()
         try:
             cases = [
@@ -220,9 +219,9 @@ def _case(name: str, specimen: Specimen, threads: int) -> Case:
     return case
 
 
-def _lammps_case(name: str, worker: bench_lammps.Worker) -> Case:
+def _lammps_case(name: str, worker: lammps_client.Worker) -> Case:
     worker.step(_WARM_UP)
-    return Case(name, bench_lammps.MODELS[name], None, worker.counts, worker=worker)
+    return Case(name, lammps_client.MODELS[name], None, worker.counts, worker=worker)
 
 
 def _take_turn(case: Case, steps: int) -> None:

@@ -19,7 +19,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, TypeGuard
+from typing import TypeGuard
 
 import yade
 
@@ -234,12 +234,12 @@ def _checksum(about: Mapping[str, object], scene: Path) -> str:
     return digest.hexdigest()
 
 
-def _versions(spec: RunSpec) -> dict[str, Any]:
+def _versions(spec: RunSpec) -> Table:
     """What a scene depends on beside the inputs of its run."""
     return {"flexpm": __version__, "yade": yade.config.version, "results": spec.results}
 
 
-def _flat(made: Mapping[str, Any]) -> dict[str, Any]:
+def _flat(made: Table) -> Table:
     """Inputs by one name each: that of the field, or ``material`` and the name of the parameter."""
     plain = {name: value for name, value in made.items() if name != "inputs"}
     inputs = dict(made["inputs"])
@@ -249,7 +249,7 @@ def _flat(made: Mapping[str, Any]) -> dict[str, Any]:
     return {**plain, **inputs, **specimen, **law}
 
 
-def _refuse_differences(folder: Path, there: dict[str, Any], here: dict[str, Any]) -> None:
+def _refuse_differences(folder: Path, there: Table, here: Table) -> None:
     for name in {**here, **there}:
         if there.get(name) != here.get(name):
             raise InputError(

@@ -11,16 +11,16 @@ import yade
 
 from .._version import __version__
 from ..files import output_folder
-from ..materials import material as materials
 from ..materials.material import Material
+from ..materials.material import load as load_material
 from ..models.grains import build
 from ..progress import Progress
-from ..report import curves as plot
-from ..report import maps as plot_maps
+from ..report.curves import curve_picture
+from ..report.maps import crack_picture, fragment_picture
 from ..require import require_known
-from ..results import vtu as export
 from ..results.cracks import cracks_from_snapshot
 from ..results.result import Result
+from ..results.vtu import write_vtu
 from ..specimens.specimen import Specimen
 from .checkpoint import INTERVAL, Checkpoint
 from .loading_rate import Loading, quasistatic_ratio
@@ -105,7 +105,7 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    chosen = materials.load(material, model)
+    chosen = load_material(material, model)
     spec = RunSpec(
         test,
         specimen.spec,
@@ -170,7 +170,7 @@ def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None)
         built.rebind()
         built.set_threads(threads)
     elif folder is not None:
-        export.write_vtu(folder / "specimen.vtu", built.snapshot())
+        write_vtu(folder / "specimen.vtu", built.snapshot())
     runner = Runner(checkpoint, progress)
     rig = rig_of(built, tension=spec.test == "tension", runner=runner)
     for stage in TESTS[spec.test]:
@@ -236,8 +236,9 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
 def write_files(folder: Path, result: Result) -> None:
     """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
     result.write(folder)
-    export.write_vtu(folder / "final.vtu", result.snapshot)
-    plot.curve_picture(folder / "curve.png", result)
-    minerals = [kind["name"] for kind in result.material.get("minerals", ())]
-    plot_maps.crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
-    plot_maps.fragment_picture(folder / "fragments.png", result.snapshot)
+    curve_picture(folder / "curve.png", result)
+    if result.snapshot is not None:
+        write_vtu(folder / "final.vtu", result.snapshot)
+        minerals = [kind["name"] for kind in result.material.get("minerals", ())]
+        crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
+        fragment_picture(folder / "fragments.png", result.snapshot)

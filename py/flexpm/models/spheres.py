@@ -112,14 +112,9 @@ class SphereModel:
         for engine in self.engines:
             engine.ompThreads = threads
 
-    def counts(self) -> dict[str, int | None]:
+    def counts(self) -> dict[str, int]:
         """Numbers of grains and contacts; there are no nodes and triangles."""
-        return {
-            "grains": len(self.ids),
-            "contacts": len(self.bonds),
-            "nodes": None,
-            "triangles": None,
-        }
+        return {"grains": len(self.ids), "contacts": len(self.bonds)}
 
     def describe_material(self) -> Table:
         """Name and parameters of the material."""

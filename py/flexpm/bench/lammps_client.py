@@ -80,7 +80,7 @@ class Worker:
         self._python, self._process = python, process
         made = self._ask(_request(specimen, style))
         self.version: int = made.pop("version")
-        self.counts: Mapping[str, int | None] = {"nodes": None, "triangles": None, **made}
+        self.counts: Mapping[str, int] = made
 
     def step(self, count: int) -> tuple[float, float]:
         """Do `count` steps; return wall and CPU time of one [s]."""
