@@ -108,7 +108,7 @@ FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion
         store_state(s, state, l);
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
-        fresh[l] = (t.damage_before < 1.0) & (t.damage >= 1.0) ? 1.0 : 0.0;
+        fresh[l] = ((t.damage_before < 1.0) & (t.damage >= 1.0)) ? 1.0 : 0.0;
     }
     int cracks = 0;
     for (int l = 0; l < lanes; ++l) {
