@@ -50,6 +50,14 @@ public:
     std::uint64_t value = 0xcbf29ce484222325;
 };
 
+void add_state(Hash& hash, const Assembly& a)
+{
+    for (const auto& [name, bytes] : same_bits::bytes(a)) {
+        hash.add(name.data(), name.size());
+        hash.add(bytes.data(), bytes.size());
+    }
+}
+
 void print(const std::string& name, const Hash& hash)
 {
     std::printf("%016llx  %s\n", static_cast<unsigned long long>(hash.value), name.c_str());
@@ -112,7 +120,7 @@ void print_elastic()
     sample_runs::step(a, 50);
     const flexpm::SpecimenStrain strain = flexpm::specimen_strain(a);
     Hash hash;
-    hash.add(std::vector<double>(a.displacement.begin(), a.displacement.end()));
+    add_state(hash, a);
     hash.add(strain.axial);
     hash.add(strain.lateral);
     print("preload along the elastic solution", hash);
@@ -122,10 +130,7 @@ void print_run(const sample_runs::Run& run, flexpm::InstructionSet set)
 {
     const Assembly a = run.end_state();
     Hash hash;
-    for (const auto& [name, bytes] : same_bits::bytes(a)) {
-        hash.add(name.data(), name.size());
-        hash.add(bytes.data(), bytes.size());
-    }
+    add_state(hash, a);
     const flexpm::Energies e = flexpm::energies(a);
     for (double part : { e.kinetic, e.elastic, e.damage, e.friction, e.damping, e.potential,
              e.boundary_work, e.initial, flexpm::unbalanced_ratio(a) }) {
