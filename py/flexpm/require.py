@@ -6,6 +6,7 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -42,6 +43,8 @@ class Bounds:
 ANY = Bounds()
 POSITIVE = Bounds(above=0.0)
 NOT_NEGATIVE = Bounds(at_least=0.0)
+#: Lengths [m]: no specimen has others, and their squares and quotients are numbers.
+LENGTH = Bounds(above=0.0, at_least=1e-9, at_most=1e6)
 
 
 def require_number(
@@ -57,10 +60,10 @@ def require_number(
         shown: How the value is quoted, if not as Python would.
     """
     text = f"{label} = {shown or quoted(value)} {unit}".rstrip()
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+    if not _is_number(value, numbers.Real):
         raise InputError(f"{text}, must be a number")
     try:
-        number = float(value)
+        number = float(value)  # type: ignore[arg-type]
     except OverflowError:  # an integer beyond the largest double
         number = math.inf
     if not math.isfinite(number):
@@ -72,12 +75,24 @@ def require_number(
 
 def require_whole(label: str, value: object, bounds: Bounds = ANY) -> int:
     """Return `value` as a whole number within its bounds, or raise InputError."""
-    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+    if not _is_number(value, numbers.Integral):
         raise InputError(f"{label} = {quoted(value)}, must be a whole number")
-    number = int(value)  # numpy's integers are no integers for the kernel
+    number: int = int(value)  # type: ignore[call-overload]  # numpy's are none for the kernel
     if rule := bounds.broken(number):
-        raise InputError(f"{label} = {number}, must be {rule}")
+        raise InputError(f"{label} = {quoted(number)}, must be {rule}")
     return number
+
+
+def require_flag(label: str, value: object) -> bool:
+    """Return `value` as true or false, or raise InputError."""
+    if not (isinstance(value, bool) or type(value).__name__ == "bool_"):  # numpy's
+        raise InputError(f"{label} = {quoted(value)}, must be true or false")
+    return bool(value)
+
+
+def require_threads(label: str, value: object) -> int:
+    """Return a number of threads, which the machine has cores for."""
+    return require_whole(label, value, Bounds(at_least=1, at_most=os.cpu_count()))
 
 
 def require_table(label: str, value: object) -> Table:
@@ -150,6 +165,12 @@ def require_known(label: str, name: object, known: Sequence[str]) -> None:
     if not _is_among(name, known):
         hint = nearest(name, known) if isinstance(name, str) else ""
         raise InputError(f"{label} = {quoted(name)}, unknown{hint}; known are {', '.join(known)}")
+
+
+def _is_number(value: object, kind: type) -> bool:
+    """Whether `value` is a number of a kind; truth values and spans of time are none."""
+    is_time = getattr(getattr(value, "dtype", None), "kind", "") in ("m", "M")
+    return isinstance(value, kind) and not isinstance(value, bool) and not is_time
 
 
 def _is_among(value: object, choices: Sequence[object]) -> bool:

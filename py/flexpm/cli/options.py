@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -73,8 +74,8 @@ class Count(click.ParamType):
 
     name = "integer"
 
-    def __init__(self, at_least: int) -> None:
-        self.at_least = at_least
+    def __init__(self, at_least: int, at_most: int | None = None) -> None:
+        self.at_least, self.at_most = at_least, at_most
 
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
@@ -84,7 +85,9 @@ class Count(click.ParamType):
             number = int(str(value))
         except ValueError:
             raise InputError(f"{label_of(param)} = {value}, must be a whole number") from None
-        return require_whole(label_of(param), number, Bounds(at_least=self.at_least))
+        return require_whole(
+            label_of(param), number, Bounds(at_least=self.at_least, at_most=self.at_most)
+        )
 
 
 class Each(click.ParamType):
@@ -172,7 +175,7 @@ seed_option = click.option(
 )
 threads_option = click.option(
     "--threads",
-    type=Count(1),
+    type=Count(1, os.cpu_count()),
     default=1,
     metavar="N",
     show_default=True,

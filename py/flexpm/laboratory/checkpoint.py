@@ -27,6 +27,7 @@ from .. import _plugin
 from .._version import __version__
 from ..errors import InputError
 from ..files import FolderLock, Table, json_text, whole_file, write_text
+from ..require import POSITIVE, require_number
 from .run_spec import RunSpec
 
 #: Wall time between two checkpoints [s].
@@ -73,8 +74,7 @@ class Checkpoint:
             InputError: if the folder holds a checkpoint of other inputs or a damaged one.
             BusyError: if another process uses the folder.
         """
-        if not interval > 0.0:
-            raise InputError(f"run: checkpoint_interval = {interval} s, must be above 0")
+        require_number("run: checkpoint_interval", interval, POSITIVE, "s")
         self._folder, self._interval = folder, interval
         self._made = _versions(spec) | {"inputs": spec.to_json()}
         self._saved = time.monotonic()

@@ -11,6 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..errors import InputError
+
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
 #: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %.
 RATE_CONSTANT = {
@@ -44,6 +46,8 @@ _LARGEST_STRAINS = 8.0
 _LARGEST_DISC_STRAINS = 16.0
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
+#: Most steps of a test: a day for the smallest specimens, and numbers that a double counts.
+_MOST_STEPS = 10**10
 #: Models that are driven like another one.
 _LIKE = {"inner-un": "inner"}
 
@@ -123,6 +127,9 @@ def schedule(
         scales: Of the specimen.
         confinement: Lateral pressure [Pa].
         dt: Time step [s], or 1 with scaled masses.
+
+    Raises:
+        InputError: for a test that would never end.
     """
     # each pascal of confinement adds at least one to the strength of a frictional contact
     reference = (scales.strength + confinement) / scales.modulus
@@ -130,6 +137,12 @@ def schedule(
     velocity = loading.rate * rate_constant(test, model) * reference / crossing_time * scales.height
     multiple = _LARGEST_DISC_STRAINS if test == "brazilian" else _LARGEST_STRAINS
     largest = loading.max_strain or multiple * reference
+    steps = largest * scales.height / (velocity * dt)
+    if not steps <= _MOST_STEPS:
+        raise InputError(
+            f"run: steps = {steps:.3g} up to the largest strain, must be <= {_MOST_STEPS:g}; "
+            "raise the rate or lower max_strain"
+        )
     return Schedule(
         velocity,
         fastest_factor(test, model, loading.rate) if loading.adaptive else 1.0,
@@ -137,5 +150,5 @@ def schedule(
         largest,
         loading.stop_ratio,
         _LEAST_PEAK * scales.strength,
-        math.ceil(largest * scales.height / (velocity * dt)),
+        math.ceil(steps),
     )

@@ -17,9 +17,8 @@ from ..materials.material import Material
 from ..materials.mixing import description
 from ..models.options import GRAIN_MODELS, SPHERE_MODELS, check_options
 from ..require import (
-    NOT_NEGATIVE,
-    POSITIVE,
     Bounds,
+    require_flag,
     require_known,
     require_number,
     require_one_of,
@@ -59,6 +58,11 @@ UNUSED: dict[str, tuple[str, ...]] = {
         *("dynamic", "gravity", "start", "loading"),
     ),
 }
+#: Ranges beyond which sums are no numbers, or no test has a sense.
+_RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
+_STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
+_PRESSURE = Bounds(at_least=0.0, at_most=1e15)
+_GRAVITY = Bounds(at_least=0.0, at_most=1e12)
 _PACKING = ("thickness", "diameters", "porosity", "seed")
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
@@ -194,17 +198,17 @@ class RunSpec:
         return [self.key(number) for number in range(1, self.results)]
 
     def _check_numbers(self) -> None:
-        self._set("rate", require_number("run: rate", self.rate, POSITIVE))
+        self._set("rate", require_number("run: rate", self.rate, _RATE))
         if self.max_strain is not None:
-            largest = require_number("run: max_strain", self.max_strain, POSITIVE)
+            largest = require_number("run: max_strain", self.max_strain, _STRAIN)
             self._set("max_strain", largest)
         bounds = Bounds(above=0.0, at_most=LARGEST_STOP_RATIO)
         self._set("stop_ratio", require_number("run: stop_ratio", self.stop_ratio, bounds))
-        confinement = require_number("run: confinement", self.confinement, NOT_NEGATIVE, "Pa")
+        confinement = require_number("run: confinement", self.confinement, _PRESSURE, "Pa")
         self._set("confinement", confinement)
-        gravity = require_number("run: gravity", self.gravity, NOT_NEGATIVE, "m/s2")
+        gravity = require_number("run: gravity", self.gravity, _GRAVITY, "m/s2")
         self._set("gravity", gravity)
-        self._set("dynamic", bool(self.dynamic))
+        self._set("dynamic", require_flag("run: dynamic", self.dynamic))
 
     def _check_start(self) -> None:
         if not self.start:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..require import NOT_NEGATIVE, POSITIVE, Bounds, require_known, require_number
+from ..require import Bounds, require_known, require_number
 
 #: Unit of each key; None marks the keys that take one of a few words.
 UNITS: dict[str, str | None] = {
@@ -35,8 +35,25 @@ ELASTIC_SET = {
 }
 
 
-#: Ranges of the keys; all others are above zero.
-_BOUNDS = {"poisson": Bounds(above=0.0, below=0.5), "friction": NOT_NEGATIVE}
+def _around(magnitude: float) -> Bounds:
+    return Bounds(above=0.0, at_least=1e-12 * magnitude, at_most=1e12 * magnitude)
+
+
+#: Of energies [N/m]; those of brittle softening follow from squares.
+_ENERGY = Bounds(above=0.0, at_least=1e-40, at_most=1e40)
+#: Ranges of the keys: 1e-12 to 1e12 times a rock's, within which all sums are numbers.
+_BOUNDS = {
+    "young": _around(1e10),
+    "poisson": Bounds(above=0.0, below=0.5),
+    "normal_stiffness": _around(1e14),
+    "shear_ratio": _around(1.0),
+    "density": _around(1e3),
+    "tensile_strength": _around(1e7),
+    "cohesion": _around(1e7),
+    "friction": Bounds(at_least=0.0, at_most=1e12),
+    "tensile_fracture_energy": _ENERGY,
+    "shear_fracture_energy": _ENERGY,
+}
 
 
 def checked(key: str, value: object, where: str = "") -> float | str:
@@ -45,7 +62,7 @@ def checked(key: str, value: object, where: str = "") -> float | str:
         require_known(f"material {where}{key}", value, CHOICES[key])
         return str(value)
     unit = (UNITS[key] or "").removeprefix("-")
-    return require_number(f"material {where}{key}", value, _BOUNDS.get(key, POSITIVE), unit)
+    return require_number(f"material {where}{key}", value, _BOUNDS[key], unit)
 
 
 def elastic_set_name(model: str) -> str:

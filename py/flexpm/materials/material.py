@@ -120,8 +120,15 @@ class Material:
         elastic = {set_name: _elastic_from(set_name, values) for set_name, values in sets.items()}
         return cls(name=label, elastic=elastic, minerals=kinds, **common)
 
-    def with_set(self, assignments: Iterable[str], model: str = "flexible") -> Material:
+    def with_set(
+        self,
+        assignments: str | Iterable[str] | Mapping[str, object] = (),
+        model: str = "flexible",
+        **values: object,
+    ) -> Material:
         """Return a copy with `KEY=VALUE` assignments applied; elastic keys go to `model`'s set.
+
+        Values may also be given by a mapping or as keywords.
 
         ``MINERAL.KEY=VALUE`` changes a key of one mineral; otherwise what a mineral changes itself
         stays as it is.
@@ -133,7 +140,7 @@ class Material:
         Raises:
             InputError: for a malformed assignment, an unknown key or a value out of range.
         """
-        changes: Table = dict(map(_parse_assignment, assignments))
+        changes: Table = {**_assigned(assignments), **_assigned(values)}
         if not changes:
             return self
         name = elastic_set_name(model)
@@ -284,7 +291,22 @@ def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:
     return ElasticSet(**values)
 
 
-def _parse_assignment(text: str) -> tuple[str, float | str]:
+def _assigned(assignments: object) -> Table:
+    """Values by key from texts ``KEY=VALUE`` or a mapping."""
+    if isinstance(assignments, Mapping):
+        for key in assignments:
+            require_known("set", str(key).rpartition(".")[2], list(UNITS))
+        return {str(key): value for key, value in assignments.items()}
+    if isinstance(assignments, str):
+        assignments = [assignments]
+    if not isinstance(assignments, Iterable):
+        raise InputError(f"set = {quoted(assignments)}, must be texts KEY=VALUE or a mapping")
+    return dict(map(_parse_assignment, assignments))
+
+
+def _parse_assignment(text: object) -> tuple[str, float | str]:
+    if not isinstance(text, str):
+        raise InputError(f"set = {quoted(text)}, must read KEY=VALUE; for example young=30e9")
     key, equals, value = (part.strip() for part in text.partition("="))
     if not equals or not key or not value:
         raise InputError(f"set = {text!r}, must read KEY=VALUE; for example young=30e9")

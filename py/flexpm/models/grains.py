@@ -21,7 +21,7 @@ from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import description, mineral_materials, pair_materials
-from ..require import Bounds, require_number, require_one_of
+from ..require import Bounds, quoted, require_number, require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..specimens import inner_particles, mineral_map
 from ..specimens.specimen import Specimen
@@ -176,7 +176,11 @@ def build(
         InputError: for an argument or a material property out of range.
     """
     check_options(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
-    require_number("build: damping", damping, Bounds(at_least=0.0, below=1.0))
+    points = int(points)  # numpy's integers are no integers for the kernel
+    damping = require_number("build: damping", damping, Bounds(at_least=0.0, below=1.0))
+    threads = require_threads("build: threads", threads)
+    if not isinstance(specimen, Specimen):
+        raise InputError(f"build: specimen = {quoted(specimen)}, must be a Specimen")
     if model in SPHERE_MODELS:
         return spheres.build(
             specimen, material, model, damping=damping, dynamic=dynamic, threads=threads

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..require import NOT_NEGATIVE, require_number, require_one_of
+from ..require import NOT_NEGATIVE, require_flag, require_number, require_one_of, require_whole
 
 #: Grains of inner particles: normals between grains from the discs' centres, or of the edge.
 INNER_MODELS = ("inner", "inner-un")
@@ -32,6 +32,8 @@ def check_options(
         gravity: Acceleration downwards [m/s2].
     """
     require_one_of("build: model", model, MODELS)
+    require_whole("build: points", points)
+    require_flag("build: dynamic", dynamic)
     if model in SPHERE_MODELS:
         require_one_of(f"build: points of model {model}", points, (POINTS[-1],))
         require_one_of(f"build: mesh of model {model}", mesh, (MESHES[0],))

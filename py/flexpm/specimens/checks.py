@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ..errors import InputError
-from ..require import POSITIVE, Bounds, require_number, require_whole
+from ..require import LENGTH, Bounds, require_number, require_whole
 
 #: Edges of cells below this share of the mean diameter are collapsed: 0.35 mm for discs of 2-4 mm.
 SHORT_EDGE = 0.35 / 3.0
@@ -14,7 +14,7 @@ SHORT_EDGE = 0.35 / 3.0
 
 def require_length(where: str, name: str, value: object) -> float:
     """Return a length [m], which must be above zero."""
-    return require_number(f"{where}: {name}", value, POSITIVE, "m")
+    return require_number(f"{where}: {name}", value, LENGTH, "m")
 
 
 def require_porosity(where: str, porosity: object) -> float:
