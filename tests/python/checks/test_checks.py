@@ -66,7 +66,7 @@ def tree(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("check", ["layering.py", "adapter_length.py"])
+@pytest.mark.parametrize("check", ["layering.py", "functions.py"])
 def test_this_tree_passes(check: str) -> None:
     code, text = run(check, ROOT)
     assert code == 0, text
@@ -211,4 +211,21 @@ def test_crowded_folder_is_found(tree: Path, folder: str, modules: int, code: in
 def test_length_of_adapter_bodies(tree: Path, head: str, lines: int, code: int) -> None:
     body = "\tif (a) { b(); }\n" * lines
     write(tree / "pkg/flexpm/yade/abi/A.cpp", f"{head}\n{{\n{body}}}\n\nvoid other() {{ }}\n")
-    assert run("adapter_length.py", tree)[0] == code
+    assert run("functions.py", tree)[0] == code
+
+
+@pytest.mark.parametrize(("count", "code"), [(7, 0), (8, 1)])
+def test_number_of_parameters_in_cpp(tree: Path, count: int, code: int) -> None:
+    names = ", ".join(f"const std::map<int, double>& a{i}" for i in range(count))
+    call = f"    g({', '.join(f'a{i}' for i in range(9))});\n"
+    write(tree / "pkg/flexpm/kernel/low/a.cpp", f"static double f({names})\n{{\n{call}}}\n")
+    found, output = run("functions.py", tree)
+    assert found == code and ("f takes 8 parameters" in output) == bool(code)
+
+
+@pytest.mark.parametrize(("count", "code"), [(7, 0), (8, 1)])
+def test_number_of_parameters_in_python(tree: Path, count: int, code: int) -> None:
+    names = ", ".join(f"a{i}=1" for i in range(count))
+    write(tree / "py/flexpm/low/c.py", f"class C:\n    def f(self, *, {names}):\n        ...\n")
+    found, output = run("functions.py", tree)
+    assert found == code and ("f takes 8 parameters" in output) == bool(code)
