@@ -287,7 +287,7 @@ loading_options = combined(
         type=Name(*LOADINGS),
         metavar="constant|adaptive",
         help="adaptive: load faster while the specimen is elastic; the default of the grain models "
-        "with scaled masses.",
+        "with scaled masses, unless contacts are brittle.",
     ),
 )
 drawn_mesh_option = click.option(

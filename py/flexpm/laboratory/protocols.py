@@ -93,7 +93,7 @@ def run(
             tension with scaled masses, else ``rest``.
         loading: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate
             as damage and friction take the work; ``constant``: at the rate. None: ``adaptive`` for
-            the grain models with scaled masses, else ``constant``.
+            the grain models with scaled masses unless the contacts are brittle, else ``constant``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).

@@ -9,12 +9,12 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import MISSING, asdict, dataclass, fields
+from dataclasses import MISSING, asdict, dataclass, fields, replace
 
 from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
-from ..materials.mixing import description
+from ..materials.mixing import description, is_brittle
 from ..models.options import GRAIN_MODELS, SPHERE_MODELS, check_options
 from ..require import (
     Bounds,
@@ -96,7 +96,7 @@ class RunSpec:
         start: How the loading begins, one of ``STARTS``; empty: ``static`` for tension of the
             flexible model with scaled masses, else ``rest``.
         loading: How the loading goes on, one of ``LOADINGS``; empty: ``adaptive`` for grain models
-            with scaled masses, else ``constant``.
+            with scaled masses unless contacts are brittle, else ``constant``.
     """
 
     test: str
@@ -194,8 +194,20 @@ class RunSpec:
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def older_keys(self) -> list[str]:
-        """Keys that the run had under earlier numbers of the results."""
-        return [self.key(number) for number in range(1, self.results)]
+        """Keys that the run had under earlier numbers of the results, or by an earlier default.
+
+        Brittle contacts were loaded adaptively before.
+        """
+        keys = [self.key(number) for number in range(1, self.results)]
+        if self.loading == "constant" and self._adapts and is_brittle(self.material):
+            before = replace(self, loading="adaptive")
+            keys = [before.key(number) for number in range(1, self.results + 1)] + keys
+        return keys
+
+    @property
+    def _adapts(self) -> bool:
+        """Whether the loading can be adaptive."""
+        return self.model in GRAIN_MODELS and not self.dynamic and self.test != ELASTIC
 
     def _check_numbers(self) -> None:
         self._set("rate", require_number("run: rate", self.rate, _RATE))
@@ -223,9 +235,11 @@ class RunSpec:
             )
 
     def _check_loading(self) -> None:
-        adapts = self.model in GRAIN_MODELS and not self.dynamic and self.test != ELASTIC
+        adapts = self._adapts
         if not self.loading:
-            self._set("loading", "adaptive" if adapts else "constant")
+            # brittle contacts crack before damage takes work: the rate would fall too late
+            fast = adapts and not is_brittle(self.material)
+            self._set("loading", "adaptive" if fast else "constant")
         require_one_of("run: loading", self.loading, LOADINGS)
         if self.loading == "adaptive" and not adapts:
             raise InputError(

@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..files import Table
 from ..require import require_known
 from .keys import ELASTIC_KEYS, ENERGY_KEYS, elastic_set_name
-from .material import ElasticSet, Material
+from .material import ENERGY_TOLERANCE, ElasticSet, Material
 from .mineral import Mineral
 
 #: Models that can have grains of several minerals.
@@ -69,6 +69,30 @@ def description(rock: Material, model: str = "flexible") -> Table:
             {"name": kind.name, "fraction": kind.fraction, **own.law(model)} for kind, own in kinds
         ]
     }
+
+
+def is_brittle(described: Table) -> bool:
+    """Whether contacts break at their peak, with no energy left for softening, in any mineral.
+
+    Args:
+        described: As ``description`` gives it; a key that is missing says nothing.
+    """
+    return any(map(_breaks_at_once, described.get("minerals") or [described]))
+
+
+def _breaks_at_once(law: Table) -> bool:
+    if law.get("softening") == "brittle":
+        return True
+    if any(law.get(key) is None for key in (*ENERGY_KEYS, "normal_stiffness", "shear_ratio")):
+        return False
+    normal = law["normal_stiffness"]
+    tensile = law["tensile_strength"] ** 2 / (2.0 * normal)
+    shear = law["cohesion"] ** 2 / (2.0 * law["shear_ratio"] * normal)
+    given = (law[key] for key in ENERGY_KEYS)
+    return any(
+        energy <= elastic * (1.0 + ENERGY_TOLERANCE)
+        for energy, elastic in zip(given, (tensile, shear), strict=True)
+    )
 
 
 def _changed(rock: Material, mineral: Mineral) -> Material:

@@ -17,7 +17,7 @@ from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
 from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO
 from flexpm.laboratory.run_spec import ELASTIC, LOADINGS, TESTS, RunSpec, described
-from flexpm.materials.keys import ELASTIC_SET
+from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
 from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
 from flexpm.models.sphere_laws import LAWS
 from flexpm.results.measures import PEAK_DROP
@@ -189,6 +189,48 @@ def test_start_and_loading_follow_from_test_and_model():
     assert (plain("uniaxial").start, plain("tension", model="rigid").start) == ("rest", "rest")
     assert (plain().loading, plain(model="jcfpm").loading) == ("adaptive", "constant")
     assert plain("tension", start="static").key() == plain("tension").key()
+
+
+def spec_of(material: str | materials.Material, model: str, **options: Any) -> RunSpec:
+    law = described(materials.load(material, model), model)
+    return RunSpec("tension", SpecimenSpec(), law, model, **options)
+
+
+@pytest.mark.parametrize("model", GRAIN_MODELS)
+def test_brittle_contacts_are_loaded_at_the_constant_rate_unless_told_otherwise(model):
+    brittle = spec_of("augig-table2-brittle", model)
+    assert brittle.loading == brittle.to_json()["loading"] == "constant"
+    assert spec_of("augig-table2-brittle", model, loading="adaptive").loading == "adaptive"
+    assert spec_of("augig-table2-bilinear", model).loading == "adaptive"
+    assert spec_of("augig-table2-brittle", model, dynamic=True).loading == "constant"
+
+
+@pytest.mark.parametrize("key", ["tensile_fracture_energy", "shear_fracture_energy"])
+def test_an_energy_at_the_elastic_energy_is_brittle_whatever_it_is_called(key):
+    rock = materials.load("augig-table2-bilinear")
+    elastic = dict(zip(ENERGY_KEYS, rock.elastic_energies(), strict=True))[key]
+    assert spec_of(rock.with_set({key: elastic}), "flexible").loading == "constant"
+    assert spec_of(rock.with_set({key: 1.01 * elastic}), "flexible").loading == "adaptive"
+
+
+def test_one_brittle_mineral_makes_the_loading_constant():
+    kinds = [
+        {"name": "quartz", "fraction": 0.5, "softening": "brittle"},
+        {"name": "feldspar", "fraction": 0.5},
+    ]
+    rock = dataclasses.replace(materials.load("augig-table2-bilinear"), minerals=kinds)
+    assert spec_of(rock, "rigid").loading == "constant"
+
+
+def test_the_key_of_a_brittle_run_is_that_of_its_loading_and_the_adaptive_one_is_older():
+    runs = {
+        loading: spec_of("augig-table2-brittle", "rigid", loading=loading)
+        for loading in ("", "constant", "adaptive")
+    }
+    assert runs[""].key() == runs["constant"].key() != runs["adaptive"].key()
+    assert runs[""].older_keys() == [runs["adaptive"].key()]
+    assert runs["adaptive"].older_keys() == []
+    assert spec_of("augig-table2-bilinear", "rigid", loading="constant").older_keys() == []
 
 
 @pytest.mark.parametrize(

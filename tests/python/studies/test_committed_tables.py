@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import importlib.util
+import sys
 from pathlib import Path
 
 import pandas
@@ -48,3 +50,14 @@ def test_a_study_finds_all_its_runs_in_its_table(path):
     # results of an older number are run again, and said so
     assert bool(waiting) == bool(jobs.outdated(waiting, found.__contains__))
     assert len(found) == len(wanted)
+
+
+def test_the_table_of_trends_has_all_its_runs_under_keys_of_old_or_new_results():
+    spec = importlib.util.spec_from_file_location("trends", SCRIPTS / "studies" / "trends.py")
+    trends = sys.modules["trends"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(trends)
+    rows = trends.read(SCRIPTS / "studies" / "trends.csv")
+    assert list(rows) == list(trends.plan())
+    for arguments, row in rows.items():
+        run = trends.spec_of(*arguments)
+        assert row[-1] in (run.key(), *run.older_keys())
