@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
+import time
 from itertools import pairwise
 
 import pytest
@@ -107,6 +110,21 @@ def test_the_number_of_threads_does_not_change_a_bit(make, bits):
         assert sum(model.solver.cracks()) > 0
         results.append(bits())
     assert results[0] == results[1]
+
+
+def test_a_process_that_was_forked_steps_with_threads_of_its_own(make):
+    model = make(threads=2)
+    O.step()
+    child = os.fork()
+    if child == 0:
+        O.step()
+        os._exit(0 if model.solver.unbalanced() >= 0 else 1)
+    deadline = time.monotonic() + 60
+    while not (ended := os.waitpid(child, os.WNOHANG))[0]:
+        if time.monotonic() > deadline:
+            os.kill(child, signal.SIGKILL)
+        time.sleep(0.01)
+    assert ended[1] == 0
 
 
 def test_a_scene_of_another_layout_of_the_state_is_refused(make, tmp_path):

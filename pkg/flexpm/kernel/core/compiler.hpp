@@ -11,3 +11,10 @@
 #else
 #define FLEXPM_INDEPENDENT _Pragma("GCC ivdep")
 #endif
+
+/// Tell the core that a loop waits for another thread.
+#if defined(__x86_64__) || defined(__i386__)
+#define FLEXPM_PAUSE() __builtin_ia32_pause()
+#else
+#define FLEXPM_PAUSE() static_cast<void>(0)
+#endif

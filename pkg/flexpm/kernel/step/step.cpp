@@ -2,6 +2,7 @@
 #include <flexpm/kernel/step/step.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/core/thread_team.hpp>
 #include <flexpm/kernel/forces/contact_forces.hpp>
 #include <flexpm/kernel/forces/element_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
@@ -14,8 +15,6 @@
 #include <flexpm/kernel/step/tiles.hpp>
 
 #include <algorithm>
-
-#include <omp.h>
 
 namespace flexpm {
 
@@ -105,6 +104,28 @@ void update_shared_grains(Assembly& a, TileRange own, const StepOptions& options
     }
 }
 
+/// Press the loaded edges and push the plates, which are few.
+void update_boundary(Assembly& a, const StepOptions& options)
+{
+    for (int b = 0; b < a.edges.blocks(); ++b)
+        a.ledger.pressure_work += update_edge_block(a, b, options.dt);
+    update_plates(a, options.dt, options.damping);
+}
+
+/// Do one thread's part of a step.
+void update_share(Assembly& a, const StepOptions& options, ThreadTeam& team, int thread)
+{
+    const int blocks = a.grains.blocks(), threads = team.size();
+    for (int b = thread * blocks / threads; b < (thread + 1) * blocks / threads; ++b)
+        predict_centres(a.grains, b, options.dt, a.plan.next_centre);
+    if (thread == 0) update_boundary(a, options);
+    team.meet();
+    const TileRange own = share_of(a.plan.tiles, thread, threads);
+    update_own_tiles(a, own, options);
+    team.meet();
+    update_shared_grains(a, own, options);
+}
+
 }  // namespace
 
 void show_positions(Assembly& a)
@@ -118,24 +139,9 @@ void step(Assembly& a, const StepOptions& options)
     if (a.plan.tiles.count() == 0) {
         refuse("tiles of a step", 0.0, "", "must be at least 1; call prepare_step() after loading");
     }
-    const int blocks = a.grains.blocks();
-#pragma omp parallel num_threads(options.threads) if (options.threads > 1)
-    {
-#pragma omp for schedule(static)
-        for (int b = 0; b < blocks; ++b)
-            predict_centres(a.grains, b, options.dt, a.plan.next_centre);
-#pragma omp single
-        {
-            for (int b = 0; b < a.edges.blocks(); ++b) {
-                a.ledger.pressure_work += update_edge_block(a, b, options.dt);
-            }
-            update_plates(a, options.dt, options.damping);
-        }
-        const TileRange own = share_of(a.plan.tiles, omp_get_thread_num(), omp_get_num_threads());
-        update_own_tiles(a, own, options);
-#pragma omp barrier
-        update_shared_grains(a, own, options);
-    }
+    ThreadTeam& team = team_of(options.threads);
+    const ThreadTeam::Work share = [&](int thread) { update_share(a, options, team, thread); };
+    team.run(share);
     ++a.step;
 }
 
