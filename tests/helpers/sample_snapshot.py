@@ -10,14 +10,15 @@ from flexpm.results.snapshot import Snapshot
 WIDTH, HEIGHT = 2e-3, 3e-3
 GRADIENT = np.array([[-2e-4, 3e-4], [1e-4, -1e-3]])  #: displacement gradient [-]
 STRESS = np.array([-1e6, -24e6, 2e6])  #: xx, yy, xy [Pa]
+FIRST = 100  #: number of the first contact
 
 
 def wall(columns=3, rows=4, points=3):
     """Snapshot of columns x rows grains, each with its centre and four corners as nodes.
 
-    Contact number k has opening k nm, slip -k nm, damage k over the number of contacts and
-    tractions k and -k kPa at its first point; its other points carry nothing. Odd contacts have
-    their first point cracked in step 10 k, in tension and in shear by turns.
+    Contact k has number FIRST + k, opening k nm, slip -k nm, damage k over the number of contacts
+    and tractions k and -k kPa at its first point; its other points carry nothing. Odd contacts
+    have their first point cracked in step 10 k, in tension and in shear by turns.
     """
     corners = np.array([[0, 0], [WIDTH, 0], [WIDTH, HEIGHT], [0, HEIGHT]], dtype=float)
     template = np.vstack([corners, corners.mean(axis=0)])
@@ -46,6 +47,7 @@ def wall(columns=3, rows=4, points=3):
         triangles=np.concatenate([fan + 5 * grain for grain in range(len(origins))]),
         triangle_grain=np.repeat(np.arange(len(origins)), 4),
         triangle_stress=np.tile(STRESS, (4 * len(origins), 1)),
+        contact=FIRST + contacts,
         contact_grains=np.reshape(grains, (-1, 2)).astype(int),
         contact_ends=moved(ends),
         point_opening=1e-9 * first,

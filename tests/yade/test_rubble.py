@@ -93,6 +93,33 @@ def test_rubble_falls_and_comes_to_rest(model):
     assert runs > 100
 
 
+def test_contacts_keep_their_numbers_while_others_come_and_go():
+    box = Box("rigid")
+    bonds = {i.phys.contact: (i.id1, i.id2) for i in yade.O.interactions if i.isReal}
+    assert sorted(bonds) == list(range(len(bonds)))
+    pairs, now, gone, kept = dict(bonds), set(bonds), set(), {}
+    for _ in range(40):
+        box.built.run(1000)
+        snapshot = box.built.snapshot()
+        before, now = now, set(snapshot.contact.tolist())
+        assert len(now) == len(snapshot.contact), "a number stands for one contact"
+        assert not now & gone, "a number came back"
+        assert all(number > max(pairs) for number in now - set(pairs)), "new ones are higher"
+        gone |= before - now
+        for number, grains in zip(snapshot.contact, snapshot.contact_grains, strict=True):
+            assert pairs.setdefault(number, tuple(grains)) == tuple(grains)
+        for bond in (i for i in yade.O.interactions if i.isReal):
+            assert pairs[bond.phys.contact] == (bond.id1, bond.id2)
+            assert bond.geom.contact == bond.phys.contact
+            kept.setdefault(bond.phys.contact, bond.phys)
+    assert set(bonds) <= now, "bonds that have ended keep their place in the record"
+    assert len(gone) > 3
+    assert len(now - set(bonds)) > 3
+    ended = kept[max(set(kept) & gone)]
+    with pytest.raises(RuntimeError, match="has ended"):
+        _ = ended.opening
+
+
 @pytest.mark.parametrize(
     ("options", "rule"),
     [

@@ -55,6 +55,7 @@ def snapshot(
         triangles=triangles,
         triangle_grain=triangle_grain,
         triangle_stress=stress[triangle_grain],
+        contact=np.arange(len(bonds.grains)),
         contact_grains=bonds.grains,
         contact_ends=ends,
         point_opening=(length - start)[:, None],

@@ -25,7 +25,7 @@ class Crack(NamedTuple):
     x: float  #: position when it broke [m]
     y: float  #: [m]
     mode: int  #: TENSILE if the point was opening, else SHEAR
-    contact: int  #: index of the contact
+    contact: int  #: number of the contact, as in each snapshot
     point: int  #: index of the point in its contact
 
 
@@ -41,17 +41,18 @@ def cracks_csv(cracks: Sequence[Crack]) -> str:
 def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
     steps = snapshot.crack_step
-    contacts, points = np.nonzero(steps >= 0)
-    order = np.lexsort((points, contacts, steps[contacts, points]))
-    contacts, points = contacts[order], points[order]
-    steps = steps[contacts, points]
+    rows, points = np.nonzero(steps >= 0)
+    order = np.lexsort((points, snapshot.contact[rows], steps[rows, points]))
+    rows, points = rows[order], points[order]
+    steps = steps[rows, points]
     strains = (
         np.interp(steps, curve["step"], curve["axial_strain"])
         if len(curve)
         else np.full(len(steps), np.nan)
     )
-    modes = snapshot.crack_mode[contacts, points]
-    places = snapshot.crack_position[contacts, points]
+    modes = snapshot.crack_mode[rows, points]
+    places = snapshot.crack_position[rows, points]
+    contacts = snapshot.contact[rows]
     return [
         Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
         for step, strain, (x, y), mode, contact, point in zip(

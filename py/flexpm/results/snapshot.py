@@ -28,6 +28,7 @@ class Snapshot:
     triangles: IntArray  #: nodes of each triangle, (M, 3)
     triangle_grain: IntArray  #: (M,)
     triangle_stress: FloatArray  #: xx, yy, xy, (M, 3) [Pa]
+    contact: IntArray  #: number of each contact, which it keeps, (C,)
     contact_grains: IntArray  #: (C, 2)
     contact_ends: FloatArray  #: (C, 2, 2) [m]
     point_opening: FloatArray  #: (C, P) [m]

@@ -130,7 +130,7 @@ def _contact_arrays(snapshot: Snapshot) -> dict[str, Named]:
     normal, shear = traction[..., 0], traction[..., 1]
     arrays: dict[str, FloatArray | IntArray] = {
         "kind": np.full(count, CONTACT),
-        "contact": np.arange(count),
+        "contact": snapshot.contact,
         "grain_a": snapshot.contact_grains[:, 0],
         "grain_b": snapshot.contact_grains[:, 1],
         "damage": damage @ shares,

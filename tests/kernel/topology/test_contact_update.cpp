@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Contacts that end and begin while grains move far, paper Sec. 2.3. Tension positive.
+#include <catch2/catch.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
-
-#include <catch2/catch.hpp>
 
 #include "support/driven.hpp"
 #include "support/law_path.hpp"
@@ -86,6 +88,26 @@ TEST_CASE("A new contact starts without force or energy, presses with K_n and ne
     // a driven velocity that changes is booked half a step late: force times change times dt / 2
     const double late = 0.5 * force * 4.0 * press / 50.0;
     CHECK(booked(flexpm::energies(a)) == Approx(before).margin(1.1 * late));
+}
+
+TEST_CASE("Contacts keep their numbers while others come and go, and no number is given twice")
+{
+    Assembly a = row_of_three();
+    REQUIRE(a.contacts.id == std::vector<int> { 0, 1 });
+    const GrainPair touching { 0, 2 };
+    flexpm::change_contacts(a, {}, { touching }, 0.7, 1.0);
+    REQUIRE(a.contacts.pairs[1] == touching);  // between the two bonds
+    CHECK(a.contacts.id == std::vector<int> { 0, 2, 1 });
+    for (int contact = 0; contact < 3; ++contact)
+        CHECK(flexpm::contact_with_id(a, a.contacts.id[contact]) == contact);
+    CHECK(flexpm::take_snapshot(a).contact == std::vector<std::int32_t> { 0, 2, 1 });
+    flexpm::change_contacts(a, { 1 }, {}, 0.7, 1.0);
+    CHECK(a.contacts.id == std::vector<int> { 0, 1 });
+    CHECK(flexpm::contact_with_id(a, 2) == -1);
+    flexpm::change_contacts(a, {}, { touching }, 0.7, 1.0);
+    CHECK(a.contacts.id == std::vector<int> { 0, 3, 1 });
+    CHECK(flexpm::contact_with_id(a, -1) == -1);
+    CHECK(flexpm::contact_with_id(a, 4) == -1);
 }
 
 TEST_CASE("A new contact follows the place where the discs touch, without energy")

@@ -69,6 +69,7 @@ def test_contacts(written):
     number = np.arange(len(snapshot.contact_grains))
     grains = np.stack([cells["grain_a"], cells["grain_b"]], axis=1)
     assert np.array_equal(grains, snapshot.contact_grains)
+    assert np.array_equal(cells["contact"], snapshot.contact)
     # only the first point carries something, and it stands for a sixth of the contact
     assert np.allclose(cells["damage"], number / len(number) / 6, rtol=1e-14)
     assert np.allclose(cells["normal_traction"], 1e3 * number / 6, rtol=1e-14)

@@ -48,6 +48,7 @@ def test_one_point_that_is_not_fully_damaged_holds():
         reference=np.tile(triangle, (3, 1)),
         triangles=np.arange(9).reshape(3, 3),
         triangle_grain=np.arange(3),
+        contact=np.array([0, 1]),
         contact_grains=np.array([[0, 1], [1, 2]]),
         point_damage=damage,
     )

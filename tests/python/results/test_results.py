@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sample_snapshot import HEIGHT, WIDTH, wall
+from sample_snapshot import FIRST, HEIGHT, WIDTH, wall
 
 from flexpm.errors import InputError
 from flexpm.files import output_folder, whole_file
@@ -314,9 +314,9 @@ def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
     )
     cracks = cracks_from_snapshot(snapshot, record)
     assert [(c.step, c.contact, c.point, c.mode) for c in cracks] == [
-        (10, 0, 2, 2),
-        (20, 1, 2, 1),
-        (30, 0, 0, 1),
+        (10, FIRST, 2, 2),
+        (20, FIRST + 1, 2, 1),
+        (30, FIRST, 0, 1),
     ]
     assert [c.strain for c in cracks] == pytest.approx([0.01, 0.02, 0.03])
     assert (cracks[0].x, cracks[0].y) == (4.0, 5.0)

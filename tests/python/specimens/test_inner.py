@@ -148,7 +148,7 @@ def only_between_grains_break(result: flexpm.Result, folder) -> None:
     snapshot = Snapshot(**solver.snapshot())
     broken = sorted({crack.contact for crack in result.cracks})
     assert broken
-    grains = snapshot.contact_grains[broken]
+    grains = snapshot.contact_grains[np.isin(snapshot.contact, broken)]
     assert np.all(grains[:, 0] != grains[:, 1])
     within = snapshot.contact_grains[:, 0] == snapshot.contact_grains[:, 1]
     assert np.all(snapshot.point_damage[within] == 0.0)

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace flexpm {
@@ -80,6 +81,16 @@ inline BondedContacts bonded_contacts(const Assembly& a)
         ++(a.grains.parent[pair[0]] == a.grains.parent[pair[1]] ? count.within : count.between);
     }
     return count;
+}
+
+/// Place of the contact with a lasting number; -1 if there is none, or none any more.
+inline int contact_with_id(const Assembly& a, int id)
+{
+    const auto& ids = a.contacts.id;
+    const auto& order = a.plan.contacts_by_id;
+    const auto found = std::lower_bound(order.begin(), order.end(), id,
+        [&](int contact, int value) { return ids[contact] < value; });
+    return found != order.end() && ids[*found] == id ? *found : -1;
 }
 
 inline double damage_of(const Contacts& contacts, int contact, int point)

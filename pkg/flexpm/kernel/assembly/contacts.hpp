@@ -33,7 +33,9 @@ struct Contacts {
     int points = 3;  ///< of a contact: 1, 2 or 3; read it by points_of() and points_in()
     std::vector<LawParameters> laws;
     std::vector<GrainPair> pairs;
-    std::vector<int> law;              ///< index into `laws`
+    std::vector<int> id;   ///< lasting number: a place in the arrays changes, this does not
+    int next_id = 0;       ///< of the next contact; none is given twice
+    std::vector<int> law;  ///< index into `laws`
     std::vector<std::uint8_t> bonded;  ///< 1: since the specimen was bonded, 0: touched later
     /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
     std::map<GrainPair, double> close_pairs;
@@ -155,6 +157,8 @@ struct Contacts {
         visit("points", s.points);
         visit("laws", s.laws);
         visit("pairs", s.pairs);
+        visit("id", s.id);
+        visit("next_id", s.next_id);
         visit("law", s.law);
         visit("bonded", s.bonded);
         visit("close_pairs", s.close_pairs);

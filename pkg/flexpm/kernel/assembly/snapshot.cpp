@@ -53,6 +53,7 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
 
 void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
+    s.contact.push_back(a.contacts.id[contact]);
     for (int side = 0; side < 2; ++side)
         s.contact_grains.push_back(a.grains.parent[a.contacts.pairs[contact][side]]);
     for (int end = 0; end < 2; ++end)

@@ -22,6 +22,7 @@ struct Snapshot {
         triangle_particle;                ///< [triangle] what moves: grain or inner particle
     std::vector<double> triangle_stress;  ///< [triangle][xx, yy, xy] Cauchy [Pa]
 
+    std::vector<std::int32_t> contact;         ///< [contact] lasting number
     std::vector<std::int32_t> contact_grains;  ///< [contact][2] grains of the rock
     std::vector<double> contact_ends;          ///< [contact][start, end][x, y] [m]
     std::vector<double> point_opening;         ///< [contact][point] [m]

@@ -51,6 +51,8 @@ struct StepPlan {
     /// the middle: weights 0, 1/2, 1, one inverse edge length for both, equal end areas.
     std::vector<std::uint8_t> whole_edges;
 
+    std::vector<int> contacts_by_id;  ///< places of the contacts in the order of their Contacts::id
+
     /// What elements add to StiffnessBound::node [N/m]; empty until prepare_step() finds it, and again once a
     /// grain is taken out.
     Array<double> element_bound;

@@ -6,6 +6,9 @@
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/tiles.hpp>
 
+#include <algorithm>
+#include <numeric>
+
 namespace flexpm {
 
 namespace {
@@ -32,6 +35,15 @@ std::vector<std::uint8_t> find_whole_edges(const Contacts& contacts)
     return whole;
 }
 
+std::vector<int> sort_by_id(const Contacts& contacts)
+{
+    std::vector<int> order(contacts.count);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(
+        order.begin(), order.end(), [&](int i, int j) { return contacts.id[i] < contacts.id[j]; });
+    return order;
+}
+
 }  // namespace
 
 void prepare_step(Assembly& a)
@@ -41,6 +53,7 @@ void prepare_step(Assembly& a)
     plan.tiles = make_tiles(a.grains, a.contacts);
     plan.prefetch = list_prefetches(a.grains, a.contacts);
     plan.whole_edges = find_whole_edges(a.contacts);
+    plan.contacts_by_id = sort_by_id(a.contacts);
     if (plan.element_bound.empty()) plan.element_bound = element_bound(a.grains);
     plan.next_centre.resize(static_cast<std::size_t>(dimension * lanes) * a.grains.blocks());
 }

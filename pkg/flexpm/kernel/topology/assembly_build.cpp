@@ -254,6 +254,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
         fill_contact(a, c, e, grains, points, of_edge);
         if (c >= a.contacts.count) continue;
         a.contacts.pairs.push_back({ e.cell_a, e.cell_b });
+        a.contacts.id.push_back(a.contacts.next_id++);
         a.contacts.bonded.push_back(1);
         a.contacts.law.push_back(!options.edge_law.empty()
                 ? options.edge_law[c]

@@ -83,17 +83,20 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
 {
     Contacts& contacts = a.contacts;
     move_rows(contacts, order);
+    const auto old_id = contacts.id;
     const auto old_law = contacts.law;
     const auto old_bonded = contacts.bonded;
     contacts.count = static_cast<int>(order.size());
     contacts.append_no_force();
     contacts.pairs.clear();
+    contacts.id.clear();
     contacts.law.clear();
     contacts.bonded.clear();
     for (int c = 0; c < contacts.count; ++c) {
         const auto& [pair, from] = order[c];
         const bool is_new = from == Origin::new_touch;
         contacts.pairs.push_back(pair);
+        contacts.id.push_back(is_new ? contacts.next_id++ : old_id[from]);
         contacts.law.push_back(is_new ? a.grains.law_index(pair[0], pair[1]) : old_law[from]);
         contacts.bonded.push_back(is_new ? 0 : old_bonded[from]);
         if (is_new) fill_touch(a, c, pair);

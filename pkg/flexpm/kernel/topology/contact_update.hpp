@@ -38,8 +38,9 @@ bool has_ended(const Assembly& a, int contact);
 /// other. Arguments as of change_contacts(). Returns whether any contact has moved.
 bool follow_touches(Assembly& a, double damping, double dt);
 
-/// Take contacts out and put frictional ones in, in the order of pairs, and prepare the next step. Bonded
-/// contacts keep their rows, removed, for the record of cracks. Masses rise where the new contacts need it;
+/// Take contacts out and put frictional ones in, in the order of pairs, and prepare the next step. New ones
+/// get numbers (Contacts::id) that no contact has had. Bonded contacts keep their rows, removed, for the record
+/// of cracks. Masses rise where the new contacts need it;
 /// the kinetic energy that this adds counts as initial energy.
 ///
 /// @param ended     contacts to end, ascending

@@ -2,6 +2,8 @@
 /// @file  Search for the owner among a scene's engines.
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
+
 namespace yade {
 
 AssemblyOwner::~AssemblyOwner() = default;
@@ -28,11 +30,12 @@ OwnedAssembly assemblyOfGrain(int grain)
 	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
 }
 
-OwnedAssembly assemblyOfContact(int contact)
+OwnedContact ownedContact(int id)
 {
-	auto found = assemblyOf(*Omega::instance().getScene());
-	if (contact >= 0 && contact < found->contacts.count) return found;
-	throw std::runtime_error("contact = " + std::to_string(contact) + ", is no contact of the solver; build the specimen first (flexpm.build)");
+	OwnedContact found { assemblyOf(*Omega::instance().getScene()), -1 };
+	found.place = flexpm::contact_with_id(*found, id);
+	if (found.place >= 0) return found;
+	throw std::runtime_error("contact = " + std::to_string(id) + ", is no contact of the solver, or has ended; take the bonds anew from O.interactions");
 }
 
 } // namespace yade

@@ -23,13 +23,18 @@ struct OwnedAssembly {
 	flexpm::Assembly* operator->() const { return arrays; }
 };
 
+/// The same with one contact of it, by its place in the arrays.
+struct OwnedContact : OwnedAssembly {
+	int place = -1;
+};
+
 /// The first that the scene's engines own, if any.
 OwnedAssembly findAssembly(const Scene& scene);
 
-/// The same, which must be there; of the current scene, with this grain or contact.
+/// The same, which must be there; of the current scene, with this grain, or with the contact of this lasting number.
 /// @throws std::runtime_error  if O.engines holds none, or if it has no such grain or contact
 OwnedAssembly assemblyOf(const Scene& scene);
 OwnedAssembly assemblyOfGrain(int grain);
-OwnedAssembly assemblyOfContact(int contact);
+OwnedContact  ownedContact(int id);
 
 } // namespace yade

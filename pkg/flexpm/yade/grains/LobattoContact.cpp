@@ -19,23 +19,23 @@ namespace {
 	/// (points,) view of row `row` of the `rows` rows of each point of a contact.
 	template <class T> py::object pointView(int contact, flexpm::Array<T> flexpm::Contacts::*values, int row = 0, int rows = 1)
 	{
-		const auto           owned    = assemblyOfContact(contact);
+		const auto           owned    = ownedContact(contact);
 		const auto&          contacts = owned->contacts;
 		const std::ptrdiff_t step     = rows * flexpm::lanes * sizeof(T);
-		const T*             first    = (contacts.*values).data() + contacts.point_index(contact, 0, row, rows);
-		return flexpm_bindings::array_view(first, { contacts.points_of(contact) }, { step }, py::object(owned.engine), Access::readOnly);
+		const T*             first    = (contacts.*values).data() + contacts.point_index(owned.place, 0, row, rows);
+		return flexpm_bindings::array_view(first, { contacts.points_of(owned.place) }, { step }, py::object(owned.engine), Access::readOnly);
 	}
 
 	/// The same for a member of flexpm::PointState.
 	py::object stateView(int contact, int row) { return pointView(contact, &flexpm::Contacts::states, row, flexpm::PointRow::count); }
 
-	/// (points,) or (points, columns) copy of what `value(point)` appends.
+	/// (points,) or (points, columns) copy of what `value(assembly, place, point, all)` appends.
 	template <class Value> py::object pointCopy(int contact, int columns, Value value)
 	{
-		const auto&         a = *assemblyOfContact(contact);
+		const auto          owned = ownedContact(contact);
 		std::vector<double> all;
-		for (int p = 0; p < a.contacts.points_of(contact); ++p)
-			value(a, p, all);
+		for (int p = 0; p < owned->contacts.points_of(owned.place); ++p)
+			value(*owned, owned.place, p, all);
 		return flexpm_bindings::copied(all, columns);
 	}
 
@@ -51,21 +51,22 @@ LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
 
 Vector3r LobattoGeom::normal() const
 {
-	const auto n = assemblyOfContact(contact)->contacts.normal(contact);
+	const auto owned = ownedContact(contact);
+	const auto n     = owned->contacts.normal(owned.place);
 	return Vector3r(n.x, n.y, 0);
 }
 
 Vector3r LobattoGeom::contactPoint() const
 {
-	const auto& a     = *assemblyOfContact(contact);
-	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
+	const auto owned = ownedContact(contact);
+	const auto start = flexpm::contact_end(*owned, owned.place, 0), end = flexpm::contact_end(*owned, owned.place, 1);
 	return .5 * Vector3r(start.x + end.x, start.y + end.y, 0);
 }
 
 py::object LobattoGeom::ends() const
 {
-	const auto& a     = *assemblyOfContact(contact);
-	const auto  start = flexpm::contact_end(a, contact, 0), end = flexpm::contact_end(a, contact, 1);
+	const auto owned = ownedContact(contact);
+	const auto start = flexpm::contact_end(*owned, owned.place, 0), end = flexpm::contact_end(*owned, owned.place, 1);
 	return flexpm_bindings::copied(std::vector<double> { start.x, start.y, end.x, end.y }, 2);
 }
 
@@ -81,13 +82,13 @@ py::object LobattoPhys::cracked() const { return pointView(contact, &flexpm::Con
 
 py::object LobattoPhys::damage() const
 {
-	return pointCopy(contact, 0, [this](const auto& a, int p, auto& all) { all.push_back(flexpm::damage_of(a.contacts, contact, p)); });
+	return pointCopy(contact, 0, [](const auto& a, int place, int p, auto& all) { all.push_back(flexpm::damage_of(a.contacts, place, p)); });
 }
 
 py::object LobattoPhys::traction() const
 {
-	return pointCopy(contact, 2, [this](const auto& a, int p, auto& all) {
-		const auto t = flexpm::point_traction(a, contact, p);
+	return pointCopy(contact, 2, [](const auto& a, int place, int p, auto& all) {
+		const auto t = flexpm::point_traction(a, place, p);
 		all.insert(all.end(), { t.x, t.y });
 	});
 }

@@ -19,7 +19,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoGeom, IGeom,
 		"Shared edge of two grains. Its state lives in :yref:`GrainSolver`.",
-		((int, contact, -1, Attr::readonly, "Number of the contact in the solver [-]."))
+		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
 		, createIndex();
 		, .add_property("normal", &LobattoGeom::normal, "Unit normal from the first to the second grain, Eq. 5 [-].")
 		.add_property("contactPoint", &LobattoGeom::contactPoint, "Middle of the edge [m].")
@@ -44,7 +44,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, IPhys,
 		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`.",
-		((int, contact, -1, Attr::readonly, "Number of the contact in the solver [-]."))
+		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
 		, createIndex();
 		, .add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m]; a view, compression below 0.")
 		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a view.")

@@ -110,7 +110,7 @@ private:
 	void                      listCandidates();
 	void                      changeContacts();
 	void                      limitStep();
-	void                      renumberContacts();
+	void                      insertTouches(int firstId);
 	void                      check();
 };
 REGISTER_SERIALIZABLE(GrainSolver);

@@ -49,12 +49,12 @@ void GrainSolver::listCandidates()
 
 void GrainSolver::changeContacts()
 {
-	vector<int> over;
+	vector<int> ended;
 	if (!listed) listCandidates(); // also in a scene that was loaded
 	if (assembly.step % checkPeriod == 0) {
 		listCandidates();
 		for (int c = 0; c < assembly.contacts.count; ++c) {
-			if (flexpm::has_ended(assembly, c)) over.push_back(c);
+			if (flexpm::has_ended(assembly, c)) ended.push_back(c);
 		}
 		if (flexpm::follow_touches(assembly, damping, scaled ? scene->dt : 0.)) limitStep();
 	}
@@ -62,12 +62,13 @@ void GrainSolver::changeContacts()
 	for (const auto& pair : candidates) {
 		if (flexpm::is_touching(assembly, pair)) touching.push_back(pair);
 	}
-	if (over.empty() && touching.empty()) return;
-	for (int c : over)
+	if (ended.empty() && touching.empty()) return;
+	for (int c : ended)
 		scene->interactions->requestErase(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
-	flexpm::change_contacts(assembly, over, touching, damping, scaled ? scene->dt : 0.);
+	const int firstId = assembly.contacts.next_id;
+	flexpm::change_contacts(assembly, ended, touching, damping, scaled ? scene->dt : 0.);
 	if (!touching.empty()) limitStep();
-	renumberContacts();
+	insertTouches(firstId);
 	nearPairs.forget();
 	listCandidates();
 }
@@ -78,12 +79,13 @@ void GrainSolver::limitStep()
 	if (!scaled) scene->dt = std::min(scene->dt, Real(flexpm::stable_step(assembly, damping)));
 }
 
-void GrainSolver::renumberContacts()
+void GrainSolver::insertTouches(int firstId)
 {
 	for (int c = 0; c < assembly.contacts.count; ++c) {
+		const int id = assembly.contacts.id[c];
+		if (id < firstId) continue;
 		const Body::id_t id1 = bodyIds[assembly.contacts.pairs[c][0]], id2 = bodyIds[assembly.contacts.pairs[c][1]];
 		auto             pair = scene->interactions->find(id1, id2);
-		if (assembly.contacts.bonded[c] && (!pair || !pair->isReal())) continue; // it has ended
 		if (!pair) {
 			pair = boost::make_shared<Interaction>(id1, id2);
 			scene->interactions->insert(pair);
@@ -93,8 +95,8 @@ void GrainSolver::renumberContacts()
 			pair->phys         = boost::make_shared<LobattoPhys>();
 			pair->iterMadeReal = scene->iter;
 		}
-		static_cast<LobattoGeom&>(*pair->geom).contact = c;
-		static_cast<LobattoPhys&>(*pair->phys).contact = c;
+		static_cast<LobattoGeom&>(*pair->geom).contact = id;
+		static_cast<LobattoPhys&>(*pair->phys).contact = id;
 	}
 	seenDestroyed = destroyedContacts();
 }

@@ -90,6 +90,7 @@ py::dict GrainSolver::snapshot() const
 	d["triangle_grain"]    = copied(s.triangle_grain, 0);
 	d["triangle_particle"] = copied(s.triangle_particle, 0);
 	d["triangle_stress"]   = copied(s.triangle_stress, 3);
+	d["contact"]           = copied(s.contact, 0);
 	d["contact_grains"]    = copied(s.contact_grains, 2);
 	d["contact_ends"]      = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
 	d["point_opening"]     = copied(s.point_opening, p);

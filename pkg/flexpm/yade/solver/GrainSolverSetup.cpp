@@ -110,7 +110,7 @@ void GrainSolver::insertContacts()
 		auto bond     = boost::make_shared<Interaction>(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
 		auto geom     = boost::make_shared<LobattoGeom>();
 		auto phys     = boost::make_shared<LobattoPhys>();
-		geom->contact = phys->contact = c;
+		geom->contact = phys->contact = assembly.contacts.id[c];
 		bond->geom                    = geom;
 		bond->phys                    = phys;
 		bond->iterMadeReal            = world->iter;
