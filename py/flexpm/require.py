@@ -16,6 +16,8 @@ from .files import Table
 
 #: Characters of a value that are quoted.
 _QUOTED = 80
+#: Likeness of two names of which one may be a slip of the other [-].
+_ALIKE = 0.58
 
 
 @dataclass(frozen=True)
@@ -185,5 +187,5 @@ def _is_among(value: object, choices: Sequence[object]) -> bool:
 
 def nearest(name: str, known: Sequence[str]) -> str:
     """Return ' (did you mean X?)' for the known name closest to `name`, or an empty text."""
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    close = difflib.get_close_matches(name, known, n=1, cutoff=_ALIKE)
     return f" (did you mean {close[0]}?)" if close else ""

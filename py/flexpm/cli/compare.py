@@ -68,7 +68,8 @@ def compare(
     require_known("test", test, TESTS)
     if test != "biaxial" and any(confinements):
         raise InputError(
-            f"confinements = {max(confinements):g} Pa, must be 0 for {test}; use biaxial"
+            f"confinements = {max(confinements):g} Pa, must be 0 for {test}"
+            f"{'' if test == 'brazilian' else '; use biaxial'}"
         )
     chosen = {model: inputs.material(options, model) for model in models}
     specs = [

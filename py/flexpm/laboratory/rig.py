@@ -90,7 +90,8 @@ class TestRig(ABC):
             SimulationError: if the forces do not come to balance.
         """
         begin = partial(self._begin_confinement, pressure)
-        if self._stage(begin, self._at_rest, "isotropic pressure") and not self._at_rest():
+        entered = self._stage(begin, self._at_rest, "isotropic pressure")
+        if entered and not (self.diverged or self._at_rest()):
             raise SimulationError(
                 f"confine: unbalanced-force ratio = {self.unbalanced():.2g} under the pressure, "
                 f"must fall below {_AT_REST}; lower the confinement"
@@ -120,7 +121,7 @@ class TestRig(ABC):
             SimulationError: if the strain does not come there.
         """
         entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
-        if entered and (self.diverged or not self._is_over()):
+        if self.diverged or (entered and not self._is_over()):
             raise SimulationError(
                 f"strain_to: axial strain = {self.strain:.6g}, must come to {strain:.6g}; the "
                 "specimen strains elsewhere"
@@ -226,8 +227,8 @@ class TestRig(ABC):
     # Stages
 
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
-        """Do a stage; False if an earlier start of the run has finished it."""
-        if not self._runner.enter(begin):
+        """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
+        if self.diverged or not self._runner.enter(begin):
             return False
         try:
             self._runner.run(

@@ -261,7 +261,8 @@ class RunSpec:
             )
         if self.test != "biaxial" and self.confinement != 0.0:
             raise InputError(
-                f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}; use biaxial"
+                f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}"
+                f"{'' if shape == 'disc' else '; use biaxial'}"
             )
 
     def _set(self, name: str, value: object) -> None:

@@ -213,8 +213,9 @@ class SphereRig(TestRig):
         if self.confinement is not None:
             travel = self._ends.travel() if self._now.recording else 0.0
             lateral = self._pressed.lateral_stress(self._height + travel)
+            self._now.diverged = not math.isfinite(lateral)
             self._follow_sides()
-        if self._now.recording:
+        if self._now.recording and not self.diverged:
             self._add_row(lateral)
 
     def _add_row(self, confinement: float) -> None:

@@ -114,10 +114,9 @@ class Material:
         kinds = common.pop("mineral", ())
         for key in common:
             require_known("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
-        for key in ("tensile_strength", "cohesion", "friction"):
-            if key not in common:
-                raise InputError(f"material {key} is missing; give it in [{UNITS[key]}]")
-        elastic = {set_name: _elastic_from(set_name, values) for set_name, values in sets.items()}
+        given = {set_name: _elastic_keys(set_name, values) for set_name, values in sets.items()}
+        _refuse_missing(common, given)
+        elastic = {set_name: ElasticSet(**values) for set_name, values in given.items()}
         return cls(name=label, elastic=elastic, minerals=kinds, **common)
 
     def with_set(
@@ -170,11 +169,12 @@ class Material:
         """
         chosen = self._elastic(model)
         if model == "flexible":
-            for key in ("young", "poisson"):
-                if getattr(chosen, key) is None:
-                    raise InputError(
-                        f"material [elastic.flexible] {key} is missing; triangles need it"
-                    )
+            absent = [key for key in ("young", "poisson") if getattr(chosen, key) is None]
+            if absent:
+                raise InputError(
+                    f"material [elastic.flexible] {' and '.join(absent)} is missing; triangles "
+                    "need it"
+                )
         tensile, shear = self.elastic_energies(model)
         return Law(
             young=chosen.young,
@@ -269,16 +269,32 @@ def _load_file(path: Path) -> Material:
     return Material.from_dict(load_toml(path, "material"), name=path.stem)
 
 
-def _elastic_from(name: str, values: object) -> ElasticSet:
+def _elastic_keys(name: str, values: object) -> Table:
     given = require_table(f"material [elastic.{name}]", values)
     for key in given:
         require_known(f"material [elastic.{name}] key", key, list(ELASTIC_KEYS))
-    for key in ("normal_stiffness", "shear_ratio"):
-        if key not in given:
-            raise InputError(
-                f"material [elastic.{name}] {key} is missing; give it in [{UNITS[key]}]"
-            )
-    return ElasticSet(**given)
+    return given
+
+
+def _refuse_missing(common: Table, sets: Mapping[str, Table]) -> None:
+    """Name all keys that a material needs and does not have, in one line."""
+    needed: tuple[str, ...] = ("tensile_strength", "cohesion", "friction")
+    if common.get("softening", Material.softening) != "brittle":
+        needed += ENERGY_KEYS
+    missing = [(key, UNITS[key]) for key in needed if key not in common]
+    for name, values in sets.items():
+        missing += [
+            (f"[elastic.{name}] {key}", UNITS[key])
+            for key in ("normal_stiffness", "shear_ratio")
+            if key not in values
+        ]
+    if missing:
+        names = ", ".join(key for key, _ in missing)
+        units = ", ".join(f"[{unit}]" for _, unit in missing)
+        raise InputError(
+            f"material {names} {'is' if len(missing) == 1 else 'are'} missing; give "
+            f"{'it' if len(missing) == 1 else 'them'} in {units}"
+        )
 
 
 def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:

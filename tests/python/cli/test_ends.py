@@ -99,6 +99,16 @@ def test_a_diverged_run_writes_what_it_has(capsys, tmp_path, test):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_run_that_diverges_under_its_confinement_writes_what_it_has(capsys, tmp_path, model):
+    pressed = ["biaxial", *TINY, "--model", model, "--confinement", "1e15"]
+    assert cli.main(["run", *pressed, "--out", str(tmp_path)]) == 3
+    assert "status = diverged" in one_line(capsys.readouterr().err)
+    assert json.loads((tmp_path / "result.json").read_text())["status"] == "diverged"
+    assert {"curve.csv", "final.vtu"} <= {file.name for file in tmp_path.iterdir()}
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("redirection", [">&-", "| true", "> /dev/full"])
 def test_files_are_finished_when_nobody_reads_stdout(tmp_path, redirection):
     line = f'"$@" --out {tmp_path} {redirection}; exit ${{PIPESTATUS[0]}}'

@@ -205,6 +205,15 @@ def test_wrong_dictionaries(change, message):
         materials.load(data | change)
 
 
+def test_all_missing_keys_are_named_at_once():
+    with pytest.raises(InputError) as caught:
+        materials.load({"tensile_strength": 8e6, "elastic": {"rigid": {"shear_ratio": 0.3}}})
+    assert str(caught.value) == (
+        "material cohesion, friction, tensile_fracture_energy, shear_fracture_energy, "
+        "[elastic.rigid] normal_stiffness are missing; give them in [Pa], [-], [N/m], [N/m], [Pa/m]"
+    )
+
+
 @pytest.mark.parametrize("key", ["young", "poisson"])
 def test_the_flexible_model_needs_its_triangles(key):
     elastic = {"young": 1e9, "poisson": 0.2, "normal_stiffness": 1e13, "shear_ratio": 0.3}
