@@ -13,6 +13,7 @@ import fcntl
 import io
 import json
 import os
+import secrets
 import tempfile
 import tomllib
 import weakref
@@ -49,16 +50,11 @@ def whole_file(path: Path | str) -> Iterator[Path]:
     path = Path(path)
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, "is a folder, must be a file", str(path))
-    handle, name = tempfile.mkstemp(
-        prefix=f"{_TEMPORARY}{path.stem}-", suffix=path.suffix, dir=path.parent
-    )
-    os.close(handle)
-    temporary = Path(name)
+    temporary = _new_file(path)
     try:
         yield temporary
         with temporary.open("rb") as written:
             os.fsync(written.fileno())
-        temporary.chmod(0o666 & ~_umask())  # mkstemp makes files that only the owner can read
         temporary.replace(path)
     except OSError as error:
         if error.filename is not None or error.errno is None:
@@ -209,7 +205,14 @@ def _unlock(file: Path, handle: int, owner: int) -> None:
         os.close(handle)
 
 
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def _new_file(path: Path) -> Path:
+    """Make an empty file beside `path`, readable for those that the user's umask allows.
+
+    ``mkstemp`` makes files for the owner alone, and the umask can only be asked for by changing it,
+    which other threads would notice.
+    """
+    while True:
+        name = f"{_TEMPORARY}{path.stem}-{secrets.token_hex(4)}{path.suffix}"
+        with contextlib.suppress(FileExistsError):
+            os.close(os.open(path.with_name(name), os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+            return path.with_name(name)

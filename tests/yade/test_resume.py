@@ -175,6 +175,15 @@ def test_a_complete_run_is_not_repeated(small, tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("model", SPHERE_MODELS)
+def test_a_complete_run_of_spheres_shows_the_same_final_state_again(small, tmp_path, model):
+    flexpm.run("tension", small, model=model, out=tmp_path)
+    final = (tmp_path / "final.vtu").read_bytes()
+    flexpm.run("tension", small, model=model, out=tmp_path)
+    assert (tmp_path / "final.vtu").read_bytes() == final
+
+
+@pytest.mark.long
 def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
     flexpm.run("tension", small, rate=4.0, out=tmp_path)
     others = (

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError, SimulationError
-from ..files import output_folder
 from ..laboratory.run_spec import TESTS
 from ..models.options import MODELS
 from ..report import tables
@@ -76,7 +75,7 @@ def compare(
         inputs.run_spec(test, options | {"model": model}, material)
         for model, material in chosen.items()
     ]
-    folder = output_folder(out)
+    folder = inputs.locked_folder(out)
     inputs.load_yade()
     from ..studies import comparison
 

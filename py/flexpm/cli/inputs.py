@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import contextlib
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from .. import _plugin
 from ..errors import InputError
-from ..files import Table
+from ..files import FolderLock, Table, output_folder
 from ..laboratory.run_spec import RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
@@ -23,9 +25,26 @@ if TYPE_CHECKING:
 
 
 def load_yade() -> None:
-    """Load YADE and the plugin's classes; a signal in the midst of this would end in an abort."""
+    """Load YADE and the plugin's classes; a signal in the midst of this would end in an abort.
+
+    YADE's temporary folder, which nothing here uses, would outlive a process that is killed.
+    """
     with signals.waiting():
         _plugin.load()
+        import yade
+
+        with contextlib.suppress(OSError):
+            Path(yade.O.tmpFilename()).parent.rmdir()
+
+
+def locked_folder(path: Path) -> Path:
+    """Make the folder of the command's files and keep other processes out until the command ends.
+
+    What killed processes have left there half written is removed.
+    """
+    folder = output_folder(path)
+    click.get_current_context().meta.setdefault("flexpm.locks", []).append(FolderLock(folder))
+    return folder
 
 
 def material(options: Table, model: str | None = None) -> Material:

@@ -105,7 +105,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     require_known("test", test, TESTS)
     chosen = inputs.material(options)
     spec = inputs.run_spec(test, options, chosen)
-    folder = output_folder(out)
+    folder = inputs.locked_folder(out)
     inputs.load_yade()
     from ..laboratory import checkpoint, protocols
 
@@ -143,7 +143,7 @@ def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
     chosen = inputs.material(options)
     spec = inputs.run_spec(ELASTIC, options, chosen)
-    folder = None if out is None else output_folder(out)
+    folder = None if out is None else inputs.locked_folder(out)
     inputs.load_yade()
     from ..models import grains
 
@@ -175,7 +175,7 @@ def specimen() -> None:
 @cli_options.quiet_option
 def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
-    folder = output_folder(out)
+    folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
         made = inputs.packed(inputs.specimen_spec("rectangle", options), progress)
     _describe(made, folder, mesh)
@@ -189,7 +189,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 @cli_options.quiet_option
 def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
-    folder = output_folder(out)
+    folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
         made = inputs.packed(inputs.specimen_spec("disc", options), progress)
     _describe(made, folder, mesh)
@@ -244,7 +244,7 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     from ..studies import study as studies
 
     plan = studies.read(file)
-    folder = output_folder(out or Path(file.stem))
+    folder = inputs.locked_folder(out or Path(file.stem))
     with terminal.Progress(quiet, unit="runs") as progress:
         rows = studies.run(plan, folder, progress=progress, **options)
     pictures = figures.draw(plan, rows, folder)
@@ -265,7 +265,7 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
 
     plan = calibration_problem.read(file)
     start = load(plan.material_file, plan.model)
-    folder = output_folder(out or Path(file.stem))
+    folder = inputs.locked_folder(out or Path(file.stem))
     with terminal.Progress(quiet, unit="sets") as progress:
         found = calibration_search.run(
             plan, folder, start=start.law(plan.model), progress=progress, **options

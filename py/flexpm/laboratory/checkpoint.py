@@ -246,7 +246,8 @@ def _flat(made: Table) -> Table:
     specimen, material = inputs.pop("specimen"), inputs.pop("material")
     # a name changes no result
     law = {f"material {key}": value for key, value in material.items() if key != "name"}
-    return {**plain, **inputs, **specimen, **law}
+    # what others follow from comes first: the default of the loading follows from the material
+    return {**plain, **law, **specimen, **inputs}
 
 
 def _refuse_differences(folder: Path, there: Table, here: Table) -> None:

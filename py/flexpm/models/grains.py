@@ -205,7 +205,7 @@ def build(
 
 def elastic(
     specimen: Specimen,
-    material: Material | str = "augig-table7",
+    material: Material | str | None = None,
     model: str = "flexible",
     *,
     points: int = 3,
@@ -215,7 +215,7 @@ def elastic(
 
     Args:
         specimen: A rectangle.
-        material: Preset, file, or material.
+        material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``.
         points: Contact points per contact; inner particles have one.
         mesh: ``refined`` or ``fan``.

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import yade
+from yade import wrapper
 
 from ..arrays import FloatArray, IntArray
 from ..results.snapshot import Snapshot
@@ -20,9 +21,16 @@ from ..specimens.specimen import Specimen
 from .sphere_bonds import Bonds
 from .sphere_cracks import CrackWatch
 
+#: One for each bonded pair.
+Interactions = Sequence[wrapper.Interaction | None]
+
 
 def snapshot(
-    specimen: Specimen, bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch
+    specimen: Specimen,
+    bodies: Sequence[int],
+    bonds: Bonds,
+    cracks: CrackWatch,
+    interactions: Interactions,
 ) -> Snapshot:
     """State of the spheres and their bonds.
 
@@ -31,6 +39,7 @@ def snapshot(
         bodies: Body of each grain.
         bonds: Properties of the bonds.
         cracks: What watches them, just after a look.
+        interactions: That each bonded pair has now.
     """
     motion = Motion(specimen, bodies)
     grain_of, reference, triangles, triangle_grain = _fans(specimen)
@@ -41,7 +50,7 @@ def snapshot(
         ],
         axis=1,
     )
-    forces = bond_forces(bodies, bonds, cracks)
+    forces = bond_forces(bodies, bonds, interactions)
     along, length = motion.branches(bonds.grains)
     normal = np.einsum("ij,ij->i", forces, along)
     shear = along[:, 0] * forces[:, 1] - along[:, 1] * forces[:, 0]
@@ -105,17 +114,17 @@ class Motion:
         return np.column_stack((c * x - s * y, s * x + c * y))
 
 
-def bond_forces(bodies: Sequence[int], bonds: Bonds, cracks: CrackWatch) -> FloatArray:
+def bond_forces(bodies: Sequence[int], bonds: Bonds, interactions: Interactions) -> FloatArray:
     """Force of each bond on its second grain [N], (C, 2); of what is left of it once broken."""
     forces = np.zeros((len(bonds), 2))
-    for row, interaction in enumerate(cracks.interactions):
+    for row, interaction in enumerate(interactions):
         if interaction is not None and interaction.isReal:
             phys = interaction.phys
             force = phys.normalForce + phys.shearForce
             forces[row] = force[0], force[1]
     # the collider may have named the other sphere first
     first = np.array(bodies)[bonds.grains[:, 0]]
-    named = [one.id1 if one is not None else -1 for one in cracks.interactions]
+    named = [one.id1 if one is not None else -1 for one in interactions]
     forces[np.array(named) != first] *= -1.0
     return forces
 

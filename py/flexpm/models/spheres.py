@@ -123,7 +123,8 @@ class SphereModel:
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
         self.cracks.look()
-        return snapshot(self.specimen, self.ids, self.bonds, self.cracks)
+        # looked up anew: a pair that has parted and met again has another interaction
+        return snapshot(self.specimen, self.ids, self.bonds, self.cracks, _find_bonds(self))
 
     def add_plate(self, face: float, sense: int) -> int:
         """Put a fixed, frictionless, horizontal plate beside the specimen.
@@ -313,7 +314,7 @@ def _make_bonds(built: SphereModel) -> list[wrapper.Interaction]:
 
 
 def _find_bonds(built: SphereModel) -> list[wrapper.Interaction | None]:
-    """The interaction of each bond in a scene that has been loaded, None where there is none."""
+    """The interaction that each bonded pair has now, None where there is none."""
     found = {(one.id1, one.id2): one for one in yade.O.interactions}
     pairs = np.array(built.ids)[built.bonds.grains].tolist()
     return [found.get((a, b), found.get((b, a))) for a, b in pairs]

@@ -87,7 +87,7 @@ def poissons_ratio(curve: Curve) -> float | None:
 
 
 def softening_slope(curve: Curve) -> float | None:
-    """Slope of stress over strain from the peak to half of it, or to the end [Pa], negative."""
+    """Slope of stress over strain from the peak to half of it, or to the end [Pa]."""
     peak = peak_row(curve)
     if peak is None:
         return None

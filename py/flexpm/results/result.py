@@ -52,7 +52,7 @@ class Result:
     end_mismatch: float | None = None  #: of both ends' reactions, largest up to the peak [-]
     energy_error: float | None = None  #: relative to the largest work [-]
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
-    softening_slope: float | None = None  #: of stress over strain after the peak, negative [Pa]
+    softening_slope: float | None = None  #: of stress over strain after the peak [Pa]
     late_modulus: float | None = None  #: at 80 % of the peak over that at 20 % [-]
     first_tensile_crack_strain: float | None = None  #: [-]
     first_tensile_crack_stress: float | None = None  #: [Pa]

@@ -258,6 +258,7 @@ class Omega:
     dt: float
     engines: Sequence[Engine]
     trackEnergy: bool
+    def tmpFilename(self) -> str: ...
     @property
     def iter(self) -> int: ...
     @property

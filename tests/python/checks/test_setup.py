@@ -7,6 +7,10 @@ import os
 import subprocess
 from pathlib import Path
 
+import pytest
+
+import flexpm
+
 ROOT = Path(__file__).resolve().parents[3]
 VERSION = "2025.2.0"
 
@@ -59,3 +63,45 @@ def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1
     assert f"YADE_SOURCE_DIR = {tmp_path}" in done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    "script",
+    ["setup", "test", "quickstart", "yade-headers"]
+    + [f"checks/{name}" for name in ("sanitize", "compilers", "format", "types")],
+)
+def test_a_script_that_is_asked_for_help_does_nothing_else(script: str, tmp_path: Path) -> None:
+    done = subprocess.run(
+        [ROOT / "scripts" / script, "--help"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=5,
+    )
+    assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (0, "", [])
+    text = (ROOT / "scripts" / script).read_text()
+    assert len(done.stdout.splitlines()) >= 3
+    assert all(f"# {line}".rstrip() in text for line in done.stdout.splitlines())
+    assert "set -euo" not in done.stdout
+
+
+def test_flexpm_is_installed_below_any_prefix_and_removed_again(tmp_path: Path) -> None:
+    build = Path(flexpm.__file__).parents[2]
+    manifest = build / "install_manifest.txt"
+    before = manifest.read_text() if manifest.exists() else None
+    try:
+        command = ["cmake", "--install", str(build), "--prefix", str(tmp_path)]
+        subprocess.run(command, check=True, capture_output=True)
+        (tmp_path / "manifest").write_text(manifest.read_text())
+    finally:
+        manifest.unlink() if before is None else manifest.write_text(before)
+    plain = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    found = subprocess.run(
+        [tmp_path / "bin" / "flexpm", "--version"], env=plain, capture_output=True, text=True
+    )
+    assert (found.returncode, found.stdout.split()[0]) == (0, "flexpm"), found.stderr
+    script = ROOT / "cmake" / "Uninstall.cmake"
+    removal = ["cmake", f"-DMANIFEST={tmp_path / 'manifest'}", "-P", str(script)]
+    subprocess.run(removal, check=True, capture_output=True)
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert subprocess.run(removal, capture_output=True).returncode != 0

@@ -17,6 +17,7 @@ from sample_snapshot import read_vtu
 
 import flexpm
 from flexpm.cli import main as cli
+from flexpm.files import FolderLock
 
 ENVIRONMENT = {
     **os.environ,
@@ -162,3 +163,49 @@ def test_a_signal_while_libraries_are_loaded_is_one_line(tmp_path, number, code,
     errors = process.communicate(timeout=60)[1]
     assert process.returncode == code, errors
     one_line(errors)
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("delay", [0.02, 0.04, 0.08])
+def test_a_signal_while_python_starts_is_one_line(number, code, delay):
+    launcher = Path(__file__).parents[3] / "scripts" / "flexpm"
+    build = {**os.environ, "FLEXPM_BUILD_DIR": str(Path(flexpm.__file__).parents[2])}
+    process = subprocess.Popen(
+        [launcher, "doctor"], env=build, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(delay)
+    process.send_signal(number)
+    errors = process.communicate(timeout=60)[1]
+    assert process.returncode == code, errors
+    one_line(errors)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", ["elastic", "specimen rectangle"])
+def test_what_a_killed_process_left_is_removed_and_a_second_one_is_refused(tmp_path, kind):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / ".flexpm-specimen-0a1b2c3d.png").write_text("half")
+    command = [*COMMAND, *kind.split(), *TINY, "--out", str(tmp_path / "out")]
+    surroundings = ENVIRONMENT | {"TMPDIR": str(tmp_path / "tmp")}
+    (tmp_path / "tmp").mkdir()
+    lock = FolderLock(tmp_path / "out")
+    (tmp_path / "out" / ".flexpm-specimen-0a1b2c3d.png").write_text("half")
+    refused = subprocess.run(command, env=surroundings, stderr=subprocess.PIPE, text=True)
+    assert refused.returncode == 1
+    assert "is in use by another process" in one_line(refused.stderr)
+    del lock
+    assert subprocess.run(command, env=surroundings, stdout=subprocess.DEVNULL).returncode == 0
+    assert not [file for file in (tmp_path / "out").iterdir() if file.name.startswith(".flexpm")]
+
+
+@pytest.mark.long
+def test_a_killed_process_leaves_no_temporary_folder_of_yade(tmp_path):
+    (tmp_path / "tmp").mkdir()
+    command = [*COMMAND, "run", "uniaxial", *TINY, "--rate", "0.1", "--out", str(tmp_path / "out")]
+    process = subprocess.Popen(command, env=ENVIRONMENT | {"TMPDIR": str(tmp_path / "tmp")})
+    while not (tmp_path / "out" / "specimen.vtu").exists():
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    assert not list((tmp_path / "tmp").glob("yade*"))
