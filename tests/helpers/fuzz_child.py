@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Examples of a fuzz test in a process of their own: a crash is a failure that names its example.
+
+One child does many examples, one line of JSON each; one that crashed or hung is replaced. What an
+example does is plain data, so that it can be kept as a test.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import selectors
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+#: Calls of the solver without arguments.
+QUERIES = (
+    *("counts", "cracks", "energies", "unbalanced", "snapshot", "plates", "mirrorBodies"),
+    *("openBooks", "scaleMasses", "useRealMasses", "elasticConstants"),
+)
+#: Attributes that a script may set to nonsense.
+NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
+#: Wall time of an example [s]; the machine may be busy.
+LONGEST = 120.0
+
+
+def examples(count: int) -> int:
+    """Number of examples of a test: `count`, by night a hundred times as many."""
+    return count * (100 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 1)
+
+
+class Child:
+    """A process that does examples of one kind."""
+
+    def __init__(self, kind: str) -> None:
+        self._kind, self._process = kind, None
+
+    def run(self, example: Any) -> Any:
+        """Answer of the child; fails if it has ended or does not answer."""
+        if self._process is None:
+            self._start()
+        process = self._process
+        text = json.dumps(example)
+        process.stdin.write(text + "\n")
+        process.stdin.flush()
+        selector = selectors.DefaultSelector()
+        selector.register(process.stdout, selectors.EVENT_READ)
+        answered = selector.select(LONGEST)
+        line = process.stdout.readline() if answered else ""
+        if line:
+            return json.loads(line)
+        how = f"ended with {process.wait()}" if answered else f"did not end in {LONGEST} s"
+        self.close()
+        self._errors.seek(0)
+        raise AssertionError(f"the process {how} in {text}: {self._errors.read()[-2000:]}")
+
+    def close(self) -> None:
+        """End the child."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+            self._process.stdin.close()
+            self._process.stdout.close()
+            self._process = None
+
+    def _start(self) -> None:
+        import flexpm
+
+        here, package = Path(__file__).parent, Path(flexpm.__file__).parent.parent
+        self._errors = tempfile.TemporaryFile("w+")  # noqa: SIM115
+        self._process = subprocess.Popen(
+            [sys.executable, __file__, self._kind],
+            env={**os.environ, "PYTHONPATH": f"{package}:{here}", "OMP_NUM_THREADS": "1"},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._errors,
+            text=True,
+        )
+
+
+class Script:
+    """Calls that a user's script makes in any order, on one scene."""
+
+    def __init__(self) -> None:
+        import flexpm  # first: it knows where YADE is
+        import yade  # isort: skip
+
+        self._flexpm, self._yade, self._specimens = flexpm, yade, {}
+        self._folder = tempfile.TemporaryDirectory()
+        self._begin()
+
+    def _begin(self) -> None:
+        self._yade.O.reset()
+        self._built: Any = None
+        self._solver: Any = None
+        self._views: list[Any] = []
+
+    def __call__(self, calls: list[list[Any]]) -> list[dict[str, Any]]:
+        """Make the calls; what each raised, and what the scene then is."""
+        self._begin()
+        Path(self._folder.name, "scene.bin").unlink(missing_ok=True)
+        seen = []
+        for name, *arguments in calls:
+            error = ""
+            try:
+                getattr(self, f"do_{name}")(*arguments)
+            except Exception as raised:
+                error = f"{type(raised).__name__}: {raised}"
+            seen.append({"error": error, **self._scene()})
+        return seen
+
+    def _scene(self) -> dict[str, Any]:
+        scene = self._yade.O
+        return {
+            "step": scene.iter,
+            "bodies": sum(1 for _ in scene.bodies),
+            "bonds": sum(1 for one in scene.interactions if one.isReal),
+            "state": self._state(),
+        }
+
+    def _state(self) -> str:
+        """Hash of the grains' places, empty if they cannot be asked for."""
+        try:
+            places = self._solver.snapshot()["positions"]
+        except Exception:
+            return ""
+        return hashlib.sha256(places.tobytes()).hexdigest()[:16]
+
+    def do_build(self, model: str, seed: int, points: int, mesh: str) -> None:
+        if seed not in self._specimens:
+            made = self._flexpm.Specimen.rectangle(0.012, 0.016, 0.01, seed=seed)
+            self._specimens[seed] = made
+        specimen = self._specimens[seed]
+        self._built = self._flexpm.build(specimen, None, model, points=points, mesh=mesh)
+        self._solver = self._built.solver
+
+    def do_bare(self) -> None:
+        self._solver = self._yade.wrapper.GrainSolver()
+
+    def do_engines(self, kind: str) -> None:
+        engines, scene = list(self._yade.O.engines), self._yade.O
+        others = {
+            "none": [],
+            "solver": [self._solver] if self._solver is not None else [],
+            "twice": [*engines, *engines],
+            "reversed": engines[::-1],
+            "recorder": [self._yade.wrapper.AxialRecorder(), *engines],
+            "bare": [self._yade.wrapper.GrainSolver(), *engines],
+        }
+        scene.engines = others[kind]
+
+    def do_step(self, count: int) -> None:
+        for _ in range(count):
+            self._yade.O.step()
+
+    def do_reset(self) -> None:
+        self._begin()
+
+    def do_save(self) -> None:
+        self._yade.O.save(f"{self._folder.name}/scene.bin", quiet=True)
+
+    def do_load(self) -> None:
+        if Path(self._folder.name, "scene.bin").exists():
+            self._yade.O.load(f"{self._folder.name}/scene.bin", quiet=True)
+            if self._built is not None:
+                self._built.rebind()
+                self._solver = self._built.solver
+
+    def do_erase_bond(self, number: int) -> None:
+        bonds = list(self._yade.O.interactions)
+        if bonds:
+            one = bonds[number % len(bonds)]
+            self._yade.O.interactions.erase(one.id1, one.id2)
+
+    def do_erase_body(self, number: int) -> None:
+        bodies = [body.id for body in self._yade.O.bodies]
+        if bodies:
+            self._yade.O.bodies.erase(bodies[number % len(bodies)])
+
+    def do_clear(self) -> None:
+        self._yade.O.bodies.clear()
+
+    def do_touch(self, side: int) -> None:
+        self._solver.addSidePlates(side)
+
+    def do_plate(self, x: float, y: float) -> None:
+        self._solver.addTouchingPlate((x, y, 0.0))
+
+    def do_wall(self, x: float, y: float) -> None:
+        self._solver.addWall((x, y, 0.0), (0.0, 1.0, 0.0))
+
+    def do_ask(self, name: str) -> None:
+        getattr(self._solver, name)()
+
+    def do_view(self, number: int) -> None:
+        bodies = [body for body in self._yade.O.bodies if hasattr(body.shape, "velocities")]
+        if bodies:
+            shape = bodies[number % len(bodies)].shape
+            self._views.append((shape.velocities, shape.held))
+
+    def do_write(self, value: float) -> None:
+        for velocities, _ in self._views:
+            velocities[:] = value
+
+    def do_set(self, name: str, value: float) -> None:
+        setattr(self._solver, name, type(getattr(self._solver, name))(value))
+
+    def do_dead(self, value: bool) -> None:
+        self._solver.dead = value
+
+    def do_time_step(self, value: float) -> None:
+        self._yade.O.dt = value
+
+
+class Discs:
+    """Specimens of any discs in any outline, built and stepped."""
+
+    def __call__(self, example: dict[str, Any]) -> str:
+        """The error of an example, or what became of it."""
+        import flexpm  # first: it knows where YADE is
+        from flexpm.specimens.specimen import Circle
+        import yade  # isort: skip
+
+        yade.O.reset()
+        outline = example["outline"]
+        try:
+            specimen = flexpm.Specimen.from_discs(
+                example["centres"],
+                example["radii"],
+                outline if isinstance(outline, list) else Circle(*outline.values()),
+                example["thickness"],
+                short_edge=example["short_edge"],
+            )
+            built = flexpm.build(specimen, None, example["model"])
+            built.run(20)
+            built.snapshot()
+        except Exception as raised:
+            return f"{type(raised).__name__}: {raised}"
+        return "done"
+
+
+class Command:
+    """Command lines, in this process one after the other."""
+
+    def __call__(self, arguments: list[str]) -> list[Any]:
+        """Exit code and what went to stderr."""
+        import contextlib
+        import io
+
+        from flexpm.cli.main import main
+
+        errors = io.StringIO()
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(errors):
+                code = main(arguments)
+            outside = sorted(os.listdir(".")) if code == 2 else []
+        return [code, errors.getvalue(), outside]
+
+
+def serve(kind: str, out: Any) -> None:
+    """Answer each line of stdin by one line."""
+    kinds: dict[str, Callable[[], Callable[[Any], Any]]] = {
+        "script": Script,
+        "discs": Discs,
+        "command": Command,
+    }
+    answer = kinds[kind]()
+    for line in sys.stdin:
+        print(json.dumps(answer(json.loads(line))), file=out, flush=True)
+
+
+if __name__ == "__main__":
+    # what libraries print must not be taken for an answer
+    answers = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)
+    serve(sys.argv[1], answers)

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Disks that fail: a draw of the faults that scripts/checks/faults.py tries all of by night."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import flexpm
+
+SCRIPT = Path(__file__).parents[3] / "scripts" / "checks" / "faults.py"
+
+
+@pytest.mark.long
+@pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
+@pytest.mark.parametrize(("campaign", "draw"), [("run", 16), ("study", 4)])
+def test_nothing_finished_is_lost_and_nothing_half_written_is_read(campaign, draw):
+    build = Path(flexpm.__file__).parents[2]
+    command = [sys.executable, SCRIPT, campaign, "--draw", str(draw), "--build", build]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert f"{draw} faults" in done.stdout
+
+
+def test_a_grid_reaches_the_disk_by_way_of_python(tmp_path):
+    """VTK does not tell that a disk refused a part of what it wrote."""
+    small = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
+    flexpm.export.write_vtu(tmp_path / "grid.vtu", flexpm.build(small).snapshot())
+    content = (tmp_path / "grid.vtu").read_bytes()
+    assert content.startswith(b"<VTKFile") and content.endswith(b"</VTKFile>\n")

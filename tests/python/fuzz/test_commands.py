@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Command lines of any words: the documented exit codes, and one line for each end but 0."""
+
+from __future__ import annotations
+
+import pytest
+from fuzz_child import Child, examples
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+NUMBERS = st.sampled_from(
+    ["0", "1", "2", "-1", "1e-9", "0.5", "1e9", "1e-400", "nan", "inf", "0x1", "٣", "1,2", "", "a"]
+)
+WORDS = st.sampled_from(
+    """uniaxial tension biaxial brazilian flexible rigid inner jcfpm static adaptive constant
+    augig-table7 augig-table2-brittle nofile.toml""".split()
+)
+TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
+KEYS = st.sampled_from(
+    ["young", "cohesion", "friction", "softening", "normal_stiffness", "quartz.x"]
+)
+VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
+    --thickness --diameters --points --gravity --diameter""".split()
+OPTIONS = st.one_of(
+    st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
+    st.tuples(st.sampled_from(["--model", "--material", "--mesh", "--start", "--loading"]), WORDS),
+    st.tuples(st.just("--set"), st.builds("{}={}".format, KEYS, NUMBERS | WORDS)),
+    st.tuples(st.sampled_from(["--dynamic", "--discard-checkpoint", "--help", "--nothing"])),
+    st.tuples(TEXTS),
+)
+COMMANDS = st.sampled_from(
+    [
+        *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
+        *(("specimen", shape) for shape in ("rectangle", "disc")),
+        *((name, "nofile.toml") for name in ("study", "calibrate")),
+        *(("compare", "uniaxial"), ("elastic",), ("bench",), ("run",), ()),
+    ]
+)
+#: A small specimen and few steps, so that what is right soon ends.
+SIZES = {
+    "run": ["--width", "0.012", "--height", "0.016", "--max-strain", "1e-5", "--rate", "50"],
+    "elastic": ["--width", "0.012", "--height", "0.016"],
+    "specimen": ["--out", "made"],
+    "compare": ["--width", "0.012", "--height", "0.016", "--max-strain", "1e-5", "--rate", "50"],
+    "bench": ["--width", "0.012", "--height", "0.016", "--steps", "2"],
+}
+
+
+@pytest.fixture(scope="module")
+def child():
+    one = Child("command")
+    yield one
+    one.close()
+
+
+@given(COMMANDS, st.lists(OPTIONS, max_size=4))
+@settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
+def test_any_command_line_ends_as_documented(child, command, options):
+    words = [*command, *(SIZES.get(command[0], []) if command else [])]
+    if command[:2] == ("run", "brazilian"):
+        words = [*command, "--diameter", "0.012", *SIZES["run"][4:]]
+    code, errors, left = child.run([*words, *(word for option in options for word in option)])
+    assert code in (0, 2, 3), errors
+    assert errors.count("\n") == (code != 0), errors
+    assert not code or errors.startswith("flexpm: ")
+    assert "internal error" not in errors
+    assert not left or set(left) <= {"flexpm-out", "made"}
