@@ -21,7 +21,7 @@ from typing import Any
 #: Calls of the solver without arguments.
 QUERIES = (
     *("counts", "cracks", "energies", "unbalanced", "snapshot", "plates", "mirrorBodies"),
-    *("openBooks", "scaleMasses", "useRealMasses", "elasticConstants"),
+    *("resetEnergyBalance", "scaleMasses", "useRealMasses", "elasticConstants"),
 )
 #: Attributes that a script may set to nonsense.
 NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")

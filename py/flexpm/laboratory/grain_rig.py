@@ -225,5 +225,5 @@ class PlateRig(GrainRig):
         Deviation D28: the points that touch first are kept from sliding, else the disc would roll.
         """
         for normal in ((0.0, 1.0, 0.0), (0.0, -1.0, 0.0)):
-            self.built.solver.holdSideways(self.built.solver.addTouchingPlate(normal))
+            self.built.solver.fixTangential(self.built.solver.addTouchingPlate(normal))
         self.built.set_masses()

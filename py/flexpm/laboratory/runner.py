@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import yade
 
+from ..errors import SimulationError
 from ..progress import Progress
 from .checkpoint import Checkpoint, Position
 
@@ -136,5 +137,10 @@ class Runner:
 
     def _show(self, text: str) -> None:
         if self._progress is not None:
-            done = yade.O.iter
+            done, bodies = yade.O.iter, len(yade.O.bodies)
             self._progress(done, max(self.position.stage_likely, 1.05 * done), text)
+            if yade.O.iter != done or len(yade.O.bodies) != bodies or not yade.O.engines:
+                raise SimulationError(
+                    f"progress: scene = step {yade.O.iter} with {len(yade.O.bodies)} bodies, must "
+                    f"stay at step {done} with {bodies}; let the callback only look"
+                )

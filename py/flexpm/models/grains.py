@@ -16,7 +16,7 @@ from yade import wrapper
 
 from .._flexpm import Tessellation
 from ..arrays import FloatArray, IntArray
-from ..errors import InputError
+from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
@@ -82,8 +82,12 @@ class Model:
         """Advance by `steps`.
 
         Raises:
-            RuntimeError: if a number is not finite any more.
+            RuntimeError: if a number is not finite any more, or the scene is not this one any more.
         """
+        if self.solver not in yade.O.engines:
+            raise SimulationError(
+                "Model: its solver in O.engines = none, must be there; build the specimen again"
+            )
         for _ in range(steps):
             yade.O.step()
 
@@ -191,7 +195,7 @@ def build(
     chosen = _fitted(specimen, grains, load_material(material, model), model)
     solver = _assembled(grains, chosen, model)
     solver.damping = damping
-    solver.addToScene(_grain_materials(chosen, model))
+    solver.addToScene()
     mean_diameter = 2.0 * float(np.mean(grains.discs[:, 2]))
     bounds = [wrapper.Bo1_LaguerreCell_Aabb()]
     engines = [collider(bounds, mean_diameter), solver, _idle_newton()]

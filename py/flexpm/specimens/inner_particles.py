@@ -37,7 +37,7 @@ def cells(specimen: Specimen) -> InnerCells:
 def edge_options(inner: InnerCells, model: str) -> dict[str, IntArray | bool]:
     """Options of the solver's assembly that tell contacts between grains from those within."""
     return {
-        "aggregate": np.ascontiguousarray(inner.grain, dtype=np.int32),
+        "parent": np.ascontiguousarray(inner.grain, dtype=np.int32),
         "outer": np.ascontiguousarray(inner.outer, dtype=np.int32),
         "edge_normals": model == "inner-un",
     }

@@ -310,6 +310,28 @@ TEST_CASE("wrong options are refused", "[assembly]")
     refused([](AssemblyOptions& o) { o.laws.clear(); }, "contact laws");
     refused([](AssemblyOptions& o) { o.grain_material = { 0 }; }, "grain materials");
     refused([](AssemblyOptions& o) { o.grain_material = { 0, 1 }; }, "grain material");
+    refused([](AssemblyOptions& o) { o.parent = { 0, 2 }; }, "grain of a particle = 2");
+    refused([](AssemblyOptions& o) { o.parent = { -1, 0 }; }, "grain of a particle = -1");
     refused([](AssemblyOptions& o) { o.elastic[0].young = -1.0; }, "young");
     refused([](AssemblyOptions& o) { o.laws[0].normal_stiffness = 0.0; }, "normal_stiffness");
+}
+
+TEST_CASE("discs that are not those of the cells are refused", "[assembly]")
+{
+    const auto s = specimens::grid(2, 1, 2e-3);
+    auto discs = s.discs;
+    discs.pop_back();
+    const auto options = specimens::options();
+    CHECK_THROWS_WITH(
+        flexpm::make_assembly(s.cells, discs, options), Catch::Contains("discs of the cells = 1"));
+    CHECK_THROWS_WITH(flexpm::make_grain_meshes(s.cells, discs, options.mesh),
+        Catch::Contains("discs of the cells = 1"));
+    discs = s.discs;
+    discs[1].radius = std::nan("");
+    CHECK_THROWS_WITH(
+        flexpm::make_assembly(s.cells, discs, options), Catch::Contains("disc 1: radius = nan m"));
+    discs = s.discs;
+    discs[0].centre.y = HUGE_VAL;
+    CHECK_THROWS_WITH(
+        flexpm::make_assembly(s.cells, discs, options), Catch::Contains("disc 0: centre"));
 }

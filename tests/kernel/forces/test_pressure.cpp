@@ -120,3 +120,13 @@ TEST_CASE("The work of pressure is pressure times the volume given up")
     CHECK(std::fabs(given_up) > 0.1 * before * specimens::thickness);
     CHECK(a.ledger.pressure_work == Approx(pressure * given_up).epsilon(1e-10));
 }
+
+TEST_CASE("A side that the outline has not is refused")
+{
+    Assembly a = pressed(specimens::grid(2, 2, 2e-3), 4);
+    for (int side : { -1, 4, 99 }) {
+        CHECK_THROWS_WITH(flexpm::set_pressure(a, side, pressure),
+            Catch::Contains("side = " + std::to_string(side)));
+        CHECK_THROWS_AS(flexpm::side_nodes(a, side), std::invalid_argument);
+    }
+}

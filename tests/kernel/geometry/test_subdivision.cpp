@@ -204,7 +204,7 @@ TEST_CASE("particles know the grain of the rock that they are part of", "[inner]
     auto o = specimens::options();
     o.rigid = true;
     o.points = 1;
-    o.aggregate = inner.grain;
+    o.parent = inner.grain;
     const Assembly a = flexpm::make_assembly(inner.cells, inner.discs, o);
     const auto bonded = flexpm::bonded_contacts(a);
     const auto outer = std::count(inner.outer.begin(), inner.outer.end(), 1);
@@ -217,7 +217,7 @@ TEST_CASE("particles know the grain of the rock that they are part of", "[inner]
         const bool between = shown.contact_grains[2 * c] != shown.contact_grains[2 * c + 1];
         CHECK(between == (inner.outer[c] != 0));
     }
-    o.aggregate.pop_back();
+    o.parent.pop_back();
     CHECK_THROWS_WITH(flexpm::make_assembly(inner.cells, inner.discs, o),
         Catch::Contains("must be one for each cell"));
 }

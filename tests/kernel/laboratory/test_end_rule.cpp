@@ -4,6 +4,9 @@
 
 #include <flexpm/kernel/laboratory/end_rule.hpp>
 
+#include <cmath>
+#include <stdexcept>
+
 using namespace flexpm;
 
 namespace {
@@ -36,4 +39,16 @@ TEST_CASE("A test is over at its largest strain in any case")
     CHECK(test_state(150e6, 150e6, 4e-3, rule) == TestState::largest_strain_reached);
     CHECK(test_state(1e6, 19e6, 4e-3, rule) == TestState::largest_strain_reached);
     CHECK(test_state(1e6, 150e6, 4e-3, rule) == TestState::past_peak);
+}
+
+TEST_CASE("An end that could never come is refused")
+{
+    const double none = std::nan("");
+    for (double ratio : { none, -0.1, 1.1 })
+        CHECK_THROWS_AS(
+            test_state(0.0, 0.0, 0.0, { ratio, 0.0, -1.0, 1.0 }), std::invalid_argument);
+    CHECK_THROWS_AS(test_state(0.0, 0.0, 0.0, { 0.5, none, -1.0, 1.0 }), std::invalid_argument);
+    CHECK_THROWS_AS(test_state(0.0, 0.0, 0.0, { 0.5, 0.0, none, 1.0 }), std::invalid_argument);
+    CHECK_THROWS_AS(test_state(0.0, 0.0, 0.0, { 0.5, 0.0, -1.0, none }), std::invalid_argument);
+    CHECK(test_state(0.0, 0.0, 0.0, {}) == TestState::running);
 }

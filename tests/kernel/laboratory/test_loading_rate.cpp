@@ -124,3 +124,14 @@ TEST_CASE("A test that starts with the elastic velocities deforms as the elastic
     CHECK(now.lateral_strain / now.axial_strain == Approx(solved.poissons_ratio).epsilon(1e-3));
     CHECK(now.axial_stress / now.axial_strain == Approx(solved.youngs_modulus).epsilon(1e-2));
 }
+
+TEST_CASE("A rule of the loading rate without sense is refused")
+{
+    const double none = std::nan("");
+    for (const LoadingRateRule& rule :
+        { LoadingRateRule { 0.5, 0.02, 100.0 }, LoadingRateRule { none, 0.02, 100.0 },
+            LoadingRateRule { 8.0, -1.0, 100.0 }, LoadingRateRule { 8.0, 0.02, 0.0 } })
+        CHECK_THROWS_AS(next_velocity_factor(1.0, 0.0, 100.0, rule), std::invalid_argument);
+    CHECK_THROWS_AS(
+        next_velocity_factor(none, 0.0, 100.0, { 8.0, 0.02, 100.0 }), std::invalid_argument);
+}

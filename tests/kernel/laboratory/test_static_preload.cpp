@@ -137,3 +137,11 @@ TEST_CASE("A start from the elastic solution refuses shares and steps that make 
     CHECK_THROWS_AS(preload(a, 0.0, steps, 1.0), std::invalid_argument);
     CHECK_THROWS_AS(preload(a, share, 0, 1.0), std::invalid_argument);
 }
+
+TEST_CASE("A release without a preload is refused")
+{
+    Assembly a = driven_grains(0.0);
+    CHECK_THROWS_WITH(
+        release_preload(a, -1e-9, 1.0), Catch::Contains("velocity of the preload = 0 m/s"));
+    CHECK_THROWS_AS(release_preload(a, std::nan(""), 1.0), std::invalid_argument);
+}

@@ -134,7 +134,7 @@ Assembly draw_inner(Random& random, const specimens::Specimen& grains, std::stri
     o.laws.push_back(flexpm::unbreakable(o.laws.front()));
     o.rigid = true;
     o.points = 1;
-    o.aggregate = inner.grain;
+    o.parent = inner.grain;
     const bool of_edges = chance(random, 0.5);
     for (std::uint8_t outer : inner.outer) {
         o.edge_law.push_back(outer ? 0 : 1);

@@ -142,3 +142,22 @@ TEST_CASE("The elements' part of the stiffness bound is kept, and found anew onc
     flexpm::prepare_step(a);
     CHECK(flexpm::stiffness_bound(a).node == after);
 }
+
+TEST_CASE("Options of a step that make no sense are refused")
+{
+    Assembly a = specimens::assemble(specimens::grid(2, 2, 2e-3), specimens::options());
+    const auto refused = [&](double dt, double damping, int threads) {
+        flexpm::StepOptions o;
+        o.dt = dt;
+        o.damping = damping;
+        o.threads = threads;
+        CHECK_THROWS_AS(step(a, o), std::invalid_argument);
+    };
+    for (double dt : { 0.0, -1.0, std::nan(""), HUGE_VAL })
+        refused(dt, 0.7, 1);
+    for (double damping : { -0.1, 1.0, std::nan("") })
+        refused(1.0, damping, 1);
+    for (int threads : { 0, -1 })
+        refused(1.0, 0.7, threads);
+    CHECK(a.step == 0);
+}

@@ -6,6 +6,8 @@
 
 #include "support/specimens.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 using flexpm::Assembly;
@@ -55,4 +57,21 @@ TEST_CASE("Near pairs are searched anew when told, and for another margin")
     pairs.forget();
     CHECK(pairs.find(a, margin) == flexpm::near_pairs(a, margin));
     CHECK(pairs.find(a, 2.0 * margin) == flexpm::near_pairs(a, 2.0 * margin));
+}
+
+TEST_CASE("A grain that is nowhere has no near pair, the others have theirs")
+{
+    Assembly a = specimens::assemble(
+        specimens::random_grains(0.03, 0.03, diameter, 3), specimens::options());
+    flexpm::NearPairs pairs, others;
+    const auto all = pairs.find(a, margin);
+    REQUIRE(!all.empty());
+    const int gone = all.front()[0];
+    a.grains.displacement[a.grains.centre(gone)] = std::nan("");
+    auto expected = all;
+    expected.erase(std::remove_if(expected.begin(), expected.end(),
+                       [gone](const flexpm::GrainPair& p) { return p[0] == gone || p[1] == gone; }),
+        expected.end());
+    CHECK(expected.size() < all.size());
+    CHECK(others.find(a, margin) == expected);
 }

@@ -106,7 +106,7 @@ def test_a_particle_turns_and_tells_its_grain(rectangle: flexpm.Specimen) -> Non
     built = flexpm.build(rectangle, PRESET, "inner")
     grain = np.asarray(inner.cells(rectangle).grain)
     bodies = [yade.O.bodies[number] for number in built.solver.bodyIds]
-    assert [body.shape.aggregate for body in bodies] == grain.tolist()
+    assert [body.shape.parentGrain for body in bodies] == grain.tolist()
     assert all(body.shape.rigid for body in bodies)
     bodies[5].shape.setMotion((1e-7, 0.0, 0.0), 1e-3)
     built.run(1)

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/fem/grain_mesh.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/geometry/disc_checks.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 
 #include <algorithm>
@@ -162,6 +163,7 @@ GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshK
 std::vector<GrainMesh> make_grain_meshes(
     const Tessellation& t, const std::vector<Disc>& discs, MeshKind kind)
 {
+    require_disc_of_each_cell(t, discs);
     std::vector<GrainMesh> meshes;
     for (int cell = 0; cell < t.cells(); ++cell)
         meshes.push_back(

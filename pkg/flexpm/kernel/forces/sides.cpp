@@ -34,8 +34,16 @@ double edge_length(const Assembly& a, int edge)
     return norm(vector_at(a.grains.reference, n[1]) - vector_at(a.grains.reference, n[0]));
 }
 
+void require_side(const Assembly& a, int side)
+{
+    const auto& sides = a.edges.side;
+    if (side >= 0 && std::find(sides.begin(), sides.end(), side) != sides.end()) return;
+    refuse("side", side, "", "has no boundary edges; name a side of the outline");
+}
+
 std::vector<int> side_nodes(const Assembly& a, int side)
 {
+    require_side(a, side);
     std::vector<int> nodes;
     for (int e = 0; e < a.edges.count; ++e) {
         if (a.edges.side[e] != side) continue;
@@ -108,6 +116,7 @@ double side_length(const Assembly& a, int side)
 
 void set_pressure(Assembly& a, int side, double pressure)
 {
+    require_side(a, side);
     check_not_negative("pressure", pressure, "Pa");
     for (int e = 0; e < a.edges.count; ++e) {
         if (a.edges.side[e] == side) a.edges.pressure[e] = pressure;

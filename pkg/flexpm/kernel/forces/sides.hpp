@@ -12,7 +12,11 @@ namespace flexpm {
 /// Sides of a rectangle, in the order of its outline.
 enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 3 };
 
+/// @throws std::invalid_argument  if no boundary edge lies on the side
+void require_side(const Assembly& a, int side);
+
 /// Offsets of the nodes on one side of the outline, ascending, each once.
+/// @throws std::invalid_argument  if no boundary edge lies on the side
 std::vector<int> side_nodes(const Assembly& a, int side);
 
 /// Prescribe one velocity component of the nodes [m/s].
@@ -38,6 +42,7 @@ double edge_length(const Assembly& a, int edge);
 double side_length(const Assembly& a, int side);
 
 /// Pressure on a side, on the deformed edges, compressive positive [Pa].
+/// @throws std::invalid_argument  if no boundary edge lies on the side, or the pressure is below 0
 void set_pressure(Assembly& a, int side, double pressure);
 
 /// Update the pressure forces on block `block` of boundary edges, at the positions reached at the end of

@@ -11,23 +11,44 @@
 
 namespace flexpm {
 
+namespace {
+
+void require_sound(const Disc& disc, const std::string& name)
+{
+    if (!is_finite(disc.centre)) {
+        refuse(name + ": centre", place(disc.centre), "must be finite; give finite coordinates");
+    }
+    if (!(std::isfinite(disc.radius) && disc.radius > 0.0)) {
+        refuse(name + ": radius", disc.radius, "m",
+            "must be finite and > 0; remove or correct the disc");
+    }
+}
+
+}  // namespace
+
 void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
 {
     if (discs.empty()) refuse("tessellate: discs", 0.0, "", "must be >= 1; give at least one disc");
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const Disc& d = discs[i];
         const std::string name = "tessellate: disc " + std::to_string(i);
-        if (!is_finite(d.centre)) {
-            refuse(name + ": centre", place(d.centre), "must be finite; give finite coordinates");
-        }
-        if (!(std::isfinite(d.radius) && d.radius > 0.0)) {
-            refuse(name + ": radius", d.radius, "m",
-                "must be finite and > 0; remove or correct the disc");
-        }
+        require_sound(d, name);
         if (!contains(outline, d.centre)) {
             refuse(name + ": centre", place(d.centre),
                 "must lie inside the outline; move or remove it");
         }
+    }
+}
+
+void require_disc_of_each_cell(const Tessellation& tessellation, const std::vector<Disc>& discs)
+{
+    for (int disc : tessellation.disc_of_cell) {
+        if (disc < 0 || disc >= static_cast<int>(discs.size())) {
+            refuse("discs of the cells", static_cast<double>(discs.size()), "",
+                "must include disc " + std::to_string(disc)
+                    + "; give all discs of the tessellation");
+        }
+        require_sound(discs[disc], "disc " + std::to_string(disc));
     }
 }
 

@@ -102,6 +102,7 @@ AxialObservation observe(const Assembly& a, const AxialGeometry& g)
 
 AxialObservation observe_disc(const Assembly& a, double diameter)
 {
+    check_positive("diameter", diameter, "m");
     if (a.plates.size() < 2) {
         refuse("observe_disc: plates", static_cast<double>(a.plates.size()), "",
             "must be a lower and an upper one; add them first");

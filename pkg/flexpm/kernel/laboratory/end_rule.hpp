@@ -22,6 +22,7 @@ enum class TestState { running, past_peak, least_strain_reached, largest_strain_
 ///                confinement has lost all of its strength
 /// @param peak    largest such stress so far [Pa]
 /// @param strain  axial strain [-]
+/// @throws std::invalid_argument  if not 0 <= stop_ratio <= 1, or a limit is no number
 TestState test_state(double stress, double peak, double strain, const TestEnd& end);
 
 }  // namespace flexpm

@@ -26,6 +26,7 @@ double dissipated_share(const Dissipation& before, const Dissipation& now);
 ///
 /// @param factor  of the last `steps` steps [-]
 /// @param share   dissipated_share() of these steps [-]
+/// @throws std::invalid_argument  if a number of the rule is out of range
 double next_velocity_factor(double factor, double share, double steps, const LoadingRateRule& rule);
 
 }  // namespace flexpm

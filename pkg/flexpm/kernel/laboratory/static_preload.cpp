@@ -162,7 +162,12 @@ void preload(Assembly& a, double share, int steps, double dt)
 
 void release_preload(Assembly& a, double velocity, double dt)
 {
+    need_sides(a);
     const double now = a.grains.velocity[component(side_nodes(a, top_side).front(), 1)];
+    check_finite("velocity after the preload", velocity, "m/s");
+    if (!(std::isfinite(now) && now != 0.0)) {
+        refuse("velocity of the preload", now, "m/s", "must not be 0; preload the specimen first");
+    }
     for_each_component(a.grains, [&](int i) { a.grains.velocity[i] *= velocity / now; });
     update_prescribed_work(a, dt);
     for_each_component(a.grains, [&](int i) { a.grains.prescribed[i] = 0; });

@@ -135,13 +135,6 @@ void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
     rotation = std::max(rotation, 0.01 * r * r * node);
 }
 
-void check_damping(double damping)
-{
-    if (!(damping >= 0.0 && damping < 1.0)) {
-        refuse("damping", damping, "", "must be at least 0 and below 1");
-    }
-}
-
 template <class Visit> void for_each_node(const Grains& grains, Visit visit)
 {
     for (int g = 0; g < grains.count; ++g) {
@@ -168,6 +161,13 @@ void scale_plates(Assembly& a, double damping, double dt)
 }
 
 }  // namespace
+
+void check_damping(double damping)
+{
+    if (!(damping >= 0.0 && damping < 1.0)) {
+        refuse("damping", damping, "", "must be at least 0 and below 1");
+    }
+}
 
 Array<double> element_bound(const Grains& grains)
 {

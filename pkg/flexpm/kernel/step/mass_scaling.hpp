@@ -25,6 +25,9 @@ StiffnessBound stiffness_bound(const Assembly& a);
 /// The part of the elements in StiffnessBound::node, which changes only when a grain is taken out.
 Array<double> element_bound(const Grains& grains);
 
+/// @throws std::invalid_argument  if not 0 <= damping < 1
+void check_damping(double damping);
+
 /// Masses for the time step `dt`, m = s (1 + alpha) K_t dt^2 / 4, of nodes and loaded plates, and
 /// moments of inertia of rigid grains by the same rule. Call it again after adding plates.
 /// @throws std::invalid_argument  if not 0 <= damping < 1 or dt <= 0

@@ -12,6 +12,7 @@
 #include <flexpm/kernel/motion/centre_motion.hpp>
 #include <flexpm/kernel/motion/node_motion.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/tiles.hpp>
 
 #include <algorithm>
@@ -126,6 +127,13 @@ void update_share(Assembly& a, const StepOptions& options, ThreadTeam& team, int
     update_shared_grains(a, own, options);
 }
 
+void check(const StepOptions& o)
+{
+    check_positive("time step", o.dt, "s");
+    check_damping(o.damping);
+    if (o.threads < 1) refuse("threads", o.threads, "", "must be at least 1");
+}
+
 }  // namespace
 
 void show_positions(Assembly& a)
@@ -136,6 +144,7 @@ void show_positions(Assembly& a)
 
 void step(Assembly& a, const StepOptions& options)
 {
+    check(options);
     if (a.plan.tiles.count() == 0) {
         refuse("tiles of a step", 0.0, "", "must be at least 1; call prepare_step() after loading");
     }

@@ -17,7 +17,7 @@ struct StepOptions {
     bool measure = false;  ///< also sum kinetic energy and largest unbalanced force
 };
 
-/// @throws std::invalid_argument  if prepare_step() has not been called
+/// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been called
 void step(Assembly& a, const StepOptions& options);
 
 /// Fill `shown_position` and keep it up to date from now on.

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/geometry/disc_checks.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 
 #include <algorithm>
@@ -309,9 +310,14 @@ void check(const Tessellation& t, const AssemblyOptions& o)
         refuse("grain materials", static_cast<double>(o.grain_material.size()), "",
             "must be one for each grain");
     }
-    if (!o.aggregate.empty() && static_cast<int>(o.aggregate.size()) != t.cells()) {
-        refuse("grains of particles", static_cast<double>(o.aggregate.size()), "",
+    if (!o.parent.empty() && static_cast<int>(o.parent.size()) != t.cells()) {
+        refuse("grains of particles", static_cast<double>(o.parent.size()), "",
             "must be one for each cell");
+    }
+    for (int grain : o.parent) {
+        if (grain < 0 || grain >= t.cells()) {
+            refuse("grain of a particle", grain, "", "must be the number of a grain, from 0");
+        }
     }
     for (int m : o.grain_material) {
         if (m < 0 || m >= static_cast<int>(materials)) {
@@ -325,6 +331,7 @@ void check(const Tessellation& t, const AssemblyOptions& o)
 Assembly make_assembly(
     const Tessellation& t, const std::vector<Disc>& discs, const AssemblyOptions& options)
 {
+    require_disc_of_each_cell(t, discs);
     check(t, options);
     Assembly a;
     a.grains.count = t.cells();
@@ -333,7 +340,7 @@ Assembly make_assembly(
     a.grains.elastic = options.elastic;
     a.grains.material = options.grain_material;
     a.grains.material.resize(a.grains.count, 0);
-    a.grains.parent = options.aggregate;
+    a.grains.parent = options.parent;
     if (a.grains.parent.empty()) {
         a.grains.parent.resize(a.grains.count);
         std::iota(a.grains.parent.begin(), a.grains.parent.end(), 0);

@@ -18,7 +18,7 @@ struct AssemblyOptions {
     bool on_centre_line = false;  ///< with one point: where Eq. 7 puts it for d_v = 0 (PCM variant)
     std::vector<ElasticMaterial> elastic;
     std::vector<int> grain_material;  ///< per cell, into `elastic`; empty: all 0
-    std::vector<int> aggregate;       ///< per cell: its grain of the rock; empty: itself
+    std::vector<int> parent;          ///< per cell: its grain of the rock; empty: itself
     std::vector<int>
         edge_law;  ///< per shared edge, into `laws`; empty: by the materials of its cells
     std::vector<std::uint8_t> edge_normal;  ///< per shared edge: 1 takes the normal of the edge,

@@ -18,6 +18,7 @@ template <class Visit> void for_each_neighbour(const Grains& grains, double size
     std::vector<std::pair<Place, int>> places;
     for (int g = 0; g < grains.count; ++g) {
         const Point p = grains.position(grains.centre(g));
+        if (!is_finite(p)) continue;  // no order would hold; the next check reports it
         places.push_back({ { std::floor(p.y / size), std::floor(p.x / size) }, g });
     }
     std::sort(places.begin(), places.end());

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 
 #include <algorithm>
@@ -114,12 +115,11 @@ void check_index(const Assembly& a, int plate)
 std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateContact& contact)
 {
     if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
+    require_side(a, side);
     std::vector<int> edges;
     for (int e = 0; e < a.edges.count; ++e) {
         if (a.edges.side[e] == side) edges.push_back(e);
     }
-    if (edges.empty())
-        refuse("side", side, "", "has no boundary edges; name a side of the outline");
     const Point normal = edge_of(a, edges.front()).inward();
     const Point direction = { -normal.y, normal.x };
     double first = std::numeric_limits<double>::infinity(), last = -first;

@@ -54,11 +54,14 @@ template <class T> boost::python::object dense_view(const T* data, std::size_t r
 	return array_view(data, { n, columns }, { columns * size, size }, owner, access);
 }
 
-/// numpy array with its own copy of the values; one axis if columns is 0.
-template <class T> boost::python::object copied(const std::vector<T>& values, int columns)
+/// numpy array with its own copy of the values; one axis if columns is 0. Read-only where a write would seem to change
+/// what was copied.
+template <class T> boost::python::object copied(const std::vector<T>& values, int columns, Access access = Access::readWrite)
 {
-	const std::size_t rows = columns == 0 ? values.size() : values.size() / columns;
-	return dense_view(values.data(), rows, columns, boost::python::object(), Access::readOnly).attr("copy")();
+	const std::size_t     rows = columns == 0 ? values.size() : values.size() / columns;
+	boost::python::object copy = dense_view(values.data(), rows, columns, boost::python::object(), Access::readOnly).attr("copy")();
+	if (access == Access::readOnly) copy.attr("setflags")(false);
+	return copy;
 }
 
 /// Read access to a C-contiguous buffer of doubles or 32-bit integers (a numpy array) for the time of a call.

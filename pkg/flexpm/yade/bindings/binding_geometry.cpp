@@ -113,7 +113,7 @@ namespace {
 		std::vector<double> areas;
 		for (int cell = 0; cell < tessellation.cells(); ++cell)
 			areas.push_back(flexpm::cell_area(tessellation, cell));
-		return copied(areas, 0);
+		return copied(areas, 0, Access::readOnly);
 	}
 
 	std::shared_ptr<GrainMeshes> grainMeshes(const Tessellation& tessellation, py::object centres, py::object radii, const std::string& kind)

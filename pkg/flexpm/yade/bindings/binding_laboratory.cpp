@@ -4,6 +4,7 @@
 #include <flexpm/yade/bindings/bindings.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/end_rule.hpp>
@@ -63,8 +64,19 @@ namespace {
 	{
 		const InputArray<double> places(centres, 2, "centres"), moved(displacements, 2, "displacements");
 		const int                grains = static_cast<int>(places.size(0));
-		const auto               at     = [](const InputArray<double>& array) {
-                        return [rows = array.data()](int grain, int component) { return rows[2 * grain + component]; };
+		if (places.size(1) != 2) flexpm::refuse("columns of centres", static_cast<double>(places.size(1)), "", "must be 2; give x and y");
+		if (moved.size(0) != places.size(0) || moved.size(1) != 2) {
+			const auto size = std::to_string(moved.size(0)) + " x " + std::to_string(moved.size(1));
+			flexpm::refuse("displacements", size, "must be " + std::to_string(grains) + " x 2 as the centres; give one for each");
+		}
+		for (const auto* side : { &gauge.left, &gauge.right }) {
+			for (const flexpm::SideShare& share : *side) {
+				if (share.grain < 0 || share.grain >= grains)
+					flexpm::refuse("grain of a strain gauge", share.grain, "", "must be the row of a centre, from 0");
+			}
+		}
+		const auto at = [](const InputArray<double>& array) {
+			return [rows = array.data()](int grain, int component) { return rows[2 * grain + component]; };
 		};
 		const flexpm::SpecimenStrain found = flexpm::centre_strain(gauge, grains, at(places), at(moved));
 		return py::make_tuple(found.axial, found.lateral);

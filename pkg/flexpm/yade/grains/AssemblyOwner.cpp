@@ -11,7 +11,8 @@ AssemblyOwner::~AssemblyOwner() = default;
 OwnedAssembly findAssembly(const Scene& scene)
 {
 	for (const auto& engine : scene.engines) {
-		if (auto* owner = dynamic_cast<AssemblyOwner*>(engine.get())) return { engine, &owner->arrays() };
+		auto* owner = dynamic_cast<AssemblyOwner*>(engine.get());
+		if (owner && owner->assembled()) return { engine, owner->assembled() };
 	}
 	return {};
 }
@@ -19,7 +20,7 @@ OwnedAssembly findAssembly(const Scene& scene)
 OwnedAssembly assemblyOf(const Scene& scene)
 {
 	auto found = findAssembly(scene);
-	if (!found.engine) throw std::runtime_error("GrainSolver: O.engines holds none; build the specimen first (flexpm.build)");
+	if (!found.engine) throw std::runtime_error("GrainSolver: O.engines = none with grains, must hold one; build the specimen first (flexpm.build)");
 	return found;
 }
 

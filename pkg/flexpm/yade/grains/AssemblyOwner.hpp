@@ -11,7 +11,8 @@ namespace yade {
 class AssemblyOwner {
 public:
 	virtual ~AssemblyOwner();
-	virtual flexpm::Assembly& arrays() = 0;
+	/// Null while it has no grains.
+	virtual flexpm::Assembly* assembled() = 0;
 };
 
 /// The arrays of a scene's grains, and their engine, which keeps them alive.
@@ -28,11 +29,11 @@ struct OwnedContact : OwnedAssembly {
 	int place = -1;
 };
 
-/// The first that the scene's engines own, if any.
+/// The first grains that the scene's engines own, if any.
 OwnedAssembly findAssembly(const Scene& scene);
 
 /// The same, which must be there; of the current scene, with this grain, or with the contact of this lasting number.
-/// @throws std::runtime_error  if O.engines holds none, or if it has no such grain or contact
+/// @throws std::runtime_error  if no engine of the scene has grains, or if it has no such grain or contact
 OwnedAssembly assemblyOf(const Scene& scene);
 OwnedAssembly assemblyOfGrain(int grain);
 OwnedContact  ownedContact(int id);

@@ -6,16 +6,31 @@
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 #include <flexpm/yade/grains/Bo1_LaguerreCell_Aabb.hpp>
 
+#include <atomic>
+
 namespace yade {
 
+CREATE_LOGGER(Bo1_LaguerreCell_Aabb);
 YADE_PLUGIN((Bo1_LaguerreCell_Aabb));
 
 Bo1_LaguerreCell_Aabb::~Bo1_LaguerreCell_Aabb() = default;
 
-void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r&, const Body*)
+void Bo1_LaguerreCell_Aabb::reportOnce(int grain, Body::id_t body)
 {
-	const int   grain = static_cast<const LaguerreCell&>(*shape).grain;
-	const auto& a     = *assemblyOf(*scene);
+	static std::atomic_flag said = ATOMIC_FLAG_INIT;
+	if (said.test_and_set()) return;
+	LOG_ERROR(
+	        "LaguerreCell.grain = " << grain << " of body " << body
+	                                << ", must be a grain of the scene's solver; build the specimen first (flexpm.build). It touches nothing.");
+}
+
+void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bound, const Se3r&, const Body* body)
+{
+	const int  grain = static_cast<const LaguerreCell&>(*shape).grain;
+	const auto owned = findAssembly(*scene);
+	// an exception would not leave YADE's parallel loop; without a bound the collider passes over the body
+	if (!owned.engine || grain < 0 || grain >= owned->grains.count) return reportOnce(grain, body->getId());
+	const auto& a = *owned;
 	if (!bound) bound = boost::make_shared<Aabb>();
 	const Real     r = a.grains.radius[grain];
 	const auto     c = a.grains.position(a.grains.centre(grain));

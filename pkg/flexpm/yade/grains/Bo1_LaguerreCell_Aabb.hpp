@@ -15,6 +15,11 @@ public:
 	YADE_CLASS_BASE_DOC(Bo1_LaguerreCell_Aabb, BoundFunctor,
 		"Bounding box of a :yref:`LaguerreCell`: its nodes and its disc, as thick as the disc.");
 	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	/// Log that a body is no grain of the scene, for the first one.
+	static void reportOnce(int grain, Body::id_t body);
 };
 REGISTER_SERIALIZABLE(Bo1_LaguerreCell_Aabb);
 

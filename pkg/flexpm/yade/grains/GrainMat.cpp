@@ -2,10 +2,60 @@
 /// @file  Material of deformable grains.
 #include <flexpm/yade/grains/GrainMat.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
+
+#include <array>
+
 namespace yade {
 
 YADE_PLUGIN((GrainMat));
 
 GrainMat::~GrainMat() = default;
+
+namespace {
+
+	struct Property {
+		const char* name;
+		const char* unit;
+		Real (*value)(const GrainMat&);
+	};
+
+	constexpr std::array<Property, 11> properties { {
+		{ "young", " Pa", [](const auto& m) { return m.young; } },
+		{ "poisson", "", [](const auto& m) { return m.poisson; } },
+		{ "density", " kg/m^3", [](const auto& m) { return m.density; } },
+		{ "normalStiffness", " Pa/m", [](const auto& m) { return m.normalStiffness; } },
+		{ "shearRatio", "", [](const auto& m) { return m.shearRatio; } },
+		{ "tensileStrength", " Pa", [](const auto& m) { return m.tensileStrength; } },
+		{ "cohesion", " Pa", [](const auto& m) { return m.cohesion; } },
+		{ "friction", "", [](const auto& m) { return m.friction; } },
+		{ "tensileFractureEnergy", " N/m", [](const auto& m) { return m.tensileFractureEnergy; } },
+		{ "shearFractureEnergy", " N/m", [](const auto& m) { return m.shearFractureEnergy; } },
+		{ "planeStrain", "", [](const auto& m) { return Real(m.planeStrain); } },
+	} };
+
+} // namespace
+
+vector<Real> valuesOf(const GrainMat& material)
+{
+	vector<Real> values;
+	for (const Property& p : properties)
+		values.push_back(p.value(material));
+	return values;
+}
+
+void requireValues(const GrainMat& material, const vector<Real>& values)
+{
+	for (std::size_t i = 0; i < properties.size(); ++i) {
+		const Property& p   = properties[i];
+		const Real      now = p.value(material);
+		if (now == values[i]) continue;
+		const std::string unit = p.unit;
+		flexpm::fail(
+		        std::string("GrainMat.") + p.name,
+		        flexpm::number(now) + unit,
+		        "must stay " + flexpm::number(values[i]) + unit + " once the grains are assembled; build the specimen again");
+	}
+}
 
 } // namespace yade

@@ -28,4 +28,10 @@ public:
 };
 REGISTER_SERIALIZABLE(GrainMat);
 
+/// All that grains and contacts take from a material when they are assembled, in the order of the messages.
+vector<Real> valuesOf(const GrainMat& material);
+
+/// @throws std::runtime_error  if the material has not these values any more: nothing would follow them
+void requireValues(const GrainMat& material, const vector<Real>& values);
+
 } // namespace yade

@@ -65,7 +65,7 @@ py::list LaguerreCell::triangles() const
 
 bool LaguerreCell::rigid() const { return assemblyOfGrain(grain)->grains.is_rigid(grain); }
 
-int LaguerreCell::aggregate() const { return assemblyOfGrain(grain)->grains.parent[grain]; }
+int LaguerreCell::parentGrain() const { return assemblyOfGrain(grain)->grains.parent[grain]; }
 
 void LaguerreCell::setMotion(Vector3r velocity, Real spin) const
 {

@@ -18,7 +18,7 @@ public:
 	boost::python::list   triangles() const;
 	int                   vertices() const;
 	bool                  rigid() const;
-	int                   aggregate() const;
+	int                   parentGrain() const;
 	void                  setMotion(Vector3r velocity, Real spin) const;
 
 	// clang-format off
@@ -36,7 +36,7 @@ public:
 		.add_property("triangles", &LaguerreCell::triangles, "Node numbers of each triangle, counter-clockwise.")
 		.add_property("vertices", &LaguerreCell::vertices, "Number of corners; also the number of the centre node [-].")
 		.add_property("rigid", &LaguerreCell::rigid, "The grain moves as one body; its nodes follow the centre.")
-		.add_property("aggregate", &LaguerreCell::aggregate, "Number of the grain of the rock that this is, or is an inner particle of [-].")
+		.add_property("parentGrain", &LaguerreCell::parentGrain, "Number of the grain of the rock that this is, or is an inner particle of [-].")
 		.def("setMotion", &LaguerreCell::setMotion, (boost::python::arg("velocity"), boost::python::arg("spin")),
 			"Velocity of the centre [m/s, or m per step with scaled masses] and angular velocity [rad/s, or rad per step] of a rigid grain; "
 			"its nodes' velocities follow.")

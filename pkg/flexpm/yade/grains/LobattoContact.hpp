@@ -43,15 +43,15 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, IPhys,
-		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`.",
+		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it.",
 		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
 		, createIndex();
-		, .add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m]; a view, compression below 0.")
-		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a view.")
-		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m]; a view.")
+		, .add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], compression below 0; a copy.")
+		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a copy.")
+		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m]; a copy.")
 		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; a copy.")
 		.add_property("damage", &LobattoPhys::damage, "Damage of each point, (p,) [-]; a copy.")
-		.add_property("cracked", &LobattoPhys::cracked, "0 intact, 1 cracked in tension, 2 in shear, (p,); a view.")
+		.add_property("cracked", &LobattoPhys::cracked, "0 intact, 1 cracked in tension, 2 in shear, (p,); a copy.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(LobattoPhys, IPhys);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/AxialRecorder.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
@@ -40,12 +41,18 @@ namespace {
 		{ "initial_energy", [](const auto& o) { return o.energies.initial; } },
 	} };
 
+	bool isDisc(const AxialRecorder& recorder)
+	{
+		flexpm::check_not_negative("AxialRecorder.diameter", recorder.diameter, "m");
+		return recorder.diameter > 0;
+	}
+
 	/// What the recorder sees of the specimen after a step; the strains count from the bonded state.
 	flexpm::AxialObservation observed(const AxialRecorder& recorder, const flexpm::Assembly& assembly)
 	{
 		const auto sense = recorder.tension ? flexpm::Sense::tension : flexpm::Sense::compression;
-		auto       now   = recorder.diameter > 0 ? flexpm::observe_disc(assembly, recorder.diameter)
-		                                         : flexpm::observe(assembly, flexpm::rectangle_of(assembly, sense));
+		auto       now   = isDisc(recorder) ? flexpm::observe_disc(assembly, recorder.diameter)
+		                                    : flexpm::observe(assembly, flexpm::rectangle_of(assembly, sense));
 		if (recorder.loading) now.velocity_factor = recorder.loading->velocityFactor;
 		return now;
 	}
@@ -82,13 +89,13 @@ py::list AxialRecorder::names() const
 	return all;
 }
 
-py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, recorded.size()); }
+py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, recorded.size(), flexpm_bindings::Access::readOnly); }
 
 py::dict AxialRecorder::scales() const
 {
 	const auto  world  = Omega::instance().getScene();
 	const auto& a      = GrainSolver::ofScene(*world)->assembly;
-	const auto  sense  = tension || diameter > 0 ? flexpm::Sense::tension : flexpm::Sense::compression;
+	const auto  sense  = tension || isDisc(*this) ? flexpm::Sense::tension : flexpm::Sense::compression;
 	const auto  inputs = flexpm::scale_inputs(a, sense, world->dt);
 	if (diameter > 0) return flexpm_bindings::scales_dict(flexpm::disc_scales(inputs, diameter));
 	const auto size = flexpm::rectangle_of(a, sense);

@@ -68,9 +68,9 @@ DiscLoop::Row DiscLoop::makeRow(const shared_ptr<Interaction>& interaction) cons
 	row.pair.radius_sum = a->radius + b->radius;
 	row.pair.touching   = interaction->isReal();
 	if (!row.pair.touching) return row;
-	const auto& contact = static_cast<const NormShearPhys&>(*interaction->phys);
-	row.plain           = contact.ks == 0;
-	row.pair.stiffness  = contact.kn;
+	const auto* contact = dynamic_cast<const NormShearPhys*>(interaction->phys.get());
+	row.plain           = contact && contact->ks == 0;
+	if (row.plain) row.pair.stiffness = contact->kn;
 	return row;
 }
 

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 
-#include <omp.h>
-
 namespace yade {
 
 CREATE_LOGGER(GrainSolver);
@@ -20,15 +18,6 @@ GrainSolver::~GrainSolver() = default;
 
 shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene) { return YADE_PTR_CAST<GrainSolver>(assemblyOf(scene).engine); }
 
-namespace {
-
-	void requirePeriod(const char* name, int steps)
-	{
-		if (steps < 1) throw std::runtime_error("GrainSolver." + std::string(name) + " = " + std::to_string(steps) + ", must be at least 1 step");
-	}
-
-} // namespace
-
 void GrainSolver::postLoad(GrainSolver&)
 {
 	if (assembly.grains.count > 0) flexpm::prepare_step(assembly);
@@ -36,22 +25,20 @@ void GrainSolver::postLoad(GrainSolver&)
 
 void GrainSolver::takeStep()
 {
-	if (destroyedContacts() != seenDestroyed) retireErased();
+	if (destroyedContacts() != seenDestroyed) removeErased();
 	if (assembly.step == 0) flexpm::reset_energy_balance(assembly);
 	flexpm::StepOptions options;
 	options.dt      = scene->dt;
 	options.damping = damping;
-	options.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
+	options.threads = threads();
 	options.measure = (assembly.step + 1) % measurePeriod == 0;
 	flexpm::step(assembly, options);
 }
 
 void GrainSolver::action()
 {
-	requirePeriod("measurePeriod", measurePeriod);
-	requirePeriod("mirrorPeriod", mirrorPeriod);
-	requirePeriod("touchPeriod", touchPeriod);
-	requirePeriod("checkPeriod", checkPeriod);
+	requireReady();
+	if (assembly.step % checkPeriod == 0) requireOwnScene();
 	takeStep();
 	if (assembly.step % mirrorPeriod == 0) mirrorBodies();
 	if (assembly.step % touchPeriod == 0) changeContacts();
@@ -79,25 +66,24 @@ void GrainSolver::check()
 	const std::string bad = flexpm::find_bad_number(assembly);
 	diverged              = !bad.empty();
 	if (diverged) throw std::runtime_error("GrainSolver: " + bad);
-	retireErased(); // a script that keeps a handle delays its destruction
+	removeErased(); // a script that keeps a handle delays its destruction
 	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
 	for (int grain = 0; grain < assembly.grains.count; ++grain) {
-		const auto& b = (*scene->bodies)[bodyIds[grain]];
+		const Body* b = bodyOf(*scene, grain);
 		if (b && b->bound && nearBound(assembly.grains, grain, *b->bound)) scene->doSort = true;
 	}
 }
 
 void GrainSolver::findStates()
 {
-	const auto slots  = assembly.grains.in_slot.size();
-	const auto bodies = Omega::instance().getScene()->bodies; // an engine knows its scene from its first step on
+	const auto slots = assembly.grains.in_slot.size();
+	const auto world = Omega::instance().getScene(); // an engine knows its scene from its first step on
 	states.assign(slots, nullptr);
 	for (std::size_t slot = 0; slot < slots; ++slot) {
 		const int grain = assembly.grains.in_slot[slot];
 		if (grain < 0) continue;
-		const auto& body = (*bodies)[bodyIds[grain]];
-		if (body) states[slot] = body->state;
+		if (const Body* body = bodyOf(*world, grain)) states[slot] = body->state;
 	}
 }
 
@@ -125,6 +111,7 @@ namespace {
 
 void GrainSolver::mirrorBodies()
 {
+	requireInScene();
 	if (states.size() != assembly.grains.in_slot.size()) findStates();
 	flexpm::CentreMotion motion;
 	for (int block = 0; block < assembly.grains.blocks(); ++block) {

@@ -13,30 +13,50 @@ namespace yade {
 
 namespace py = boost::python;
 
+/// A method for Python that asks first whether there are grains: `call` is the method behind requireAssembled().
+template <auto method> struct AfterAssembly;
+template <class C, class R, class... A, R (C::*method)(A...)> struct AfterAssembly<method> {
+	static R call(C& self, A... a)
+	{
+		self.requireAssembled();
+		return (self.*method)(a...);
+	}
+};
+template <class C, class R, class... A, R (C::*method)(A...) const> struct AfterAssembly<method> {
+	static R call(const C& self, A... a)
+	{
+		self.requireAssembled();
+		return (self.*method)(a...);
+	}
+};
+
 class GrainSolver : public GlobalEngine, public AssemblyOwner {
 public:
 	~GrainSolver() override;
 	void action() override;
-	/// YADE calls it after it has loaded a scene.
+	/// YADE calls it after it has loaded a scene or set attributes by name.
 	void postLoad(GrainSolver&);
 
-	flexpm::Assembly& arrays() override { return assembly; }
+	flexpm::Assembly* assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
+	/// @throws std::runtime_error  unless there are grains; all that Python calls goes through it
+	void requireAssembled() const;
 
-	/// @throws std::runtime_error  if O.engines holds none
+	/// @throws std::runtime_error  if O.engines holds none with grains
 	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
 
 	/// Whether the last step was measured.
-	bool measured() const { return assembly.step % measurePeriod == 0; }
+	/// @throws std::runtime_error  if measurePeriod is below 1
+	bool measured() const;
 
 	void       assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options);
-	void       addToScene(py::list materials);
+	void       addToScene();
 	void       scaleMasses();
 	Real       useRealMasses();
 	void       mirrorBodies();
-	void       openBooks();
+	void       resetEnergyBalance();
 	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
 	int        addTouchingPlate(Vector3r normal, Real friction);
-	void       holdSideways(int plate);
+	void       fixTangential(int plate);
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
 	void       setGravity(Vector3r acceleration);
@@ -63,34 +83,38 @@ public:
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
+		((vector<shared_ptr<Material>>, materials,, Attr::hidden, "Of each mineral, as given."))
+		((vector<vector<Real>>, materialValues,, Attr::hidden, "What was taken from them, see valuesOf()."))
+		((Real, massStep, 0., Attr::hidden, "Time step that the masses are scaled for, or the longest that real ones allow; 0 without masses [s]."))
+		((Real, massDamping, 0., Attr::hidden, "Damping for which it is so [-]."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
 		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, which has stopped the simulation |yupdate|."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("thickness"), py::arg("materials"), py::arg("options")),
-			"Build the bonded, unloaded grains; flexpm.build calls it.")
-		.def("addToScene", &GrainSolver::addToScene, (py::arg("materials")), "Make a body of each grain and an interaction of each bond.")
-		.def("scaleMasses", &GrainSolver::scaleMasses, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
-		.def("useRealMasses", &GrainSolver::useRealMasses, "Use the real masses; returns the stable time step [s].")
-		.def("addSidePlates", &GrainSolver::addSidePlates, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0.),
+			"Build the bonded, unloaded grains, once; flexpm.build calls it.")
+		.def("addToScene", AfterAssembly<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
+		.def("scaleMasses", AfterAssembly<&GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
+		.def("useRealMasses", AfterAssembly<&GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
+		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0.),
 			"Lay rigid plates on a side of the outline, side by side, and return their numbers. Scale the masses afterwards.")
-		.def("addTouchingPlate", &GrainSolver::addTouchingPlate, (py::arg("normal"), py::arg("friction") = 0.),
+		.def("addTouchingPlate", AfterAssembly<&GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
-		.def("holdSideways", &GrainSolver::holdSideways, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
-		.def("addWall", &GrainSolver::addWall, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
+		.def("fixTangential", AfterAssembly<&GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
+		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
-		.add_property("gravity", &GrainSolver::gravity, &GrainSolver::setGravity, "Acceleration of all masses, which must be real ones [m/s^2].")
-		.def("plates", &GrainSolver::plates, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
-		.def("mirrorBodies", &GrainSolver::mirrorBodies, "Update the states of the bodies now, whatever mirrorPeriod is.")
-		.def("openBooks", &GrainSolver::openBooks, "Count works and dissipation from now; the present energy becomes the initial one.")
-		.def("elasticConstants", &GrainSolver::elasticConstants, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
-		.def("energies", &GrainSolver::energies, "Energies of the last step [J], by name.")
-		.def("snapshot", &GrainSolver::snapshot, "The state as plain arrays, by name (see the documentation's list of arrays).")
-		.def("cracks", &GrainSolver::cracks, "Numbers of cracked points: (tensile, shear).")
-		.def("counts", &GrainSolver::counts, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges.")
-		.def("unbalanced", &GrainSolver::unbalanced, "Largest unbalanced over mean contact force [-], at the last measured step.")
-		.def("clearPressure", &GrainSolver::clearPressure, (py::arg("side")), "Take the pressure off a side of the outline.")
-		.def("sideNodes", &GrainSolver::sideNodes, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
+		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
+		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update the states of the bodies now, whatever mirrorPeriod is.")
+		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
+		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
+		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name.")
+		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays).")
+		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear).")
+		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges.")
+		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("clearPressure", AfterAssembly<&GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
+		.def("sideNodes", AfterAssembly<&GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);
 	// clang-format on
 	DECLARE_LOGGER;
@@ -101,17 +125,24 @@ private:
 	bool                      listed = false; // the candidates are up to date
 	vector<std::size_t>       places;         // of the contacts among the interactions, when last seen
 	vector<shared_ptr<State>> states;         // of the bodies, by slot; kept alive, so that a body may go at any time
-	void                      takeStep();
-	void                      insertBodies(const vector<shared_ptr<Material>>& materials);
-	void                      insertContacts();
-	void                      findStates();
-	bool                      hasInteraction(int contact);
-	void                      retireErased();
-	void                      listCandidates();
-	void                      changeContacts();
-	void                      limitStep();
-	void                      insertTouches(int firstId);
-	void                      check();
+	void                      requireReady() const;
+	void                      requireInScene() const;
+	void                      requireMasses() const;
+	void                      requireOwnScene() const;
+	int                       threads() const;
+	/// The body of a grain, null if a script has erased it.
+	Body* bodyOf(const Scene& world, int grain) const;
+	void  takeStep();
+	void  insertBodies();
+	void  insertContacts();
+	void  findStates();
+	bool  hasInteraction(int contact);
+	void  removeErased();
+	void  listCandidates();
+	void  changeContacts();
+	void  limitStep();
+	void  insertTouches(int firstId);
+	void  check();
 };
 REGISTER_SERIALIZABLE(GrainSolver);
 

@@ -24,7 +24,7 @@ bool GrainSolver::hasInteraction(int contact)
 	return bond && bond->isReal();
 }
 
-void GrainSolver::retireErased()
+void GrainSolver::removeErased()
 {
 	seenDestroyed = destroyedContacts();
 	listed        = false;
@@ -35,14 +35,14 @@ void GrainSolver::retireErased()
 		flexpm::remove_contact(assembly.contacts, c);
 	}
 	for (int grain = 0; grain < assembly.grains.count; ++grain) {
-		if (!(*scene->bodies)[bodyIds[grain]]) flexpm::remove_grain(assembly, grain);
+		if (!bodyOf(*scene, grain)) flexpm::remove_grain(assembly, grain);
 	}
 }
 
 void GrainSolver::listCandidates()
 {
 	candidates          = nearPairs.find(assembly, touchMargin * 2 * assembly.grains.radius[0]);
-	const auto isErased = [&](const flexpm::GrainPair& pair) { return !(*scene->bodies)[bodyIds[pair[0]]] || !(*scene->bodies)[bodyIds[pair[1]]]; };
+	const auto isErased = [&](const flexpm::GrainPair& pair) { return !bodyOf(*scene, pair[0]) || !bodyOf(*scene, pair[1]); };
 	candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isErased), candidates.end());
 	listed = true;
 }
@@ -56,7 +56,7 @@ void GrainSolver::changeContacts()
 		for (int c = 0; c < assembly.contacts.count; ++c) {
 			if (flexpm::has_ended(assembly, c)) ended.push_back(c);
 		}
-		if (flexpm::follow_touches(assembly, damping, scaled ? scene->dt : 0.)) limitStep();
+		if (flexpm::follow_touches(assembly, massDamping, scaled ? scene->dt : 0.)) limitStep();
 	}
 	vector<flexpm::GrainPair> touching;
 	for (const auto& pair : candidates) {
@@ -66,7 +66,7 @@ void GrainSolver::changeContacts()
 	for (int c : ended)
 		scene->interactions->requestErase(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
 	const int firstId = assembly.contacts.next_id;
-	flexpm::change_contacts(assembly, ended, touching, damping, scaled ? scene->dt : 0.);
+	flexpm::change_contacts(assembly, ended, touching, massDamping, scaled ? scene->dt : 0.);
 	if (!touching.empty()) limitStep();
 	insertTouches(firstId);
 	nearPairs.forget();
@@ -76,7 +76,9 @@ void GrainSolver::changeContacts()
 void GrainSolver::limitStep()
 {
 	// scaled masses rise with new contacts; real ones do not, so the step falls
-	if (!scaled) scene->dt = std::min(scene->dt, Real(flexpm::stable_step(assembly, damping)));
+	if (scaled) return;
+	massStep  = std::min(massStep, Real(flexpm::stable_step(assembly, massDamping)));
+	scene->dt = std::min(scene->dt, massStep);
 }
 
 void GrainSolver::insertTouches(int firstId)

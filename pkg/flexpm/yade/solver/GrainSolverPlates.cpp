@@ -21,7 +21,7 @@ int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
 }
 
-void GrainSolver::holdSideways(int plate) { flexpm::fix_tangential(assembly, plate); }
+void GrainSolver::fixTangential(int plate) { flexpm::fix_tangential(assembly, plate); }
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
 {

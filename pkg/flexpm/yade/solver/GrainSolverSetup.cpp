@@ -2,6 +2,7 @@
 /// @file  From Python's specimen and materials to the solver's arrays, bodies and interactions.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
@@ -28,17 +29,36 @@ namespace {
 	vector<shared_ptr<Material>> materialsOf(const py::list& list)
 	{
 		vector<shared_ptr<Material>> all;
-		for (py::ssize_t i = 0; i < py::len(list); ++i)
-			all.push_back(py::extract<shared_ptr<GrainMat>>(list[i])());
+		for (py::ssize_t i = 0; i < py::len(list); ++i) {
+			const py::extract<shared_ptr<GrainMat>> material(list[i]);
+			if (!material.check() || !material())
+				flexpm::refuse("material " + std::to_string(i), "no GrainMat", "must be one; give a GrainMat for each mineral");
+			all.push_back(material());
+		}
 		return all;
+	}
+
+	/// An option of that type, which must be there.
+	template <class Value> Value optionOf(const py::dict& options, const char* name)
+	{
+		if (!options.has_key(name)) flexpm::refuse(std::string("option ") + name, "none", "must be given; flexpm.build does");
+		const py::extract<Value> value(options[name]);
+		if (!value.check()) flexpm::refuse(std::string("option ") + name, "of another type", "must be of that which flexpm.build gives");
+		return value();
+	}
+
+	flexpm::MeshKind meshOf(const std::string& name)
+	{
+		if (name != "fan" && name != "refined") flexpm::refuse("option mesh", name, "must be fan or refined; choose one");
+		return name == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
 	}
 
 	/// Inner particles: contacts inside a grain are elastic, those between grains may take the normal of the edge.
 	void chooseInner(const py::dict& options, flexpm::AssemblyOptions& o)
 	{
-		const flexpm_bindings::InputArray<int> outer(options["outer"], 1, "outer"), grains(options["aggregate"], 1, "aggregate");
-		o.aggregate.assign(grains.data(), grains.data() + grains.size(0));
-		const bool edgeNormals = py::extract<bool>(options["edge_normals"]);
+		const flexpm_bindings::InputArray<int> outer(options["outer"], 1, "outer"), grains(options["parent"], 1, "parent");
+		o.parent.assign(grains.data(), grains.data() + grains.size(0));
+		const bool edgeNormals = optionOf<bool>(options, "edge_normals");
 		const int  inside      = static_cast<int>(o.laws.size());
 		o.laws.push_back(flexpm::unbreakable(o.laws.front()));
 		for (std::size_t i = 0; i < outer.size(0); ++i) {
@@ -49,37 +69,42 @@ namespace {
 
 } // namespace
 
-void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options)
+void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list minerals, py::dict options)
 {
+	// views of the arrays live as long as the solver
+	if (assembly.grains.count > 0) flexpm::refuse("GrainSolver: grains", assembly.grains.count, "", "are assembled already; make another GrainSolver");
 	flexpm::AssemblyOptions o;
 	o.thickness         = thickness;
-	o.rigid             = py::extract<bool>(options.get("rigid", false));
-	o.mesh              = py::extract<std::string>(options["mesh"])() == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
-	o.points            = py::extract<int>(options["points"]);
-	o.on_centre_line    = py::extract<bool>(options["centre_line"]);
-	const auto ofGrains = materialsOf(materials);
+	o.rigid             = optionOf<bool>(options, "rigid");
+	o.mesh              = meshOf(optionOf<std::string>(options, "mesh"));
+	o.points            = optionOf<int>(options, "points");
+	o.on_centre_line    = optionOf<bool>(options, "centre_line");
+	const auto ofGrains = materialsOf(minerals);
 	for (const auto& m : ofGrains)
 		o.elastic.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
 	for (const auto& m : options.has_key("pairs") ? materialsOf(py::list(options["pairs"])) : ofGrains)
 		o.laws.push_back(contactOf(static_cast<const GrainMat&>(*m)));
 	if (options.has_key("minerals")) {
-		const flexpm_bindings::InputArray<int> minerals(options["minerals"], 1, "minerals");
-		o.grain_material.assign(minerals.data(), minerals.data() + minerals.size(0));
+		const flexpm_bindings::InputArray<int> ofGrain(options["minerals"], 1, "minerals");
+		o.grain_material.assign(ofGrain.data(), ofGrain.data() + ofGrain.size(0));
 	}
 	if (options.has_key("outer")) chooseInner(options, o);
 	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
 	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
+	materials                         = ofGrains;
+	for (const auto& m : ofGrains)
+		materialValues.push_back(valuesOf(static_cast<const GrainMat&>(*m)));
 }
 
-void GrainSolver::addToScene(py::list materials)
+void GrainSolver::addToScene()
 {
-	insertBodies(materialsOf(materials));
+	if (!bodyIds.empty()) flexpm::refuse("GrainSolver.bodyIds", static_cast<double>(bodyIds.size()), "bodies", "are in the scene already; add them once");
+	insertBodies();
 	insertContacts();
 }
 
-void GrainSolver::insertBodies(const vector<shared_ptr<Material>>& materials)
+void GrainSolver::insertBodies()
 {
-	bodyIds.clear();
 	const auto& world = Omega::instance().getScene();
 	// bodies and states each in a row: every step walks through them
 	vector<shared_ptr<Body>>  bodies(assembly.grains.count);
@@ -121,17 +146,22 @@ void GrainSolver::insertContacts()
 
 void GrainSolver::scaleMasses()
 {
-	scaled = true;
-	flexpm::scale_masses(assembly, damping, Omega::instance().getScene()->dt);
+	const Real dt = Omega::instance().getScene()->dt;
+	flexpm::scale_masses(assembly, damping, dt);
+	scaled      = true;
+	massStep    = dt;
+	massDamping = damping;
 }
 
 Real GrainSolver::useRealMasses()
 {
-	scaled = false;
-	return flexpm::set_real_masses(assembly, damping);
+	massStep    = flexpm::set_real_masses(assembly, damping);
+	massDamping = damping;
+	scaled      = false;
+	return massStep;
 }
 
-void GrainSolver::openBooks() { flexpm::reset_energy_balance(assembly); }
+void GrainSolver::resetEnergyBalance() { flexpm::reset_energy_balance(assembly); }
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What must hold before the solver is asked or stepped; scripts can change anything between two steps.
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/yade/grains/GrainMat.hpp>
+#include <flexpm/yade/grains/LaguerreCell.hpp>
+
+#include <algorithm>
+
+#include <omp.h>
+#include <unistd.h>
+
+namespace yade {
+
+using flexpm::fail;
+using flexpm::number;
+
+namespace {
+
+	const std::string buildAgain = "; build the specimen again (O.reset(), flexpm.build)";
+
+	void requirePeriod(const char* name, int steps)
+	{
+		if (steps < 1) fail(std::string("GrainSolver.") + name, std::to_string(steps), "must be at least 1 step");
+	}
+
+	/// Cores of the machine.
+	int cores()
+	{
+		static const int count = std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
+		return count;
+	}
+
+} // namespace
+
+void GrainSolver::requireAssembled() const
+{
+	if (assembly.grains.count == 0) fail("GrainSolver: grains", "0", "must be assembled; build the specimen first (flexpm.build)");
+}
+
+bool GrainSolver::measured() const
+{
+	requirePeriod("measurePeriod", measurePeriod);
+	return assembly.step % measurePeriod == 0;
+}
+
+void GrainSolver::requireReady() const
+{
+	requireAssembled();
+	requirePeriod("measurePeriod", measurePeriod);
+	requirePeriod("mirrorPeriod", mirrorPeriod);
+	requirePeriod("touchPeriod", touchPeriod);
+	requirePeriod("checkPeriod", checkPeriod);
+	if (!(touchMargin >= 0 && touchMargin <= 10)) fail("GrainSolver.touchMargin", number(touchMargin), "must be from 0 to 10 diameters");
+	requireInScene();
+	requireMasses();
+	for (std::size_t i = 0; i < materials.size(); ++i)
+		requireValues(static_cast<const GrainMat&>(*materials[i]), materialValues[i]);
+}
+
+void GrainSolver::requireInScene() const
+{
+	if (bodyIds.size() == std::size_t(assembly.grains.count)) return;
+	fail("GrainSolver.bodyIds",
+	     std::to_string(bodyIds.size()) + " bodies",
+	     "must be one for each of " + std::to_string(assembly.grains.count) + " grains; call addToScene() once, or flexpm.build");
+}
+
+void GrainSolver::requireMasses() const
+{
+	const std::string again = scaled ? "scaleMasses()" : "useRealMasses()";
+	if (massStep == 0) fail("GrainSolver: masses", "none", "must be set; call scaleMasses() or useRealMasses()");
+	if (scaled ? scene->dt != massStep : !(scene->dt > 0 && scene->dt <= massStep)) {
+		fail("O.dt",
+		     number(scene->dt) + " s",
+		     std::string(scaled ? "must be " : "must be above 0 and at most ") + number(massStep) + " s as the masses are; call GrainSolver." + again
+		             + " after a change");
+	}
+	if (!(damping >= 0 && damping <= massDamping)) {
+		fail("GrainSolver.damping",
+		     number(damping),
+		     "must be from 0 to " + number(massDamping) + " as the masses are; set it below 1 and call " + again);
+	}
+}
+
+int GrainSolver::threads() const
+{
+	if (ompThreads == -1) return std::min(omp_get_max_threads(), cores());
+	if (ompThreads >= 1 && ompThreads <= cores()) return ompThreads;
+	fail("GrainSolver.ompThreads",
+	     std::to_string(ompThreads),
+	     "must be from 1 to " + std::to_string(cores()) + ", the cores of this machine, or -1 for the threads of YADE");
+}
+
+Body* GrainSolver::bodyOf(const Scene& world, int grain) const
+{
+	const auto id = bodyIds[grain];
+	if (!world.bodies->exists(id)) return nullptr;
+	Body* const body = (*world.bodies)[id].get();
+	// after O.bodies.clear() the number may be that of a body of the script
+	const auto* cell = dynamic_cast<const LaguerreCell*>(body->shape.get());
+	return cell && cell->grain == grain ? body : nullptr;
+}
+
+void GrainSolver::requireOwnScene() const
+{
+	if (ofScene(*scene).get() != this) fail("GrainSolver: O.engines", "two with grains", "must hold one" + buildAgain);
+	bool any = false;
+	for (int grain = 0; grain < assembly.grains.count; ++grain) {
+		const Body* body = bodyOf(*scene, grain);
+		if (!body) continue;
+		any = true;
+		if (body->material == materials[assembly.grains.material[grain]]) continue;
+		fail("O.bodies[" + std::to_string(bodyIds[grain]) + "].material", "another one", "must stay that of the build" + buildAgain);
+	}
+	if (!any) fail("GrainSolver: grains in O.bodies", "0", "must be at least 1" + buildAgain);
+}
+
+} // namespace yade
