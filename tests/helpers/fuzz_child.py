@@ -244,6 +244,69 @@ class Discs:
         return "done"
 
 
+class Physics:
+    """Runs with any material, specimen and test."""
+
+    #: Steps after which a test is left: it would end, but nobody waits for it.
+    LONGEST = 40_000
+
+    class LongError(Exception):
+        """The test is long."""
+
+    def __call__(self, example: dict[str, Any]) -> dict[str, Any]:
+        """Status of a run, and what of its result is no number; or its error."""
+        import flexpm
+        from flexpm.specimens.spec import SpecimenSpec
+
+        def look(done: float, expected: float, text: str) -> None:
+            if done > self.LONGEST:
+                raise self.LongError(f"{done} steps of {expected:.3g}")
+
+        sizes = dict(example["specimen"])
+        sizes["diameters"] = tuple(sizes["diameters"])
+        model = example["model"]
+        try:
+            rock = flexpm.materials.load(None, model).with_set(example["material"], model)
+            specimen = flexpm.Specimen.pack(SpecimenSpec(**sizes))
+            result = flexpm.run(
+                example["test"], specimen, rock, model, progress=look, **example["options"]
+            )
+        except Exception as raised:
+            return {"error": f"{type(raised).__name__}: {raised}"}
+        return {
+            "status": result.status,
+            "energy_error": result.energy_error,
+            "warnings": result.warnings,
+            "infinite": self._infinite(result),
+        }
+
+    @staticmethod
+    def _infinite(result: Any) -> list[str]:
+        """Names of measures, and of columns that the model has, with a number that is none."""
+        import numpy as np
+
+        from flexpm.models.options import SPHERE_MODELS
+        from flexpm.results.record import COLUMNS
+
+        found = [
+            name
+            for name, value in result.as_dict().items()
+            if isinstance(value, float) and not np.isfinite(value)
+        ]
+        if result.status == "diverged":
+            return found
+        absent = COLUMNS if result.model in SPHERE_MODELS else ()
+        if result.test == "brazilian":
+            absent = (*absent, "lateral_strain")
+        for name in COLUMNS:
+            column = result.curve[name]
+            if not np.all(np.isfinite(column)) and not (
+                name in absent and np.all(np.isnan(column))
+            ):
+                found.append(name)
+        return found
+
+
 class Command:
     """Command lines, in this process one after the other."""
 
@@ -268,6 +331,7 @@ def serve(kind: str, out: Any) -> None:
         "script": Script,
         "discs": Discs,
         "command": Command,
+        "physics": Physics,
     }
     answer = kinds[kind]()
     for line in sys.stdin:

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Memory: half a million steps take none, and a reset leaves behind what it does of spheres."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+COMMON = """
+import flexpm, yade
+from pathlib import Path
+from yade import utils, wrapper
+
+def memory():
+    # resident set [MB]
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096e-6
+"""
+STEPS = """
+built = flexpm.build(flexpm.Specimen.rectangle(0.012, 0.024, 0.01))
+flexpm.rig(built).start(flexpm.Loading(rate=1e-4))
+built.solver.measurePeriod = 100
+built.run(100_000)
+before = memory()
+built.run(500_000)
+print(memory() - before)
+"""
+CYCLES = """
+specimen = flexpm.Specimen.rectangle(0.04, 0.08, 0.01)
+
+def grains():
+    flexpm.build(specimen).run(1)
+
+def spheres():
+    scene = yade.O
+    scene.materials.append(wrapper.FrictMat())
+    scene.bodies.append([utils.sphere((x, y, 0.0), r) for x, y, r in specimen.discs])
+    scene.engines = [
+        wrapper.ForceResetter(),
+        wrapper.InsertionSortCollider([wrapper.Bo1_Sphere_Aabb()]),
+        wrapper.InteractionLoop(
+            [wrapper.Ig2_Sphere_Sphere_ScGeom()],
+            [wrapper.Ip2_FrictMat_FrictMat_FrictPhys()],
+            [wrapper.Law2_ScGeom_FrictPhys_CundallStrack()],
+        ),
+        wrapper.NewtonIntegrator(),
+    ]
+    scene.dt = 1e-12
+    scene.step()
+
+def growth(make):
+    for cycle in range(21):
+        yade.O.reset()
+        make()
+        if cycle == 5:
+            before = memory()
+    return (memory() - before) / 15
+
+print(growth(grains), growth(spheres))
+"""
+
+
+def numbers(script: str) -> list[float]:
+    """What a script prints in a process of its own."""
+    done = subprocess.run(
+        [sys.executable, "-c", COMMON + script], capture_output=True, text=True, check=True
+    )
+    return [float(word) for word in done.stdout.split()]
+
+
+@pytest.mark.long
+def test_half_a_million_steps_take_no_memory():
+    (grown,) = numbers(STEPS)
+    assert grown < 2.0  # MB, of which 5000 rows of the record take 0.7
+
+
+@pytest.mark.long
+def test_build_and_reset_leave_no_more_behind_than_as_many_spheres():
+    """YADE itself keeps 3.6 kB of each body that has had an interaction."""
+    grains, spheres = numbers(CYCLES)
+    assert grains <= 1.1 * spheres
