@@ -162,6 +162,9 @@ class Script:
         self._begin()
 
     def do_save(self) -> None:
+        there = {body.id for body in self._yade.O.bodies}
+        if any({one.id1, one.id2} - there for one in self._yade.O.interactions):
+            return  # YADE cannot load such a scene, of its own spheres either
         self._yade.O.save(f"{self._folder.name}/scene.bin", quiet=True)
 
     def do_load(self) -> None:
@@ -169,7 +172,10 @@ class Script:
             self._yade.O.load(f"{self._folder.name}/scene.bin", quiet=True)
             if self._built is not None:
                 self._built.rebind()
-                self._solver = self._built.solver
+            kind = self._yade.wrapper.GrainSolver
+            for engine in self._yade.O.engines:
+                if isinstance(engine, kind):
+                    self._solver = engine
 
     def do_erase_bond(self, number: int) -> None:
         bonds = list(self._yade.O.interactions)

@@ -71,6 +71,15 @@ def test_a_size_beyond_sense_is_refused(capsys, arguments):
     assert capsys.readouterr().err.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    "run", [("tension", "flexible"), ("uniaxial", "rigid"), ("tension", "jcfpm")]
+)
+def test_a_single_grain_that_needs_a_contact_is_refused(run):
+    corners = [(0.0, 0.0), (0.01, 0.0), (0.01, 0.01), (0.0, 0.01)]
+    alone = flexpm.Specimen.from_discs([(0.005, 0.005)], [0.004], corners, 0.01)
+    assert "grains = 1, must be >= 2" in one_line(flexpm.run, run[0], alone, model=run[1])
+
+
 def test_a_test_that_would_never_end_is_refused_with_its_steps(small):
     said = one_line(flexpm.run, "uniaxial", small, rate=1e-11)
     steps = float(said.removeprefix("run: steps = ").split(" ")[0])

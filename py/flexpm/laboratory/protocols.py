@@ -10,10 +10,12 @@ from pathlib import Path
 import yade
 
 from .._version import __version__
+from ..errors import InputError
 from ..files import output_folder
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..models.grains import build
+from ..models.options import SPHERE_MODELS
 from ..progress import Progress
 from ..report.curves import curve_picture
 from ..report.maps import crack_picture, fragment_picture
@@ -143,12 +145,24 @@ def plan_run(
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
 
     Raises:
-        InputError: for a test that is no simulation, or a checkpoint of other inputs in `out`.
+        InputError: for a test that is no simulation, grains that have no contact and need one, or
+            a checkpoint of other inputs in `out`.
     """
     require_known("run: test", spec.test, list(TESTS))
+    _require_contacts(spec, specimen)
     folder = None if out is None else output_folder(out)
     checkpoint = None if folder is None else Checkpoint(folder, spec, checkpoint_interval)
     return Plan(spec, specimen, material, folder, checkpoint)
+
+
+def _require_contacts(spec: RunSpec, specimen: Specimen) -> None:
+    """Refuse a single grain that cannot deform, or whose contacts would set the start."""
+    rigid = spec.model in ("rigid", *SPHERE_MODELS)
+    if len(specimen.discs) < 2 and (rigid or spec.start == "static"):
+        raise InputError(
+            f"run: grains = {len(specimen.discs)}, must be >= 2 for {spec.test} of model "
+            f"{spec.model} with start {spec.start}; there is no contact"
+        )
 
 
 def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None) -> Result:

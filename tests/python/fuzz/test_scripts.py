@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calls from Python in any order: no crash, one line for each refusal, what a model foretells."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from fuzz_child import NUMBERS, QUERIES, Child, examples
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+#: Exceptions of Python for an argument of another type, which have several lines.
+FOREIGN = re.compile(r"(ArgumentError|TypeError|OverflowError): ")
+NUMBER = st.integers(0, 60)
+ANY = st.sampled_from([0.0, -1.0, 0.5, 5.0, 1e300, float("inf"), float("nan")])
+CALLS = st.one_of(
+    st.tuples(
+        st.just("build"),
+        st.sampled_from(["flexible", "rigid", "inner"]),
+        st.sampled_from([1, 2]),
+        st.sampled_from([1, 2, 3]),
+        st.sampled_from(["fan", "refined"]),
+    ),
+    st.tuples(st.just("step"), st.sampled_from([1, 3, 120])),
+    st.tuples(st.sampled_from(["reset", "save", "load"])),
+    st.tuples(st.sampled_from(["erase_bond", "erase_body", "view"]), NUMBER),
+    st.tuples(st.just("touch"), st.sampled_from([0, 1, 2, 3, 9, -1])),
+    st.tuples(st.sampled_from(["plate", "wall"]), ANY, ANY),
+    st.tuples(st.just("ask"), st.sampled_from(QUERIES)),
+    st.tuples(st.just("write"), ANY),
+    st.tuples(st.just("set"), st.sampled_from(NUMBERS), ANY),
+    st.tuples(st.just("dead"), st.booleans()),
+    st.tuples(st.just("time_step"), ANY),
+    st.tuples(
+        st.just("engines"),
+        st.sampled_from(["none", "solver", "twice", "reversed", "recorder", "bare"]),
+    ),
+    st.tuples(st.sampled_from(["bare", "clear"])),
+)
+#: Calls that a plain model foretells; others may move, stop or take apart anything.
+PLAIN = st.one_of(
+    st.tuples(st.just("step"), st.sampled_from([1, 7, 120])),
+    st.tuples(st.sampled_from(["save", "load"])),
+    st.tuples(st.just("ask"), st.sampled_from(QUERIES[:7])),
+    st.tuples(st.just("view"), NUMBER),
+    st.tuples(st.just("erase_bond"), NUMBER),
+    st.tuples(st.sampled_from(["reset"])),
+)
+BUILD = st.tuples(
+    st.just("build"),
+    st.sampled_from(["flexible", "rigid"]),
+    st.sampled_from([1, 2]),
+    st.just(3),
+    st.just("refined"),
+)
+
+
+@pytest.fixture(scope="module")
+def child():
+    one = Child("script")
+    yield one
+    one.close()
+
+
+@given(st.lists(CALLS, min_size=1, max_size=12))
+@example([("bare",), ("ask", "counts")])
+@example([("bare",), ("engines", "solver"), ("step", 10)])
+@settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
+def test_calls_in_any_order_end_in_one_line(child, calls):
+    for call, seen in zip(calls, child.run(calls), strict=True):
+        error = seen["error"]
+        if error and not FOREIGN.match(error):
+            assert "\n" not in error, (call, error)
+        assert not error.startswith(("SystemError", "AssertionError")), (call, error)
+
+
+class Model:
+    """What a scene holds, as far as it follows from the calls."""
+
+    def __init__(self) -> None:
+        self.now, self.saved, self.first = None, None, 0
+
+    def do(self, call, seen):
+        """Take the call; what it must have left, None where anything may be."""
+        name = call[0]
+        if name == "reset":
+            self.now = (0, 0, 0)
+        elif name == "build":
+            self.now, self.first = (0, seen["bodies"], seen["bonds"]), seen["bonds"]
+        elif name == "step" and self.now:
+            step, bodies, bonds = self.now
+            # grains that touch where a bond was erased have a contact again
+            assert bonds <= seen["bonds"] <= self.first
+            self.now = (step + call[1], bodies, seen["bonds"])
+        elif name == "erase_bond" and self.now and self.now[2]:
+            self.now = (*self.now[:2], self.now[2] - 1)
+        elif name == "save":
+            self.saved = (self.now, seen["state"])
+        elif name == "load" and self.saved:
+            self.now, state = self.saved
+            return state
+        return None
+
+
+@given(BUILD, st.lists(PLAIN, max_size=12))
+@settings(max_examples=examples(60), deadline=None, suppress_health_check=list(HealthCheck))
+def test_a_scene_is_what_a_plain_model_says_and_a_saved_one_comes_back(child, build, calls):
+    model, last = Model(), ""
+    calls = [("reset",), build, *calls]
+    for call, seen in zip(calls, child.run(calls), strict=True):
+        where = (call, seen)
+        state = model.do(call, seen)
+        there = seen["step"], seen["bodies"], seen["bonds"]
+        if call[0] in ("ask", "view", "save") and last:
+            assert seen["state"] == last, where  # looking changes nothing
+        if state is not None:
+            assert seen["state"] == state, where
+        assert there == model.now, where
+        last = seen["state"]
+
+
+@given(BUILD, st.lists(PLAIN, max_size=8))
+@settings(max_examples=examples(15), deadline=None, suppress_health_check=list(HealthCheck))
+def test_the_same_calls_give_the_same_bits(child, build, calls):
+    calls = [("reset",), build, *calls]
+    assert child.run(calls) == child.run(calls)
