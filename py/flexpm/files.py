@@ -141,6 +141,16 @@ def output_folder(path: Path | str) -> Path:
     return path
 
 
+def refuse_folders(folder: Path, names: Iterable[str]) -> None:
+    """Raise InputError if a folder lies where a file will be written, before the work is done."""
+    for name in names:
+        if (folder / name).is_dir():
+            raise InputError(
+                f"out = {str(folder)!r}, holds a folder {name}, must be free for the file of this "
+                "name; choose another folder"
+            )
+
+
 class FolderLock:
     """Keeps other processes out of a folder as long as it lives.
 

@@ -11,7 +11,7 @@ import yade
 
 from .._version import __version__
 from ..errors import InputError
-from ..files import output_folder
+from ..files import output_folder, refuse_folders
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..models.grains import build
@@ -30,6 +30,12 @@ from .rig import TestRig
 from .rigs import rig as rig_of
 from .run_spec import RunSpec, described
 from .runner import Runner
+
+#: Names of the files of a run.
+FILES = (
+    *("result.json", "curve.csv", "cracks.csv", "fragments.csv", "specimen.vtu", "final.vtu"),
+    *("curve.png", "cracks.png", "fragments.png", "checkpoint.json"),
+)
 
 
 @dataclass(frozen=True)
@@ -151,6 +157,8 @@ def plan_run(
     require_known("run: test", spec.test, list(TESTS))
     _require_contacts(spec, specimen)
     folder = None if out is None else output_folder(out)
+    if folder is not None:
+        refuse_folders(folder, FILES)
     checkpoint = None if folder is None else Checkpoint(folder, spec, checkpoint_interval)
     return Plan(spec, specimen, material, folder, checkpoint)
 

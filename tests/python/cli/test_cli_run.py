@@ -123,3 +123,15 @@ def test_what_a_model_cannot_do_is_refused_in_one_line(capsys, tmp_path, argumen
     assert output == ""
     assert errors.count("\n") == 1
     assert message in errors
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+@pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial", "brazilian"])
+def test_a_run_with_all_defaults_warns_of_nothing(capsys, tmp_path, test, model):
+    size = "--diameter 0.02" if test == "brazilian" else "--width 0.02 --height 0.04"
+    options = [*size.split(), "--model", model, "--quiet", "--out", str(tmp_path)]
+    assert cli.main(["run", test, *options]) == 0
+    said = capsys.readouterr()
+    assert "warning" not in said.out + said.err
+    assert json.loads((tmp_path / "result.json").read_text())["warnings"] == []

@@ -143,6 +143,14 @@ def test_a_file_that_is_a_folder_is_named(capsys, tmp_path):
     assert "result.json" in one_line(capsys.readouterr().err)
 
 
+@pytest.mark.parametrize("name", ["curve.csv", "result.json", "final.vtu", "checkpoint.json"])
+def test_a_folder_in_place_of_a_file_is_named_before_the_run(capsys, tmp_path, name):
+    (tmp_path / name).mkdir()
+    assert cli.main(["run", *SOON, "--out", str(tmp_path)]) == 2
+    assert f"holds a folder {name}" in one_line(capsys.readouterr().err)
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+
+
 def test_a_folder_of_no_valid_name_is_refused(capsys):
     assert cli.main(["elastic", *TINY, "--out", os.fsdecode(b"\xff\xfe")]) == 2
     assert "valid characters" in one_line(capsys.readouterr().err)
