@@ -99,6 +99,7 @@ class Script:
         self._built: Any = None
         self._solver: Any = None
         self._views: list[Any] = []
+        self._erased = False  # something, since the last step
 
     def __call__(self, calls: list[list[Any]]) -> list[dict[str, Any]]:
         """Make the calls; what each raised, and what the scene then is."""
@@ -157,6 +158,7 @@ class Script:
     def do_step(self, count: int) -> None:
         for _ in range(count):
             self._yade.O.step()
+            self._erased = False
 
     def do_reset(self) -> None:
         self._begin()
@@ -182,13 +184,17 @@ class Script:
         if bonds:
             one = bonds[number % len(bonds)]
             self._yade.O.interactions.erase(one.id1, one.id2)
+            self._erased = True
 
     def do_erase_body(self, number: int) -> None:
         bodies = [body.id for body in self._yade.O.bodies]
         if bodies:
             self._yade.O.bodies.erase(bodies[number % len(bodies)])
+            self._erased = True
 
     def do_clear(self) -> None:
+        if self._erased:
+            return  # YADE's collider looks the bodies up, with its own spheres, too
         self._yade.O.bodies.clear()
 
     def do_touch(self, side: int) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 import tomli_w
+from fuzz_child import examples
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
@@ -120,7 +121,9 @@ def test_the_documents_are_right_before_they_are_changed(tmp_path, kind):
 @pytest.mark.parametrize("kind", KINDS)
 @given(data=st.data())
 @settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=examples(150),
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 def test_any_shape_is_read_or_refused(tmp_path, kind, data):
     whole, read = KINDS[kind]
@@ -136,7 +139,7 @@ def test_any_shape_is_read_or_refused(tmp_path, kind, data):
 @example(b"a = " + b"9" * 5000)
 @example(b"a = " + b"[" * 3000)
 @example(b"a = 1e999999\n[a]")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(100), suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_any_bytes_are_toml_or_refused(tmp_path, content):
     (tmp_path / "it.toml").write_bytes(content)
     try:
