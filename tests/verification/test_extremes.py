@@ -43,6 +43,8 @@ def case(seed: int) -> dict:
     else:
         specimen["width"] = scale * draw.uniform(0.008, 0.016)
         specimen["height"] = specimen["width"] * draw.choice([0.5, 1.0, 2.0, 3.0])
+    side = min(specimen[name] for name in ("diameter", "width", "height") if name in specimen)
+    specimen["diameters"] = [min(one, 0.4 * side) for one in specimen["diameters"]]
     material = {
         "young": 25.8e9 * power(-2.0, 2.0),
         "poisson": draw.choice([1e-6, 0.23, 0.45, 0.499]),
