@@ -52,25 +52,6 @@ def test_a_grain_without_bonds_is_free(make):
     assert resultant(20) < 1e-11
 
 
-def test_a_kept_handle_delays_an_erased_bond_by_a_hundred_steps_at_most(make):
-    model = make(velocity=5e-9)
-    model.run(310)
-    discs = model.specimen.discs
-
-    def gap(bond) -> float:
-        a, b = discs[bond.id1], discs[bond.id2]
-        return np.hypot(*(b - a)[:2]) - a[2] - b[2]
-
-    bond = max((i for i in O.interactions if i.isReal), key=gap)
-    assert gap(bond) > 0.0, "without the bond they would touch"
-    geom, phys = bond.geom, bond.phys
-    assert phys.area.all() and phys.traction.any()
-    O.interactions.erase(bond.id1, bond.id2)
-    model.run(92)  # the solver looks at step 400
-    assert geom.contact == phys.contact
-    assert not phys.area.any()
-
-
 def test_an_erased_grain_leaves_its_neighbours_alone(make):
     model = make(velocity=-5e-9)
     model.run(300)

@@ -20,7 +20,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..arrays import FloatArray, IntArray
-from ..results.cracks import SHEAR, TENSILE
+from ..results.cracks import ERASED, SHEAR, TENSILE
 from ..results.snapshot import POINT_SHARES, Snapshot
 from ..text import label_of
 from .style import COLOURS, MODE_NAMES, STYLE, can_be_drawn, save
@@ -111,8 +111,22 @@ def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
         points = int(np.count_nonzero(snapshot.crack_mode == mode))
         label = f"{MODE_NAMES[mode]} ({points})"
         handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
+    handles += _draw_erased(axes, snapshot)
     _draw_scale_bar(axes)
     return handles
+
+
+def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
+    """Draw the erased bonds between grains that are there, as cuts; a handle if there are any."""
+    if snapshot.erased_ends is None:
+        return []
+    cuts = snapshot.erased_ends[np.all(np.isfinite(snapshot.erased_ends), axis=(1, 2))]
+    if len(cuts) == 0:
+        return []
+    colour = COLOURS[ERASED]
+    axes.add_collection(LineCollection(1e3 * cuts, colors=colour, linewidths=1.6))
+    label = f"{MODE_NAMES[ERASED]} ({len(cuts)})"
+    return [Line2D([], [], color=colour, lw=2.0, label=label)]
 
 
 def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") -> None:
@@ -125,15 +139,15 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
         snapshot: The state.
         caption: Line above the picture; if empty, the number of fragments.
     """
+    if not can_be_drawn(snapshot.positions):
+        Path(path).unlink(missing_ok=True)  # of an earlier run
+        return
     found = snapshot.fragments
     colours = [
         _FRAGMENTS[rank % len(_FRAGMENTS)] if grains > 1 else _LOOSE
         for rank, grains in enumerate(found.grains)
     ]
     colours[0] = _GRAIN_TINTS[0]
-    if not can_be_drawn(snapshot.positions):
-        Path(path).unlink(missing_ok=True)  # of an earlier run
-        return
     with rc_context(STYLE):
         figure, axes = _map_figure([snapshot.positions])
         _draw_rock(axes, snapshot, [colours[rank] for rank in found.labels])

@@ -15,13 +15,13 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..files import whole_file
-from ..results.cracks import SHEAR, TENSILE
+from ..results.cracks import ERASED, SHEAR, TENSILE
 
 #: Apart for colour-blind readers (Okabe and Ito); one for each line of a picture.
 CYCLE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
-#: Colours of the modes of cracks.
-COLOURS = {TENSILE: CYCLE[0], SHEAR: CYCLE[1]}
-MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks"}
+#: Colours of the modes of cracks, and of what scripts have erased.
+COLOURS = {TENSILE: CYCLE[0], SHEAR: CYCLE[1], ERASED: "black"}
+MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks", ERASED: "erased bonds"}
 #: Settings of all pictures.
 STYLE = {
     "font.size": 9.0,

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cracks: contact points that have lost their bond, and their table. SI units."""
+"""Cracks: contact points that have lost their bond, and their table. SI units.
+
+The table also names the points of bonds that a script has erased, which are no cracks.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import FloatArray, IntArray
 from ..files import csv_text
 from .record import Curve
 from .snapshot import Snapshot
 
-TENSILE, SHEAR = 1, 2
-#: Name of each mode.
+TENSILE, SHEAR, ERASED = 1, 2, 3
+#: Name of each mode of a crack.
 MODES = {TENSILE: "tensile", SHEAR: "shear"}
+#: The same of all that the table has.
+NAMES = {**MODES, ERASED: "erased"}
 
 
 class Crack(NamedTuple):
@@ -24,7 +30,7 @@ class Crack(NamedTuple):
     strain: float  #: axial strain when it broke [-]
     x: float  #: position when it broke [m]
     y: float  #: [m]
-    mode: int  #: TENSILE if the point was opening, else SHEAR
+    mode: int  #: TENSILE if the point was opening, else SHEAR; ERASED if a script erased it
     contact: int  #: number of the contact, as in each snapshot
     point: int  #: index of the point in its contact
 
@@ -32,17 +38,20 @@ class Crack(NamedTuple):
 def cracks_csv(cracks: Sequence[Crack]) -> str:
     """Cracks as CSV text in the order given; numbers read back unchanged."""
     rows = (
-        (int(crack.step), *map(float, crack[1:4]), MODES[crack.mode], crack.contact, crack.point)
+        (int(crack.step), *map(float, crack[1:4]), NAMES[crack.mode], crack.contact, crack.point)
         for crack in cracks
     )
     return csv_text(Crack._fields, rows)
 
 
 def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
-    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`."""
-    steps = snapshot.crack_step
+    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`.
+
+    Those of erased bonds are among them, and what was erased of these.
+    """
+    numbers, steps, modes, places = _records(snapshot)
     rows, points = np.nonzero(steps >= 0)
-    order = np.lexsort((points, snapshot.contact[rows], steps[rows, points]))
+    order = np.lexsort((points, numbers[rows], steps[rows, points]))
     rows, points = rows[order], points[order]
     steps = steps[rows, points]
     strains = (
@@ -50,12 +59,38 @@ def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
         if len(curve)
         else np.full(len(steps), np.nan)
     )
-    modes = snapshot.crack_mode[rows, points]
-    places = snapshot.crack_position[rows, points]
-    contacts = snapshot.contact[rows]
     return [
         Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
         for step, strain, (x, y), mode, contact, point in zip(
-            steps, strains, places, modes, contacts, points, strict=True
+            steps,
+            strains,
+            places[rows, points],
+            modes[rows, points],
+            numbers[rows],
+            points,
+            strict=True,
         )
     ]
+
+
+def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
+    """Numbers of all bonds with a record, steps, modes and places of their points."""
+    exist = (
+        snapshot.contact,
+        snapshot.crack_step,
+        snapshot.crack_mode,
+        snapshot.crack_position,
+    )
+    if (
+        snapshot.erased_contact is None
+        or snapshot.erased_crack_step is None
+        or snapshot.erased_crack_mode is None
+        or snapshot.erased_crack_position is None
+    ):
+        return exist
+    return (
+        np.concatenate([exist[0], snapshot.erased_contact]),
+        np.concatenate([exist[1], snapshot.erased_crack_step]),
+        np.concatenate([exist[2], snapshot.erased_crack_mode]),
+        np.concatenate([exist[3], snapshot.erased_crack_position]),
+    )

@@ -21,7 +21,7 @@ from ..files import csv_text
 class Fragments:
     """Fragments, the largest first; ties in the order of their first grain."""
 
-    labels: IntArray  #: fragment of each grain
+    labels: IntArray  #: fragment of each grain, -1 of a grain that is gone
     grains: IntArray  #: number of grains of each fragment
     areas: FloatArray  #: area of each fragment, undeformed [m2]
 
@@ -40,18 +40,21 @@ def connected(pairs: IntArray, bonded: BoolArray, areas: FloatArray) -> Fragment
     Args:
         pairs: The two grains of each contact, (C, 2).
         bonded: Whether each contact holds its grains together, (C,).
-        areas: Area of each grain [m2].
+        areas: Area of each grain, 0 of one that is gone [m2].
     """
     pairs, areas = np.asarray(pairs).reshape(-1, 2), np.asarray(areas, dtype=float)
     held = pairs[np.asarray(bonded, dtype=bool)]
     count = len(areas)
+    if not np.any(areas > 0.0):
+        return Fragments(np.full(count, -1), np.zeros(0, dtype=int), np.zeros(0))
     graph = sparse.coo_matrix((np.ones(len(held)), (held[:, 0], held[:, 1])), shape=(count, count))
     found, labels = csgraph.connected_components(graph, directed=False)
     total = np.bincount(labels, weights=areas, minlength=found)
     first = np.full(found, count)
     np.minimum.at(first, labels, np.arange(count))
     order = np.lexsort((first, -total))
-    rank = np.empty(found, dtype=int)
-    rank[order] = np.arange(found)
+    order = order[total[order] > 0.0]
+    rank = np.full(found, -1)
+    rank[order] = np.arange(len(order))
     grains = np.bincount(labels, minlength=found)
     return Fragments(rank[labels], grains[order], total[order])

@@ -126,7 +126,7 @@ class Result:
         found = snapshot.fragments
         self.snapshot = snapshot
         self.fragments = len(found)
-        self.largest_fragment = float(found.areas[0] / found.areas.sum())
+        self.largest_fragment = float(found.areas[0] / found.areas.sum()) if len(found) else 0.0
 
     def _measure_onset(self) -> None:
         for mode, name in MODES.items():

@@ -20,7 +20,11 @@ POINT_SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """Arrays of N nodes, M triangles and C contacts of P points."""
+    """Arrays of N nodes, M triangles and C contacts of P points.
+
+    Nodes, triangles and contacts are those that exist. A cracked bond stays after its grains have
+    parted; one that a script has erased does not, only the record of E erased bonds is left.
+    """
 
     positions: FloatArray  #: of the nodes, (N, 2) [m]
     reference: FloatArray  #: positions in the bonded state, (N, 2) [m]
@@ -42,6 +46,12 @@ class Snapshot:
     triangle_particle: IntArray | None = None  #: (M,), where grains have inner particles
     triangle_stress_zz: FloatArray | None = None  #: (M,) [Pa], in plane strain
     grain_mineral: IntArray | None = None  #: of each grain, if there are minerals
+    erased_contact: IntArray | None = None  #: number of each erased bond, (E,)
+    erased_grains: IntArray | None = None  #: (E, 2)
+    erased_ends: FloatArray | None = None  #: (E, 2, 2) [m], nan if one of the grains is gone
+    erased_crack_step: IntArray | None = None  #: of the crack or the erasure, (E, P)
+    erased_crack_mode: IntArray | None = None  #: (E, P)
+    erased_crack_position: FloatArray | None = None  #: (E, P, 2) [m]
 
     @cached_property
     def fragments(self) -> Fragments:

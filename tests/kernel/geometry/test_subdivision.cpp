@@ -206,7 +206,7 @@ TEST_CASE("particles know the grain of the rock that they are part of", "[inner]
     o.points = 1;
     o.parent = inner.grain;
     const Assembly a = flexpm::make_assembly(inner.cells, inner.discs, o);
-    const auto bonded = flexpm::bonded_contacts(a);
+    const auto bonded = flexpm::count_contacts(a);
     const auto outer = std::count(inner.outer.begin(), inner.outer.end(), 1);
     CHECK(bonded.between == outer);
     CHECK(bonded.between + bonded.within == a.contacts.count);

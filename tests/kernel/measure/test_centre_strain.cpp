@@ -27,7 +27,7 @@ std::vector<std::array<double, 2>> centres(int columns, int rows)
 
 StrainGauge gauge(int columns, int rows)
 {
-    StrainGauge g { 5.0, rows * size, size, {}, {} };
+    StrainGauge g { 5.0, rows * size, size, {}, {}, {} };
     for (int j = 0; j < rows; ++j) {
         g.left.push_back({ j * columns, size });
         g.right.push_back({ j * columns + columns - 1, size });

@@ -6,10 +6,10 @@
 
 namespace balance {
 
-/// All that is stored or dissipated [J].
+/// All that is stored, dissipated or has been erased [J].
 inline double total(const flexpm::Energies& e)
 {
-    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.potential;
+    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.potential + e.erased;
 }
 
 /// What the books lack [J]: work and initial energy less that.

@@ -72,11 +72,24 @@ def test_cracks_appear_in_their_colours(tmp_path):
     modes = np.where(snapshot.crack_mode == SHEAR, 0, snapshot.crack_mode)
     snapshot = dataclasses.replace(snapshot, crack_mode=modes)
     maps.crack_picture(tmp_path / "tensile.png", snapshot, "wall")
-    for mode, colour in style.COLOURS.items():
+    for mode in (TENSILE, SHEAR):
+        colour = style.COLOURS[mode]
         both = pixels_like(tmp_path / "cracks.png", colour)
         without_shear = pixels_like(tmp_path / "tensile.png", colour)
         assert both > 0
         assert (without_shear < both) == (mode == SHEAR)
+
+
+def test_erased_bonds_are_black_lines_where_both_grains_are_left(tmp_path):
+    snapshot = wall()
+    maps.crack_picture(tmp_path / "whole.png", snapshot)
+    for name, ends in (("cut", snapshot.contact_ends[:4]), ("hole", np.full((4, 2, 2), np.nan))):
+        erased = dataclasses.replace(snapshot, erased_ends=ends)
+        maps.crack_picture(tmp_path / f"{name}.png", erased)
+    black = {
+        name: pixels_like(tmp_path / f"{name}.png", "black") for name in ("whole", "cut", "hole")
+    }
+    assert black["whole"] == black["hole"] < black["cut"] - 1000
 
 
 def test_the_mesh_is_drawn_on_request(tmp_path):

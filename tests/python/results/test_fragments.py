@@ -55,3 +55,12 @@ def test_one_point_that_is_not_fully_damaged_holds():
     found = snapshot.fragments
     assert found.labels.tolist() == [0, 0, 1]
     assert found.areas.tolist() == [2.0, 1.0]
+
+
+def test_grains_that_are_gone_are_in_no_fragment():
+    pairs, held = np.array([[0, 2], [2, 4]]), np.array([True, False])
+    found = fragments.connected(pairs, held, np.array([1.0, 0.0, 1.0, 0.0, 3.0]))
+    assert found.labels.tolist() == [1, -1, 1, -1, 0]
+    assert found.grains.tolist() == [1, 2]
+    assert found.areas.tolist() == [3.0, 2.0]
+    assert len(fragments.connected(pairs[:0], held[:0], np.zeros(2))) == 0

@@ -323,6 +323,28 @@ def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
     assert len(cracks_csv(cracks).splitlines()) == 4
 
 
+def test_erased_bonds_stand_among_the_cracks():
+    record = Curve()
+    for step in (0, 100):
+        record.append(**row(step=step, axial_strain=step / 1000))
+    snapshot = dataclasses.replace(
+        wall(),
+        erased_contact=np.array([7]),
+        erased_crack_step=np.array([[5, 15, 15]]),
+        erased_crack_mode=np.array([[1, 3, 3]]),
+        erased_crack_position=np.ones((1, 3, 2)),
+    )
+    cracks = cracks_from_snapshot(snapshot, record)
+    assert [(c.step, c.contact, c.point, c.mode) for c in cracks if c.contact == 7] == [
+        (5, 7, 0, 1),
+        (15, 7, 1, 3),
+        (15, 7, 2, 3),
+    ]
+    assert [crack.step for crack in cracks] == sorted(crack.step for crack in cracks)
+    assert cracks_csv(cracks).count("erased") == 2
+    assert len(cracks) == 3 + np.count_nonzero(snapshot.crack_step >= 0)
+
+
 @given(
     steps=st.lists(st.integers(0, 5000), min_size=1, max_size=60),
     share=st.floats(0.0, 1.0),

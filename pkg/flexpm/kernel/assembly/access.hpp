@@ -59,28 +59,61 @@ template <class Visit> void for_each_component(const Grains& grains, int grain, 
     }
 }
 
-/// The same for all grains, not for padded lanes.
+/// The same for all grains that are there, not for padded lanes.
 template <class Visit> void for_each_component(const Grains& grains, Visit visit)
 {
     for (int g = 0; g < grains.count; ++g)
-        for_each_component(grains, g, visit);
+        if (!grains.erased[g]) for_each_component(grains, g, visit);
 }
 
-/// Contacts of the bonded specimen, those that have ended included.
-struct BondedContacts {
-    int between = 0;  ///< grains of the rock
-    int within = 0;   ///< one, between its inner particles
+/// Numbers of contacts, without erased ones.
+struct ContactCount {
+    int between = 0;   ///< bonds of grains of the rock, those that have ended included
+    int within = 0;    ///< bonds of one's inner particles, likewise
+    int touching = 0;  ///< discs that have come to touch
 };
 
-inline BondedContacts bonded_contacts(const Assembly& a)
+inline ContactCount count_contacts(const Assembly& a)
 {
-    BondedContacts count;
+    ContactCount count;
     for (int c = 0; c < a.contacts.count; ++c) {
-        if (!a.contacts.bonded[c]) continue;
+        if (a.contacts.erased[c]) continue;
         const GrainPair pair = a.contacts.pairs[c];
-        ++(a.grains.parent[pair[0]] == a.grains.parent[pair[1]] ? count.within : count.between);
+        const bool inner = a.grains.parent[pair[0]] == a.grains.parent[pair[1]];
+        ++(!a.contacts.bonded[c] ? count.touching : inner ? count.within : count.between);
     }
     return count;
+}
+
+/// Numbers of grains, nodes and triangles, without those that have been erased.
+struct GrainCount {
+    int grains = 0;     ///< of the rock
+    int particles = 0;  ///< what moves: grains or inner particles
+    int nodes = 0;
+    int triangles = 0;
+};
+
+inline GrainCount count_grains(const Grains& grains)
+{
+    GrainCount count;
+    std::vector<int> rock;
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
+        rock.push_back(grains.parent[g]);
+        count.nodes += grains.nodes_of(g);
+        count.triangles += triangles_of(grains, g);
+    }
+    count.particles = static_cast<int>(rock.size());
+    std::sort(rock.begin(), rock.end());
+    count.grains = static_cast<int>(std::unique(rock.begin(), rock.end()) - rock.begin());
+    return count;
+}
+
+/// Number of boundary edges of grains that are there.
+inline int count_edges(const Assembly& a)
+{
+    return static_cast<int>(std::count_if(a.edges.grain.begin(), a.edges.grain.end(),
+        [&](int grain) { return a.grains.erased[grain] == 0; }));
 }
 
 /// Place of the contact with a lasting number; -1 if there is none, or none any more.

@@ -15,8 +15,8 @@ namespace flexpm {
 
 using GrainPair = std::array<int, 2>;  ///< two grains, the smaller number first
 
-/// How a point of contact cracked.
-enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2 };
+/// How a point of contact lost its bond; one that a script has erased did not crack.
+enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2, erased_point = 3 };
 
 /// Rows of a contact's nodes: ends of the edges of grains a and b, and the places of their centres in
 /// StepPlan::next_centre.
@@ -37,6 +37,8 @@ struct Contacts {
     int next_id = 0;       ///< of the next contact; none is given twice
     std::vector<int> law;  ///< index into `laws`
     std::vector<std::uint8_t> bonded;  ///< 1: since the specimen was bonded, 0: touched later
+    /// 1: a bond that a script has erased; its row is kept, without effect, for the record of cracks.
+    std::vector<std::uint8_t> erased;
     /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
     std::map<GrainPair, double> close_pairs;
     Array<int> nodes;       ///< [NodeRow]
@@ -47,7 +49,7 @@ struct Contacts {
     Array<double> inverse_edge_lengths;  ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
     Array<double> normals;               ///< [component] of the current unit normal, from a to b
     Array<double> states;                ///< [point][PointRow]
-    Array<int> crack_steps;              ///< [point]: step of the crack, -1 while intact
+    Array<int> crack_steps;              ///< [point]: step of the crack or erasure, -1 while intact
     Array<std::uint8_t> crack_modes;     ///< [point]: CrackMode
     Array<double> crack_positions;       ///< [point][component] where it cracked [m]
     /// `force_values` of each contact, one contact after the other, as nodes gather them [N]; a force of
@@ -161,6 +163,7 @@ struct Contacts {
         visit("next_id", s.next_id);
         visit("law", s.law);
         visit("bonded", s.bonded);
+        visit("erased", s.erased);
         visit("close_pairs", s.close_pairs);
         visit("nodes", s.nodes);
         visit("weights", s.weights);

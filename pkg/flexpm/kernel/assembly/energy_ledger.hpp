@@ -14,6 +14,9 @@ struct EnergyLedger {
     double pressure_work = 0.0;     ///< [J]
     double removed_damage = 0.0;    ///< dissipated by contacts that have been removed [J]
     double removed_friction = 0.0;  ///< [J]
+    /// Stored and in motion in grains and bonds when scripts erased them [J]; of the motion, what the half step
+    /// after the erasure adds follows with that step.
+    double erased = 0.0, erased_next = 0.0;
     double initial = 0.0;  ///< kinetic and elastic energy when the balance was last reset [J]
 
     // at the last measured step
@@ -28,6 +31,8 @@ struct EnergyLedger {
         visit("pressure_work", s.pressure_work);
         visit("removed_damage", s.removed_damage);
         visit("removed_friction", s.removed_friction);
+        visit("erased", s.erased);
+        visit("erased_next", s.erased_next);
         visit("initial", s.initial);
         visit("kinetic", s.kinetic);
         visit("largest_force", s.largest_force);

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace flexpm {
 
@@ -51,31 +52,59 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
     }
 }
 
-void add_contact(const Assembly& a, int contact, Snapshot& s)
+/// Number, grains and places of a contact.
+void add_place(const Assembly& a, int contact, std::vector<std::int32_t>& number,
+    std::vector<std::int32_t>& grains, std::vector<double>& ends)
 {
-    s.contact.push_back(a.contacts.id[contact]);
-    for (int side = 0; side < 2; ++side)
-        s.contact_grains.push_back(a.grains.parent[a.contacts.pairs[contact][side]]);
+    number.push_back(a.contacts.id[contact]);
+    for (int grain : a.contacts.pairs[contact])
+        grains.push_back(a.grains.parent[grain]);
     for (int end = 0; end < 2; ++end)
-        push(s.contact_ends, contact_end(a, contact, end));
+        push(ends, contact_end(a, contact, end));
+}
+
+/// When, how and where its points have lost their bond.
+void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
+    std::vector<std::int32_t>& mode, std::vector<double>& position)
+{
     for (int p = 0; p < a.contacts.points; ++p) {
         const int index = a.contacts.point_index(contact, p);
+        step.push_back(a.contacts.crack_steps[index]);
+        mode.push_back(a.contacts.crack_modes[index]);
+        push(position,
+            { a.contacts.crack_positions[row_index(contact, 2 * p, 2 * a.contacts.points)],
+                a.contacts.crack_positions[row_index(contact, 2 * p + 1, 2 * a.contacts.points)] });
+    }
+}
+
+void add_contact(const Assembly& a, int contact, Snapshot& s)
+{
+    add_place(a, contact, s.contact, s.contact_grains, s.contact_ends);
+    add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position);
+    for (int p = 0; p < a.contacts.points; ++p) {
         s.point_opening.push_back(a.contacts.point_state(contact, p).opening);
         s.point_slip.push_back(a.contacts.point_state(contact, p).slip);
         s.point_damage.push_back(damage_of(a.contacts, contact, p));
         push(s.point_traction, point_traction(a, contact, p));
-        s.crack_step.push_back(a.contacts.crack_steps[index]);
-        s.crack_mode.push_back(a.contacts.crack_modes[index]);
-        push(s.crack_position,
-            { a.contacts.crack_positions[row_index(contact, 2 * p, 2 * a.contacts.points)],
-                a.contacts.crack_positions[row_index(contact, 2 * p + 1, 2 * a.contacts.points)] });
     }
+}
+
+void add_erased(const Assembly& a, int contact, Snapshot& s)
+{
+    add_place(a, contact, s.erased_contact, s.erased_grains, s.erased_ends);
+    const auto [first, second] = a.contacts.pairs[contact];
+    if (a.grains.erased[first] || a.grains.erased[second]) {
+        std::fill(s.erased_ends.end() - 2 * dimension, s.erased_ends.end(),
+            std::numeric_limits<double>::quiet_NaN());
+    }
+    add_cracks(a, contact, s.erased_crack_step, s.erased_crack_mode, s.erased_crack_position);
 }
 
 }  // namespace
 
 Point point_traction(const Assembly& a, int contact, int point)
 {
+    if (a.contacts.area(contact, point) == 0.0) return {};
     const PointState s = a.contacts.point_state(contact, point);
     const LawParameters& law = a.contacts.law_of(contact);
     return { law::normal_traction(
@@ -97,10 +126,16 @@ Point contact_end(const Assembly& a, int contact, int end)
 Snapshot take_snapshot(const Assembly& a)
 {
     Snapshot s;
-    for (int g = 0; g < a.grains.count; ++g)
-        add_grain(a, g, s);
-    for (int c = 0; c < a.contacts.count; ++c)
-        add_contact(a, c, s);
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (!a.grains.erased[g]) add_grain(a, g, s);
+    }
+    for (int c = 0; c < a.contacts.count; ++c) {
+        if (a.contacts.erased[c]) {
+            add_erased(a, c, s);
+        } else {
+            add_contact(a, c, s);
+        }
+    }
     return s;
 }
 

@@ -9,7 +9,8 @@
 
 namespace flexpm {
 
-/// Nodes grain after grain, triangles grain after grain, contacts in their order.
+/// Nodes grain after grain, triangles grain after grain, contacts in their order. Of what has been erased only the
+/// record is left.
 struct Snapshot {
     std::vector<double> positions;   ///< [node][x, y] [m]
     std::vector<double> reference;   ///< [node][x, y] [m]
@@ -32,11 +33,21 @@ struct Snapshot {
     std::vector<std::int32_t> crack_step;      ///< [contact][point], -1 while intact
     std::vector<std::int32_t> crack_mode;      ///< [contact][point] CrackMode
     std::vector<double> crack_position;        ///< [contact][point][x, y] [m]
+
+    std::vector<std::int32_t> erased_contact;  ///< [erased bond] lasting number
+    std::vector<std::int32_t>
+        erased_grains;  ///< [erased bond][2] grains of the rock, erased or not
+    std::vector<double>
+        erased_ends;  ///< [erased bond][start, end][x, y] now, nan if a grain is gone [m]
+    std::vector<std::int32_t>
+        erased_crack_step;  ///< [erased bond][point] of the crack or the erasure
+    std::vector<std::int32_t> erased_crack_mode;  ///< [erased bond][point] CrackMode
+    std::vector<double> erased_crack_position;    ///< [erased bond][point][x, y] [m]
 };
 
 Snapshot take_snapshot(const Assembly& a);
 
-/// Normal and shear traction of a point [Pa], tension positive.
+/// Normal and shear traction of a point [Pa], tension positive; 0 of a contact that has ended.
 Point point_traction(const Assembly& a, int contact, int point);
 
 /// Current end of a contact's edge (0 or 1): the middle between the two grains.

@@ -39,4 +39,17 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
     }
 }
 
+void record_erasure(Assembly& a, int contact)
+{
+    Contacts& contacts = a.contacts;
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        const int index = contacts.point_index(contact, p);
+        if (contacts.crack_modes[index] != intact) continue;
+        contacts.crack_steps[index] = static_cast<int>(a.step);
+        contacts.crack_modes[index] = erased_point;
+        contacts.set_crack_position(contact, p, point_position(a, contact, p, 0.0));
+        contacts.state(contact, p, PointRow::shear_damage) = 1.0;  // nothing is left to crack
+    }
+}
+
 }  // namespace flexpm

@@ -10,4 +10,8 @@ namespace flexpm {
 /// the step `dt` that is under way.
 void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracked);
 
+/// Note the points of a bond that have not cracked as erased after the last step, where they are now. They
+/// will not crack any more.
+void record_erasure(Assembly& a, int contact);
+
 }  // namespace flexpm

@@ -31,6 +31,11 @@ double shear_force(Plate& plate, const PlatePoint& p, int index, double normal_f
     return next;
 }
 
+double normal_force(const Plate& plate, const PlatePoint& p, double gap)
+{
+    return gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
+}
+
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
 Point touch(Assembly& a, Plate& plate, double dt)
 {
@@ -44,7 +49,7 @@ Point touch(Assembly& a, Plate& plate, double dt)
         const Point way = u + dt * v - plate.displacement;
         const double gap = plate.gap[i] + dot(plate.normal, way);
         plate.opening[i] = gap;
-        const double normal = gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
+        const double normal = normal_force(plate, p, gap);
         if (plate.friction > 0.0) {
             const Point slip = dt * (v - plate.velocity);
             plate.shear_force[i] = shear_force(plate, p, i, normal, dot(tangent, slip));
@@ -94,6 +99,12 @@ PlatePoint plate_point(const Plate& p, int index)
 {
     return { p.edges[index / p.points], plate_weight(p, index % p.points),
         p.stiffness * p.area[index], p.friction > 0.0 ? p.shear_stiffness * p.area[index] : 0.0 };
+}
+
+Point point_force(const Plate& p, int index)
+{
+    const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
+    return normal * p.normal + p.shear_force[index] * tangent_of(p);
 }
 
 void update_plates(Assembly& a, double dt, double damping)

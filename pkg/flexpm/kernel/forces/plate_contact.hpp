@@ -30,6 +30,9 @@ struct PlatePoint {
 PlatePoint plate_point(const Plate& p, int index);
 int plate_points(const Plate& p);
 
+/// Force of one of its points on the specimen at the last step [N].
+Point point_force(const Plate& p, int index);
+
 /// Stored energy of a plate's contacts [J].
 double elastic_energy(const Plate& p);
 

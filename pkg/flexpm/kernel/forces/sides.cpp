@@ -41,12 +41,25 @@ void require_side(const Assembly& a, int side)
     refuse("side", side, "", "has no boundary edges; name a side of the outline");
 }
 
+bool is_on_side(const Assembly& a, int edge, int side)
+{
+    return a.edges.side[edge] == side && !a.grains.erased[a.edges.grain[edge]];
+}
+
+bool has_edges(const Assembly& a, int side)
+{
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (is_on_side(a, e, side)) return true;
+    }
+    return false;
+}
+
 std::vector<int> side_nodes(const Assembly& a, int side)
 {
     require_side(a, side);
     std::vector<int> nodes;
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] != side) continue;
+        if (!is_on_side(a, e, side)) continue;
         for (int n : a.edges.nodes(e))
             nodes.push_back(n);
     }
@@ -96,7 +109,7 @@ double side_displacement(const Assembly& a, int side, int axis)
 {
     double moment = 0.0, length = 0.0;
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] != side) continue;
+        if (!is_on_side(a, e, side)) continue;
         const auto [n0, n1] = a.edges.nodes(e);
         const double l = edge_length(a, e), *u = a.grains.displacement.data();
         moment += 0.5 * l * (u[component(n0, axis)] + u[component(n1, axis)]);
@@ -119,7 +132,7 @@ void set_pressure(Assembly& a, int side, double pressure)
     require_side(a, side);
     check_not_negative("pressure", pressure, "Pa");
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] == side) a.edges.pressure[e] = pressure;
+        if (is_on_side(a, e, side)) a.edges.pressure[e] = pressure;
     }
 }
 

@@ -12,11 +12,17 @@ namespace flexpm {
 /// Sides of a rectangle, in the order of its outline.
 enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 3 };
 
-/// @throws std::invalid_argument  if no boundary edge lies on the side
+/// @throws std::invalid_argument  if no boundary edge of the specimen as built lies on the side
 void require_side(const Assembly& a, int side);
 
-/// Offsets of the nodes on one side of the outline, ascending, each once.
-/// @throws std::invalid_argument  if no boundary edge lies on the side
+/// Whether an edge lies on a side, its grain not erased.
+bool is_on_side(const Assembly& a, int edge, int side);
+
+/// Whether any does.
+bool has_edges(const Assembly& a, int side);
+
+/// Offsets of the nodes on one side of the outline, ascending, each once; not those of erased grains.
+/// @throws std::invalid_argument  as require_side()
 std::vector<int> side_nodes(const Assembly& a, int side);
 
 /// Prescribe one velocity component of the nodes [m/s].
@@ -38,7 +44,7 @@ double side_displacement(const Assembly& a, int side, int axis);
 /// Reference length of a boundary edge [m].
 double edge_length(const Assembly& a, int edge);
 
-/// Reference length of a side [m].
+/// Reference length of a side, with the edges of erased grains: stresses refer to the whole specimen [m].
 double side_length(const Assembly& a, int side);
 
 /// Pressure on a side, on the deformed edges, compressive positive [Pa].

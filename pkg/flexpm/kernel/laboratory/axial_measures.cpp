@@ -29,7 +29,7 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
         return 0.5 * squeeze / (g.height * a.thickness);
     }
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] == right_side) return a.edges.pressure[e];
+        if (is_on_side(a, e, right_side)) return a.edges.pressure[e];
     }
     return 0.0;
 }
@@ -37,8 +37,12 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
 /// Growth of the distance between the outermost left and right grains of a disc [m].
 double disc_widening(const Assembly& a)
 {
-    int first = a.grains.centre(0), last = first;
+    const auto& erased = a.grains.erased;
+    const auto there = std::find(erased.begin(), erased.end(), 0) - erased.begin();
+    if (there == a.grains.count) return 0.0;
+    int first = a.grains.centre(static_cast<int>(there)), last = first;
     for (int g = 0; g < a.grains.count; ++g) {
+        if (erased[g]) continue;
         const int c = a.grains.centre(g);
         if (a.grains.reference[c] < a.grains.reference[first]) first = c;
         if (a.grains.reference[c] > a.grains.reference[last]) last = c;

@@ -56,7 +56,7 @@ int middle_of(const Assembly& a, int side)
     double least = std::numeric_limits<double>::infinity();
     for (int e = 0; e < a.edges.count; ++e) {
         const int c = a.grains.centre(a.edges.grain[e]);
-        if (a.edges.side[e] != side || !(std::fabs(a.grains.reference[c] - middle) < least))
+        if (!is_on_side(a, e, side) || !(std::fabs(a.grains.reference[c] - middle) < least))
             continue;
         least = std::fabs(a.grains.reference[c] - middle);
         nearest = c;
@@ -118,6 +118,7 @@ void start_elastically(Assembly& a)
     }
     Grains& grains = a.grains;
     for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
             const int c = grains.centre(g);
             const Point v = vector_at(grains.velocity, c) + vector_at(velocity, c);
@@ -135,6 +136,7 @@ double elastic_time(const Assembly& a, const Array<double>& velocity)
 {
     double least = std::numeric_limits<double>::infinity();
     for (int c = 0; c < a.contacts.count; ++c) {
+        if (a.contacts.erased[c]) continue;
         const Point n = bonded_normal(a, c);
         const LawParameters& law = a.contacts.law_of(c);
         for (int p = 0; p < a.contacts.points_of(c); ++p) {

@@ -5,6 +5,7 @@
 /// that the contacts with plates do not count.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace flexpm {
@@ -26,6 +27,7 @@ struct StrainGauge {
     double height = 0.0;                 ///< [m]
     double mean_diameter = 0.0;          ///< of the grains' discs [m]
     std::vector<SideShare> left, right;  ///< one for each edge of a grain on that side
+    std::vector<std::uint8_t> erased;  ///< 1: a grain that is not there any more; if empty, all are
 };
 
 /// Mean place and displacement of grain centres along one axis.
@@ -59,6 +61,7 @@ SpecimenStrain centre_strain(
     const double low = 0.25 * gauge.height, high = 0.75 * gauge.height;
     Station at_low, at_high, at_left, at_right;
     for (int g = 0; g < grains; ++g) {
+        if (!gauge.erased.empty() && gauge.erased[g]) continue;
         const double above = place(g, 1) - gauge.bottom;
         if (in_band(above, low, gauge.mean_diameter))
             at_low.add(1.0, place(g, 1), displacement(g, 1));

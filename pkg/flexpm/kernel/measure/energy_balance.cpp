@@ -84,6 +84,7 @@ Energies energies(const Assembly& a)
     e.friction = d.friction;
     e.damping = first_of_pairs(a.ledger.damping_work);
     e.potential = potential_energy(a);
+    e.erased = a.ledger.erased;
     e.boundary_work = d.boundary_work;
     for (const Plate& p : a.plates) {
         e.kinetic += p.kinetic;
@@ -109,9 +110,13 @@ void reset_energy_balance(Assembly& a)
             (*work)[i] = 0.0;
     }
     a.ledger.pressure_work = a.ledger.removed_damage = a.ledger.removed_friction = 0.0;
+    a.ledger.erased = 0.0;
     for (Plate& p : a.plates)
         p.boundary_work = p.damping_work = p.friction_energy = 0.0;
-    if (a.step == 0) a.ledger.kinetic[0] = kinetic_of_velocities(a.grains);
+    if (a.step == 0) {
+        a.ledger.kinetic[0] = kinetic_of_velocities(a.grains);
+        a.ledger.erased_next = 0.0;
+    }
     const Energies now = energies(a);
     a.ledger.initial = now.kinetic + now.elastic + now.potential;
 }
@@ -122,8 +127,10 @@ double unbalanced_ratio(const Assembly& a)
     double largest = *std::max_element(forces.begin(), forces.end());
     for (const Plate& p : a.plates)
         largest = std::max(largest, p.unbalanced);
+    const auto& erased = a.contacts.erased;
+    const auto gone = std::count(erased.begin(), erased.end(), 1);
     const double sum = sum_of_forces(a.contacts);
-    return sum > 0.0 ? largest * a.contacts.count / sum : 0.0;
+    return sum > 0.0 ? largest * static_cast<double>(a.contacts.count - gone) / sum : 0.0;
 }
 
 CrackCount count_cracks(const Assembly& a)

@@ -18,6 +18,7 @@ struct Energies {
     double friction = 0.0;
     double damping = 0.0;
     double potential = 0.0;      ///< in the field of gravity, 0 at the reference
+    double erased = 0.0;         ///< has left with grains and bonds that scripts have erased
     double boundary_work = 0.0;  ///< of prescribed velocities, plates and edge pressure
     double initial = 0.0;
 };
@@ -45,6 +46,7 @@ double kinetic_of_velocities(const Grains& grains);
 /// step. 0 without contact forces.
 double unbalanced_ratio(const Assembly& a);
 
+/// Cracked points; erased ones did not crack.
 struct CrackCount {
     int tensile = 0;
     int shear = 0;

@@ -13,7 +13,7 @@ std::vector<SideShare> shares_of(const Assembly& a, int side)
 {
     std::vector<SideShare> shares;
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] == side) shares.push_back({ a.edges.grain[e], edge_length(a, e) });
+        if (is_on_side(a, e, side)) shares.push_back({ a.edges.grain[e], edge_length(a, e) });
     }
     return shares;
 }
@@ -25,7 +25,7 @@ StrainGauge gauge_of(const Assembly& a, double height)
         diameters += 2.0 * r;
     const double bottom = a.grains.reference[component(side_nodes(a, bottom_side).front(), 1)];
     return { bottom, height, diameters / a.grains.count, shares_of(a, left_side),
-        shares_of(a, right_side) };
+        shares_of(a, right_side), a.grains.erased };
 }
 
 }  // namespace

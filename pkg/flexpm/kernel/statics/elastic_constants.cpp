@@ -45,7 +45,7 @@ std::vector<Prescribed> hold_ends(Assembly& a, double height)
         const int upper = add_side_plates(a, top_side, 1, smooth).front();
         a.plates[upper].displacement = { 0.0, test_strain * height };
         int held = 0;
-        while (a.edges.side[held] != bottom_side)
+        while (!is_on_side(a, held, bottom_side))
             ++held;
         return { { a.grains.centre(a.edges.grain[held]), 0.0 } };
     }
@@ -62,8 +62,8 @@ std::vector<Prescribed> hold_ends(Assembly& a, double height)
 ElasticConstants elastic_constants(const Assembly& a)
 {
     for (int side = 0; side < 4; ++side) {
-        check_positive(
-            "elastic_constants: length of side " + std::to_string(side), side_length(a, side), "m");
+        check_positive("elastic_constants: length of side " + std::to_string(side),
+            has_edges(a, side) ? side_length(a, side) : 0.0, "m");
     }
     const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     Assembly solved = a;

@@ -110,6 +110,7 @@ Unknowns number_unknowns(
     n.leader.assign(grains.displacement.size(), 0);
     n.lever.assign(grains.displacement.size(), { 0, 0.0 });
     for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
         for_each_component(grains, g, [&](int i) { n.kind[i] = Kind::unknown; });
         if (grains.is_rigid(g)) follow_centre(grains, g, n);
     }

@@ -126,7 +126,7 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
 /// would ask for, so that its masses are finite.
 void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
 {
-    if (!a.grains.is_rigid(grain)) return;
+    if (!a.grains.is_rigid(grain) || a.grains.erased[grain]) return;
     const double r = a.grains.radius[grain];
     const double least = a.contacts.laws.front().normal_stiffness * r * a.thickness;
     double& node = bound.node[scalar_index(a.grains.centre(grain))];
@@ -138,6 +138,7 @@ void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
 template <class Visit> void for_each_node(const Grains& grains, Visit visit)
 {
     for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
             visit(scalar_index(grains.centre(g)));
             continue;
@@ -156,8 +157,9 @@ double mass_for(double bound, double damping, double dt)
 void scale_plates(Assembly& a, double damping, double dt)
 {
     StiffnessBound unused = stiffness_bound(a);
-    for (Plate& p : a.plates)
-        p.mass = mass_for(add_plate(a, p, unused), damping, dt);
+    for (Plate& p : a.plates) {
+        if (!p.edges.empty()) p.mass = mass_for(add_plate(a, p, unused), damping, dt);
+    }
 }
 
 }  // namespace
@@ -200,7 +202,7 @@ void scale_masses(Assembly& a, double damping, double dt)
         [&](int i) { a.grains.inverse_mass[i] = 1.0 / mass_for(bound.node[i], damping, dt); });
     for (int g = 0; g < a.grains.count; ++g) {
         const int i = a.grains.slot[g];
-        if (!a.grains.is_rigid(g)) continue;
+        if (!a.grains.is_rigid(g) || a.grains.erased[g]) continue;
         a.grains.inverse_inertia[i] = 1.0 / mass_for(bound.rotation[i], damping, dt);
     }
     scale_plates(a, damping, dt);
@@ -252,7 +254,8 @@ double set_real_masses(Assembly& a, double damping)
     for_each_node(a.grains, [&](int i) { a.grains.inverse_mass[i] = 1.0 / mass[i]; });
     for (int g = 0; g < a.grains.count; ++g) {
         const int i = a.grains.slot[g];
-        if (a.grains.is_rigid(g)) a.grains.inverse_inertia[i] = 1.0 / inertia[i];
+        if (a.grains.is_rigid(g) && !a.grains.erased[g])
+            a.grains.inverse_inertia[i] = 1.0 / inertia[i];
     }
     const double dt = stable_step(a, damping);
     scale_plates(a, damping, dt);

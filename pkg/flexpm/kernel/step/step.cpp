@@ -105,9 +105,11 @@ void update_shared_grains(Assembly& a, TileRange own, const StepOptions& options
     }
 }
 
-/// Press the loaded edges and push the plates, which are few.
+/// Press the loaded edges and push the plates, which are few; book what erased grains leave for this step.
 void update_boundary(Assembly& a, const StepOptions& options)
 {
+    a.ledger.erased += a.ledger.erased_next;
+    a.ledger.erased_next = 0.0;
     for (int b = 0; b < a.edges.blocks(); ++b)
         a.ledger.pressure_work += update_edge_block(a, b, options.dt);
     update_plates(a, options.dt, options.damping);

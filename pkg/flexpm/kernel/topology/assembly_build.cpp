@@ -257,6 +257,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
         a.contacts.pairs.push_back({ e.cell_a, e.cell_b });
         a.contacts.id.push_back(a.contacts.next_id++);
         a.contacts.bonded.push_back(1);
+        a.contacts.erased.push_back(0);
         a.contacts.law.push_back(!options.edge_law.empty()
                 ? options.edge_law[c]
                 : a.grains.law_index(e.cell_a, e.cell_b));
@@ -340,6 +341,7 @@ Assembly make_assembly(
     a.grains.elastic = options.elastic;
     a.grains.material = options.grain_material;
     a.grains.material.resize(a.grains.count, 0);
+    a.grains.erased.resize(a.grains.count, 0);
     a.grains.parent = options.parent;
     if (a.grains.parent.empty()) {
         a.grains.parent.resize(a.grains.count);

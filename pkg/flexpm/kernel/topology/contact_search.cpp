@@ -17,6 +17,7 @@ template <class Visit> void for_each_neighbour(const Grains& grains, double size
     using Place = std::pair<double, double>;  // row and column, whole numbers of any size
     std::vector<std::pair<Place, int>> places;
     for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
         const Point p = grains.position(grains.centre(g));
         if (!is_finite(p)) continue;  // no order would hold; the next check reports it
         places.push_back({ { std::floor(p.y / size), std::floor(p.x / size) }, g });

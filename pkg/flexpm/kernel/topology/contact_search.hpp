@@ -8,7 +8,8 @@
 
 namespace flexpm {
 
-/// Pairs whose discs are less than `margin` apart and that no contact holds, ascending. They follow
+/// Pairs of grains that are there, whose discs are less than `margin` apart and that no contact holds,
+/// ascending. They follow
 /// from the positions alone, so a loaded state finds the same pairs.
 std::vector<GrainPair> near_pairs(const Assembly& a, double margin);
 

@@ -86,12 +86,14 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
     const auto old_id = contacts.id;
     const auto old_law = contacts.law;
     const auto old_bonded = contacts.bonded;
+    const auto old_erased = contacts.erased;
     contacts.count = static_cast<int>(order.size());
     contacts.append_no_force();
     contacts.pairs.clear();
     contacts.id.clear();
     contacts.law.clear();
     contacts.bonded.clear();
+    contacts.erased.clear();
     for (int c = 0; c < contacts.count; ++c) {
         const auto& [pair, from] = order[c];
         const bool is_new = from == Origin::new_touch;
@@ -99,6 +101,7 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
         contacts.id.push_back(is_new ? contacts.next_id++ : old_id[from]);
         contacts.law.push_back(is_new ? a.grains.law_index(pair[0], pair[1]) : old_law[from]);
         contacts.bonded.push_back(is_new ? 0 : old_bonded[from]);
+        contacts.erased.push_back(is_new ? 0 : old_erased[from]);
         if (is_new) fill_touch(a, c, pair);
     }
 }

@@ -185,6 +185,7 @@ void fix_tangential(Assembly& a, int plate)
 {
     check_index(a, plate);
     const Plate& p = a.plates[plate];
+    if (p.gap.empty()) refuse("edges at the plate", 0.0, "", "must be at least 1; all are erased");
     const auto first =
         static_cast<int>(std::min_element(p.gap.begin(), p.gap.end()) - p.gap.begin());
     const int edge = p.edges[first / p.points], grain = a.edges.grain[edge];

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/topology/removal.hpp>
 
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
 
 #include <algorithm>
 
@@ -15,27 +16,73 @@ void remove_contact(Contacts& contacts, int contact)
         &contacts.forces[Contacts::force_index(contact, 0, 0)], Contacts::force_values, 0.0);
 }
 
-void remove_grain(Assembly& a, int grain)
+namespace {
+
+/// Take the points on the edges of a grain from a plate, and the force that they passed on.
+void forget_edges(const Assembly& a, int grain, Plate& plate)
 {
-    Grains& grains = a.grains;
+    Plate kept = plate;
+    for (auto* values : { &kept.gap, &kept.area, &kept.opening, &kept.shear_force })
+        values->clear();
+    kept.edges.clear();
+    for (std::size_t e = 0; e < plate.edges.size(); ++e) {
+        const bool stays = a.edges.grain[plate.edges[e]] != grain;
+        if (stays) kept.edges.push_back(plate.edges[e]);
+        for (int p = 0; p < plate.points; ++p) {
+            const int i = static_cast<int>(e) * plate.points + p;
+            if (!stays) {
+                kept.force = kept.force - point_force(plate, i);
+                continue;
+            }
+            kept.gap.push_back(plate.gap[i]);
+            kept.area.push_back(plate.area[i]);
+            kept.opening.push_back(plate.opening[i]);
+            kept.shear_force.push_back(plate.shear_force[i]);
+        }
+    }
+    plate = kept;
+}
+
+void remove_triangles(Grains& grains, int grain)
+{
     const int block = grains.block_of(grain);
     for (int t = 0; t < grains.group(block).triangle_count(); ++t) {
         const int row = ShapeRow::count * t + ShapeRow::volume;
         grains.shape[grains.block_triangles[block] + row * lanes + grains.lane_of(grain)] = 0.0;
     }
-    a.plan.element_bound.clear();
+}
+
+void stop(Grains& grains, int grain)
+{
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
         set_vector(grains.velocity, node, {});
+        set_vector(grains.force, node, {});
+        grains.inverse_mass[scalar_index(node)] = 0.0;
         for (int axis = 0; axis < dimension; ++axis)
             grains.prescribed[component(node, axis)] = 1;
     }
-    if (grains.is_rigid(grain)) {
-        grains.spin[grains.slot[grain]] = 0.0;
-        grains.spin_prescribed[grains.slot[grain]] = 1;
-    }
+    if (!grains.is_rigid(grain)) return;
+    const int slot = grains.slot[grain];
+    grains.spin[slot] = grains.inverse_inertia[slot] = 0.0;
+    grains.spin_prescribed[slot] = 1;
+}
+
+}  // namespace
+
+void remove_grain(Assembly& a, int grain)
+{
+    a.grains.erased[grain] = 1;
+    remove_triangles(a.grains, grain);
+    stop(a.grains, grain);
+    a.plan.element_bound.clear();
+    for (Plate& plate : a.plates)
+        forget_edges(a, grain, plate);
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.grain[e] == grain) a.edges.pressure[e] = 0.0;
+        if (a.edges.grain[e] != grain) continue;
+        a.edges.pressure[e] = 0.0;
+        for (int row = 0; row < EdgeRow::count; ++row)
+            a.edges.forces[row_index(e, row, EdgeRow::count)] = 0.0;
     }
 }
 

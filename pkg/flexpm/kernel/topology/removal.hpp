@@ -9,7 +9,8 @@ namespace flexpm {
 /// Take away what a contact carries; its stored energy leaves the system with it.
 void remove_contact(Contacts& contacts, int contact);
 
-/// Let a grain stand still, exert nothing and take no load any more. Its contacts are not touched.
+/// Let a grain stand still, without mass, exert nothing and take no load any more; plates forget its edges.
+/// Its contacts are not touched.
 void remove_grain(Assembly& a, int grain);
 
 }  // namespace flexpm

@@ -57,7 +57,7 @@ namespace {
 
 	std::shared_ptr<StrainGauge> strainGauge(double bottom, double height, double meanDiameter, py::object left, py::object right)
 	{
-		return std::make_shared<StrainGauge>(StrainGauge { bottom, height, meanDiameter, shares(left), shares(right) });
+		return std::make_shared<StrainGauge>(StrainGauge { bottom, height, meanDiameter, shares(left), shares(right), {} });
 	}
 
 	py::tuple strains(const StrainGauge& gauge, py::object centres, py::object displacements)

@@ -35,8 +35,9 @@ OwnedContact ownedContact(int id)
 {
 	OwnedContact found { assemblyOf(*Omega::instance().getScene()), -1 };
 	found.place = flexpm::contact_with_id(*found, id);
-	if (found.place >= 0) return found;
-	throw std::runtime_error("contact = " + std::to_string(id) + ", is no contact of the solver, or has ended; take the bonds anew from O.interactions");
+	if (found.place >= 0 && dynamic_cast<const AssemblyOwner&>(*found.engine).holds(found.place)) return found;
+	throw std::runtime_error(
+	        "contact = " + std::to_string(id) + ", is no contact of the solver, has ended or was erased; take the bonds anew from O.interactions");
 }
 
 } // namespace yade

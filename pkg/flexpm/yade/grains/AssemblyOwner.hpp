@@ -13,6 +13,8 @@ public:
 	virtual ~AssemblyOwner();
 	/// Null while it has no grains.
 	virtual flexpm::Assembly* assembled() = 0;
+	/// Whether no script has erased the contact at this place.
+	virtual bool holds(int place) const = 0;
 };
 
 /// The arrays of a scene's grains, and their engine, which keeps them alive.

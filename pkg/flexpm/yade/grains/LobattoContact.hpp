@@ -43,7 +43,8 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, IPhys,
-		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it.",
+		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. "
+		"A kept handle of an erased bond raises an error.",
 		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
 		, createIndex();
 		, .add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], compression below 0; a copy.")

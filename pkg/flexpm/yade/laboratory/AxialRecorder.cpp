@@ -37,7 +37,8 @@ namespace {
 		{ "friction_energy", [](const auto& o) { return o.energies.friction; } },
 		{ "damping_energy", [](const auto& o) { return o.energies.damping; } },
 		{ "potential_energy", [](const auto& o) { return o.energies.potential; } },
-		{ "boundary_work", [](const auto& o) { return o.energies.boundary_work; } },
+		// erasing is done from outside, too: what it takes is negative work
+		{ "boundary_work", [](const auto& o) { return o.energies.boundary_work - o.energies.erased; } },
 		{ "initial_energy", [](const auto& o) { return o.energies.initial; } },
 	} };
 
@@ -66,7 +67,7 @@ void AxialRecorder::action()
 	const auto solver   = GrainSolver::ofScene(*scene);
 	const bool measured = solver->measured();
 	if (!measured && !fromNow) return;
-	auto now = observed(*this, solver->assembly);
+	auto now = observed(*this, solver->forEngines());
 	if (fromNow) zero = Vector2r(now.axial_strain, now.lateral_strain);
 	fromNow = false;
 	if (!measured) return;

@@ -23,9 +23,11 @@ void GrainSolver::postLoad(GrainSolver&)
 	if (assembly.grains.count > 0) flexpm::prepare_step(assembly);
 }
 
+void GrainSolver::preSave(GrainSolver&) { current(); }
+
 void GrainSolver::takeStep()
 {
-	if (destroyedContacts() != seenDestroyed) removeErased();
+	forEngines();
 	if (assembly.step == 0) flexpm::reset_energy_balance(assembly);
 	flexpm::StepOptions options;
 	options.dt      = scene->dt;

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
+#include <flexpm/kernel/topology/erasure.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/bindings/assembly_archive.hpp>
@@ -36,10 +37,18 @@ public:
 	void action() override;
 	/// YADE calls it after it has loaded a scene or set attributes by name.
 	void postLoad(GrainSolver&);
+	/// YADE calls it before it saves a scene.
+	void preSave(GrainSolver&);
 
 	flexpm::Assembly* assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
+	bool              holds(int place) const override;
 	/// @throws std::runtime_error  unless there are grains; all that Python calls goes through it
 	void requireAssembled() const;
+
+	/// The arrays for who looks at them: without all that scripts have erased until now.
+	flexpm::Assembly& current();
+	/// The same for engines, at little cost: without what has been destroyed with its last handle.
+	flexpm::Assembly& forEngines();
 
 	/// @throws std::runtime_error  if O.engines holds none with grains
 	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
@@ -60,21 +69,23 @@ public:
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
 	void       setGravity(Vector3r acceleration);
-	py::list   plates() const;
-	py::tuple  elasticConstants() const;
-	py::dict   energies() const;
-	py::dict   snapshot() const;
-	py::tuple  cracks() const;
-	py::dict   counts() const;
-	py::object sideNodes(int side) const;
-	Real       unbalanced() const;
+	py::list   plates();
+	py::tuple  elasticConstants();
+	py::dict   energies();
+	py::dict   snapshot();
+	py::tuple  cracks();
+	py::dict   counts();
+	py::object sideNodes(int side);
+	Real       unbalanced();
 	void       clearPressure(int side);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GrainSolver, GlobalEngine,
 		"Advances all deformable grains by one step: contact points, triangles, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
 		"gathered per grain in a fixed order, so results do not depend on the number of threads. It mirrors the centres to "
-		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed.",
+		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed. Bonds and grains may be erased (``O.interactions.erase``, "
+		"``O.bodies.erase``): they are gone at the next step or the next call that asks for something, whichever is first. A step does not see "
+		"what a script still has a handle of; calls that ask do, and so does the check every checkPeriod steps.",
 		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
@@ -108,10 +119,10 @@ public:
 		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update the states of the bodies now, whatever mirrorPeriod is.")
 		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
-		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name.")
-		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays).")
-		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear).")
-		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges.")
+		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
+		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
+		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
+		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
 		.def("clearPressure", AfterAssembly<&GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", AfterAssembly<&GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
@@ -120,29 +131,32 @@ public:
 	DECLARE_LOGGER;
 
 private:
-	flexpm::NearPairs         nearPairs;
-	vector<flexpm::GrainPair> candidates;     // near pairs without a contact
-	bool                      listed = false; // the candidates are up to date
-	vector<std::size_t>       places;         // of the contacts among the interactions, when last seen
-	vector<shared_ptr<State>> states;         // of the bodies, by slot; kept alive, so that a body may go at any time
-	void                      requireReady() const;
-	void                      requireInScene() const;
-	void                      requireMasses() const;
-	void                      requireOwnScene() const;
-	int                       threads() const;
+	flexpm::NearPairs           nearPairs;
+	vector<flexpm::GrainPair>   candidates;     // near pairs without a contact
+	bool                        listed = false; // the candidates are up to date
+	mutable vector<std::size_t> places;         // of the contacts among the interactions, when last seen
+	vector<shared_ptr<State>>   states;         // of the bodies, by slot; kept alive, so that a body may go at any time
+	void                        requireReady() const;
+	void                        requireInScene() const;
+	void                        requireMasses() const;
+	void                        requireOwnScene() const;
+	int                         threads() const;
 	/// The body of a grain, null if a script has erased it.
 	Body* bodyOf(const Scene& world, int grain) const;
 	void  takeStep();
 	void  insertBodies();
 	void  insertContacts();
 	void  findStates();
-	bool  hasInteraction(int contact);
-	void  removeErased();
-	void  listCandidates();
-	void  changeContacts();
-	void  limitStep();
-	void  insertTouches(int firstId);
-	void  check();
+	bool  isInScene() const;
+	bool  hasInteraction(int contact) const;
+	/// What scripts have erased since the last look.
+	flexpm::Erasure findErased() const;
+	void            removeErased();
+	void            listCandidates();
+	void            changeContacts();
+	void            limitStep();
+	void            insertTouches(int firstId);
+	void            check();
 };
 REGISTER_SERIALIZABLE(GrainSolver);
 

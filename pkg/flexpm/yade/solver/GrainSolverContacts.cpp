@@ -3,18 +3,24 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/step/mass_scaling.hpp>
-#include <flexpm/kernel/topology/removal.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>
 
 namespace yade {
 
-bool GrainSolver::hasInteraction(int contact)
+bool GrainSolver::isInScene() const
+{
+	const bool inserted = int(bodyIds.size()) == assembly.grains.count;
+	return inserted && findAssembly(*Omega::instance().getScene()).arrays == &assembly;
+}
+
+bool GrainSolver::hasInteraction(int contact) const
 {
 	const Body::id_t id1 = bodyIds[assembly.contacts.pairs[contact][0]], id2 = bodyIds[assembly.contacts.pairs[contact][1]];
-	auto&            all   = *scene->interactions;
-	auto&            place = places[contact];
+	auto&            all = *Omega::instance().getScene()->interactions;
+	places.resize(assembly.contacts.count);
+	auto& place = places[contact];
 	if (place < all.size()) { // most are where they were: finding costs more
 		const auto& there = all[place];
 		if (there && there->getId1() == id1 && there->getId2() == id2) return there->isReal();
@@ -24,27 +30,47 @@ bool GrainSolver::hasInteraction(int contact)
 	return bond && bond->isReal();
 }
 
+bool GrainSolver::holds(int place) const
+{
+	if (assembly.contacts.erased[place]) return false;
+	return !isInScene() || !flexpm::is_active(assembly.contacts, place) || hasInteraction(place);
+}
+
+flexpm::Assembly& GrainSolver::current()
+{
+	if (isInScene()) removeErased();
+	return assembly;
+}
+
+flexpm::Assembly& GrainSolver::forEngines() { return destroyedContacts() != seenDestroyed ? current() : assembly; }
+
+flexpm::Erasure GrainSolver::findErased() const
+{
+	const Scene&    world = *Omega::instance().getScene();
+	flexpm::Erasure found;
+	for (int grain = 0; grain < assembly.grains.count; ++grain) {
+		if (!assembly.grains.erased[grain] && !bodyOf(world, grain)) found.grains.push_back(grain);
+	}
+	for (int c = 0; c < assembly.contacts.count; ++c) {
+		if (flexpm::is_active(assembly.contacts, c) && !hasInteraction(c)) found.contacts.push_back(c);
+	}
+	return found;
+}
+
 void GrainSolver::removeErased()
 {
-	seenDestroyed = destroyedContacts();
-	listed        = false;
-	places.resize(assembly.contacts.count);
-	for (int c = 0; c < assembly.contacts.count; ++c) {
-		if (hasInteraction(c)) continue;
-		if (flexpm::is_active(assembly.contacts, c)) nearPairs.forget(); // what was erased may touch again
-		flexpm::remove_contact(assembly.contacts, c);
-	}
-	for (int grain = 0; grain < assembly.grains.count; ++grain) {
-		if (!bodyOf(*scene, grain)) flexpm::remove_grain(assembly, grain);
-	}
+	seenDestroyed   = destroyedContacts();
+	listed          = false;
+	const auto what = findErased();
+	if (what.empty()) return;
+	flexpm::erase(assembly, what, Omega::instance().getScene()->dt);
+	nearPairs.forget(); // what was erased may touch again
 }
 
 void GrainSolver::listCandidates()
 {
-	candidates          = nearPairs.find(assembly, touchMargin * 2 * assembly.grains.radius[0]);
-	const auto isErased = [&](const flexpm::GrainPair& pair) { return !bodyOf(*scene, pair[0]) || !bodyOf(*scene, pair[1]); };
-	candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isErased), candidates.end());
-	listed = true;
+	candidates = nearPairs.find(assembly, touchMargin * 2 * assembly.grains.radius[0]);
+	listed     = true;
 }
 
 void GrainSolver::changeContacts()

@@ -28,11 +28,12 @@ int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
 	return flexpm::add_wall(assembly, { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
 }
 
-py::list GrainSolver::plates() const
+py::list GrainSolver::plates()
 {
-	py::list all;
-	for (std::size_t i = 0; i < assembly.plates.size(); ++i) {
-		const flexpm::Plate& p = assembly.plates[i];
+	const auto& a = current();
+	py::list    all;
+	for (std::size_t i = 0; i < a.plates.size(); ++i) {
+		const flexpm::Plate& p = a.plates[i];
 		py::dict             d;
 		d["side"]          = p.side;
 		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
@@ -40,7 +41,7 @@ py::list GrainSolver::plates() const
 		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);
 		d["velocity"]      = py::make_tuple(p.velocity.x, p.velocity.y);
 		d["force"]         = py::make_tuple(p.force.x, p.force.y);
-		d["contact_width"] = flexpm::contact_width(assembly, static_cast<int>(i));
+		d["contact_width"] = flexpm::contact_width(a, static_cast<int>(i));
 		all.append(d);
 	}
 	return all;

@@ -14,60 +14,58 @@ namespace yade {
 
 using flexpm_bindings::copied;
 
-py::tuple GrainSolver::elasticConstants() const
+py::tuple GrainSolver::elasticConstants()
 {
-	const auto e = flexpm::elastic_constants(assembly);
+	const auto e = flexpm::elastic_constants(current());
 	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
 }
 
-py::dict GrainSolver::energies() const
+py::dict GrainSolver::energies()
 {
-	const auto e = flexpm::energies(assembly);
+	const auto e = flexpm::energies(current());
 	py::dict   d;
 	d["kinetic_energy"]   = e.kinetic;
 	d["elastic_energy"]   = e.elastic;
 	d["damage_energy"]    = e.damage;
 	d["friction_energy"]  = e.friction;
 	d["damping_energy"]   = e.damping;
+	d["erased_energy"]    = e.erased;
 	d["boundary_work"]    = e.boundary_work;
 	d["potential_energy"] = e.potential;
 	d["initial_energy"]   = e.initial;
 	return d;
 }
 
-py::tuple GrainSolver::cracks() const
+py::tuple GrainSolver::cracks()
 {
-	const auto count = flexpm::count_cracks(assembly);
+	const auto count = flexpm::count_cracks(current());
 	return py::make_tuple(count.tensile, count.shear);
 }
 
-py::dict GrainSolver::counts() const
+py::dict GrainSolver::counts()
 {
-	int nodes = 0, triangles = 0;
-	for (int g = 0; g < assembly.grains.count; ++g) {
-		nodes += assembly.grains.nodes_of(g);
-		triangles += flexpm::triangles_of(assembly.grains, g);
-	}
-	const auto bonded = flexpm::bonded_contacts(assembly);
-	py::dict   d;
-	d["grains"]         = *std::max_element(assembly.grains.parent.begin(), assembly.grains.parent.end()) + 1;
-	d["particles"]      = assembly.grains.count;
-	d["contacts"]       = bonded.between; // as in the specimen; others have touched since
-	d["inner_contacts"] = bonded.within;
-	d["touching"]       = assembly.contacts.count - bonded.between - bonded.within;
-	d["nodes"]          = nodes;
-	d["triangles"]      = triangles;
-	d["groups"]         = assembly.grains.groups.size();
-	d["edges"]          = assembly.edges.count;
+	const auto& a        = current();
+	const auto  grains   = flexpm::count_grains(a.grains);
+	const auto  contacts = flexpm::count_contacts(a);
+	py::dict    d;
+	d["grains"]         = grains.grains;
+	d["particles"]      = grains.particles;
+	d["contacts"]       = contacts.between; // as in the specimen; others have touched since
+	d["inner_contacts"] = contacts.within;
+	d["touching"]       = contacts.touching;
+	d["nodes"]          = grains.nodes;
+	d["triangles"]      = grains.triangles;
+	d["groups"]         = a.grains.groups.size();
+	d["edges"]          = flexpm::count_edges(a);
 	return d;
 }
 
-Real GrainSolver::unbalanced() const { return flexpm::unbalanced_ratio(assembly); }
+Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
 
-py::object GrainSolver::sideNodes(int side) const
+py::object GrainSolver::sideNodes(int side)
 {
 	std::vector<std::int32_t> rows;
-	for (int node : flexpm::side_nodes(assembly, side)) {
+	for (int node : flexpm::side_nodes(current(), side)) {
 		for (int g = 0; g < assembly.grains.count; ++g) {
 			const int first = assembly.grains.node(g, 0), row = 2 * flexpm::lanes;
 			if (node < first || (node - first) % row != 0 || (node - first) / row >= assembly.grains.nodes_of(g)) continue;
@@ -77,9 +75,9 @@ py::object GrainSolver::sideNodes(int side) const
 	return copied(rows, 2);
 }
 
-py::dict GrainSolver::snapshot() const
+py::dict GrainSolver::snapshot()
 {
-	const auto s = flexpm::take_snapshot(assembly);
+	const auto s = flexpm::take_snapshot(current());
 	const int  p = assembly.contacts.points;
 	py::dict   d;
 	d["positions"]         = copied(s.positions, 2);
@@ -100,6 +98,13 @@ py::dict GrainSolver::snapshot() const
 	d["crack_step"]        = copied(s.crack_step, p);
 	d["crack_mode"]        = copied(s.crack_mode, p);
 	d["crack_position"]    = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
+	d["erased_contact"]    = copied(s.erased_contact, 0);
+	d["erased_grains"]     = copied(s.erased_grains, 2);
+	d["erased_ends"]       = copied(s.erased_ends, 2).attr("reshape")(-1, 2, 2);
+	d["erased_crack_step"] = copied(s.erased_crack_step, p);
+	d["erased_crack_mode"] = copied(s.erased_crack_mode, p);
+
+	d["erased_crack_position"] = copied(s.erased_crack_position, 2).attr("reshape")(-1, p, 2);
 	return d;
 }
 

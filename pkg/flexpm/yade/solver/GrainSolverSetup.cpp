@@ -161,7 +161,7 @@ Real GrainSolver::useRealMasses()
 	return massStep;
 }
 
-void GrainSolver::resetEnergyBalance() { flexpm::reset_energy_balance(assembly); }
+void GrainSolver::resetEnergyBalance() { flexpm::reset_energy_balance(current()); }
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
 
