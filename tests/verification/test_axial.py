@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Axial tests of small specimens: elastic solve, bounds of the law, energy books."""
+"""Axial tests of small specimens: elastic solve, bounds of the law, balance of energies."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_slopes_are_those_of_the_elastic_solve(specimen, results, test):
 
 @pytest.mark.long
 @pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial"])
-def test_runs_are_quasistatic_and_their_books_close(results, test):
+def test_runs_are_quasistatic_and_their_energies_balance(results, test):
     result = results[test]
     assert result.status == "ok"
     assert result.energy_error < 0.01

@@ -145,7 +145,7 @@ class SphereModel:
             material=yade.O.materials[self.material_ids[1]],
             fixed=True,
         )
-        plate.state.isDamped = False  # else YADE books a part of its work as damped
+        plate.state.isDamped = False  # else YADE counts a part of its work as damped
         self.plates.append(yade.O.bodies.append(plate))
         return self.plates[-1]
 

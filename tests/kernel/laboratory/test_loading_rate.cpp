@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Adaptive loading rate: what it follows, how fast it changes, and that a change of the driven
-/// velocity keeps the energy books. SI units.
+/// velocity keeps the balance of energies. SI units.
 #include <catch2/catch.hpp>
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
@@ -64,7 +64,7 @@ TEST_CASE("The velocity factor doubles in a crossing of the wave and halves in a
     CHECK(factor_after(8.0, 1.0, 100) == Approx(4.0));
 }
 
-TEST_CASE("Changes of the driven velocity leave the books closed")
+TEST_CASE("Changes of the prescribed velocity keep the balance of energies")
 {
     const bool rebooked = GENERATE(true, false);
     Assembly a =
@@ -85,7 +85,7 @@ TEST_CASE("Changes of the driven velocity leave the books closed")
     const Energies e = energies(a);
     CHECK(e.damage == 0.0);
     const double part = std::fabs(balance::miss(e)) / e.boundary_work;
-    // a hundredth of the steps have another velocity before than after: the books see that
+    // a hundredth of the steps have another velocity before than after: the balance sees that
     if (rebooked) {
         CHECK(part < 1e-5);
     } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Start of a test from its elastic solution: equilibrium, the first point's utilisation, and the
-/// energy books. SI units, tension positive.
+/// energy balance. SI units, tension positive.
 #include <catch2/catch.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -24,7 +24,7 @@ namespace {
 constexpr double share = 0.9;
 constexpr int steps = 10;
 
-/// Random grains, gripped and driven at `velocity`, the books open.
+/// Random grains, gripped and driven at `velocity`, the energies counted.
 Assembly driven_grains(double velocity)
 {
     Assembly a =

@@ -161,8 +161,8 @@ double centre_line_weight(Point p0, Point p1, const Disc& a, const Disc& b)
 {
     const double dx = b.centre.x - a.centre.x, dy = b.centre.y - a.centre.y;
     const double d = std::hypot(dx, dy);
-    const double reach = a.radius - 0.5 * (a.radius + b.radius - d);
-    const double x = a.centre.x + reach * dx / d, y = a.centre.y + reach * dy / d;
+    const double arm = a.radius - 0.5 * (a.radius + b.radius - d);
+    const double x = a.centre.x + arm * dx / d, y = a.centre.y + arm * dy / d;
     const double ex = p1.x - p0.x, ey = p1.y - p0.y;
     return ((x - p0.x) * ex + (y - p0.y) * ey) / (ex * ex + ey * ey);
 }
