@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The energy books: exact for a linear system, closed to 1 % through breaking, and open when
+/// @file  The energy balance: exact for a linear system, kept to 1 % through breaking, and missed when
 /// the law is wrong or the rate coarse, paper Eqs. 1-3. SI units.
 #include <catch2/catch.hpp>
 
@@ -31,7 +31,7 @@ void shake(Assembly& a, double speed, std::uint64_t seed)
     }
 }
 
-/// Largest miss of the books in `steps` measured steps, over the largest energy put in.
+/// Largest miss of the balance in `steps` measured steps, over the largest energy put in.
 template <class Each>
 double largest_miss(Assembly& a, double damping, int steps, int every, Each each)
 {
@@ -166,7 +166,7 @@ template <class Each> void for_each_point(Assembly& a, Each each)
 
 }  // namespace
 
-TEST_CASE("The books close to 1 % of the work while a specimen breaks")
+TEST_CASE("The energies balance to 1 % of the work while a specimen breaks")
 {
     const auto m = specimens::granite_contact();
     const auto leave = [](Assembly&) {};
@@ -176,7 +176,7 @@ TEST_CASE("The books close to 1 % of the work while a specimen breaks")
     CHECK(axial_miss(law_path::brittle(m), -2e-8, 2e-4, leave) < 0.01);
 }
 
-TEST_CASE("Wrong laws do not close the books")
+TEST_CASE("Energies do not balance under wrong laws")
 {
     const auto m = specimens::granite_contact();
     // shear that forgets a thousandth of its traction in every step
@@ -204,7 +204,7 @@ TEST_CASE("Wrong laws do not close the books")
     }) > 0.01);
 }
 
-TEST_CASE("A coarse rate does not close the books, halving it halves the miss")
+TEST_CASE("Energies do not balance at a coarse rate, halving it halves the miss")
 {
     // two held grains drawn apart: each point passes its softening branch in a few steps or in many
     const auto m = specimens::granite_contact();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The balance that the energy books must keep. SI units.
+/// @file  The balance that the energies must keep. SI units.
 #pragma once
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
@@ -12,7 +12,7 @@ inline double total(const flexpm::Energies& e)
     return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.potential + e.erased;
 }
 
-/// What the books lack [J]: work and initial energy less that.
+/// What the balance lacks [J]: work and initial energy less that.
 inline double miss(const flexpm::Energies& e) { return e.boundary_work + e.initial - total(e); }
 
 }  // namespace balance
