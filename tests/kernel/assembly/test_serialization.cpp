@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Each saved part of an assembly lists all its members, and they are all that continues a run.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/serialization.hpp>
 #include <flexpm/kernel/forces/sides.hpp>

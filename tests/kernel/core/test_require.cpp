@@ -2,7 +2,7 @@
 /// @file  Errors: one line with quantity, value and unit, rule.
 #include <flexpm/kernel/core/require.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace flexpm;
 

@@ -3,7 +3,7 @@
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/core/vector.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace flexpm;
 

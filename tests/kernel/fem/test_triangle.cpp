@@ -4,7 +4,7 @@
 
 #include <flexpm/kernel/fem/triangle.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <array>
 #include <cmath>

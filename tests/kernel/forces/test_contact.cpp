@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Contacts of held grains led along prescribed motions: points, moment and rotation, cracks,
 /// friction, paper Secs. 2.3-2.6. Tension positive.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/driven.hpp"
 #include "support/law_path.hpp"

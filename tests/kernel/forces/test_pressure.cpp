@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Pressure on boundary edges: resultant, direction, work, paper Sec. 4.2. Compressive pressure
 /// is positive.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/forces/sides.hpp>
 

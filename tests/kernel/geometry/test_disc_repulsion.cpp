@@ -2,7 +2,7 @@
 /// @file  The push between two discs, paper Sec. 3.1.
 #include <flexpm/kernel/geometry/disc_repulsion.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using flexpm::DiscPair;
 using flexpm::push_apart;

@@ -3,7 +3,7 @@
 #include <flexpm/kernel/geometry/lloyd.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <algorithm>
 #include <set>

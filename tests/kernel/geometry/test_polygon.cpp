@@ -2,7 +2,7 @@
 /// @file  Area and centroid of polygons, and the points that see all of one.
 #include <flexpm/kernel/geometry/polygon.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace flexpm;
 

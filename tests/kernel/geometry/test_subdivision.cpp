@@ -9,7 +9,7 @@
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/specimens.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Adaptive loading rate: what it follows, how fast it changes, and that a change of the driven
 /// velocity keeps the balance of energies. SI units.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Scales of a test against closed forms: bars of known wave speed, Mohr-Coulomb strengths. SI units.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/loading_scales.hpp>

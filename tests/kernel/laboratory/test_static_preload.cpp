@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Start of a test from its elastic solution: equilibrium, the first point's utilisation, and the
 /// energy balance. SI units, tension positive.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>

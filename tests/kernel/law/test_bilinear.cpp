@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The bilinear law against its closed forms, paper Fig. 3 and Eqs. 22-27. Tension positive.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/law_path.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The bilinear law on random mixed-mode paths: envelope, damage, energy; and its brittle limit
 /// against Mohr-Coulomb with a tension cut-off. Tension positive.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/law_path.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The energy balance: exact for a linear system, kept to 1 % through breaking, and missed when
 /// the law is wrong or the rate coarse, paper Eqs. 1-3. SI units.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/sides.hpp>

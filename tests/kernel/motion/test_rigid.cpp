@@ -8,7 +8,7 @@
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/balance.hpp"
 #include "support/driven.hpp"

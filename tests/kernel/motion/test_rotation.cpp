@@ -2,7 +2,7 @@
 /// @file  Bonded grains turned as a rigid body, paper Eqs. 5-12. Tension positive.
 /// The gap is rebuilt from opening and slip along the normal of the centres, which itself turns by
 /// slip / distance while a pair slides: results are exact but for that angle.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/driven.hpp"
 #include "support/law_path.hpp"

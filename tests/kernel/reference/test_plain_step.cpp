@@ -4,7 +4,7 @@
 /// FLEXPM_ASSEMBLIES gives another number of assemblies, and has the largest differences printed;
 /// FLEXPM_FIRST_SEED is the first of their seeds:
 ///     FLEXPM_ASSEMBLIES=10000 kernel_tests "[reference]"
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/step/step.hpp>
 

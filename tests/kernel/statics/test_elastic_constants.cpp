@@ -4,7 +4,7 @@
 
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 using namespace flexpm;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The same bits on any number of threads, from any saved state, on any instruction set.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>

@@ -3,7 +3,7 @@
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/sample_runs.hpp"
 

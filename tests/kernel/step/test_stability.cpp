@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Stability of the scaled masses with local damping, paper Sec. 2.4, on specimens that no load
 /// breaks.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

@@ -2,7 +2,7 @@
 /// @file  Near pairs that are kept are those that a new search would find, paper Sec. 2.3.
 #include <flexpm/kernel/topology/contact_search.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/specimens.hpp"
 

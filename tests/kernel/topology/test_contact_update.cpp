@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Contacts that end and begin while grains move far, paper Sec. 2.3. Tension positive.
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/snapshot.hpp>
