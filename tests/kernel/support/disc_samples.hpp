@@ -5,7 +5,7 @@
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/geometry/tessellation.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <cmath>
 #include <set>

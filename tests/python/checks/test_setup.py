@@ -12,6 +12,7 @@ import pytest
 import flexpm
 
 ROOT = Path(__file__).resolve().parents[3]
+#: That of Debian 13, whose headers Debian 12 takes, too.
 VERSION = "2025.2.0"
 
 
@@ -27,7 +28,7 @@ def unreachable_mirror(folder: Path) -> Path:
     folder.mkdir()
     program = folder / "apt-get"
     program.write_text(
-        '#!/bin/sh\n[ "$1" = indextargets ] && echo "Debian|main|bookworm|mirror:/none" && exit 0\n'
+        '#!/bin/sh\n[ "$1" = indextargets ] && echo "Debian|main|mirror:/none|bookworm" && exit 0\n'
         'echo "E: Could not resolve the mirror" >&2\nexit 100\n'
     )
     program.chmod(0o755)
@@ -50,11 +51,22 @@ def test_unreachable_mirror_names_the_remedy(tmp_path: Path) -> None:
 
 
 def test_damaged_archive_is_not_unpacked(tmp_path: Path) -> None:
+    fakes = unreachable_mirror(tmp_path / "bin")
+    archive = f"yade_{VERSION}.orig.tar.bz2"
+    (fakes / "apt-get").write_text(
+        f"""#!/bin/sh
+case "$*" in
+    indextargets*) echo "Debian|main|mirror:/one|bookworm" ;;
+    *--print-uris*) echo "'mirror:/one/{archive}' {archive} 7 SHA256:{"0" * 64}" ;;
+    *--download-only*) printf "cut off" > {archive} ;;
+esac
+"""
+    )
     cache = tmp_path / "cache"
-    cache.mkdir()
-    (cache / f"yade_{VERSION}.orig.tar.bz2").write_bytes(b"cut off")
-    done = headers(cache, unreachable_mirror(tmp_path / "bin"))
+    done = headers(cache, fakes)
     assert done.returncode == 1 and not (cache / f"yade-{VERSION}").exists()
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith(f"setup: checksum of {archive} = wrong") and "YADE_SOURCE_DIR" in last
 
 
 def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
