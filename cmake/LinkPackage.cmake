@@ -7,6 +7,7 @@ list(TRANSFORM kinds PREPEND ${SOURCE}/ OUTPUT_VARIABLE in_source)
 list(TRANSFORM kinds PREPEND ${PACKAGE}/ OUTPUT_VARIABLE in_package)
 file(GLOB_RECURSE wanted RELATIVE ${SOURCE} ${in_source})
 file(GLOB_RECURSE present RELATIVE ${PACKAGE} LIST_DIRECTORIES false ${in_package})
+list(FILTER present EXCLUDE REGEX "^vendor/") # packages of others, which the set-up puts there
 foreach(name IN LISTS present)
     if(NOT name IN_LIST wanted)
         file(REMOVE ${PACKAGE}/${name})

@@ -29,6 +29,7 @@ exclude_patterns = ["_build"]
 html_theme = "alabaster"
 html_theme_options = {"page_width": "62em", "body_max_width": "48em", "fixed_sidebar": True}
 html_show_sourcelink = False
+man_pages = [("command", "flexpm", "flexible particle model of rock for YADE", "", 1)]
 nitpicky = True
 # types of Python and numpy are not in these pages
 nitpick_ignore_regex = [("py:(class|exc|obj)", ".*")]

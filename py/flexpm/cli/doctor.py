@@ -11,7 +11,7 @@ import sys
 from collections.abc import Iterator
 from types import ModuleType
 
-from .. import _plugin
+from .. import _plugin, _vendor
 
 Check = tuple[str, bool, str]
 
@@ -57,11 +57,12 @@ def checks() -> Iterator[Check]:
 
 def _python() -> Check:
     version = ".".join(map(str, sys.version_info[:3]))
-    ok = sys.version_info[:2] == (3, 11)
+    ok = os.path.dirname(os.path.realpath(sys.executable)) == "/usr/bin"  # the one of YADE
     return "python", ok, f"{version} ({sys.executable})" + ("" if ok else "; use /usr/bin/python3")
 
 
 def _packages() -> Iterator[Check]:
+    _vendor.on_path()
     for name, source, purpose in _PACKAGES:
         # found, not imported: some take a second to load
         if importlib.util.find_spec(name) is None:

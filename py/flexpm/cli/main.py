@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.shell_completion import shell_complete
 
 from .._version import __version__
 from ..errors import InputError, SimulationError
@@ -308,6 +309,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.environ["MPLBACKEND"] = "agg"  # pictures are files; a wrong name would stop the import
     signals.received.clear()
     given = list(sys.argv[1:] if arguments is None else arguments)
+    if asked := os.environ.get("_FLEXPM_COMPLETE"):  # by the shell, for what may follow
+        return shell_complete(command, {}, "flexpm", "_FLEXPM_COMPLETE", asked)
     try:
         signals.catch_signals()
         with _no_warnings(), command.make_context("flexpm", given) as context:

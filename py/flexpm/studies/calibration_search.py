@@ -24,6 +24,7 @@ import numpy as np
 import pandas
 from scipy.optimize import least_squares
 
+from .._vendor import on_path
 from ..arrays import FloatArray
 from ..errors import InputError, SimulationError
 from ..files import Table, output_folder
@@ -345,6 +346,7 @@ def _jobs(
 
 
 def _optimiser() -> ModuleType:
+    on_path()
     try:
         import dfols
     except ImportError:
