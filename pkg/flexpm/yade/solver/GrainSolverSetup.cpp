@@ -89,9 +89,9 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 		o.grain_material.assign(ofGrain.data(), ofGrain.data() + ofGrain.size(0));
 	}
 	if (options.has_key("outer")) chooseInner(options, o);
-	const flexpm::Tessellation& cells = py::extract<const flexpm::Tessellation&>(tessellation);
-	assembly                          = flexpm::make_assembly(cells, flexpm_bindings::discs(centres, radii), o);
-	materials                         = ofGrains;
+	const py::extract<const flexpm::Tessellation&> cells(tessellation);
+	assembly  = flexpm::make_assembly(cells(), flexpm_bindings::discs(centres, radii), o);
+	materials = ofGrains;
 	for (const auto& m : ofGrains)
 		materialValues.push_back(valuesOf(static_cast<const GrainMat&>(*m)));
 }
