@@ -9,6 +9,7 @@ import importlib.util
 import os
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 
 from .. import _plugin, _vendor
@@ -57,7 +58,7 @@ def checks() -> Iterator[Check]:
 
 def _python() -> Check:
     version = ".".join(map(str, sys.version_info[:3]))
-    ok = os.path.dirname(os.path.realpath(sys.executable)) == "/usr/bin"  # the one of YADE
+    ok = Path(sys.executable).resolve().parent == Path("/usr/bin")  # the one of YADE
     return "python", ok, f"{version} ({sys.executable})" + ("" if ok else "; use /usr/bin/python3")
 
 
