@@ -16,7 +16,7 @@
 #include <flexpm/kernel/topology/erasure.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/balance.hpp"
 #include "support/driven.hpp"
