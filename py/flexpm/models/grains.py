@@ -88,8 +88,12 @@ class Model:
             raise SimulationError(
                 "Model: its solver in O.engines = none, must be there; build the specimen again"
             )
-        for _ in range(steps):
-            yade.O.step()
+        self.solver.stepsToCome = steps
+        try:
+            for _ in range(steps):
+                yade.O.step()
+        finally:
+            self.solver.stepsToCome = 0
 
     def add_engines(
         self,

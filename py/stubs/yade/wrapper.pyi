@@ -184,6 +184,7 @@ class GrainSolver(Engine):
     checkPeriod: int
     measurePeriod: int
     mirrorPeriod: int
+    stepsToCome: int
     bodyIds: list[int]
     diverged: bool
     def mirrorBodies(self) -> None: ...

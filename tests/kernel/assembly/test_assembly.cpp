@@ -335,3 +335,22 @@ TEST_CASE("discs that are not those of the cells are refused", "[assembly]")
     CHECK_THROWS_WITH(
         flexpm::make_assembly(s.cells, discs, options), Catch::Contains("disc 0: centre"));
 }
+
+TEST_CASE(
+    "a node is found by its place: its grain, its number there, or a padded lane", "[assembly]")
+{
+    const Assembly a =
+        specimens::assemble(specimens::random_grains(9e-3, 9e-3, 3e-3, 4), specimens::options());
+    for (int g = 0; g < a.grains.count; ++g) {
+        for (int n = 0; n < a.grains.nodes_of(g); ++n) {
+            const flexpm::GrainNode found = flexpm::grain_node(a.grains, a.grains.node(g, n));
+            CHECK((found.grain == g && found.number == n));
+        }
+    }
+    for (std::size_t slot = 0; slot < a.grains.in_slot.size(); ++slot) {
+        const int block = static_cast<int>(slot) / flexpm::lanes;
+        const int lane = static_cast<int>(slot) % flexpm::lanes;
+        const int node = a.grains.block_nodes[block] + flexpm::node_stride + lane;
+        CHECK(flexpm::grain_node(a.grains, node).grain == a.grains.in_slot[slot]);
+    }
+}

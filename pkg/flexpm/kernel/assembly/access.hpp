@@ -34,6 +34,20 @@ inline PlaneStiffness stiffness_of(const Grains& grains, int grain)
         grains.lane_of(grain));
 }
 
+/// A node of a grain, by the grain and its number in it.
+struct GrainNode {
+    int grain = -1;  ///< -1 in a padded lane
+    int number = 0;
+};
+
+inline GrainNode grain_node(const Grains& grains, int node)
+{
+    const auto& first = grains.block_nodes;
+    const auto next = std::upper_bound(first.begin(), first.end(), node);
+    const int block = static_cast<int>(next - first.begin()) - 1, within = node - first[block];
+    return { grains.in_slot[block * lanes + within % node_stride], within / node_stride };
+}
+
 /// Law of a contact between two grains of the material of `grain`.
 inline const LawParameters& own_law(const Assembly& a, int grain)
 {
@@ -124,6 +138,43 @@ inline int contact_with_id(const Assembly& a, int id)
     const auto found = std::lower_bound(order.begin(), order.end(), id,
         [&](int contact, int value) { return ids[contact] < value; });
     return found != order.end() && ids[*found] == id ? *found : -1;
+}
+
+/// Stiffnesses of a bond as a whole while it is intact [N/m].
+struct BondStiffness {
+    double normal = 0.0;
+    double shear = 0.0;
+};
+
+inline BondStiffness bond_stiffness(const Contacts& contacts, int contact)
+{
+    const LawParameters& law = contacts.law_of(contact);
+    double area = 0.0;
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        area += contacts.area(contact, p);
+    return { law.normal_stiffness * area, law.shear_stiffness * area };
+}
+
+/// Mean opening of a contact's points, weighted by their areas [m]; 0 of one that has none.
+inline double mean_opening(const Contacts& contacts, int contact)
+{
+    double sum = 0.0, area = 0.0;
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        sum += contacts.area(contact, p) * contacts.state(contact, p, PointRow::opening);
+        area += contacts.area(contact, p);
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+/// Force of a contact on its second grain; that on the first is the opposite [N].
+inline Point contact_force(const Contacts& contacts, int contact)
+{
+    Point sum;
+    for (int end = 0; end < 2; ++end) {
+        const double* force = &contacts.forces[Contacts::force_index(contact, 1, end)];
+        sum = sum + Point { force[0], force[1] };
+    }
+    return sum;
 }
 
 inline double damage_of(const Contacts& contacts, int contact, int point)

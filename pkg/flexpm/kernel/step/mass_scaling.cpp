@@ -208,6 +208,18 @@ void scale_masses(Assembly& a, double damping, double dt)
     scale_plates(a, damping, dt);
 }
 
+GrainMass real_mass(const Assembly& a, int grain)
+{
+    const double density = a.grains.elastic[a.grains.material[grain]].density;
+    const PolygonSection section = cell_section(a.grains, grain);
+    return { density * a.thickness * section.area, density * a.thickness * section.polar };
+}
+
+double equal_sphere(const Assembly& a, int grain)
+{
+    return std::cbrt(0.75 / pi * a.thickness * cell_section(a.grains, grain).area);
+}
+
 namespace {
 
 /// Real mass of a grain on its nodes; of a rigid one its moment of inertia too.
@@ -215,9 +227,9 @@ void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>&
 {
     const double density = a.grains.elastic[a.grains.material[g]].density;
     if (a.grains.is_rigid(g)) {
-        const PolygonSection section = cell_section(a.grains, g);
-        mass[scalar_index(a.grains.centre(g))] = density * a.thickness * section.area;
-        inertia[a.grains.slot[g]] = density * a.thickness * section.polar;
+        const GrainMass whole = real_mass(a, g);
+        mass[scalar_index(a.grains.centre(g))] = whole.mass;
+        inertia[a.grains.slot[g]] = whole.inertia;
         return;
     }
     for (int t = 0; t < triangles_of(a.grains, g); ++t) {

@@ -36,6 +36,16 @@ void scale_masses(Assembly& a, double damping, double dt = 1.0);
 /// Time step that keeps the present masses stable with the present contacts and plates [s].
 double stable_step(const Assembly& a, double damping);
 
+/// Of a grain as a whole: its cell, turning about the centroid.
+struct GrainMass {
+    double mass = 0.0;     ///< [kg]
+    double inertia = 0.0;  ///< [kg m^2]
+};
+GrainMass real_mass(const Assembly& a, int grain);
+
+/// Radius of a sphere that has the volume of a grain [m].
+double equal_sphere(const Assembly& a, int grain);
+
 /// Real masses: a third of each triangle's to its nodes; of a rigid grain those of the lamina of its
 /// cell, as if its mass centre were the disc's. Plates' are scaled. Returns stable_step().
 double set_real_masses(Assembly& a, double damping);

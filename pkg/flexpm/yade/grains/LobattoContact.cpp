@@ -4,8 +4,11 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/snapshot.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
+
+#include <limits>
 
 namespace yade {
 
@@ -32,6 +35,23 @@ namespace {
 		return pointCopy<double>(contact, 0, [row](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.state(place, p, row)); });
 	}
 
+	Vector3r vector(flexpm::Point p) { return Vector3r(p.x, p.y, 0); }
+
+	Vector3r normalOf(const flexpm::Assembly& a, int place) { return vector(a.contacts.normal(place)); }
+
+	Vector3r middleOf(const flexpm::Assembly& a, int place)
+	{
+		return .5 * (vector(flexpm::contact_end(a, place, 0)) + vector(flexpm::contact_end(a, place, 1)));
+	}
+
+	Vector3r normalForceOf(const flexpm::Assembly& a, int place)
+	{
+		const Vector3r normal = normalOf(a, place);
+		return vector(flexpm::contact_force(a.contacts, place)).dot(normal) * normal;
+	}
+
+	Vector3r shearForceOf(const flexpm::Assembly& a, int place) { return vector(flexpm::contact_force(a.contacts, place)) - normalForceOf(a, place); }
+
 } // namespace
 
 std::atomic<long>& destroyedContacts()
@@ -42,18 +62,22 @@ std::atomic<long>& destroyedContacts()
 
 LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
 
-Vector3r LobattoGeom::normal() const
+Vector3r LobattoGeom::presentNormal() const
 {
 	const auto owned = ownedContact(contact);
-	const auto n     = owned->contacts.normal(owned.place);
-	return Vector3r(n.x, n.y, 0);
+	return normalOf(*owned, owned.place);
 }
 
-Vector3r LobattoGeom::contactPoint() const
+Vector3r LobattoGeom::presentContactPoint() const
 {
 	const auto owned = ownedContact(contact);
-	const auto start = flexpm::contact_end(*owned, owned.place, 0), end = flexpm::contact_end(*owned, owned.place, 1);
-	return .5 * Vector3r(start.x + end.x, start.y + end.y, 0);
+	return middleOf(*owned, owned.place);
+}
+
+Real LobattoGeom::presentPenetrationDepth() const
+{
+	const auto owned = ownedContact(contact);
+	return -flexpm::mean_opening(owned->contacts, owned.place);
 }
 
 py::object LobattoGeom::ends() const
@@ -64,6 +88,50 @@ py::object LobattoGeom::ends() const
 }
 
 LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
+
+Vector3r LobattoPhys::presentNormalForce() const
+{
+	const auto owned = ownedContact(contact);
+	return normalForceOf(*owned, owned.place);
+}
+
+Vector3r LobattoPhys::presentShearForce() const
+{
+	const auto owned = ownedContact(contact);
+	return shearForceOf(*owned, owned.place);
+}
+
+void makeBond(const flexpm::Assembly& assembly, int contact, Interaction& interaction)
+{
+	auto        geom = boost::make_shared<LobattoGeom>();
+	auto        phys = boost::make_shared<LobattoPhys>();
+	const auto& pair = assembly.contacts.pairs[flexpm::contact_with_id(assembly, contact)];
+	geom->refR1      = flexpm::equal_sphere(assembly, pair[0]);
+	geom->refR2      = flexpm::equal_sphere(assembly, pair[1]);
+	geom->contact    = contact;
+	phys->contact    = contact;
+	interaction.geom = geom;
+	interaction.phys = phys;
+}
+
+void mirrorBond(const flexpm::Assembly& assembly, int place, LobattoGeom& geom, LobattoPhys& phys)
+{
+	geom.normal           = normalOf(assembly, place);
+	geom.contactPoint     = middleOf(assembly, place);
+	geom.penetrationDepth = -flexpm::mean_opening(assembly.contacts, place);
+	const auto stiffness  = flexpm::bond_stiffness(assembly.contacts, place);
+	phys.kn               = stiffness.normal;
+	phys.ks               = stiffness.shear;
+	phys.normalForce      = normalForceOf(assembly, place);
+	phys.shearForce       = shearForceOf(assembly, place);
+}
+
+void hideBond(LobattoGeom& geom, LobattoPhys& phys)
+{
+	const Vector3r none = Vector3r::Constant(std::numeric_limits<Real>::quiet_NaN());
+	geom.normal = geom.contactPoint = phys.normalForce = phys.shearForce = none;
+	geom.penetrationDepth                                                = none[0];
+}
 
 py::object LobattoPhys::opening() const { return stateCopy(contact, flexpm::PointRow::opening); }
 

@@ -2,38 +2,45 @@
 /// @file  Geometry and physics of a bond between two grains: handles to its points in the solver's packed arrays.
 #pragma once
 
+#include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 
 #include <atomic>
 
 namespace yade {
 
-class LobattoGeom : public IGeom {
+class LobattoGeom : public ScGeom {
 public:
 	~LobattoGeom() override;
 
-	Vector3r              normal() const;
-	Vector3r              contactPoint() const;
+	// as the solver has them now; the members of the base are what mirrorBond() has written last
+	Vector3r              presentNormal() const;
+	Vector3r              presentContactPoint() const;
+	Real                  presentPenetrationDepth() const;
 	boost::python::object ends() const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoGeom, IGeom,
-		"Shared edge of two grains. Its state lives in :yref:`GrainSolver`.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoGeom, ScGeom,
+		"Shared edge of two grains. Its state lives in :yref:`GrainSolver` and is read when it is looked at; what YADE's own functions read of the "
+		":yref:`base<ScGeom>` is written by :yref:`GrainSolver.mirrorBodies` and when the simulation stops.",
 		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
-		, createIndex();
-		, .add_property("normal", &LobattoGeom::normal, "Unit normal from the first to the second grain, Eq. 5 [-].")
-		.add_property("contactPoint", &LobattoGeom::contactPoint, "Middle of the edge [m].")
+		, createIndex(); normal = contactPoint = Vector3r::Zero(); refR1 = refR2 = penetrationDepth = 0;
+		, .add_property("normal", &LobattoGeom::presentNormal, "Unit normal from the first to the second grain, Eq. 5 [-].")
+		.add_property("contactPoint", &LobattoGeom::presentContactPoint, "Middle of the edge [m].")
+		.add_property("penetrationDepth", &LobattoGeom::presentPenetrationDepth, "Mean closing of the points, below 0 where the bond has opened [m].")
 		.add_property("ends", &LobattoGeom::ends, "Ends of the edge, (2, 2) [m]; a copy.")
 	);
 	// clang-format on
-	REGISTER_CLASS_INDEX(LobattoGeom, IGeom);
+	REGISTER_CLASS_INDEX(LobattoGeom, ScGeom);
 };
 REGISTER_SERIALIZABLE(LobattoGeom);
 
-class LobattoPhys : public IPhys {
+class LobattoPhys : public NormShearPhys {
 public:
 	~LobattoPhys() override;
 
+	Vector3r              presentNormalForce() const;
+	Vector3r              presentShearForce() const;
 	boost::python::object opening() const;
 	boost::python::object slip() const;
 	boost::python::object traction() const;
@@ -42,12 +49,15 @@ public:
 	boost::python::object area() const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, IPhys,
-		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. "
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, NormShearPhys,
+		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. What YADE's own functions read of the "
+		":yref:`base<NormShearPhys>` is written by :yref:`GrainSolver.mirrorBodies` and when the simulation stops; kn and ks are those of the intact bond. "
 		"A kept handle of an erased bond raises an error.",
 		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
 		, createIndex();
-		, .add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], compression below 0; a copy.")
+		, .add_property("normalForce", &LobattoPhys::presentNormalForce, "Part along the normal of the force on the second grain [N].")
+		.add_property("shearForce", &LobattoPhys::presentShearForce, "The rest of the force on the second grain [N].")
+		.add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], compression below 0; a copy.")
 		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a copy.")
 		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m]; a copy.")
 		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; a copy.")
@@ -55,9 +65,18 @@ public:
 		.add_property("cracked", &LobattoPhys::cracked, "0 intact, 1 cracked in tension, 2 in shear, (p,); a copy.")
 	);
 	// clang-format on
-	REGISTER_CLASS_INDEX(LobattoPhys, IPhys);
+	REGISTER_CLASS_INDEX(LobattoPhys, NormShearPhys);
 };
 REGISTER_SERIALIZABLE(LobattoPhys);
+
+/// Make the handles of a contact, by its number; reference radii are those of spheres with the grains' volumes.
+void makeBond(const flexpm::Assembly& assembly, int contact, Interaction& interaction);
+
+/// Write what YADE's own functions read of a bond into its handles, by the contact's place in the arrays.
+void mirrorBond(const flexpm::Assembly& assembly, int place, LobattoGeom& geom, LobattoPhys& phys);
+
+/// Write numbers that are none instead: the handles would be older than the arrays.
+void hideBond(LobattoGeom& geom, LobattoPhys& phys);
 
 /// Counts the handles of bonds and grains that have been destroyed; the solver looks for erased ones when it has changed.
 std::atomic<long>& destroyedContacts();

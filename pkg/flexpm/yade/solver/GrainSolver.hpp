@@ -90,7 +90,7 @@ public:
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
 		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
-		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the checks."))
+		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the checks. With 1, the bonds and O.forces are updated, too, whenever the simulation stops."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
@@ -98,6 +98,8 @@ public:
 		((vector<vector<Real>>, materialValues,, Attr::hidden, "What was taken from them, see valuesOf()."))
 		((Real, massStep, 0., Attr::hidden, "Time step that the masses are scaled for, or the longest that real ones allow; 0 without masses [s]."))
 		((Real, massDamping, 0., Attr::hidden, "Damping for which it is so [-]."))
+		((int, stepsToCome, 0, Attr::noSave, "Steps of O.step() that a loop has still to do: it stops after the last one [-] |yupdate|."))
+		((bool, bondsShown, false, Attr::noSave | Attr::hidden, "The bonds' members hold numbers."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
 		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, which has stopped the simulation |yupdate|."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
@@ -116,7 +118,7 @@ public:
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
 		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
-		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update the states of the bodies now, whatever mirrorPeriod is.")
+		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
 		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
 		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
@@ -157,6 +159,12 @@ private:
 	void            limitStep();
 	void            insertTouches(int firstId);
 	void            check();
+	void            mirrorStates();
+	void            mirrorAtStop();
+	void            mirrorBonds(const Scene& world);
+	void            hideBonds(const Scene& world);
+	void            mirrorForces(Scene& world);
+	void            trackEnergies();
 };
 REGISTER_SERIALIZABLE(GrainSolver);
 

@@ -118,13 +118,9 @@ void GrainSolver::insertTouches(int firstId)
 			pair = boost::make_shared<Interaction>(id1, id2);
 			scene->interactions->insert(pair);
 		}
-		if (!pair->isReal()) {
-			pair->geom         = boost::make_shared<LobattoGeom>();
-			pair->phys         = boost::make_shared<LobattoPhys>();
-			pair->iterMadeReal = scene->iter;
-		}
-		static_cast<LobattoGeom&>(*pair->geom).contact = id;
-		static_cast<LobattoPhys&>(*pair->phys).contact = id;
+		if (!pair->isReal()) pair->iterMadeReal = scene->iter;
+		makeBond(assembly, id, *pair);
+		bondsShown = true; // until the end of the step
 	}
 	seenDestroyed = destroyedContacts();
 }

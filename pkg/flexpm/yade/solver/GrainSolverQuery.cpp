@@ -66,11 +66,8 @@ py::object GrainSolver::sideNodes(int side)
 {
 	std::vector<std::int32_t> rows;
 	for (int node : flexpm::side_nodes(current(), side)) {
-		for (int g = 0; g < assembly.grains.count; ++g) {
-			const int first = assembly.grains.node(g, 0), row = 2 * flexpm::lanes;
-			if (node < first || (node - first) % row != 0 || (node - first) / row >= assembly.grains.nodes_of(g)) continue;
-			rows.insert(rows.end(), { g, (node - first) / row });
-		}
+		const flexpm::GrainNode found = flexpm::grain_node(assembly.grains, node);
+		rows.insert(rows.end(), { found.grain, found.number });
 	}
 	return copied(rows, 2);
 }

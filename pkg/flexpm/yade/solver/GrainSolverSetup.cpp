@@ -101,6 +101,7 @@ void GrainSolver::addToScene()
 	if (!bodyIds.empty()) flexpm::refuse("GrainSolver.bodyIds", static_cast<double>(bodyIds.size()), "bodies", "are in the scene already; add them once");
 	insertBodies();
 	insertContacts();
+	mirrorBodies();
 }
 
 void GrainSolver::insertBodies()
@@ -123,6 +124,9 @@ void GrainSolver::insertBodies()
 		const auto p     = assembly.grains.position(assembly.grains.centre(grain));
 		body->state->pos = body->state->refPos = Vector3r(p.x, p.y, 0);
 		body->state->blockedDOFs               = State::DOF_ALL;
+		const auto mass                        = flexpm::real_mass(assembly, grain);
+		body->state->mass                      = mass.mass;
+		body->state->inertia                   = Vector3r(0, 0, mass.inertia);
 		body->setBounded(true);
 		bodyIds.push_back(world->bodies->insert(body));
 	}
@@ -132,13 +136,9 @@ void GrainSolver::insertContacts()
 {
 	const auto& world = Omega::instance().getScene();
 	for (int c = 0; c < assembly.contacts.count; ++c) {
-		auto bond     = boost::make_shared<Interaction>(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
-		auto geom     = boost::make_shared<LobattoGeom>();
-		auto phys     = boost::make_shared<LobattoPhys>();
-		geom->contact = phys->contact = assembly.contacts.id[c];
-		bond->geom                    = geom;
-		bond->phys                    = phys;
-		bond->iterMadeReal            = world->iter;
+		auto bond = boost::make_shared<Interaction>(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
+		makeBond(assembly, assembly.contacts.id[c], *bond);
+		bond->iterMadeReal = world->iter;
 		world->interactions->insert(bond);
 	}
 	seenDestroyed = destroyedContacts();
