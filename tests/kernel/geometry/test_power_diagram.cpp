@@ -172,6 +172,17 @@ TEST_CASE("wrong discs and outlines are refused", "[power_diagram]")
     REQUIRE_THROWS_AS(Outline::circle({ 0, 0 }, -1.0), std::invalid_argument);
     REQUIRE_THROWS_AS(tessellate({ { { 0.0, 0.0 }, 0.1 } }, Outline::circle({ 0, 0 }, 1.0), {}),
         std::invalid_argument);
+    // one disc holds the whole circle and hides the other
+    REQUIRE_THROWS_WITH(tessellate({ { { 0.0, 0.0 }, 9.0 }, { { 0.5, 0.0 }, 0.1 } },
+                            Outline::circle({ 0, 0 }, 1.0), { 0.0, true }),
+        Catch::Contains("must be enough to span an area"));
+    REQUIRE_THROWS_WITH(
+        Outline::circle({ 0, 0 }, 1e10), Catch::Contains("radius around it = 10000000000 m"));
+    REQUIRE_THROWS_WITH(Outline::polygon({ { 0, 0 }, { 1e-10, 0 }, { 0, 1e-10 } }),
+        Catch::Contains("check the units"));
+    REQUIRE_THROWS_WITH(Outline::circle({ 2e6, 0 }, 1.0), Catch::Contains("of the origin"));
+    REQUIRE_THROWS_WITH(tessellate({ { { 0.5, 0.5 }, 1e3 } }, box, {}),
+        Catch::Contains("must not exceed 1000 times"));
 }
 
 TEST_CASE("discs in one place to round-off count as one", "[power_diagram]")

@@ -54,6 +54,24 @@ Chord clip_by_polygon(const Outline& outline, Point on_axis, Point direction)
         on_side(outline, side1, on_axis, direction) };
 }
 
+/// Size and place of an outline [m]: beyond them squares of lengths overflow, or coordinates lose the digits in which
+/// cells differ.
+constexpr double least_size = 1e-9, largest_size = 1e9, farthest = 1e6;
+
+Outline with_checked_size(const Outline& outline)
+{
+    const BoundingCircle box = bounding_circle(outline);
+    if (!(box.radius >= least_size && box.radius <= largest_size)) {
+        refuse(
+            "outline: radius around it", box.radius, "m", "must be 1e-9 to 1e9 m; check the units");
+    }
+    if (!(norm(box.centre) <= farthest * box.radius)) {
+        refuse("outline: centre", place(box.centre),
+            "must be within 1e6 times its size of the origin; move it there");
+    }
+    return outline;
+}
+
 }  // namespace
 
 Outline Outline::polygon(std::vector<Point> corners)
@@ -78,7 +96,7 @@ Outline Outline::polygon(std::vector<Point> corners)
     }
     Outline outline;
     outline.corners = std::move(corners);
-    return outline;
+    return with_checked_size(outline);
 }
 
 Outline Outline::circle(Point centre, double radius)
@@ -90,7 +108,7 @@ Outline Outline::circle(Point centre, double radius)
     Outline outline;
     outline.centre = centre;
     outline.radius = radius;
-    return outline;
+    return with_checked_size(outline);
 }
 
 bool contains(const Outline& outline, Point p)

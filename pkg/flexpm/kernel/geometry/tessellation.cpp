@@ -94,9 +94,12 @@ Tessellation tessellate(
     const double zero = zero_edge * mean_diameter;
     collapse_edges(diagram, outline, zero, -zero * mean_diameter);
 
+    // a disc that holds all of a circle has no corner
+    const bool any = std::any_of(diagram.cells.begin(), diagram.cells.end(),
+        [](const std::vector<CellEdge>& cell) { return !cell.empty(); });
     for (std::size_t i = 0; i < discs.size(); ++i) {
         auto& cell = diagram.cells[i];
-        if ((cell.size() > 0 && cell.size() < 3) || (cell.empty() && discs.size() == 1)) {
+        if (!any || (cell.size() > 0 && cell.size() < 3)) {
             refuse("tessellate: discs", static_cast<double>(discs.size()), "",
                 "must be enough to span an area in a circle; add discs or use a polygon");
         }

@@ -2,6 +2,7 @@
 /// @file  One step and what comes at its periods.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
+#include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
@@ -17,6 +18,7 @@ shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene) { return YADE_P
 
 void GrainSolver::postLoad(GrainSolver&)
 {
+	flexpm::check_state(assembly);
 	if (assembly.grains.count > 0) flexpm::prepare_step(assembly);
 }
 
