@@ -104,6 +104,10 @@ def test_wrong_input_is_one_line_and_exit_code_2(capsys, arguments, message):
     assert message in refused(capsys, *arguments.split())
 
 
+def test_a_word_like_no_command_gets_no_guess(capsys):
+    assert "did you mean" not in refused(capsys, "nosuch")
+
+
 @pytest.mark.parametrize("key", [key for key, unit in UNITS.items() if unit is not None])
 def test_each_key_of_a_material_out_of_range(capsys, tmp_path, key):
     for value in ("nan", "-1"):

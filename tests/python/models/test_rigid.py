@@ -46,6 +46,14 @@ def test_a_grid_of_squares_has_the_modulus_of_its_contacts() -> None:
     assert found["triangles"] == 0
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_the_elastic_solve_takes_the_default_material_of_its_model(
+    rectangle: flexpm.Specimen, model: str
+) -> None:
+    default = flexpm.materials.load(None, model)
+    assert models.elastic(rectangle, model=model) == models.elastic(rectangle, default, model)
+
+
 def test_uniaxial_compression(rectangle: flexpm.Specimen) -> None:
     elastic = models.elastic(rectangle, "augig-table2-bilinear", "rigid")
     result = flexpm.run("uniaxial", rectangle, model="rigid")
