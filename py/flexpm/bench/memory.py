@@ -30,7 +30,7 @@ _TRAFFIC = {
     # 216, forces 64) and the places of the forces (24); what contacts leave in a cache for the
     # grains that follow at once does not count again
     "contacts": 400,
-    # displacement and velocity, both ways (64), force (16), mass (8) and held flags (2)
+    # displacement and velocity, both ways (64), force (16), mass (8) and prescribed flags (2)
     "nodes": 90,
     # shape functions and volume
     "triangles": 40,

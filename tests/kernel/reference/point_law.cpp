@@ -10,8 +10,14 @@ namespace {
 
 using flexpm::LawParameters;
 
-bool opens_brittle(const LawParameters& law) { return law.opening_rate >= flexpm::brittle_rate; }
-bool slides_brittle(const LawParameters& law) { return law.slip_rate >= flexpm::brittle_rate; }
+bool opens_brittle(const LawParameters& law)
+{
+    return law.inverse_softening_length >= flexpm::brittle_limit;
+}
+bool slides_brittle(const LawParameters& law)
+{
+    return law.slip_compliance >= flexpm::brittle_limit;
+}
 
 /// D_n = clamp((u_max - u_e) / (u_c - u_e), 0, 1).
 double opening_damage(const LawParameters& law, double largest)

@@ -34,8 +34,8 @@ struct LawRow {
         elastic_opening,
         critical_opening,
         critical_slip,
-        opening_rate,
-        slip_rate,
+        inverse_softening_length,
+        slip_compliance,
         count
     };
 };
@@ -69,7 +69,7 @@ FLEXPM_INLINE LawParameters load_law(const double* rows, int lane)
     return { at(LawRow::normal_stiffness), at(LawRow::shear_stiffness),
         at(LawRow::tensile_strength), at(LawRow::cohesion), at(LawRow::friction),
         at(LawRow::elastic_opening), at(LawRow::critical_opening), at(LawRow::critical_slip),
-        at(LawRow::opening_rate), at(LawRow::slip_rate) };
+        at(LawRow::inverse_softening_length), at(LawRow::slip_compliance) };
 }
 
 inline void store_law(const LawParameters& p, double* rows, int lane)
@@ -83,8 +83,8 @@ inline void store_law(const LawParameters& p, double* rows, int lane)
     r[LawRow::elastic_opening * lanes] = p.elastic_opening;
     r[LawRow::critical_opening * lanes] = p.critical_opening;
     r[LawRow::critical_slip * lanes] = p.critical_slip;
-    r[LawRow::opening_rate * lanes] = p.opening_rate;
-    r[LawRow::slip_rate * lanes] = p.slip_rate;
+    r[LawRow::inverse_softening_length * lanes] = p.inverse_softening_length;
+    r[LawRow::slip_compliance * lanes] = p.slip_compliance;
 }
 
 }  // namespace flexpm

@@ -27,8 +27,8 @@ template <class Part, class Visitor> void visit_members(Part& part, Visitor&& vi
         visit("elastic_opening", part.elastic_opening);
         visit("critical_opening", part.critical_opening);
         visit("critical_slip", part.critical_slip);
-        visit("opening_rate", part.opening_rate);
-        visit("slip_rate", part.slip_rate);
+        visit("inverse_softening_length", part.inverse_softening_length);
+        visit("slip_compliance", part.slip_compliance);
     } else {
         Plain::visit_members(part, visit);
     }

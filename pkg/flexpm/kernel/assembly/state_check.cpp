@@ -216,7 +216,8 @@ void check_plate(const Plate& plate, int edges)
 void check_ledger(const EnergyLedger& ledger, int blocks)
 {
     check_size("works of damping", ledger.damping_work.size(), 2 * std::int64_t { blocks });
-    check_size("works of held nodes", ledger.prescribed_work.size(), 2 * std::int64_t { blocks });
+    check_size(
+        "works of prescribed nodes", ledger.prescribed_work.size(), 2 * std::int64_t { blocks });
     check_size("kinetic energies", ledger.kinetic.size(), blocks);
     check_size("largest forces", ledger.largest_force.size(), blocks);
 }

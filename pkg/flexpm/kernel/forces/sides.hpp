@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sides of a specimen: held and driven nodes, reactions, mean displacements, pressure,
+/// @file  Sides of a specimen: nodes of prescribed velocity, reactions, mean displacements, pressure,
 /// paper Sec. 4.1. Components: 0 = x, 1 = y.
 #pragma once
 

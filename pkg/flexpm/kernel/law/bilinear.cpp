@@ -11,11 +11,11 @@ namespace {
 // relative tolerance on "fracture energy = elastic energy", the brittle limit
 constexpr double brittle_tolerance = 1e-12;
 
-/// 1 / (critical - elastic), or `brittle_rate` where the two agree.
-double rate(double critical, double elastic)
+/// 1 / (critical - elastic), or `brittle_limit` where the two agree.
+double inverse_difference(double critical, double elastic)
 {
     return critical - elastic > brittle_tolerance * elastic ? 1.0 / (critical - elastic)
-                                                            : brittle_rate;
+                                                            : brittle_limit;
 }
 
 /// Refuse a fracture energy below the elastic one, which leaves nothing to soften.
@@ -54,13 +54,14 @@ LawParameters make_law(const ContactMaterial& m)
     p.elastic_opening = m.tensile_strength / p.normal_stiffness;
     p.critical_opening =
         std::max(2.0 * m.tensile_fracture_energy / m.tensile_strength, p.elastic_opening);
-    p.opening_rate = rate(p.critical_opening, p.elastic_opening);
+    p.inverse_softening_length = inverse_difference(p.critical_opening, p.elastic_opening);
     const double elastic_slip = m.cohesion / p.shear_stiffness;
     p.critical_slip = std::max(2.0 * m.shear_fracture_energy / m.cohesion, elastic_slip);
     // eta K_n - tau / s_c = eta K_n (1 - s_e / s_c)
-    const double slip_rate = rate(p.critical_slip, elastic_slip);
-    p.slip_rate =
-        slip_rate < brittle_rate ? slip_rate * p.critical_slip / p.shear_stiffness : brittle_rate;
+    const double inverse_length = inverse_difference(p.critical_slip, elastic_slip);
+    p.slip_compliance = inverse_length < brittle_limit
+        ? inverse_length * p.critical_slip / p.shear_stiffness
+        : brittle_limit;
     return p;
 }
 

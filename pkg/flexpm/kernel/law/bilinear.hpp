@@ -34,13 +34,15 @@ struct LawParameters {
     double elastic_opening = 0.0;   ///< u_e = sigma_nt / K_n [m]
     double critical_opening = 0.0;  ///< u_c = 2 G_fn / sigma_nt [m]
     double critical_slip = 0.0;     ///< s_c = 2 G_fs / tau [m]
-    double opening_rate = 0.0;      ///< 1 / (u_c - u_e) [1/m]; `brittle_rate` in the brittle limit
-    double slip_rate = 0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_rate` in the limit
+    double inverse_softening_length =
+        0.0;  ///< 1 / (u_c - u_e) [1/m]; `brittle_limit` in the brittle limit
+    double slip_compliance =
+        0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_limit` in the limit
 };
 
-/// Stand-in for an infinite rate: any excess over the strength uses up all damage at once, and an
+/// Stand-in for infinity: any excess over the strength uses up all damage at once, and an
 /// excess of exactly zero still gives zero.
-constexpr double brittle_rate = 1e200;
+constexpr double brittle_limit = 1e200;
 
 /// Derive the law's parameters from a contact's properties.
 /// @throws std::invalid_argument  if a value is not finite or out of range, or if a fracture energy
@@ -48,7 +50,7 @@ constexpr double brittle_rate = 1e200;
 LawParameters make_law(const ContactMaterial& material);
 
 /// Material of the same stiffness and friction, with strengths that only an opening or a slip of one
-/// metre would reach.
+/// metre would come to.
 ContactMaterial unbreakable(const ContactMaterial& material);
 
 /// State of a point, which is all that it needs to continue. All zero means bonded and unloaded.
@@ -67,7 +69,8 @@ namespace law {
 /// D_n [-] of a point whose largest opening is `max_opening`.
 inline double normal_damage(const LawParameters& p, double max_opening)
 {
-    return std::min(std::max((max_opening - p.elastic_opening) * p.opening_rate, 0.0), 1.0);
+    return std::min(
+        std::max((max_opening - p.elastic_opening) * p.inverse_softening_length, 0.0), 1.0);
 }
 
 /// D = min(D_n + D_s, 1) [-]; 1 = cracked.
@@ -192,7 +195,7 @@ FLEXPM_INLINE Traction advance_point(
     const double excess = std::max(size - std::max(limit, 0.0), 0.0);
     const double slip_left = (1.0 - opened) * p.critical_slip;
     const double softening = p.cohesion / p.critical_slip;
-    const double damaging = std::min(excess * p.slip_rate, slip_left);
+    const double damaging = std::min(excess * p.slip_compliance, slip_left);
     const double new_limit = std::max(limit - softening * damaging, 0.0);
     const double shear_size = excess > 0.0 ? std::min(size, new_limit) : size;
     const double slip = (size - shear_size) / p.shear_stiffness;

@@ -3,7 +3,7 @@
 ///
 /// A step moves the nodes by their velocities, updates contacts, boundary pressure and elements at
 /// the new positions, and then integrates the velocities: positions and forces belong to step n,
-/// velocities to n + 1/2. Velocities set between two steps (held nodes) therefore act at once.
+/// velocities to n + 1/2. Velocities set between two steps (prescribed nodes) therefore act at once.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
