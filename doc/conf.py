@@ -28,6 +28,7 @@ rst_epilog = ".. |yupdate| replace:: (written by the engine)"
 exclude_patterns = ["_build"]
 html_theme = "alabaster"
 html_theme_options = {"page_width": "62em", "body_max_width": "48em", "fixed_sidebar": True}
+html_static_path = ["static"]  # custom.css, which the theme looks for
 html_show_sourcelink = False
 man_pages = [("command", "flexpm", "flexible particle model of rock for YADE", "", 1)]
 nitpicky = True
