@@ -33,14 +33,17 @@ ContactMaterial draw_material(Bytes& bytes)
     return m;
 }
 
-/// Ways as large as a law of rock knows them: beyond, numbers overflow.
+/// Ways as large as a law of rock knows them: beyond, numbers overflow or lose their digits.
 bool is_usual(const LawParameters& p)
 {
     for (double way : { p.elastic_opening, p.critical_opening, p.critical_slip,
              p.cohesion / p.shear_stiffness }) {
         if (!(way > 1e-20 && way < 1e6)) return false;
     }
-    return p.normal_stiffness < 1e30 && p.shear_stiffness < 1e30 && p.friction < 1e6;
+    for (double stiffness : { p.normal_stiffness, p.shear_stiffness }) {
+        if (!(stiffness > 1e-30 && stiffness < 1e30)) return false;
+    }
+    return p.friction == 0.0 || (p.friction > 1e-30 && p.friction < 1e6);
 }
 
 void check_step(const LawParameters& p, const PointState& old, const PointState& s, Traction t)

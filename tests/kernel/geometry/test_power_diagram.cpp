@@ -181,8 +181,10 @@ TEST_CASE("wrong discs and outlines are refused", "[power_diagram]")
     REQUIRE_THROWS_WITH(Outline::polygon({ { 0, 0 }, { 1e-10, 0 }, { 0, 1e-10 } }),
         Catch::Contains("check the units"));
     REQUIRE_THROWS_WITH(Outline::circle({ 2e6, 0 }, 1.0), Catch::Contains("of the origin"));
-    REQUIRE_THROWS_WITH(tessellate({ { { 0.5, 0.5 }, 1e3 } }, box, {}),
-        Catch::Contains("must not exceed 1000 times"));
+    for (double radius : { 1e3, 1e-10 }) {
+        REQUIRE_THROWS_WITH(tessellate({ { { 0.5, 0.5 }, radius } }, box, {}),
+            Catch::Contains("must be 1e-9 to 1000 times"));
+    }
 }
 
 TEST_CASE("discs in one place to round-off count as one", "[power_diagram]")

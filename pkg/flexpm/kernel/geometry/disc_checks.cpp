@@ -29,15 +29,16 @@ void require_sound(const Disc& disc, const std::string& name)
 void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
 {
     if (discs.empty()) refuse("tessellate: discs", 0.0, "", "must be >= 1; give at least one disc");
-    // the square of a larger radius leaves no digits for places inside the outline
-    const double largest = 1e3 * bounding_circle(outline).radius;
+    // the square of a larger radius leaves no digits for places inside the outline, and centres that a smaller one
+    // tells apart have too few digits between them
+    const double size = bounding_circle(outline).radius;
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const Disc& d = discs[i];
         const std::string name = "tessellate: disc " + std::to_string(i);
         require_sound(d, name);
-        if (d.radius > largest) {
+        if (d.radius > 1e3 * size || d.radius < 1e-9 * size) {
             refuse(name + ": radius", d.radius, "m",
-                "must not exceed 1000 times the outline's; correct the disc");
+                "must be 1e-9 to 1000 times the outline's; correct the disc");
         }
         if (!contains(outline, d.centre)) {
             refuse(name + ": centre", place(d.centre),
