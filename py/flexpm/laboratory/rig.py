@@ -12,7 +12,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Protocol
+from typing import NoReturn, Protocol
 
 import yade
 from yade import EnumClass_TestState as TestState
@@ -212,10 +212,14 @@ class TestRig(ABC):
 
     def _preload(self, steps: int) -> None:
         """Let so many steps go along the elastic solution, close to the first crack."""
-        raise SimulationError(f"load: static = True, must be False for model {self.built.name}")
+        self._refuse_preload()
 
     def _release(self) -> None:
-        raise NotImplementedError
+        """Let go of the nodes that the preload has moved."""
+        self._refuse_preload()
+
+    def _refuse_preload(self) -> NoReturn:
+        raise SimulationError(f"load: static = True, must be False for model {self.built.name}")
 
     def _step(self) -> None:
         yade.O.step()

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference/random_case.hpp"
 
+#include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
+#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
 
+#include "support/contact_round.hpp"
+#include "support/driven.hpp"
 #include "support/law_path.hpp"
-#include "support/sample_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -294,7 +301,7 @@ void RandomCase::draw_motion()
 
 void RandomCase::load()
 {
-    if (touches && assembly.step % 10 == 9) sample_runs::update_contacts(assembly);
+    if (touches && assembly.step % 10 == 9) contact_round::update_contacts(assembly);
     if (assembly.step >= next_motion) draw_motion();
 }
 

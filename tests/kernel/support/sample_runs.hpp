@@ -6,9 +6,9 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
+#include "contact_round.hpp"
 #include "same_bits.hpp"
 
 #include <functional>
@@ -90,21 +90,6 @@ inline Assembly squeezed(bool rigid)
     return a;
 }
 
-/// End contacts that are over, begin those of discs that touch.
-inline void update_contacts(Assembly& a)
-{
-    flexpm::follow_touches(a, 0.0, 1.0);
-    std::vector<int> over;
-    for (int c = 0; c < a.contacts.count; ++c) {
-        if (flexpm::is_active(a.contacts, c) && flexpm::has_ended(a, c)) over.push_back(c);
-    }
-    std::vector<flexpm::GrainPair> touching;
-    for (const flexpm::GrainPair& pair : flexpm::near_pairs(a, 1e-4)) {
-        if (flexpm::is_touching(a, pair)) touching.push_back(pair);
-    }
-    flexpm::change_contacts(a, over, touching, 0.0, 1.0);
-}
-
 /// The upper row of a grid of rigid grains is torn off and thrown back askew: its bonds end, its discs
 /// touch those below and roll.
 inline Assembly thrown()
@@ -118,7 +103,7 @@ inline Assembly thrown()
             flexpm::set_motion(a.grains, g, way, 1e-5 * g, 1.0);
         for (int i = 0; i < 20; ++i) {
             step(a, 10, 0.0);
-            update_contacts(a);
+            contact_round::update_contacts(a);
         }
     }
     return a;
