@@ -10,7 +10,7 @@ import numpy as np
 import yade
 
 from ..arrays import FloatArray
-from ..models.sphere_bonds import tributary_lengths
+from ..models.sphere_bonds import in_order, tributary_lengths
 from ..models.spheres import SphereModel
 from ..specimens.specimen import Circle, Specimen
 from .rig import BOTTOM, TOP
@@ -33,7 +33,7 @@ class Ends:
     def forces(self) -> tuple[float, float]:
         """Forces along y that the lower and the upper end exert on the specimen [N]."""
         bottom, top = (
-            -sum(yade.O.forces.f(body)[1] for body in bodies)
+            -in_order(yade.O.forces.f(body)[1] for body in bodies)
             for bodies in (self._bottom, self._top)
         )
         return bottom, top
@@ -154,7 +154,7 @@ class Pressure:
             abs(yade.O.forces.permF(self._built.ids[grain])[0])
             for grain in np.unique(self._edges[:, 0]).tolist()
         ]
-        return 0.5 * sum(pushes) / (height * self._built.specimen.thickness)
+        return 0.5 * in_order(pushes) / (height * self._built.specimen.thickness)
 
 
 def hold_middle(built: SphereModel) -> None:

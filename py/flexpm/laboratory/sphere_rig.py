@@ -30,7 +30,7 @@ from .._flexpm import (
     splitting_area,
     test_state,
 )
-from ..models.sphere_bonds import tributary_lengths
+from ..models.sphere_bonds import in_order, tributary_lengths
 from ..models.spheres import SphereModel
 from ..results.record import Curve
 from . import sphere_ends as ends
@@ -122,7 +122,7 @@ class SphereRig(TestRig):
         inputs = (
             contact_modulus(law["normal_stiffness"], specimen.mean_diameter),
             reference_strength(self.tension or self.disc, *strengths),
-            sum(yade.O.bodies[body].state.mass for body in self.built.ids),
+            in_order(yade.O.bodies[body].state.mass for body in self.built.ids),
             specimen.thickness,
             yade.O.dt,
         )

@@ -13,7 +13,10 @@ models break at once: fracture energies are not used. Strengths are forces and m
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
@@ -37,6 +40,14 @@ class Bonds:
 
     def __len__(self) -> int:
         return len(self.grains)
+
+
+def in_order(values: Iterable[float]) -> float:
+    """Sum of numbers from the first to the last, each sum rounded.
+
+    ``sum`` gives other bits since Python 3.12, which carries the rounding errors along.
+    """
+    return reduce(operator.add, values, 0.0)
 
 
 def bonds_of(specimen: Specimen, law: Law) -> Bonds:

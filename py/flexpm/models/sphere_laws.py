@@ -13,12 +13,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from yade import wrapper
+from yade import log, wrapper
 
 from ..arrays import FloatArray
 from ..materials.material import Law
 from ..specimens.specimen import Specimen
-from .sphere_bonds import Bonds, separate_radii
+from .sphere_bonds import Bonds, in_order, separate_radii
 
 #: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
 _PLATE_STIFFNESS = 1e3
@@ -172,7 +172,7 @@ class Jcfpm(SphereLaw):
     ) -> float:
         """Elastic energy of unbroken bonds and of contacts with plates [J]."""
         whole = [bond for bond in bonds if bond.isCohesive]
-        return float(sum(bond.strainEnergy for bond in (*whole, *touching)))
+        return in_order(bond.strainEnergy for bond in (*whole, *touching))
 
 
 class Cohfrict(SphereLaw):
@@ -187,6 +187,8 @@ class Cohfrict(SphereLaw):
 
     def functors(self) -> Functors:
         """New functors for an interaction loop."""
+        # newer releases of YADE warn of bonds that break in shear and have elastic moments
+        log.setLevel("Law2_ScGeom6D_CohFrictPhys_CohesionMoment", log.ERROR)
         return Functors(
             wrapper.Ig2_Sphere_Sphere_ScGeom6D(),
             wrapper.Ig2_Box_Sphere_ScGeom6D(),
@@ -214,6 +216,10 @@ class Cohfrict(SphereLaw):
         bond.kr = bond.ktw = float(bonds.bending_stiffness[row])
         bond.normalAdhesion = float(bonds.tensile_strength[row])
         bond.shearAdhesion = float(bonds.shear_strength[row])
+        # newer releases of YADE also break bonds by moments; limits below zero: elastic ones
+        for limit in ("rollingAdhesion", "twistingAdhesion"):
+            if hasattr(bond, limit):
+                setattr(bond, limit, -1.0)
 
     def set_rest(self, contact: wrapper.Interaction, overlap: float) -> None:
         """Set the overlap at which a contact carries no force [m]."""

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+ERROR: int
 FATAL: int
 
 def getUsedLevels() -> dict[str, int]: ...
