@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,3 +30,22 @@ def package_parent() -> Path:
     import flexpm
 
     return Path(flexpm.__file__).parent.parent
+
+
+@pytest.fixture(scope="session")
+def build_folder(package_parent: Path) -> Path:
+    """The build under test, for tests of building and installing."""
+    if not (package_parent.parent / "CMakeCache.txt").is_file():
+        pytest.skip("flexpm is installed, needs a build folder")
+    return package_parent.parent
+
+
+@pytest.fixture(scope="session")
+def launcher(package_parent: Path) -> list[str]:
+    """The command flexpm of the package under test, as a user starts it."""
+    build = package_parent.parent
+    if (build / "CMakeCache.txt").is_file():
+        return ["env", f"FLEXPM_BUILD_DIR={build}", str(ROOT / "scripts" / "flexpm")]
+    command = shutil.which("flexpm")
+    assert command is not None, "flexpm is installed without its command"
+    return [command]

@@ -175,11 +175,9 @@ def test_a_signal_while_libraries_are_loaded_is_one_line(tmp_path, number, code,
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 @pytest.mark.parametrize("delay", [0.02, 0.04, 0.08])
-def test_a_signal_while_python_starts_is_one_line(number, code, delay):
-    launcher = Path(__file__).parents[3] / "scripts" / "flexpm"
-    build = {**os.environ, "FLEXPM_BUILD_DIR": str(Path(flexpm.__file__).parents[2])}
+def test_a_signal_while_python_starts_is_one_line(number, code, delay, launcher):
     process = subprocess.Popen(
-        [launcher, "doctor"], env=build, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*launcher, "doctor"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     time.sleep(delay)
     process.send_signal(number)
