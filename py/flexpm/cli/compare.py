@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,8 @@ from ..laboratory.run_spec import TESTS
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
-from . import inputs, terminal
+from ..studies.jobs import place_of
+from . import inputs, packings, terminal
 from . import options as cli_options
 from .options import Each, Name, Quantity
 
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from ..studies.comparison import Case
 
 
-@click.command(short_help="Several models on one packing.")
+@click.command(short_help="Several models on the same packings.")
 @click.argument("test", metavar="TEST")
 @click.option(
     "--models",
@@ -47,6 +49,7 @@ if TYPE_CHECKING:
 @cli_options.rectangle_options
 @cli_options.disc_options
 @cli_options.packing_options
+@cli_options.seeds_options
 @cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option
@@ -59,7 +62,7 @@ def compare(
     quiet: bool,
     **options: Any,
 ) -> None:
-    """Run a test with several models on one packing: one table, one picture.
+    """Run a test with several models on one packing, or on several: one table, one picture.
 
     TEST is as for run. Each model takes its default material unless one is given. Each run has a
     folder of its own below the output folder; what is finished there is not run again.
@@ -75,6 +78,14 @@ def compare(
         inputs.run_spec(test, options | {"model": model}, material)
         for model, material in chosen.items()
     ]
+    if several := packings.asked(options):
+        placed = {
+            place_of(spec.model, pressure, len(confinements)): replace(spec, confinement=pressure)
+            for spec in specs
+            for pressure in confinements
+        }
+        packings.carry_out(placed, several, options, out=out, quiet=quiet)
+        return
     folder = inputs.locked_folder(out)
     inputs.load_yade()
     from ..studies import comparison

@@ -30,7 +30,7 @@ from ..report import tables
 from ..require import NOT_NEGATIVE, nearest, require_known
 from ..text import name_of
 from . import compare as cli_compare
-from . import inputs, signals, terminal
+from . import inputs, packings, signals, terminal
 from . import options as cli_options
 from .options import Count, Quantity
 
@@ -80,6 +80,7 @@ def command() -> None:
 @cli_options.rectangle_options
 @cli_options.disc_options
 @cli_options.packing_options
+@cli_options.seeds_options
 @click.option(
     "--confinement",
     type=Quantity("Pa", NOT_NEGATIVE),
@@ -106,6 +107,10 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     require_known("test", test, TESTS)
     chosen = inputs.material(options)
     spec = inputs.run_spec(test, options, chosen)
+    if several := packings.asked(options):
+        asked = options | {"discard_checkpoint": discard_checkpoint}
+        packings.carry_out({"": spec}, several, asked, out=out, quiet=quiet)
+        return
     folder = inputs.locked_folder(out)
     inputs.load_yade()
     from ..laboratory import checkpoint, protocols

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -112,6 +113,40 @@ class Each(click.ParamType):
         return found
 
 
+class Seeds(click.ParamType):
+    """Seeds of several packings: numbers and ranges between commas, each seed once."""
+
+    name = "seeds"
+    _PART = re.compile(r"([0-9]{1,9})(?:-([0-9]{1,9}))?")
+    #: More are a mistake in a range.
+    _MOST = 1000
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[int, ...]:
+        """Return the seeds in the order given, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        told = f"{label_of(param)} = {value}, must"
+        ranges = []
+        for part in str(value).split(","):
+            found = self._PART.fullmatch(part.strip())
+            if found is None:
+                raise InputError(f"{told} be whole numbers and ranges such as 1-5 or 1,3,7-9")
+            first, last = int(found[1]), int(found[2] or found[1])
+            if last < first:
+                raise InputError(f"{told} go upwards; {first}-{last} does not")
+            ranges.append(range(first, last + 1))
+        count = sum(map(len, ranges))
+        if count > self._MOST:
+            raise InputError(f"{told} be at most {self._MOST} packings, not {count}")
+        seeds = tuple(seed for one in ranges for seed in one)
+        for number, seed in enumerate(seeds):
+            if seed in seeds[:number]:
+                raise InputError(f"{told} name {seed} once")
+        return seeds
+
+
 class Name(click.ParamType):
     """One of a few names; a typo names the nearest."""
 
@@ -172,6 +207,21 @@ seed_option = click.option(
     metavar="N",
     show_default=True,
     help="Seed of the packing.",
+)
+seeds_options = combined(
+    click.option(
+        "--seeds",
+        type=Seeds(),
+        metavar="N-M,...",
+        help="Test the packings of several seeds, such as 1-5 or 1,3,7-9; a table and a picture "
+        "with mean and standard deviation.",
+    ),
+    click.option(
+        "--workers",
+        type=Count(1),
+        metavar="N",
+        help="Runs at a time, with --seeds.  [default: one per core]",
+    ),
 )
 threads_option = click.option(
     "--threads",

@@ -27,6 +27,7 @@ from ..results.result import Result
 from ..results.strength import Envelope
 from ..specimens.specimen import Specimen
 from ..text import name_of
+from .jobs import place_of
 
 #: Columns of compare.csv before the numbers of the result.
 _FIRST = ("model", "material", "confinement", "folder")
@@ -214,10 +215,9 @@ def _each_once(name: str, values: Sequence[Value]) -> list[Value]:
 
 def _give_folders(cases: Sequence[Case], folder: Path) -> None:
     """Give each run a folder below that of the comparison."""
-    several = len({case.confinement for case in cases}) > 1
+    confinements = len({case.confinement for case in cases})
     for case in cases:
-        pressure = f"{1e-6 * case.confinement:g}MPa" if several else ""
-        case.folder = folder / case.model / pressure
+        case.folder = folder / place_of(case.model, case.confinement, confinements)
 
 
 def _envelopes(cases: Sequence[Case]) -> list[Envelope]:

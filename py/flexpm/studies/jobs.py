@@ -41,16 +41,23 @@ class Job:
         inputs: What was asked for, flat: ``test``, options by name, ``set.KEY`` for the material.
         arguments: Of the command, without the folder.
         spec: All that determines the outcome.
+        place: Folder of the run below that of all; empty for the key.
     """
 
     inputs: Table
     arguments: tuple[str, ...]
     spec: RunSpec
+    place: str = ""
 
     @property
     def key(self) -> str:
-        """Name of the job and of its folder."""
+        """Name of the job."""
         return self.spec.key()
+
+    @property
+    def folder(self) -> str:
+        """Folder of the run below that of all."""
+        return self.place or self.key
 
     def command(self, folder: Path, worker_path: Path) -> list[str]:
         """The command line for a folder; `worker_path` holds the package.
@@ -91,15 +98,32 @@ def make(inputs: Table, base: Path) -> Job:
     changes = [f"{key.removeprefix('set.')}={used[key]}" for key in used if key in _CHANGES]
     material = load_material(used.get("material"), model).with_set(changes, model)
     spec = RunSpec.from_options(test, used, material)
-    return Job({"test": test, **used}, tuple(_arguments(test, used)), spec)
+    return Job({"test": test, **used}, tuple(arguments(test, used)), spec)
 
 
-def known(folder: Path) -> Table | None:
-    """The outcome of a job that has ended in `folder`, or None."""
+def place_of(model: str, confinement: float, confinements: int) -> str:
+    """Folder of a run of a comparison: the model, and the pressure if there are several.
+
+    Args:
+        model: Name of the model.
+        confinement: Lateral pressure [Pa].
+        confinements: Number of lateral pressures that are compared.
+    """
+    return f"{model}/{1e-6 * confinement:g}MPa" if confinements > 1 else model
+
+
+def known(folder: Path, key: str | None = None) -> Table | None:
+    """The outcome of a job that has ended in `folder`, or None.
+
+    Args:
+        folder: Of the run.
+        key: Of the job; the outcome of another one does not count. None: of any.
+    """
     try:
         outcome: Table = json.loads((folder / _OUTCOME).read_text(encoding="utf-8"))
         whole = outcome["exit_code"] in _FINAL and isinstance(outcome["message"], str)
-        return outcome if whole and isinstance(outcome["result"], dict) else None
+        whole = whole and isinstance(outcome["result"], dict)
+        return outcome if whole and key in (None, outcome.get("key", key)) else None
     except (OSError, ValueError, LookupError, TypeError, RecursionError):
         return None
 
@@ -131,10 +155,11 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
         return {"exit_code": None, "message": f"{type(done).__name__}: {done}", "result": {}}
     lines = [line for line in done.stderr.splitlines() if line.startswith("flexpm: ")]
     outcome = {
+        "key": job.key,
         "inputs": dict(job.inputs),
         "exit_code": done.returncode,
         # a table must not depend on where its runs lie
-        "message": lines[-1].removeprefix("flexpm: ").replace(str(folder), job.key)
+        "message": lines[-1].removeprefix("flexpm: ").replace(str(folder), job.folder)
         if lines
         else "",
         "result": _measures(folder / "result.json"),
@@ -165,8 +190,8 @@ def _measures(file: Path) -> Table:
     }
 
 
-def _arguments(test: str, used: Table) -> Iterator[str]:
-    """The command with its options."""
+def arguments(test: str, used: Table) -> Iterator[str]:
+    """The command for a test with its options, which are named as in a study."""
     # a checkpoint that cannot be used is no fault of the run
     run = ("run", test, "--discard-checkpoint")
     yield from (test,) if test == run_spec.ELASTIC else run

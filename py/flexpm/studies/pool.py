@@ -63,7 +63,7 @@ class Pool:
 
     def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[Table]:
         """Outcomes of jobs in their order; those that have ended before are not run again."""
-        known = {job.key: jobs.known(self._folder / job.key) for job in wanted}
+        known = {job.key: jobs.known(self._folder / job.folder, job.key) for job in wanted}
         outcomes = {key: outcome for key, outcome in known.items() if outcome is not None}
         waiting = [job for job in wanted if job.key not in outcomes]
         self._tell_outdated(waiting)
@@ -71,7 +71,7 @@ class Pool:
         done, failed = len(wanted) - len(waiting), 0
         report(done, len(wanted), "runs")
         for job, ended in self._ended(waiting):
-            outcome = jobs.conclude(job, self._folder / job.key, ended)
+            outcome = jobs.conclude(job, self._folder / job.folder, ended)
             outcomes[job.key] = outcome
             done, failed = done + 1, failed + (outcome["exit_code"] != 0)
             report(done, len(wanted), f"runs, {failed} failed" if failed else "runs")
@@ -98,7 +98,7 @@ class Pool:
         futures = {
             client.submit(
                 subprocess.run,
-                job.command(self._folder / job.key, parent),
+                job.command(self._folder / job.folder, parent),
                 capture_output=True,
                 text=True,
                 stdin=subprocess.DEVNULL,

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`--seeds` of the commands run and compare: the same test on several packings. SI units."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import click
+
+from ..errors import InputError, SimulationError
+from ..files import Table
+from ..laboratory import run_spec
+from ..laboratory.run_spec import RunSpec
+from ..results import doubts
+from . import inputs, terminal
+
+
+def asked(options: Table) -> Sequence[int]:
+    """Seeds of the packings that are asked for, none without `--seeds`."""
+    seeds: Sequence[int] = options["seeds"] or ()
+    if seeds and _is_given("seed"):
+        raise InputError(f"seed = {options['seed']}, must not be given with seeds; leave one out")
+    if seeds and options["threads"] != 1:
+        raise InputError(
+            f"threads = {options['threads']}, must be 1 with seeds; packings run side by side"
+        )
+    if options["workers"] and not seeds:
+        raise InputError(f"workers = {options['workers']}, must be given with seeds only")
+    return seeds
+
+
+def carry_out(
+    placed: Mapping[str, RunSpec], seeds: Sequence[int], options: Table, *, out: Path, quiet: bool
+) -> None:
+    """Run what is not finished yet, then tell means and write tables and pictures.
+
+    Args:
+        placed: The runs, of any packing, by their folder below that of all.
+        seeds: Of the packings.
+        options: Of the command.
+        out: Folder of all.
+        quiet: Show no progress bar.
+
+    Raises:
+        SimulationError: if a run failed.
+    """
+    folder = inputs.locked_folder(out)
+    from ..studies import packings
+
+    given = _given(options)
+    wanted = [
+        job for place, spec in placed.items() for job in packings.plan(spec, given, seeds, place)
+    ]
+    if not options.get("discard_checkpoint"):
+        packings.refuse_others(wanted, folder)
+    with terminal.Progress(quiet, unit="runs") as progress:
+        rows = packings.run(wanted, folder, workers=options["workers"], progress=progress)
+    terminal.say(packings.text_table(wanted, rows))
+    if criteria := packings.envelopes_text(wanted, rows):
+        terminal.say(criteria)
+    failed = packings.failures(rows)
+    for job in wanted:
+        if job.folder not in failed:
+            _tell_warnings(folder / job.folder, job.folder)
+    terminal.say(f"  files  {folder}/")
+    _report_failures(failed, len(wanted))
+
+
+def _given(options: Table) -> Table:
+    """Options of a run that differ from their defaults, by name; the material as in a study."""
+    names = (*run_spec.OPTIONS, "material")
+    found = {name: options[name] for name in names if name in options and _is_given(name)}
+    parts = (one.partition("=") for one in options["assignments"])
+    return found | {f"set.{key.strip()}": value.strip() for key, _, value in parts}
+
+
+def _is_given(name: str) -> bool:
+    source = click.get_current_context().get_parameter_source(name)
+    return source is click.core.ParameterSource.COMMANDLINE
+
+
+def _tell_warnings(folder: Path, name: str) -> None:
+    """Show the warnings of a run that have not been shown for its inputs."""
+    content = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    known = doubts.of_inputs(content["inputs"])
+    for line in content["warnings"]:
+        if line not in known:
+            terminal.say(f"warning: {name}: {line}")
+
+
+def _report_failures(failed: Mapping[str, tuple[int | None, str]], runs: int) -> None:
+    """End with an error if runs failed, which the means leave out."""
+    if not failed:
+        return
+    why = next(message for _, message in failed.values())
+    if len(failed) == runs and {code for code, _ in failed.values()} == {2}:
+        raise InputError(why)  # what all packings refuse is wrong input
+    names = ", ".join(failed)
+    raise SimulationError(f"runs = {names}, {len(failed)} of {runs} failed, in no mean; {why}")

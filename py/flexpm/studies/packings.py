@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A test on several packings: each a run of its own, then means and how packings scatter. SI units.
+
+The runs are jobs, as those of a study; their folders are named by the seeds of the packings.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pandas
+
+from ..errors import InputError
+from ..files import Table, output_folder
+from ..laboratory.run_spec import RunSpec
+from ..materials.references import reference_of
+from ..progress import Progress
+from ..report.comparison import envelope_picture
+from ..report.packings import Group, packings_picture
+from ..report.tables import columns, envelope_table, scaled
+from ..results.strength import Envelope
+from ..text import name_of
+from . import jobs
+from .jobs import Job
+from .pool import Pool
+from .tables import table, write_table
+
+#: Measures of which means are taken, with the factor, heading and digits of the printed table.
+_SHOWN: dict[str, tuple[float, str, int]] = {
+    "youngs_modulus": (1e-9, "E [GPa]", 4),
+    "poissons_ratio": (1.0, "nu", 3),
+    "peak_stress": (1e-6, "peak [MPa]", 4),
+    "peak_strain": (100.0, "strain [%]", 3),
+    "tensile_cracks": (1.0, "tensile", 4),
+    "shear_cracks": (1.0, "shear", 4),
+}
+MEASURES = tuple(_SHOWN)
+#: Inputs by which runs are told apart beside the packing.
+_BY = ["model", "confinement"]
+#: What is said of the runs of a group, by the ending of the column in means.csv.
+_SAID = {"": "mean", "_deviation": "standard deviation", "_error": "standard error"}
+
+
+def plan(spec: RunSpec, given: Table, seeds: Sequence[int], place: str = "") -> list[Job]:
+    """Runs of a test on the packings of several seeds.
+
+    Args:
+        spec: The run, of any of the seeds.
+        given: Options by name that make this run, with ``set.KEY`` for the material.
+        seeds: Of the packings.
+        place: Folder of these runs below that of all.
+    """
+    about = {"test": spec.test, "model": spec.model, "confinement": spec.confinement}
+    found = []
+    for seed in seeds:
+        inputs: Table = {**about, **given, **about, "seed": seed}
+        options = {key: value for key, value in inputs.items() if key != "test"}
+        if spec.test != "biaxial":
+            del options["confinement"]
+        packed = replace(spec, specimen=replace(spec.specimen, seed=seed))
+        folder = str(Path(place) / f"seed-{seed}")
+        found.append(Job(inputs, tuple(jobs.arguments(spec.test, options)), packed, folder))
+    return found
+
+
+def refuse_others(wanted: Sequence[Job], folder: Path) -> None:
+    """Refuse a folder in which a run has other inputs than its job.
+
+    Raises:
+        InputError: if there is one.
+    """
+    for job in wanted:
+        place = folder / job.folder
+        ended = jobs.known(place)
+        begun = _key_of(place / "checkpoint.json")
+        if (ended is not None and ended.get("key") != job.key) or begun not in (None, job.key):
+            raise InputError(f"out = {place}, holds a run of other inputs; take another folder")
+
+
+def run(
+    wanted: Sequence[Job],
+    folder: Path,
+    *,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> pandas.DataFrame:
+    """Run what is not finished yet; write tables and pictures.
+
+    Args:
+        wanted: The runs.
+        folder: For the folders of the runs, ``table.csv``, ``means.csv``, ``curves.png``, and
+            ``envelope.csv`` and ``envelope.png`` if there are several confinements.
+        workers: Runs at a time; None for one per core.
+        progress: Called when a run has ended.
+
+    Returns:
+        One row a run: inputs, ``exit_code``, ``message``, measures.
+    """
+    with Pool(output_folder(folder), workers) as pool:
+        outcomes = pool.run(wanted, progress)
+    rows = table(wanted, outcomes)
+    rows.insert(1, "folder", [job.folder for job in wanted])
+    rows = rows.reindex(columns=[*dict.fromkeys([*rows.columns, *MEASURES, "status"])])
+    write_table(rows, folder / "table")
+    write_table(means(rows), folder / "means")
+    _draw(wanted, rows, folder)
+    return rows
+
+
+def means(rows: pandas.DataFrame) -> pandas.DataFrame:
+    """One row a model and confinement; runs that failed are counted and left out of the means.
+
+    Args:
+        rows: Of the runs.
+
+    Returns:
+        ``runs``, ``failed``, and of each measure the mean, under its name, the standard deviation
+        of the packings (``_deviation``) and the standard error of the mean (``_error``); missing
+        where there are too few runs.
+    """
+    found = []
+    for _, group in rows.groupby(_BY, sort=False):
+        good = group[_counted(group)]
+        row: Table = {name: group[name].iloc[0] for name in ("test", *_BY)}
+        row |= {"runs": len(group), "failed": len(group) - len(good)}
+        for name in MEASURES:
+            values = good[name].dropna().astype(float)
+            deviation = values.std() if len(values) > 1 else math.nan
+            row[name] = values.mean()
+            row[f"{name}_deviation"] = deviation
+            row[f"{name}_error"] = deviation / math.sqrt(max(len(values), 1))
+        found.append(row)
+    return pandas.DataFrame(found)
+
+
+def failures(rows: pandas.DataFrame) -> dict[str, tuple[int | None, str]]:
+    """Exit code, None of a run that was lost, and message of each run that failed, by folder."""
+    return {
+        row["folder"]: (
+            None if pandas.isna(row["exit_code"]) else int(row["exit_code"]),
+            str(row["message"]),
+        )
+        for _, row in rows[~_counted(rows)].iterrows()
+    }
+
+
+def text_table(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
+    """One line a packing, then mean, standard deviation and standard error.
+
+    With several models or confinements only the last three, for each of them.
+    """
+    groups = means(rows)
+    header = [shown[1] for shown in _SHOWN.values()]
+    lines = []
+    if len(groups) == 1:
+        for _, row in rows.iterrows():
+            status = row["status"] if isinstance(row["status"], str) else "failed"
+            lines.append([f"seed {row['seed']}", *_cells(row, ""), status])
+    for _, row in groups.iterrows():
+        name = f"{_label(row)} " if len(groups) > 1 else ""
+        count = f"{row['runs'] - row['failed']} of {row['runs']} runs"
+        for ending, said in _SAID.items():
+            lines.append([name + said, *_cells(row, ending), "" if ending else count])
+    used = {job.spec.model: name_of(job.spec.material["name"]) for job in wanted}
+    first = wanted[0].spec
+    materials = ", ".join(f"{model} model, {name}" for model, name in used.items())
+    return f"{first.test}, {materials}\n" + columns(["packing", *header, "status"], lines)
+
+
+def envelopes(rows: pandas.DataFrame) -> list[Envelope]:
+    """Strength criteria of each model through the peaks of all packings; those of one are none."""
+    found = []
+    for model, group in rows[_counted(rows)].groupby("model", sort=False):
+        peaks = group.dropna(subset=["peak_stress"])
+        if peaks["confinement"].nunique() > 1:
+            pressures = peaks["confinement"].astype(float).tolist()
+            found.append(Envelope.of(model, pressures, peaks["peak_stress"].astype(float).tolist()))
+    return found
+
+
+def envelopes_text(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
+    """Table of the strength criteria, empty without several confinements."""
+    found = envelopes(rows)
+    return envelope_table(found, reference_of(wanted[0].spec.material["name"])) if found else ""
+
+
+def _counted(rows: pandas.DataFrame) -> pandas.Series:
+    """Which runs are in the means: those that have not failed."""
+    return rows["exit_code"].eq(0).fillna(False).astype(bool)
+
+
+def _cells(row: pandas.Series, ending: str) -> list[str]:
+    cells = []
+    for name, (factor, _, digits) in _SHOWN.items():
+        value = row[f"{name}{ending}"]
+        if pandas.isna(value):
+            cells.append("-")
+        elif isinstance(value, int):
+            cells.append(str(value))
+        else:
+            cells.append(scaled(value, factor, "", digits))
+    return cells
+
+
+def _label(row: pandas.Series) -> str:
+    pressure = f" {1e-6 * row['confinement']:g} MPa" if row["test"] == "biaxial" else ""
+    return f"{row['model']}{pressure}"
+
+
+def _draw(wanted: Sequence[Job], rows: pandas.DataFrame, folder: Path) -> None:
+    groups = []
+    for (_, mean), (_, runs) in zip(
+        means(rows).iterrows(), rows.groupby(_BY, sort=False), strict=True
+    ):
+        curves = [
+            (one["axial_strain"].to_numpy(), one["axial_stress"].to_numpy(), counts)
+            for place, counts in zip(runs["folder"], _counted(runs), strict=True)
+            if (one := _curve(folder / place / "curve.csv")) is not None
+        ]
+        peak, scatter = (
+            (float(mean[f"peak_strain{ending}"]), float(mean[f"peak_stress{ending}"]))
+            for ending in ("", "_deviation")
+        )
+        count = f"{mean['runs'] - mean['failed']} of {mean['runs']}"
+        groups.append(Group(_label(mean), curves, peak, scatter, count))
+    packings_picture(folder / "curves.png", wanted[0].spec.test, groups)
+    if found := envelopes(rows):
+        criteria = pandas.DataFrame([one.as_dict() for one in found])
+        write_table(criteria, folder / "envelope")
+        rock = reference_of(wanted[0].spec.material["name"])
+        envelope_picture(folder / "envelope.png", found, rock)
+
+
+def _curve(path: Path) -> pandas.DataFrame | None:
+    try:
+        return pandas.read_csv(path, usecols=["axial_strain", "axial_stress"])
+    except (OSError, ValueError):  # a run that failed before its first row
+        return None
+
+
+def _key_of(checkpoint: Path) -> str | None:
+    """Key of the run that a checkpoint is of, None if it cannot be told."""
+    try:
+        content = json.loads(checkpoint.read_text(encoding="utf-8"))
+        return RunSpec.from_json(content["inputs"]).key()
+    except (OSError, ValueError, LookupError, TypeError, RecursionError, InputError):
+        return None
