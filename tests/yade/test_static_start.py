@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A test that starts at the elastic solution: the same measures in fewer steps; what it refuses."""
 
+import numpy as np
 import pytest
 
 import flexpm
 from flexpm.errors import InputError
+from flexpm.materials.material import load
 from flexpm.specimens.specimen import Specimen
 
 
@@ -29,6 +31,27 @@ def test_the_elastic_branch_is_recorded_and_is_that_of_the_solve(specimen, resul
     found = flexpm.elastic(specimen)
     assert results["static"].youngs_modulus == pytest.approx(found["youngs_modulus"], rel=5e-3)
     assert results["static"].poissons_ratio == pytest.approx(found["poissons_ratio"], rel=5e-3)
+
+
+@pytest.mark.parametrize("start", ["static", "rest"])
+def test_points_soften_from_the_elastic_limit_of_the_solve_on(results, start):
+    limit = results["static"].curve["axial_stress"][19] / 0.9  # 20 steps lead to 0.9 of it
+    result = results[start]
+    first = int(np.argmax(result.curve["damage_energy"] > 0.0))
+    onset = result.softening_onset * result.peak_stress
+    assert onset == pytest.approx(result.curve["axial_stress"][first], rel=1e-12)
+    assert 0.995 * result.curve["axial_stress"][first - 1] < limit < 1.005 * onset
+    assert onset < 1.03 * limit
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_points_that_cannot_soften_dissipate_nothing_at_all(specimen, model):
+    strengths = ["softening=brittle", "tensile_strength=1e9", "cohesion=1e10"]
+    material = load("augig-table7", model).with_set(strengths, model)
+    options = {"rate": 0.02, "max_strain": 1e-3, "loading": "constant"}
+    result = flexpm.run("uniaxial", specimen, material, model, **options)
+    assert len(result.curve) > 20 and result.softening_onset is None
+    assert not result.curve["damage_energy"].any()
 
 
 def test_steps_are_saved_and_the_books_close(results):

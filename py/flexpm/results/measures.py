@@ -114,6 +114,23 @@ def late_modulus(curve: Curve) -> float | None:
     return late / early if early and late is not None else None
 
 
+def softening_onset(curve: Curve) -> float | None:
+    """Share of the peak stress at which the first contact point leaves its elastic branch [-].
+
+    A point dissipates nothing on that branch, to the last bit, and does with any step beyond it: it
+    is left in the first row whose damage energy is above 0. Both stresses are those above the
+    confinement; 0 if points have softened before the loading. None without a peak.
+    """
+    peak = peak_row(curve)
+    if peak is None:
+        return None
+    softened = np.flatnonzero(curve["damage_energy"][: peak + 1] > 0.0)
+    if len(softened) == 0:
+        return None
+    stress = differential_stress(curve)
+    return max(float(stress[softened[0]] / stress[peak]), 0.0)
+
+
 def crack_onset(
     curve: Curve, steps: Sequence[int], share: float = ONSET_SHARE
 ) -> tuple[float | None, float | None]:

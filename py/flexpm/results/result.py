@@ -18,6 +18,8 @@ from .snapshot import Snapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
+#: Models whose damage energy is that of the contacts between grains alone, and exactly 0 before.
+_SOFTENING = ("flexible", "rigid")
 
 
 @dataclass
@@ -54,6 +56,7 @@ class Result:
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
     softening_slope: float | None = None  #: of stress over strain after the peak [Pa]
     late_modulus: float | None = None  #: at 80 % of the peak over that at 20 % [-]
+    softening_onset: float | None = None  #: share of the peak at which a point first softens [-]
     first_tensile_crack_strain: float | None = None  #: [-]
     first_tensile_crack_stress: float | None = None  #: [Pa]
     first_shear_crack_strain: float | None = None  #: [-]
@@ -108,6 +111,8 @@ class Result:
         self.energy_error = measures.energy_error(whole, initial_energy)
         self.softening_slope = measures.softening_slope(record)
         self.late_modulus = measures.late_modulus(record)
+        if self.model in _SOFTENING:
+            self.softening_onset = measures.softening_onset(record)
         self._measure_onset()
         if len(whole):
             self.steps = int(whole["step"][-1])

@@ -48,6 +48,7 @@ KEYS = [
     "contact_width",
     "softening_slope",
     "late_modulus",
+    "softening_onset",
     "first_tensile_crack_strain",
     "first_tensile_crack_stress",
     "first_shear_crack_strain",
@@ -150,6 +151,29 @@ def test_two_slopes_give_their_quotient():
     kinked = record_through((0, 0), (0.4, 40), (1.6, 100), (2.0, 10))
     assert measures.late_modulus(kinked) == pytest.approx(0.5, rel=1e-9)
     assert measures.late_modulus(triangular_record(last_stress=0.95 * PEAK)) is None
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid", "inner", "inner-un", "jcfpm", "cohfrict"])
+@pytest.mark.parametrize("confinement", [0.0, 4e6])
+def test_softening_begins_at_its_share_of_the_peak(confinement, model):
+    record = triangular_record(confinement)
+    record["damage_energy"][100:] = 1e-12  # rows 0 to 400 rise to the peak
+    result = result_of(record, model=model)
+    result.measure(QUASISTATIC)
+    known = model in ("flexible", "rigid")
+    assert result.softening_onset == (pytest.approx(0.25, rel=1e-9) if known else None)
+
+
+def test_softening_before_the_loading_or_without_a_peak():
+    record = triangular_record()
+    assert measures.softening_onset(record) is None  # a peak without damage
+    record["damage_energy"][401:] = 1.0
+    assert measures.softening_onset(record) is None  # none until the peak
+    record["damage_energy"][:] = 1.0
+    assert measures.softening_onset(record) == 0.0
+    record["axial_stress"][0] = -1.0
+    assert measures.softening_onset(record) == 0.0
+    assert measures.softening_onset(Curve.from_array(record.array[:401])) is None
 
 
 @given(noise=st.integers(0, 2**31), factor=st.floats(1e-6, 1e6))
