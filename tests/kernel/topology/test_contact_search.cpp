@@ -59,6 +59,16 @@ TEST_CASE("Near pairs are searched anew when told, and for another margin")
     CHECK(pairs.find(a, 2.0 * margin) == flexpm::near_pairs(a, 2.0 * margin));
 }
 
+TEST_CASE("The order in which bonds are listed does not matter to near pairs")
+{
+    auto specimen = specimens::random_grains(0.03, 0.03, diameter, 3);
+    const auto o = specimens::options();
+    const auto found = flexpm::near_pairs(specimens::assemble(specimen, o), margin);
+    auto& bonds = specimen.cells.shared_edges;
+    std::reverse(bonds.begin(), bonds.end());
+    CHECK(flexpm::near_pairs(specimens::assemble(specimen, o), margin) == found);
+}
+
 TEST_CASE("A grain that is nowhere has no near pair, the others have theirs")
 {
     Assembly a = specimens::assemble(

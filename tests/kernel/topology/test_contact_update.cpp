@@ -8,6 +8,7 @@
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
+#include <flexpm/kernel/topology/erasure.hpp>
 
 #include "support/driven.hpp"
 #include "support/law_path.hpp"
@@ -28,12 +29,27 @@ Assembly row_of_three()
     return a;
 }
 
-/// Move the last grain along x by `way` in `steps`.
-void move_last(Assembly& a, double way, int steps)
+/// Move a grain by `way` in `steps`.
+void move(Assembly& a, int grain, Point way, int steps)
 {
-    set_velocity(a, 2, flexpm::Point { way / steps, 0.0 });
+    set_velocity(a, grain, (1.0 / steps) * way);
     run(a, steps);
-    set_velocity(a, 2, flexpm::Point { 0.0, 0.0 });
+    set_velocity(a, grain, Point { 0.0, 0.0 });
+}
+
+/// Move the last grain along x.
+void move_last(Assembly& a, double way, int steps) { move(a, 2, { way, 0.0 }, steps); }
+
+/// The same with the last bond torn, apart and taken out, and a new contact of the last two grains, number 2, in its
+/// place.
+Assembly row_with_touch()
+{
+    Assembly a = row_of_three();
+    move_last(a, 1e-5, 2000);
+    flexpm::change_contacts(a, { 1 }, {}, 0.7, 1.0);
+    move_last(a, -1e-5, 2000);
+    flexpm::change_contacts(a, {}, { GrainPair { 1, 2 } }, 0.7, 1.0);
+    return a;
 }
 
 double booked(const flexpm::Energies& e)
@@ -112,11 +128,7 @@ TEST_CASE("Contacts keep their numbers while others come and go, and no number i
 
 TEST_CASE("A new contact follows the place where the discs touch, without energy")
 {
-    Assembly a = row_of_three();
-    move_last(a, 1e-5, 2000);
-    flexpm::change_contacts(a, { 1 }, {}, 0.7, 1.0);
-    move_last(a, -1e-5, 2000);
-    flexpm::change_contacts(a, {}, { GrainPair { 1, 2 } }, 0.7, 1.0);
+    Assembly a = row_with_touch();
     move_last(a, -1e-7, 50);
     CHECK_FALSE(flexpm::follow_touches(a, 0.7, 1.0));  // still in the middle of the edges
     set_velocity(a, 2, flexpm::Point { 0.0, 1e-6 });
@@ -132,6 +144,69 @@ TEST_CASE("A new contact follows the place where the discs touch, without energy
         CHECK(y / size == Approx(up[side]).margin(2e-3));
     }
     CHECK_FALSE(flexpm::follow_touches(a, 0.7, 1.0));
+}
+
+TEST_CASE("A new contact goes over to other edges where the grain rolls around a corner")
+{
+    Assembly a = row_with_touch();
+    const double angle = GENERATE(30.0, 60.0) * std::acos(-1.0) / 180.0;
+    // the last grain moves around the one before, whose disc it touches all the time
+    move(a, 2, size * Point { std::cos(angle) - 1.0, std::sin(angle) }, 100);
+    REQUIRE(flexpm::follow_touches(a, 0.7, 1.0));
+    for (int side : { 0, 1 }) {
+        const auto [n0, n1] = a.contacts.edge(2, side);
+        const Point edge = vector_at(a.grains.reference, n1) - vector_at(a.grains.reference, n0);
+        // below 45 degrees the edges that stand, above it those that lie
+        CHECK((std::fabs(edge.x) > std::fabs(edge.y)) == (angle > 0.8));
+        // where the discs touch: half a grain from its centre, along the line of the centres
+        const Point place =
+            flexpm::vector_on_edge(a.grains.reference, { n0, n1 }, a.contacts.weight(2, 0, side));
+        const Point centre = vector_at(a.grains.reference, a.grains.centre(side + 1));
+        const double along = std::min(std::sin(angle), std::cos(angle)) * (side == 0 ? 1.0 : -1.0);
+        const Point from = place - centre;
+        CHECK((angle > 0.8 ? from.x : from.y) / (0.5 * size) == Approx(along).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("An edge across a contact takes no couple; the force is that of the discs")
+{
+    // grains four times as high as wide: discs above each other touch within their cells, where the edges that stand
+    // are the closest
+    auto specimen = specimens::grid(2, 1, size);
+    for (Point& vertex : specimen.cells.vertices)
+        vertex.y *= 4.0;
+    for (auto& disc : specimen.discs)
+        disc.centre.y *= 4.0;
+    Assembly a = specimens::assemble(specimen, specimens::options(specimens::granite_contact()));
+    hold_all(a);
+    flexpm::erase(a, { {}, { 0 } }, 1.0);
+    move(a, 1, { -0.99 * size, size }, 100);
+    flexpm::change_contacts(a, {}, { GrainPair { 0, 1 } }, 0.7, 1.0);
+    CHECK(a.contacts.inverse_edge_length(1, 0) == 0.0);
+    CHECK(a.contacts.inverse_edge_length(1, 1) == 0.0);
+    const double press = 1e-7;
+    move(a, 1, { 0.0, -press }, 50);
+    // K_n times what the grains come closer, on the area of an edge
+    const double force =
+        specimens::granite_contact().normal_stiffness * press * 4.0 * size * specimens::thickness;
+    CHECK(resultant(a, 1).y == Approx(-force).epsilon(1e-3));
+}
+
+TEST_CASE("Where masses are real, contacts that come or move do not change them")
+{
+    constexpr double real_masses = 0.0;  // in place of a time step
+    Assembly a = row_of_three();
+    move_last(a, 1e-5, 2000);
+    flexpm::change_contacts(a, { 1 }, {}, 0.7, real_masses);
+    move_last(a, -1e-5, 2000);
+    const auto before = a.grains.inverse_mass;
+    const double initial = a.ledger.initial;
+    flexpm::change_contacts(a, {}, { GrainPair { 1, 2 } }, 0.7, real_masses);
+    CHECK(a.grains.inverse_mass == before);
+    move(a, 2, { 0.0, 0.2 * size }, 100);
+    REQUIRE(flexpm::follow_touches(a, 0.7, real_masses));
+    CHECK(a.grains.inverse_mass == before);
+    CHECK(a.ledger.initial == initial);
 }
 
 TEST_CASE("Other contacts keep their bits when contacts change")

@@ -21,6 +21,8 @@
 #include "support/balance.hpp"
 #include "support/driven.hpp"
 
+#include <tuple>
+
 using namespace driven;
 using flexpm::Erasure;
 using flexpm::GrainPair;
@@ -213,6 +215,25 @@ TEST_CASE("Cracks of a bond that is erased later stay cracks", "[erasure]")
     CHECK(flexpm::count_cracks(a).tensile == 3);
     CHECK(flexpm::take_snapshot(a).erased_crack_mode
         == std::vector<std::int32_t>(3, flexpm::tensile_crack));
+}
+
+TEST_CASE("To erase nothing, or once more, changes nothing", "[erasure]")
+{
+    Assembly a = softened_row();
+    flexpm::erase(a, { {}, { 1 } }, 1.0);
+    run(a, 1);  // a record that is made once more has another step
+    const auto state = [&] {
+        const auto s = flexpm::take_snapshot(a);
+        return std::make_tuple(flexpm::energies(a).erased, flexpm::energies(a).damage,
+            s.erased_crack_step, s.erased_crack_mode, a.contacts.areas);
+    };
+    const auto before = state();
+    flexpm::erase(a, {}, 1.0);
+    CHECK(state() == before);
+    flexpm::erase(a, { {}, { 1 } }, 1.0);
+    CHECK(state() == before);
+    flexpm::erase(a, { { 2 }, {} }, 1.0);  // its one bond is gone already
+    CHECK(state() == before);
 }
 
 TEST_CASE("A pair whose bond was erased may touch anew, under a new number", "[erasure]")

@@ -2,8 +2,13 @@
 /// @file  Words for the compiler that GCC and Clang spell differently or at length.
 #pragma once
 
-/// A function that becomes part of its caller, and with it of the caller's instruction set.
+/// A function that becomes part of its caller, and with it of the caller's instruction set. FLEXPM_ONE_COPY: it stays
+/// one function, and so do the variants for instruction sets, for builds that count what runs.
+#ifdef FLEXPM_ONE_COPY
+#define FLEXPM_INLINE inline
+#else
 #define FLEXPM_INLINE __attribute__((always_inline)) inline
+#endif
 
 /// No iteration of the loop that follows reads what another one writes.
 #ifdef __clang__

@@ -50,7 +50,11 @@ struct Variants<Body, WideBody> {
         return WideBody(arguments...);
     }
 
+#ifdef FLEXPM_ONE_COPY
+    static constexpr Function of_set[] = { baseline, baseline, baseline };
+#else
     static constexpr Function of_set[] = { baseline, avx2, avx512 };
+#endif
 };
 
 /// The variant of a function for the set in use. Ask once for a pass over many blocks.

@@ -207,7 +207,7 @@ bool follow_touches(Assembly& a, double damping, double dt)
     Contacts& contacts = a.contacts;
     bool moved = false;
     for (int c = 0; c < contacts.count; ++c) {
-        if (contacts.bonded[c] || !is_active(contacts, c)) continue;
+        if (contacts.bonded[c]) continue;
         const TouchPoint touch = touch_point(a.grains, contacts.pairs[c]);
         if (!is_elsewhere(contacts, c, touch)) continue;
         attach(contacts, c, touch);
