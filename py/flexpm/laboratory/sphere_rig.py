@@ -257,7 +257,6 @@ class SphereRig(TestRig):
     def _strains(self) -> tuple[float, float]:
         """Axial strain in the sense of the loading, lateral strain as Poisson's effect [-]."""
         centres = np.array(self.built.specimen.centres, dtype=float)
-        states = (yade.O.bodies[body].state for body in self.built.ids)
-        places = np.array([(state.pos[0], state.pos[1]) for state in states])
+        places = np.array([(state.pos[0], state.pos[1]) for state in self.built.states()])
         axial, lateral = self._gauge.strains(centres, places - centres)
         return (axial, -lateral) if self.tension else (-axial, lateral)

@@ -15,12 +15,12 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import reduce
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..materials.material import Law
 from ..specimens.specimen import Specimen
 
@@ -40,6 +40,10 @@ class Bonds:
 
     def __len__(self) -> int:
         return len(self.grains)
+
+    def chosen(self, rows: BoolArray) -> Bonds:
+        """Those of the rows that are true."""
+        return Bonds(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
 
 
 def in_order(values: Iterable[float]) -> float:

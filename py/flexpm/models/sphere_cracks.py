@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cracks of YADE's own bonded models, found by looking at their bonds. SI units."""
+"""Cracks of YADE's own bonded models, found by looking at their bonds. SI units.
+
+A bond that is neither broken nor there any more has been erased by a script, which is no crack.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +12,23 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 from ..files import Table
-from ..results.cracks import SHEAR, TENSILE
+from ..results.cracks import ERASED, SHEAR, TENSILE
 from .sphere_bonds import Bonds
 from .sphere_laws import SphereLaw
 
 _FOUND = ("steps", "modes", "places")
 
 
+def body_with(number: int) -> wrapper.Body | None:
+    """The body with a number, None if it was erased."""
+    bodies = yade.O.bodies
+    return bodies[number] if number < len(bodies) else None
+
+
 class CrackWatch:
-    """Finds bonds that have broken, with step, mode and place."""
+    """Finds bonds that have broken or were erased, with step, mode and place."""
 
     def __init__(
         self,
@@ -50,11 +59,13 @@ class CrackWatch:
     ) -> None:
         """Watch the same bonds in a scene that has been loaded; None stands for a lost one."""
         self._law, self.interactions = law, interactions
-        # YADE drops this when the bond is lost; kept here, it still tells how that came
+        # YADE drops both when the bond is lost; kept here, they still tell how that came
         self.contacts = [None if one is None else one.phys for one in interactions]
+        self._shapes = [None if one is None else one.geom for one in interactions]
 
     def memory(self) -> Table:
         """What has been found, as plain values."""
+        self.look_for_erased()
         found = (self.steps, self.modes, self.places)
         return dict(zip(_FOUND, (array.tolist() for array in found), strict=True))
 
@@ -67,16 +78,42 @@ class CrackWatch:
         """Numbers of tensile and of shear cracks."""
         return int(np.sum(self.modes == TENSILE)), int(np.sum(self.modes == SHEAR))
 
+    @property
+    def alive(self) -> BoolArray:
+        """Of each grain, whether its body is there."""
+        return np.array([body_with(number) is not None for number in self._bodies])
+
+    @property
+    def erased(self) -> BoolArray:
+        """Of each bond, whether a script has erased it or one of its grains; after a look."""
+        gone: BoolArray = (self.modes == ERASED) | ~self.alive[self._bonds.grains].all(axis=1)
+        return gone
+
     def look(self) -> None:
         """Take note of the bonds that have broken since the last look."""
-        if not self._kind.may_have_broken(self._law, int(np.sum(self.steps >= 0))):
+        if not self._kind.may_have_broken(self._law, sum(self.counts)):
             return
         for row in np.flatnonzero(self.steps < 0).tolist():
-            bond = self.contacts[row]
-            if bond is not None and self._kind.has_broken(self.interactions[row], bond):
-                self.steps[row] = yade.O.iter
-                self.modes[row] = self._mode(bond, row)
-                self.places[row] += self._moved(row)
+            if self._has_broken(row):
+                self._note(row, self._mode(self.contacts[row], row))
+
+    def look_for_erased(self) -> None:
+        """Take note of the bonds that a script has erased since the last look."""
+        for row in np.flatnonzero(self.steps < 0).tolist():
+            if self._has_broken(row):
+                continue  # for the next look
+            now = self.interactions[row]
+            if now is None or not now.isReal or not self._kind.is_bond(now.phys):
+                self._note(row, ERASED)
+
+    def _has_broken(self, row: int) -> bool:
+        bond, shape = self.contacts[row], self._shapes[row]
+        return bond is not None and shape is not None and self._kind.has_broken(bond, shape)
+
+    def _note(self, row: int, mode: int) -> None:
+        self.steps[row] = yade.O.iter
+        self.modes[row] = mode
+        self.places[row] += self._moved(row)
 
     def _mode(self, bond: wrapper.IPhys, row: int) -> int:
         tension = -self._normal_force(bond, row)
@@ -96,5 +133,9 @@ class CrackWatch:
         return moved
 
     def _centre(self, grain: int) -> FloatArray:
-        place = yade.O.bodies[self._bodies[grain]].state.pos
-        return np.array([place[0], place[1]])
+        """Present centre of a grain, or where an erased one started [m]."""
+        body = body_with(self._bodies[grain])
+        if body is None:
+            start: FloatArray = self._start[grain]
+            return start
+        return np.array([body.state.pos[0], body.state.pos[1]])

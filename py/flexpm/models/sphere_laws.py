@@ -74,13 +74,17 @@ class SphereLaw(ABC):
         """Tell whether there may be more broken bonds than the `known` ones."""
 
     @abstractmethod
-    def has_broken(self, interaction: wrapper.Interaction | None, bond: wrapper.IPhys) -> bool:
-        """Tell whether a bond that was whole has broken.
+    def has_broken(self, bond: wrapper.IPhys, place: wrapper.IGeom) -> bool:
+        """Tell whether the law has broken a bond.
 
         Args:
-            interaction: That of the bond, which YADE may have used for a new contact since.
-            bond: Properties that the bond had when it was made.
+            bond: Its properties, kept since it was made.
+            place: Its geometry, likewise; that of its last step.
         """
+
+    @abstractmethod
+    def is_bond(self, contact: wrapper.IPhys) -> bool:
+        """Tell whether the properties of a contact are those of a whole bond."""
 
     @abstractmethod
     def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
@@ -104,7 +108,7 @@ class SphereLaw(ABC):
 
         Args:
             law: Functor of the law.
-            bonds: Properties of the bonds that YADE has not dropped.
+            bonds: Properties of the contacts that bonded pairs have.
             touching: Properties of the contacts with plates.
         """
 
@@ -155,9 +159,13 @@ class Jcfpm(SphereLaw):
         """Compare with the cracks that the law has counted."""
         return bool(law.nbTensCracks + law.nbShearCracks != known)
 
-    def has_broken(self, interaction: wrapper.Interaction | None, bond: wrapper.IPhys) -> bool:
-        """Tell whether a bond that was whole has broken."""
+    def has_broken(self, bond: wrapper.IPhys, place: wrapper.IGeom) -> bool:
+        """Tell whether the law has broken a bond."""
         return bool(bond.isBroken)
+
+    def is_bond(self, contact: wrapper.IPhys) -> bool:
+        """Tell whether a contact holds together."""
+        return bool(contact.isCohesive)
 
     def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
         """Tell whether the bond was opened beyond its tensile limit."""
@@ -229,12 +237,15 @@ class Cohfrict(SphereLaw):
         """Always true: the law does not count."""
         return True
 
-    def has_broken(self, interaction: wrapper.Interaction | None, bond: wrapper.IPhys) -> bool:
-        """Tell whether a bond that was whole has broken."""
-        # an interaction that is not real or has another phys is not the bond any more
-        if interaction is None or not interaction.isReal:
-            return True
-        return bool(interaction.phys.cohesionBroken)
+    def has_broken(self, bond: wrapper.IPhys, place: wrapper.IGeom) -> bool:
+        """Tell whether the law has broken a bond."""
+        # some versions of the law drop a bond in tension and leave only its geometry to tell
+        tension = -bond.kn * (place.penetrationDepth - bond.unp)
+        return bool(bond.cohesionBroken or tension > bond.normalAdhesion)
+
+    def is_bond(self, contact: wrapper.IPhys) -> bool:
+        """Tell whether a contact holds together."""
+        return not contact.cohesionBroken  # new contacts have no cohesion to break
 
     def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
         """Tell whether the tension was closer to its limit than the shear force."""

@@ -12,14 +12,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import yade
 from yade import wrapper
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
 from .sphere_bonds import Bonds
-from .sphere_cracks import CrackWatch
+from .sphere_cracks import CrackWatch, body_with
 
 #: One for each bonded pair.
 Interactions = Sequence[wrapper.Interaction | None]
@@ -42,14 +41,12 @@ def snapshot(
         interactions: That each bonded pair has now.
     """
     motion = Motion(specimen, bodies)
-    grain_of, reference, triangles, triangle_grain = _fans(specimen)
-    ends = np.stack(
-        [
-            0.5 * sum(motion.carry(bonds.grains[:, side], bonds.ends[:, k]) for side in (0, 1))
-            for k in (0, 1)
-        ],
-        axis=1,
-    )
+    grain_of, reference, triangles, triangle_grain = _fans(specimen, cracks.alive)
+    erased = cracks.erased
+    kept = ~erased
+    gone, bonds = bonds.chosen(erased), bonds.chosen(kept)
+    interactions = [one for one, keep in zip(interactions, kept, strict=True) if keep]
+    ends = _present_ends(motion, bonds)
     forces = bond_forces(bodies, bonds, interactions)
     along, length = motion.branches(bonds.grains)
     normal = np.einsum("ij,ij->i", forces, along)
@@ -64,30 +61,52 @@ def snapshot(
         triangles=triangles,
         triangle_grain=triangle_grain,
         triangle_stress=stress[triangle_grain],
-        contact=np.arange(len(bonds.grains)),
+        contact=np.flatnonzero(kept),
         contact_grains=bonds.grains,
         contact_ends=ends,
         point_opening=(length - start)[:, None],
         point_slip=(-shear / bonds.shear_stiffness)[:, None],
-        point_damage=(cracks.steps >= 0).astype(float)[:, None],
+        point_damage=(cracks.steps[kept] >= 0).astype(float)[:, None],
         point_traction=np.stack([-normal, -shear], axis=1)[:, None] / bonds.areas[:, None, None],
-        crack_step=cracks.steps[:, None],
-        crack_mode=cracks.modes[:, None],
-        crack_position=cracks.places[:, None],
+        crack_step=cracks.steps[kept, None],
+        crack_mode=cracks.modes[kept, None],
+        crack_position=cracks.places[kept, None],
+        erased_contact=np.flatnonzero(erased),
+        erased_grains=gone.grains,
+        erased_ends=_present_ends(motion, gone),
+        erased_crack_step=cracks.steps[erased, None],
+        erased_crack_mode=cracks.modes[erased, None],
+        erased_crack_position=cracks.places[erased, None],
     )
 
 
+def _present_ends(motion: Motion, bonds: Bonds) -> FloatArray:
+    """Ends of the bonds' edges, carried along by both grains [m]; nan where one is gone."""
+    sides = [
+        [motion.carry(bonds.grains[:, side], bonds.ends[:, end]) for side in (0, 1)]
+        for end in (0, 1)
+    ]
+    ends: FloatArray = np.stack([0.5 * (one + other) for one, other in sides], axis=1)
+    return ends
+
+
 class Motion:
-    """Where the spheres have gone and how they have turned."""
+    """Where the spheres have gone and how they have turned; nan of those that were erased."""
 
     def __init__(self, specimen: Specimen, bodies: Sequence[int]) -> None:
-        states = [yade.O.bodies[body].state for body in bodies]
         self._start = np.array(specimen.centres)
-        self.centres = np.array([(s.pos[0], s.pos[1]) for s in states])
-        self._speeds = np.array([(s.vel[0], s.vel[1]) for s in states])
-        self._spins = np.array([s.angVel[2] for s in states])
-        turns = [s.ori.toAxisAngle() for s in states]
-        angles = np.array([math.copysign(1.0, axis[2]) * angle for axis, angle in turns])
+        self.centres, self._speeds = np.full((2, len(bodies), 2), math.nan)
+        self._spins, angles = np.full((2, len(bodies)), math.nan)
+        for grain, number in enumerate(bodies):
+            body = body_with(number)
+            if body is None:
+                continue
+            state = body.state
+            self.centres[grain] = state.pos[0], state.pos[1]
+            self._speeds[grain] = state.vel[0], state.vel[1]
+            self._spins[grain] = state.angVel[2]
+            axis, angle = state.ori.toAxisAngle()
+            angles[grain] = math.copysign(1.0, axis[2]) * angle
         self._cos, self._sin = np.cos(angles), np.sin(angles)
 
     def carry(self, grains: IntArray, points: FloatArray) -> FloatArray:
@@ -145,16 +164,20 @@ def _grain_stress(
     )
 
 
-def _fans(specimen: Specimen) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
-    """Grain of each node, nodes, triangles over all nodes, grain of each triangle."""
+def _fans(specimen: Specimen, alive: BoolArray) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
+    """Grain of each node, nodes, triangles over all nodes, grain of each; of what exists."""
     meshes = specimen.meshes("fan")
     nodes = np.diff(meshes.node_offsets)
     count = np.diff(meshes.triangle_offsets)
     first = np.repeat(np.array(meshes.node_offsets)[:-1], count)
     grains = np.arange(len(nodes))
+    node_grain, triangle_grain = np.repeat(grains, nodes), np.repeat(grains, count)
+    kept, drawn = alive[node_grain], alive[triangle_grain]
+    place = np.cumsum(kept) - 1  # of each node among those kept
+    triangles = place[np.array(meshes.triangles) + first[:, None]]
     return (
-        np.repeat(grains, nodes),
-        np.array(meshes.nodes),
-        np.array(meshes.triangles) + first[:, None],
-        np.repeat(grains, count),
+        node_grain[kept],
+        np.array(meshes.nodes)[kept],
+        triangles[drawn],
+        triangle_grain[drawn],
     )

@@ -20,6 +20,7 @@ from yade import utils, wrapper
 
 from .._flexpm import mass_margin
 from ..arrays import FloatArray
+from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
@@ -113,8 +114,23 @@ class SphereModel:
             engine.ompThreads = threads
 
     def counts(self) -> dict[str, int]:
-        """Numbers of grains and contacts; there are no nodes and triangles."""
-        return {"grains": len(self.ids), "contacts": len(self.bonds)}
+        """Numbers of grains and bonds that exist; there are no nodes and triangles."""
+        self.cracks.look()
+        self.cracks.look_for_erased()
+        erased = self.cracks.erased
+        return {"grains": int(self.cracks.alive.sum()), "contacts": int((~erased).sum())}
+
+    def states(self) -> list[wrapper.State]:
+        """State of the body of each grain, for a test, which needs all of them.
+
+        Raises:
+            InputError: if a script has erased one.
+        """
+        if not self.cracks.alive.all():
+            grain = int(np.argmin(self.cracks.alive))
+            rule = "must exist for a test on YADE's spheres; erase its bonds instead"
+            raise InputError(f"grain {grain} = erased, {rule}")
+        return [yade.O.bodies[body].state for body in self.ids]
 
     def describe_material(self) -> Table:
         """Name and parameters of the material."""
@@ -123,6 +139,7 @@ class SphereModel:
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
         self.cracks.look()
+        self.cracks.look_for_erased()
         # looked up anew: a pair that has parted and met again has another interaction
         return snapshot(self.specimen, self.ids, self.bonds, self.cracks, _find_bonds(self))
 
@@ -175,7 +192,7 @@ class SphereModel:
 
     def elastic_energy(self) -> float:
         """Elastic energy of unbroken bonds and plates (JCFpm) or of all contacts (CohFrict) [J]."""
-        bonds = [bond for bond in self.cracks.contacts if bond is not None]
+        bonds = [one.phys for one in self.cracks.interactions if one is not None and one.isReal]
         touching = [
             contact.phys
             for plate in self.plates
