@@ -120,7 +120,10 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     with terminal.Progress(quiet) as progress:
         specimen = inputs.packed(spec.specimen, progress)
         plan = protocols.plan_run(spec, specimen, chosen, folder)
-        result = protocols.carry_out(plan, threads=options["threads"], progress=progress)
+        foresee = None if quiet else progress.foresee
+        result = protocols.carry_out(
+            plan, threads=options["threads"], progress=progress, foresee=foresee
+        )
     terminal.say(tables.result_table(result))
     inputs.tell_warnings(result)
     terminal.say(f"  files                   {folder}/")

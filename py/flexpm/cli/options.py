@@ -354,7 +354,7 @@ out_option = click.option(
     show_default=True,
     help="Folder for the files.",
 )
-quiet_option = click.option("--quiet", is_flag=True, help="Show no progress bar.")
+quiet_option = click.option("--quiet", is_flag=True, help="Show no progress.")
 many_runs_options = combined(
     click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
     click.option(

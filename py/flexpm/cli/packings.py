@@ -41,7 +41,7 @@ def carry_out(
         seeds: Of the packings.
         options: Of the command.
         out: Folder of all.
-        quiet: Show no progress bar.
+        quiet: Show no progress.
 
     Raises:
         SimulationError: if a run failed.

@@ -61,6 +61,14 @@ def error_line(text: str) -> None:
         print("flexpm:", printable(" ".join(str(text).split())), file=sys.stderr, flush=True)
 
 
+def duration(seconds: float) -> str:
+    """A time with two digits, in the unit in which it is read."""
+    for length, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 1.5 * length:
+            return f"{float(f'{seconds / length:.2g}'):g} {unit}"
+    return f"{float(f'{seconds:.2g}'):g} s"
+
+
 class Progress:
     """Progress bar on stderr with rate and remaining time; silent unless stderr is a terminal."""
 
@@ -87,6 +95,12 @@ class Progress:
         bar.desc = text
         bar.total = max(done, expected)
         bar.update(done - bar.n)
+
+    def foresee(self, steps: int, seconds: float) -> None:
+        """Say how many steps a run will probably have and how much time is left [s]."""
+        self.close()
+        rounded = float(f"{steps:.2g}")
+        say(f"about {rounded:.0f} steps in all, {duration(seconds)} left at the present pace")
 
     def _restarted(self, text: str, expected: float) -> tqdm[NoReturn]:
         from tqdm import tqdm

@@ -29,7 +29,7 @@ from .loading_rate import Loading, quasistatic_ratio
 from .rig import TestRig
 from .rigs import rig as rig_of
 from .run_spec import RunSpec, described
-from .runner import Runner
+from .runner import Foresee, Runner
 
 #: Names of the files of a run.
 FILES = (
@@ -173,8 +173,22 @@ def _require_contacts(spec: RunSpec, specimen: Specimen) -> None:
         )
 
 
-def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None) -> Result:
-    """Do a run; arguments and outcome as for ``run``."""
+def carry_out(
+    plan: Plan,
+    *,
+    threads: int = 1,
+    progress: Progress | None = None,
+    foresee: Foresee | None = None,
+) -> Result:
+    """Do a run; arguments and outcome as for ``run``.
+
+    Args:
+        plan: The run.
+        threads: Threads of a step.
+        progress: Called with (steps done, steps expected, text).
+        foresee: Called once, as soon as steps of the loading have been timed, with the steps that
+            the run will probably have and the wall time of those that are left [s].
+    """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     yade.O.reset()
     built = build(
@@ -193,7 +207,7 @@ def carry_out(plan: Plan, *, threads: int = 1, progress: Progress | None = None)
         built.set_threads(threads)
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot())
-    runner = Runner(checkpoint, progress)
+    runner = Runner(checkpoint, progress, foresee)
     rig = rig_of(built, tension=spec.test == "tension", runner=runner)
     for stage in TESTS[spec.test]:
         stage(rig, spec)

@@ -236,7 +236,11 @@ class TestRig(ABC):
             return False
         try:
             self._runner.run(
-                self._step, over, lambda: text or self._standing(), save=self.saves_anywhere
+                self._step,
+                over,
+                lambda: text or self._standing(),
+                save=self.saves_anywhere,
+                foreseen=not text,
             )
         except RuntimeError:
             if not self.diverged:
@@ -287,6 +291,8 @@ class TestRig(ABC):
 
 
 def _span(plan: Schedule) -> Span:
-    # most tests end well before the largest strain
-    likely = math.ceil(2.0 * plan.reference_strain / plan.max_strain * plan.steps)
+    # most tests end well before the largest strain: up to that of the reference strength they go at
+    # the fastest rate, then about as far at the slowest
+    slow = plan.reference_strain / plan.max_strain * plan.steps
+    likely = math.ceil((1.0 + 1.0 / plan.fastest) * slow)
     return Span(plan.steps + _LATEST_LOOK, min(plan.steps, likely))

@@ -18,6 +18,12 @@ from .checkpoint import Checkpoint, Position
 _MARK = "flexpm"
 #: Wall time after which progress is shown [s].
 _LOOK_UP = 0.1
+#: Look whose steps tell how long a stage takes; the first has steps that prepare others.
+_TIMED_LOOK = 2
+
+
+#: Takes the steps that a run will probably have and the wall time of those that are left [s].
+Foresee = Callable[[int, float], None]
 
 
 class Span(NamedTuple):
@@ -37,15 +43,19 @@ class Runner:
     """
 
     def __init__(
-        self, checkpoint: Checkpoint | None = None, progress: Progress | None = None
+        self,
+        checkpoint: Checkpoint | None = None,
+        progress: Progress | None = None,
+        foresee: Foresee | None = None,
     ) -> None:
         """Go on from a checkpoint's position.
 
         Args:
             checkpoint: Where the scene is saved; None saves nothing.
             progress: Called with (steps done, steps expected, text).
+            foresee: Called once, when steps of the loading have been timed.
         """
-        self._checkpoint, self._progress = checkpoint, progress
+        self._checkpoint, self._progress, self._foresee = checkpoint, progress, foresee
         self.position = checkpoint.position if checkpoint else Position()
         self._stages = 0
         self._spans: list[float] = []
@@ -80,6 +90,7 @@ class Runner:
         text: Callable[[], str],
         *,
         save: bool = True,
+        foreseen: bool = False,
     ) -> None:
         """Run to the end of the stage, or until it is over.
 
@@ -90,13 +101,18 @@ class Runner:
             over: Whether the stage is over before its end.
             text: Tells how the test stands.
             save: The scene may be saved after any step.
+            foreseen: Tell how long the run, which this stage ends, will probably take.
 
         Raises:
             RuntimeError: if an engine has failed.
         """
+        looks = 0
         try:
             while yade.O.iter < self.position.stage_end and not over():
                 self._step_on(step, over)
+                looks += 1
+                if foreseen and looks == _TIMED_LOOK:
+                    self._tell_expected()
                 self._show(text())
                 if save and self._checkpoint is not None and self._checkpoint.due:
                     self.save()
@@ -134,6 +150,14 @@ class Runner:
             step()
             number += 1
         self._spans.append((time.perf_counter() - begin) / (number - first))
+
+    def _tell_expected(self) -> None:
+        """Tell where the stage will probably end and when, by the steps that were last."""
+        likely = self.position.stage_likely
+        left = likely - yade.O.iter
+        if self._foresee is not None and left > 0:
+            self._foresee(likely, left * self._spans[-1])
+            self._foresee = None
 
     def _show(self, text: str) -> None:
         if self._progress is not None:
