@@ -134,6 +134,7 @@ def check_python(arguments: list[str]) -> int:
         *("--cov-report=term:skip-covered", f"--cov-fail-under={PYTHON_LINES}"),
         *(arguments or ["-m", "not slow"]),
         OMP_NUM_THREADS="1",
+        HYPOTHESIS_PROFILE="",  # by night, too, the examples of the day
         PYTHONPATH=str(ROOT / "build/python"),
         COVERAGE_FILE=str(ROOT / "build/coverage.data"),
     )
