@@ -35,6 +35,32 @@ TEST_CASE("cells fill a grain with a dent evenly", "[inner]")
 }
 
 TEST_CASE(
+    "few seeds in a long grain, which would swap their places for ever, all keep a cell", "[inner]")
+{
+    const std::vector<std::vector<Point>> grains {
+        { { 0.66895204823138067, 2.8828715344781028 }, { 1.848918304483933, 4.2298293642198826 },
+            { 2.2346312713331855, 6.7011858252376761 },
+            { 0.14276938955791593, 6.762576562245666 } },
+        { { 0.0, 10.494963894467479 }, { 6.2271632385139516, 13.739550949019498 },
+            { 0.0, 18.773773293852998 } },
+    };
+    for (const auto& grain : grains) {
+        const double whole = polygon_shape(grain).area;
+        double total = 0.0;
+        for (const auto& cell : relax_seeds(grain, 3).cells) {
+            std::vector<Point> corners;
+            for (const InnerCorner& c : cell)
+                corners.push_back(c.point);
+            REQUIRE(corners.size() >= 3);
+            const double area = polygon_shape(corners).area;
+            CHECK(area == Approx(whole / 3.0).epsilon(0.3));
+            total += area;
+        }
+        CHECK(total == Approx(whole).epsilon(1e-13));
+    }
+}
+
+TEST_CASE(
     "a cell's neighbour has the cell as its neighbour; each edge of the grain has cells", "[inner]")
 {
     const InnerPacking packing = relax_seeds(dented, 20);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flexpm {
 
@@ -111,6 +112,12 @@ double growth(const InnerPacking& packing, int cell)
     return sum;
 }
 
+bool has_empty_cell(const InnerPacking& packing)
+{
+    return std::any_of(packing.cells.begin(), packing.cells.end(),
+        [](const Cell& cell) { return cell.size() < 3; });
+}
+
 }  // namespace
 
 InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
@@ -123,10 +130,14 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
     InnerPacking packing { first_seeds(local, count), std::vector<Cell>(count) };
     std::vector<double> weights(count, 0.0);
     const double mean = shape.area / count;
+    double best = std::numeric_limits<double>::infinity();
+    std::vector<Point> best_seeds = packing.seeds;
+    std::vector<double> best_weights = weights;
     for (int round = 0; round < most_rounds; ++round) {
         cut_cells(local, weights, packing);
         double worst = 0.0, moved = 0.0;
         std::vector<Point> next = packing.seeds;
+        const std::vector<double> used = weights;
         for (int i = 0; i < count; ++i) {
             const PolygonShape s = packing.cells[i].size() < 3
                 ? PolygonShape {}
@@ -137,10 +148,20 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
             if (s.area > 0.0) next[i] = s.centroid;
             moved = std::max(moved, norm(next[i] - packing.seeds[i]));
         }
+        if (worst < best) {
+            best = worst;
+            best_seeds = packing.seeds;
+            best_weights = used;
+        }
         if (worst < area_tolerance && moved < 0.01 * std::sqrt(mean)) break;
         packing.seeds = next;
     }
     cut_cells(local, weights, packing);
+    if (has_empty_cell(packing)) {
+        // few cells in a long polygon may swap their places for ever
+        packing.seeds = best_seeds;
+        cut_cells(local, best_weights, packing);
+    }
     for (Point& p : packing.seeds)
         p = p + shape.centroid;
     for (Cell& cell : packing.cells) {
