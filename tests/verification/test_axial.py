@@ -8,7 +8,6 @@ import flexpm
 from flexpm.errors import InputError
 from flexpm.laboratory import loading_rate as rates
 from flexpm.laboratory.loading_rate import Loading, Scales, schedule
-from flexpm.laboratory.run_spec import LOADINGS
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]
@@ -74,7 +73,8 @@ def test_a_specimen_has_one_slope_before_its_peak(results):
 @pytest.mark.parametrize(("model", "saved"), [("flexible", 0.3), ("rigid", 0.1)])
 def test_adaptive_loading_gives_the_measures_of_constant_loading(specimen, model, saved):
     constant, adaptive = (
-        flexpm.run("uniaxial", specimen, model=model, loading=loading) for loading in LOADINGS
+        flexpm.run("uniaxial", specimen, model=model, loading=loading)
+        for loading in ("constant", "adaptive")
     )
     # the last cracks before a peak are chaotic: adapting must not alter it by more than halving the
     # rate does
@@ -88,6 +88,56 @@ def test_adaptive_loading_gives_the_measures_of_constant_loading(specimen, model
     assert factor[0] == pytest.approx(rates.fastest_factor("uniaxial", model))
     assert factor[int(np.argmax(adaptive.curve["axial_stress"]))] == pytest.approx(1.0, abs=0.5)
     assert set(constant.curve["velocity_factor"]) == {1.0}
+
+
+@pytest.mark.parametrize(
+    ("test", "model"),
+    [("tension", "flexible"), pytest.param("uniaxial", "rigid", marks=pytest.mark.long)],
+)
+def test_waiting_loading_gives_the_strength_of_a_slow_one_in_fewer_steps(test, model):
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, 0.08, seed=2)
+    slow = flexpm.run(test, specimen, model=model, loading="constant", rate=0.25)
+    waiting = flexpm.run(test, specimen, model=model, loading="waiting")
+    assert waiting.peak_stress == pytest.approx(slow.peak_stress, rel=0.02)
+    assert waiting.youngs_modulus == pytest.approx(slow.youngs_modulus, rel=1e-2)
+    assert waiting.poissons_ratio == pytest.approx(slow.poissons_ratio, abs=5e-3)
+    assert waiting.energy_error < 0.01
+    assert waiting.steps < 0.3 * slow.steps
+    assert (slow.status, waiting.status) == ("ok", "ok")
+    factor = waiting.curve["velocity_factor"]
+    fastest = rates.WAITING_CONSTANT / rates.rate_constant(test, model)
+    assert factor[0] == pytest.approx(fastest)
+    assert 0.01 * fastest <= np.min(factor) < 0.2 * fastest
+
+
+def test_waiting_loading_is_the_same_after_a_checkpoint(tmp_path, monkeypatch):
+    """An interrupted run goes on to the same bits: what the controller has seen is saved."""
+    specimen = flexpm.Specimen.rectangle(0.01, 0.02, 0.08, seed=1)
+    options = {"model": "rigid", "loading": "waiting", "rate": 4.0}
+    whole = flexpm.run("uniaxial", specimen, **options)
+
+    def interrupt(done, expected, text):
+        if done > whole.steps // 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        flexpm.run("uniaxial", specimen, **options, out=tmp_path / "run", progress=interrupt)
+    resumed = flexpm.run("uniaxial", specimen, **options, out=tmp_path / "run")
+    assert resumed.resumed_at > 0
+    np.testing.assert_array_equal(resumed.curve.array, whole.curve.array)
+
+
+@pytest.mark.parametrize(
+    ("options", "rule"),
+    [
+        ({"model": "inner"}, "must be adaptive or constant for model inner"),
+        ({"material": "augig-table2-brittle"}, "must be constant for brittle contacts"),
+        ({"model": "jcfpm"}, "must be constant for model jcfpm"),
+    ],
+)
+def test_waiting_loading_is_refused_where_no_damage_tells_of_cracks(specimen, options, rule):
+    with pytest.raises(InputError, match=f"loading = waiting, {rule}"):
+        flexpm.run("tension", specimen, loading="waiting", **options)
 
 
 @pytest.mark.long
@@ -118,7 +168,9 @@ def test_adaptive_loading_is_refused_where_time_is_real_or_the_model_yades(speci
 
 
 def test_an_unknown_loading_is_refused(specimen):
-    with pytest.raises(InputError, match="loading = 'fast', must be one of constant, adaptive"):
+    with pytest.raises(
+        InputError, match="loading = 'fast', must be one of constant, adaptive, waiting"
+    ):
         flexpm.run("uniaxial", specimen, loading="fast")
 
 

@@ -24,7 +24,7 @@ def build_own(
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
     built = grains.build(specimen, None, model, mesh=mesh, threads=threads)
     assert isinstance(built, grains.Model), model
-    rig(built).start(Loading(rate=_RATE, adaptive=True))
+    rig(built).start(Loading(rate=_RATE, kind="adaptive"))
     return built.counts()
 
 

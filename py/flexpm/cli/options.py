@@ -335,9 +335,10 @@ loading_options = combined(
     click.option(
         "--loading",
         type=Name(*LOADINGS),
-        metavar="constant|adaptive",
+        metavar="constant|adaptive|waiting",
         help="adaptive: load faster while the specimen is elastic; the default of the grain models "
-        "with scaled masses, unless contacts are brittle.",
+        "with scaled masses, unless contacts are brittle. waiting: faster still, and nearly stand "
+        "still while a crack runs; for flexible and rigid grains.",
     ),
 )
 drawn_mesh_option = click.option(

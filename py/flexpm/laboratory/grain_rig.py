@@ -97,14 +97,34 @@ class GrainRig(TestRig):
             # elastic velocities raise no wave: a loading that has them may begin at full speed
             factor = 1.0 if self.disc else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
-        self.built.remove_engines(self.built.engine(wrapper.LoadingRateController))
+        for kind in (wrapper.LoadingRateController, wrapper.CrackWaitController):
+            self.built.remove_engines(self.built.engine(kind))
         if plan.fastest > 1.0:
-            engine = wrapper.LoadingRateController(
-                loading=recorder.loading,
-                fastest=plan.fastest,
-                crossingSteps=self.scales().crossing_steps,
+            self.built.add_engines(last=(self._rate_controller(plan),))
+
+    def _rate_controller(
+        self, plan: Schedule
+    ) -> wrapper.LoadingRateController | wrapper.CrackWaitController:
+        crossing = self.scales().crossing_steps
+        if plan.running_shares is None:
+            return wrapper.LoadingRateController(
+                loading=self._recorder.loading, fastest=plan.fastest, crossingSteps=crossing
             )
-            self.built.add_engines(last=(engine,))
+        before, after = plan.running_shares
+        return wrapper.CrackWaitController(
+            recorder=self._recorder,
+            fastest=plan.fastest,
+            sweep=self._loaded_area() * plan.fastest * abs(plan.velocity),
+            runningShare=before,
+            shareAfterPeak=after,
+            crossingSteps=crossing,
+        )
+
+    def _loaded_area(self) -> float:
+        """Force over the record's stress [m2]."""
+        specimen = self.built.specimen
+        part = 0.5 * math.pi if self.disc else 1.0  # of a disc 2P / (pi D t)
+        return part * self.scales().width * specimen.thickness
 
     def _begin_record(self) -> None:
         solver = self.built.solver

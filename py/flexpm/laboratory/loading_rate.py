@@ -25,6 +25,17 @@ RATE_CONSTANT = {
 }
 #: The rate of an adaptive loading is up to this k while the specimen is elastic [-].
 FASTEST_CONSTANT = 0.04
+#: The rate of a loading that waits for cracks is up to this k [-].
+WAITING_CONSTANT = 0.08
+#: Cracks run where damage and friction take more than this share of what a waiting loading would
+#: supply at its fastest [-], by model and test.
+RUNNING_SHARE = {
+    "flexible": {"uniaxial": 0.002, "tension": 0.02, "biaxial": 0.002, "brazilian": 0.01},
+    "rigid": {"uniaxial": 0.01, "tension": 0.02, "biaxial": 0.01, "brazilian": 0.02},
+}
+#: The same after the peak, where a specimen may take work for long without a crack that runs, as a
+#: multiple [-].
+_SHARE_AFTER_PEAK = 5.0
 #: A test whose median unbalanced-force ratio up to its peak exceeds this is not quasi-static [-]:
 #: about what the fastest rate gives at which halving still moves the mean peak by less than 2 %.
 QUASISTATIC_RATIO = {
@@ -35,6 +46,9 @@ QUASISTATIC_RATIO = {
     "jcfpm": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
     "cohfrict": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
 }
+#: The same of a loading that waits for cracks, as a multiple [-]: more of its rows lie where cracks
+#: run, which unbalances rigid grains most.
+_WAITING_RATIO = {"flexible": 1.0, "rigid": 2.0}
 #: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
 STOP_RATIO = 0.5
 #: Largest part that can be asked for [-]: a smaller fall makes no peak (``measures.PEAK_DROP``).
@@ -57,7 +71,9 @@ class Loading:
     """How the ends of a specimen are driven, and when its test ends."""
 
     rate: float = 1.0  #: factor on the default loading rate [-]
-    adaptive: bool = False  #: faster while the specimen is elastic; for grains
+    #: ``constant``; ``adaptive``: faster while the specimen is elastic; ``waiting``: as long as no
+    #: crack runs. The last two are for grains
+    kind: str = "constant"
     static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
     max_strain: float | None = None  #: axial strain at which the test ends [-]; None: the default
     stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
@@ -80,6 +96,9 @@ class Schedule:
 
     velocity: float  #: of the moving end at factor 1 [m/step, or m/s with real masses]
     fastest: float  #: largest factor on the velocity [-]
+    #: dissipated share of the fastest work above which the loading waits, before and after the peak
+    #: [-]; None: it does not wait
+    running_shares: tuple[float, float] | None
     reference_strain: float  #: strain of the reference strength [-]
     max_strain: float  #: at which the test ends [-]
     stop_ratio: float  #: part of its peak to which the stress falls in the end [-]
@@ -101,9 +120,16 @@ def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:
     return max(FASTEST_CONSTANT * min(rate, 1.0) / (rate * rate_constant(test, model)), 1.0)
 
 
-def quasistatic_ratio(test: str, model: str) -> float:
+def _waiting(test: str, model: str) -> tuple[float, tuple[float, float]]:
+    """Largest factor and running shares of a loading that waits for cracks [-]."""
+    share = RUNNING_SHARE[model][test]
+    return WAITING_CONSTANT / rate_constant(test, model), (share, _SHARE_AFTER_PEAK * share)
+
+
+def quasistatic_ratio(test: str, model: str, loading: str = "constant") -> float:
     """Largest median unbalanced-force ratio of a quasi-static test on a model [-]."""
-    return QUASISTATIC_RATIO[_LIKE.get(model, model)][test]
+    multiple = _WAITING_RATIO[model] if loading == "waiting" else 1.0
+    return multiple * QUASISTATIC_RATIO[_LIKE.get(model, model)][test]
 
 
 def schedule(
@@ -143,9 +169,15 @@ def schedule(
             f"run: steps = {steps:.3g} up to the largest strain, must be <= {_MOST_STEPS:g}; "
             "raise the rate or lower max_strain"
         )
+    fastest, shares = 1.0, None
+    if loading.kind == "adaptive":
+        fastest = fastest_factor(test, model, loading.rate)
+    elif loading.kind == "waiting":
+        fastest, shares = _waiting(test, model)
     return Schedule(
         velocity,
-        fastest_factor(test, model, loading.rate) if loading.adaptive else 1.0,
+        fastest,
+        shares,
         reference,
         largest,
         loading.stop_ratio,

@@ -100,8 +100,10 @@ def run(
             for uniaxial compression and tension of the flexible model. None: ``static`` for its
             tension with scaled masses, else ``rest``.
         loading: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate
-            as damage and friction take the work; ``constant``: at the rate. None: ``adaptive`` for
-            the grain models with scaled masses unless the contacts are brittle, else ``constant``.
+            as damage and friction take the work; ``waiting``: faster still, and nearly still while
+            a crack runs, for ``flexible`` and ``rigid``; ``constant``: at the rate. None:
+            ``adaptive`` for the grain models with scaled masses unless the contacts are brittle,
+            else ``constant``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -225,8 +227,8 @@ def _confine(rig: TestRig, spec: RunSpec) -> None:
 
 
 def _load(rig: TestRig, spec: RunSpec) -> None:
-    adaptive, static = spec.loading == "adaptive", spec.start == "static"
-    rig.load(Loading(spec.rate, adaptive, static, spec.max_strain, spec.stop_ratio))
+    static = spec.start == "static"
+    rig.load(Loading(spec.rate, spec.loading, static, spec.max_strain, spec.stop_ratio))
 
 
 #: Stages of each test, the same for all models.
@@ -258,7 +260,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.curve = rig.record
     result.cracks = cracks_from_snapshot(snapshot, result.curve)
     result.measure(
-        quasistatic_ratio(spec.test, spec.model),
+        quasistatic_ratio(spec.test, spec.model, spec.loading),
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )

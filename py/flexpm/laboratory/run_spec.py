@@ -47,8 +47,11 @@ ELASTIC = "elastic"
 #: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
 #: where the first contact point is about to leave its elastic branch.
 STARTS = ("rest", "static")
-#: ``constant``: the ends move at one velocity; ``adaptive``: faster while the specimen is elastic.
-LOADINGS = ("constant", "adaptive")
+#: ``constant``: the ends move at one velocity; ``adaptive``: faster while the specimen is elastic;
+#: ``waiting``: faster still, and nearly still while a crack runs.
+LOADINGS = ("constant", "adaptive", "waiting")
+#: Models of which a loading can wait for cracks.
+_WAITING_MODELS = ("flexible", "rigid")
 
 #: Options that a test has no use for.
 UNUSED: dict[str, tuple[str, ...]] = {
@@ -244,11 +247,25 @@ class RunSpec:
             fast = adapts and not is_brittle(self.material)
             self._set("loading", "adaptive" if fast else "constant")
         require_one_of("run: loading", self.loading, LOADINGS)
-        if self.loading == "adaptive" and not adapts:
+        if self.loading != "constant" and not adapts:
             raise InputError(
-                f"run: loading = adaptive, must be constant for model {self.model}"
-                f"{' with real masses' if self.dynamic else ''}; adaptive needs grains and scaled "
-                "masses"
+                f"run: loading = {self.loading}, must be constant for model {self.model}"
+                f"{' with real masses' if self.dynamic else ''}; {self.loading} needs grains and "
+                "scaled masses"
+            )
+        if self.loading == "waiting":
+            self._check_waiting()
+
+    def _check_waiting(self) -> None:
+        if self.model not in _WAITING_MODELS:
+            raise InputError(
+                f"run: loading = waiting, must be adaptive or constant for model {self.model}; "
+                f"waiting is for {' and '.join(_WAITING_MODELS)} grains"
+            )
+        if is_brittle(self.material):
+            raise InputError(
+                "run: loading = waiting, must be constant for brittle contacts; their cracks take "
+                "no damage energy that a loading could wait for"
             )
 
     def _check_test(self) -> None:

@@ -190,7 +190,7 @@ def median_unbalanced_ratio(curve: Curve) -> float | None:
     Rows at a faster rate count with the ratio that the slowest would have given: they are driven so
     where the rate does not matter.
     """
-    return _while_loaded(curve, curve["unbalanced_ratio"] / curve["velocity_factor"], np.nanmedian)
+    return _while_loaded(curve, curve["unbalanced_ratio"] / _faster(curve), np.nanmedian)
 
 
 def end_mismatch(curve: Curve) -> float | None:
@@ -200,7 +200,12 @@ def end_mismatch(curve: Curve) -> float | None:
 
 def median_end_mismatch(curve: Curve) -> float | None:
     """Median of the same differences [-]; rows at a faster rate count as in the median ratio."""
-    return _while_loaded(curve, curve["end_mismatch"] / curve["velocity_factor"], np.nanmedian)
+    return _while_loaded(curve, curve["end_mismatch"] / _faster(curve), np.nanmedian)
+
+
+def _faster(curve: Curve) -> FloatArray:
+    """Rate over the slowest, or 1 where a loading that waits for cracks is slower [-]."""
+    return np.maximum(curve["velocity_factor"], 1.0)
 
 
 def _while_loaded(

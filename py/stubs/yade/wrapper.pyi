@@ -162,6 +162,9 @@ class ConfinementController(Engine):
 class LoadingRateController(Engine):
     loading: LoadingController | None
 
+class CrackWaitController(Engine):
+    recorder: AxialRecorder | None
+
 class AxialRecorder(Engine):
     loading: LoadingController | None
     stopRatio: float

@@ -73,8 +73,8 @@ def test_a_test_of_stages_is_the_test_of_that_name(rectangle, model, kind):
     rig = rig_of(rectangle, model)
     assert isinstance(rig, kind)
     rig.confine(3e6)
-    adaptive = model != "jcfpm"
-    rig.load(flexpm.Loading(rate=8.0, adaptive=adaptive, max_strain=3e-4))
+    kind = "constant" if model == "jcfpm" else "adaptive"
+    rig.load(flexpm.Loading(rate=8.0, kind=kind, max_strain=3e-4))
     expected = flexpm.run(
         "biaxial", rectangle, model=model, confinement=3e6, rate=8.0, max_strain=3e-4
     )
@@ -86,7 +86,7 @@ def test_a_loading_goes_on_to_the_end_after_other_stages(rectangle):
     rig.strain_to(0.3 * rig.reference_strain)
     rig.strain_to(0.1 * rig.reference_strain)
     first = len(rig.record)
-    rig.load(flexpm.Loading(adaptive=True))
+    rig.load(flexpm.Loading(kind="adaptive"))
     stress, factor = rig.record["axial_stress"], rig.record["velocity_factor"]
     assert stress[-1] < 0.5 * stress.max() <= stress[-2]
     assert set(factor[:first]) == {1.0}

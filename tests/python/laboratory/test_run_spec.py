@@ -18,6 +18,7 @@ from flexpm.laboratory import run_spec
 from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO
 from flexpm.laboratory.run_spec import ELASTIC, LOADINGS, TESTS, RunSpec, described
 from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
+from flexpm.materials.mixing import is_brittle
 from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
 from flexpm.models.sphere_laws import LAWS
 from flexpm.results.measures import PEAK_DROP
@@ -59,6 +60,8 @@ def specs(draw) -> RunSpec:
     if model == "flexible" and test in ("uniaxial", "tension"):
         starts.append("static")
     adapts = grains and not dynamic and test != ELASTIC
+    waits = adapts and not model.startswith("inner") and not is_brittle(described(material, model))
+    loadings = [name for name in LOADINGS if waits or name != "waiting"] if adapts else ["constant"]
     return RunSpec(
         test,
         draw(specimens("disc" if test == "brazilian" else "rectangle")),
@@ -73,7 +76,7 @@ def specs(draw) -> RunSpec:
         dynamic=dynamic,
         gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic else 0.0,
         start=draw(st.sampled_from(starts)),
-        loading=draw(st.sampled_from(["", *LOADINGS] if adapts else ["", "constant"])),
+        loading=draw(st.sampled_from(["", *loadings])),
     )
 
 
@@ -250,7 +253,7 @@ def test_the_key_of_a_brittle_run_is_that_of_its_loading_and_the_adaptive_one_is
         ({"gravity": 9.81}, "must be 0 with scaled masses; use dynamic"),
         ({"start": "moving"}, "start = 'moving', must be one of rest, static"),
         ({"start": "static", "model": "rigid"}, "start = static, must be rest"),
-        ({"loading": "fast"}, "loading = 'fast', must be one of constant, adaptive"),
+        ({"loading": "fast"}, "loading = 'fast', must be one of constant, adaptive, waiting"),
         ({"loading": "adaptive", "dynamic": True}, "must be constant for model flexible with real"),
     ],
 )

@@ -75,10 +75,11 @@ void AxialRecorder::action()
 	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
-	stress = now.axial_stress;
-	strain = now.axial_strain;
-	peak   = std::max(peak, flexpm::differential_stress(now));
-	state  = flexpm::test_state(flexpm::differential_stress(now), peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
+	stress       = now.axial_stress;
+	strain       = now.axial_strain;
+	differential = flexpm::differential_stress(now);
+	peak         = std::max(peak, differential);
+	state        = flexpm::test_state(differential, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
 	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
 }
 

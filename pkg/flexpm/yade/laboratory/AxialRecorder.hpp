@@ -30,6 +30,7 @@ public:
 		((bool, fromNow, false,, "Count strains from the next step on instead of from the bonded state; false after that step."))
 		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-] |yupdate|."))
 		((Real, stress, 0., Attr::readonly, "Axial stress of the last row [Pa] |yupdate|."))
+		((Real, differential, 0., Attr::readonly, "The same above the confinement [Pa] |yupdate|."))
 		((Real, strain, 0., Attr::readonly, "Axial strain of the last row [-] |yupdate|."))
 		((Real, peak, 0.,, "Largest stress above the confinement so far; a fall is one from here [Pa] |yupdate|."))
 		((flexpm::TestState, state, flexpm::TestState::running,, "Whether the test is over, and why: running, past_peak, least_strain_reached or largest_strain_reached. Set it to running to go on |yupdate|."))

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/laboratory/crack_wait.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+void check(const CrackWaitRule& rule)
+{
+    check_positive("largest velocity factor", rule.fastest, "");
+    check_positive("dissipated share of running cracks", rule.running_share, "");
+    check_positive("dissipated share after the peak", rule.share_after_peak, "");
+    check_positive("steps of a crossing", rule.crossing, "");
+}
+
+/// Part of the fastest velocity that suits what is dissipated [-]. Without a stress all that is dissipated counts.
+double wanted_part(const CrackWatch& seen, const CrackWaitRule& rule)
+{
+    const bool fallen = seen.stress < fallen_from_peak * seen.peak;
+    const double allowed =
+        (fallen ? rule.share_after_peak : rule.running_share) * std::max(seen.fastest_work, 0.0);
+    if (seen.dissipated <= allowed) return 1.0;
+    const double square = allowed / seen.dissipated * (allowed / seen.dissipated);
+    return std::max(square * square, smallest_wait_factor);
+}
+
+}  // namespace
+
+double factor_for_cracks(double factor, const CrackWatch& seen, const CrackWaitRule& rule)
+{
+    check(rule);
+    check_positive("velocity factor", factor, "");
+    const double crossings = seen.steps / rule.crossing;
+    const double wanted = rule.fastest * wanted_part(seen, rule);
+    return std::clamp(wanted, factor * std::exp2(-4.0 * crossings), factor * std::exp2(crossings));
+}
+
+}  // namespace flexpm

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/yade/laboratory/CrackWaitController.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/laboratory/crack_wait.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((CrackWaitController));
+
+CrackWaitController::~CrackWaitController() = default;
+
+void CrackWaitController::action()
+{
+	const auto solver = GrainSolver::ofScene(*scene);
+	if (!solver->measured()) return;
+	if (!recorder || !recorder->loading)
+		throw std::runtime_error("CrackWaitController.recorder = None or without loading, must be the recorder of the test");
+	flexpm::check_positive("CrackWaitController.sweep", sweep, "m3/s");
+	const flexpm::Dissipation sum   = flexpm::dissipation(solver->assembly);
+	const Real                now   = sum.damage + sum.friction;
+	const int                 steps = solver->measurePeriod;
+	const flexpm::CrackWatch  watch = {
+		 seen < 0 ? 0 : now - seen, flexpm::swept_work(recorder->stress, sweep, steps * scene->dt), recorder->differential, recorder->peak, Real(steps)
+	};
+	const flexpm::CrackWaitRule rule   = { fastest, runningShare, shareAfterPeak, crossingSteps };
+	Real&                       factor = recorder->loading->velocityFactor;
+	factor                             = flexpm::factor_for_cracks(factor, watch, rule);
+	seen                               = now;
+}
+
+} // namespace yade
