@@ -8,6 +8,8 @@ install(FILES ${package_docs}/completion/_flexpm DESTINATION share/zsh/vendor-co
 install(DIRECTORY ${package_docs}/html DESTINATION share/doc/flexpm)
 install(FILES ${package_docs}/changelog.gz ${package_docs}/NEWS.gz ${PROJECT_SOURCE_DIR}/cmake/debian/copyright
     DESTINATION share/doc/flexpm)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/tutorials ${PROJECT_SOURCE_DIR}/scripts/yade-check
+    DESTINATION share/doc/flexpm/examples PATTERN "__pycache__" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian/lintian-overrides DESTINATION share/lintian/overrides RENAME flexpm)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/python/flexpm/vendor DESTINATION ${site_dir}/flexpm
     PATTERN "__pycache__" EXCLUDE PATTERN "bin" EXCLUDE)

@@ -4,9 +4,11 @@
 
     scripts/checks/reference.py [BUILD]            fails if a column of numbers has changed
     scripts/checks/reference.py [BUILD] --renew    writes the reference, after a wanted change
+    scripts/checks/reference.py --installed        the same check of the flexpm that is installed
 
 BUILD is the build folder (default: build). The commands are the four tests with flexible and with
-rigid grains, compression of inner particles, tension of YADE's two models and a study of two runs.
+rigid grains, compression of inner particles, tension of YADE's two models and a study of two runs;
+--quick does eight of the single runs, with the instruction set that flexpm chooses.
 Each column of curve.csv and cracks.csv has a hash of its numbers: a file's layout may change, and a
 renamed column is renamed in reference.json. The single runs are repeated with each instruction set
 of this machine, which must give the same hashes.
@@ -18,6 +20,7 @@ raises the results number of its test and model, by which finished runs are told
 
 from __future__ import annotations
 
+import argparse
 import csv
 import hashlib
 import json
@@ -48,6 +51,8 @@ RUNS = (
     ("tension", "jcfpm"),
     ("tension", "cohfrict"),
 )
+#: Those of --quick.
+QUICK = (*((test, "flexible") for test in TESTS), ("uniaxial", "rigid"), *RUNS[-3:])
 STUDY = """[common]
 test = "tension"
 width = 0.012
@@ -70,16 +75,26 @@ STUDY_KIND = ("tension", "flexible")
 
 def main(arguments: list[str]) -> int:
     """Run the commands, then compare or renew."""
-    folders = [word for word in arguments if not word.startswith("-")]
-    if len(folders) > 1 or set(arguments) - {*folders, "--renew"}:
-        print(__doc__, file=sys.stderr)
-        return 2
-    package = (Path(folders[0]) if folders else ROOT / "build").resolve() / "python"
-    if not (package / "flexpm").is_dir():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("build", nargs="?", type=Path, default=ROOT / "build")
+    parser.add_argument("--installed", action="store_true")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--renew", action="store_true")
+    options = parser.parse_args(arguments)
+    if options.renew and (options.quick or options.installed):
+        parser.error("--renew writes all hashes, of a build; leave out --quick and --installed")
+    # None: where Python looks by itself
+    package = None if options.installed else options.build.resolve() / "python"
+    if package and not (package / "flexpm").is_dir():
         return _fail(f"{package}/flexpm = missing; build first (scripts/setup)")
     sets = _ask(package, "print(*flexpm._flexpm.instruction_sets())").split()
+    if options.quick:
+        sets = [_ask(package, "print(flexpm._flexpm.instruction_set())").strip()]
     work = Path(tempfile.mkdtemp(prefix="flexpm-reference-"))
-    jobs = [(test, model, name) for name in sets for test, model in RUNS]
+    runs = QUICK if options.quick else RUNS
+    jobs = [(test, model, name) for name in sets for test, model in runs]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         made = list(pool.map(lambda job: _run(package, work, *job), jobs))
     found: dict[str, dict[str, str]] = {}
@@ -88,15 +103,20 @@ def main(arguments: list[str]) -> int:
         first = found.setdefault(f"{test} {model}", hashes)
         if differing := _differing(first, hashes):
             failed = _fail(f"{test} {model} = other {differing} with {name} than with {sets[0]}")
-    found |= _study(package, work)
+    if not options.quick:
+        found |= _study(package, work)
     numbers = _numbers(package, list(found))
     if failed == 0:
         shutil.rmtree(work)
     print(f"reference: {len(found)} runs, instruction sets {', '.join(sets)}")
-    return failed or (_renew if "--renew" in arguments else _compare)(numbers, found)
+    if options.renew:
+        return failed or _renew(numbers, found)
+    return failed or _compare(numbers, found, all_runs=not options.quick)
 
 
-def _run(package: Path, work: Path, test: str, model: str, instruction_set: str) -> dict[str, str]:
+def _run(
+    package: Path | None, work: Path, test: str, model: str, instruction_set: str
+) -> dict[str, str]:
     """Hashes of the columns of one run."""
     folder = work / instruction_set / f"{test}-{model}"
     command = [PYTHON, "-P", "-c", LAUNCH, instruction_set, "run", test, "--model", model]
@@ -107,7 +127,7 @@ def _run(package: Path, work: Path, test: str, model: str, instruction_set: str)
     return dict(_hashes(folder))
 
 
-def _study(package: Path, work: Path) -> dict[str, dict[str, str]]:
+def _study(package: Path | None, work: Path) -> dict[str, dict[str, str]]:
     """Hashes of the columns of each run of a study, in the order of its table."""
     plan, folder = work / "study.toml", work / "study"
     plan.write_text(STUDY, encoding="utf-8")
@@ -137,7 +157,7 @@ def _canonical(cell: str) -> str:
         return cell
 
 
-def _numbers(package: Path, names: list[str]) -> dict[str, int]:
+def _numbers(package: Path | None, names: list[str]) -> dict[str, int]:
     """Results number of each run."""
     kinds = [STUDY_KIND if name.startswith("study") else tuple(name.split()) for name in names]
     script = "from flexpm.laboratory.run_spec import results_number\n"
@@ -145,10 +165,10 @@ def _numbers(package: Path, names: list[str]) -> dict[str, int]:
     return dict(zip(names, map(int, _ask(package, script).split()), strict=True))
 
 
-def _compare(numbers: dict[str, int], found: dict[str, dict[str, str]]) -> int:
+def _compare(numbers: dict[str, int], found: dict[str, dict[str, str]], all_runs: bool) -> int:
     reference = json.loads(REFERENCE.read_text(encoding="utf-8"))
     failed = 0
-    for run in {**reference, **found}:
+    for run in {**(reference if all_runs else {}), **found}:
         before = reference.get(run, {"results": None, "hashes": {}})
         if numbers.get(run) != before["results"]:
             failed = _fail(
@@ -184,15 +204,15 @@ def _differing(one: dict[str, str], other: dict[str, str]) -> str:
     return ", ".join(name for name in {**one, **other} if one.get(name) != other.get(name))
 
 
-def _ask(package: Path, question: str) -> str:
+def _ask(package: Path | None, question: str) -> str:
     done = _child(package, [PYTHON, "-P", "-c", f"import flexpm\n{question}"])
     if done.returncode != 0:
         sys.exit(_fail(f"{question} = exit code {done.returncode}: {done.stderr}"))
     return done.stdout
 
 
-def _child(package: Path, command: list[str]) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(package), "OMP_NUM_THREADS": "1"}
+def _child(package: Path | None, command: list[str]) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(package or ""), "OMP_NUM_THREADS": "1"}
     return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
 
 

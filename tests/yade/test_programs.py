@@ -12,6 +12,10 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from flexpm._plugin import yade_folder
+
+ROOT = Path(__file__).resolve().parents[2]
+
 SPECIMEN = "flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)"
 JOB = f"""
 import flexpm
@@ -125,3 +129,28 @@ def test_the_window_draws_deformed_grains(package_parent: Path, tmp_path: Path) 
     assert height(stretched) / height(plain) == pytest.approx(1.25, abs=0.015)
     assert ink(plain) > 0.01
     assert ink(stretched) > 2.0 * ink(plain)
+
+
+@pytest.mark.parametrize(("wrong", "code"), [(None, 0), ("rate=2.0", 1)])
+def test_yades_list_of_checks_runs_that_of_flexpm(
+    package_parent: Path, tmp_path: Path, wrong: str | None, code: int
+) -> None:
+    """As ``yade --check`` does, from a folder that holds this check alone."""
+    checks = tmp_path / "checks"
+    checks.mkdir()
+    script = (ROOT / "scripts" / "yade-check" / "checkFlexpm.py").read_text()
+    if wrong is not None:
+        assert wrong in script
+        script = script.replace(wrong, "rate=200.0")
+    (checks / "checkFlexpm.py").write_text(script)
+    # what the program yade has at hand where it runs the list
+    (tmp_path / "driver.py").write_text(
+        "from types import SimpleNamespace\n"
+        "opts = SimpleNamespace(checkall=False, threads=None, cores=None)\n"
+        f"checksPath = {str(checks)!r}\n"
+        f"exec(open({str(yade_folder() / 'py/yade/tests/checks/checkList.py')!r}).read())\n"
+    )
+    done = run(["yade", "-n", "-x", "driver.py"], package_parent, tmp_path)
+    assert done.returncode == code, done.stdout + done.stderr
+    assert "running:  checkFlexpm.py" in done.stdout
+    assert ("YadeCheckError :  flexpm: " in done.stdout) == (wrong is not None), done.stdout

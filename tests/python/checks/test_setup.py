@@ -91,7 +91,7 @@ def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "script",
-    ["setup", "test", "quickstart", "yade-headers"]
+    ["setup", "test", "quickstart", "package", "yade-headers"]
     + [f"checks/{name}" for name in ("sanitize", "compilers", "format", "types")],
 )
 def test_a_script_that_is_asked_for_help_does_nothing_else(script: str, tmp_path: Path) -> None:

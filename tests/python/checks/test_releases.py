@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The check of Debian's releases: its table, what it reports of a mirror that fails, its steps."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+import subprocess
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+SCRIPT = ROOT / "scripts" / "checks" / "releases"
+
+
+@pytest.fixture
+def releases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """The script as a module, with its files below a temporary folder."""
+    loader = SourceFileLoader("releases", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("releases", loader))
+    # the compiled file would lie beside the script
+    monkeypatch.setattr("sys.dont_write_bytecode", True)
+    loader.exec_module(module)
+    monkeypatch.setattr(module, "ROOT", tmp_path)
+    monkeypatch.setattr(module, "LOGS", tmp_path / "build-releases")
+    monkeypatch.setattr(module.os, "getuid", lambda: 0)
+    monkeypatch.setattr(module.shutil, "which", lambda name: name)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    return module
+
+
+def test_a_mirror_that_fails_is_a_row_with_its_message_and_without_its_name(
+    releases, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(releases, "_mirror", lambda: "http://none.invalid/debian")
+    error = "I: starting\nE: http://none.invalid/debian trixie: cannot be resolved\n"
+    failed = subprocess.CompletedProcess([], 25, stdout="", stderr=error)
+    monkeypatch.setattr(releases.subprocess, "run", lambda *_, **__: failed)
+    table = tmp_path / "releases.csv"
+    table.write_text(",".join(releases.FIELDS) + "\n" + ",".join(["12"] * len(releases.FIELDS)))
+    assert releases.main(["13", "--table", str(table)]) == 1
+    with table.open(newline="") as file:
+        old, new = csv.DictReader(file)
+    assert old["release"] == "12" and new["release"] == "13"
+    assert new["result"] == ("failed: root of trixie: E: mirror:/debian trixie: cannot be resolved")
+    assert "http://none.invalid" in capsys.readouterr().err
+
+
+def test_a_bare_root_is_kept_for_a_week(releases, monkeypatch, tmp_path):
+    monkeypatch.setattr(releases, "_mirror", lambda: "mirror:/debian")
+    made = []
+
+    def make(command, **_):
+        made.append(command)
+        Path(command[4]).write_text("root")
+        return subprocess.CompletedProcess(command, 0, stdout="", stderr="")
+
+    monkeypatch.setattr(releases.subprocess, "run", make)
+    tarball = releases.bare_root("trixie")
+    assert releases.bare_root("trixie") == tarball == tmp_path / "cache/flexpm/root-trixie.tar"
+    assert len(made) == 1
+    now = releases.time.time()
+    monkeypatch.setattr(releases.time, "time", lambda: now + releases.WEEK + 1.0)
+    releases.bare_root("trixie")
+    assert len(made) == 2
+
+
+def test_the_steps_are_those_of_the_dockerfile(releases):
+    build, install = releases.docker_steps()
+    assert any("scripts/package /out" in step for step in build)
+    assert any("install" in step and "/out/flexpm_*.deb" in step for step in install)
+    text = releases.DOCKERFILE.read_text()
+    assert text.count("\nRUN ") == len(build) + len(install)
+
+
+def test_wrong_names_of_releases_are_refused(releases, capsys):
+    with pytest.raises(SystemExit):
+        releases.main(["11"])
+    assert "'12', '13', 'sid'" in capsys.readouterr().err
