@@ -274,7 +274,9 @@ def test_a_checkpoint_is_good_for_a_run_at_any_time(small, copied):
 
 
 @given(place=st.floats(0.0, 1.0, exclude_max=True), bit=st.integers(0, 7))
-@hypothesis.settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@hypothesis.settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 def test_a_flipped_bit_of_either_file_is_refused_in_one_line(small, stopped, place, bit):
     for name in ("checkpoint.json", saved_in(stopped)["scene"]):
         file = stopped / name
@@ -290,7 +292,9 @@ def test_a_flipped_bit_of_either_file_is_refused_in_one_line(small, stopped, pla
 
 
 @given(part=st.floats(0.0, 1.0, exclude_max=True))
-@hypothesis.settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@hypothesis.settings(
+    max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 def test_a_scene_that_was_cut_is_refused_in_one_line(small, stopped, part):
     file = stopped / saved_in(stopped)["scene"]
     whole = file.read_bytes()
@@ -312,7 +316,11 @@ ANY_JSON = st.recursive(
     name=st.sampled_from(("scene", "stage", "stage_start", "step_time", "inputs", "sha256")),
     value=ANY_JSON | st.sampled_from(["/etc/passwd", "../checkpoint-1.bin", -1, 99, 2.0, True]),
 )
-@hypothesis.settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@hypothesis.settings(
+    max_examples=100,
+    deadline=None,  # a busy machine takes longer
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
 def test_any_value_in_a_checkpoint_is_refused_in_one_line(small, stopped, name, value):
     file = stopped / "checkpoint.json"
     whole = file.read_text()
