@@ -9,10 +9,15 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 # must be set before YADE is loaded; scripts/test sets it too
 os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+# an example takes as long as a busy machine needs
+hypothesis.settings.register_profile("unhurried", deadline=None)
+hypothesis.settings.load_profile("unhurried")
 
 ROOT = Path(__file__).resolve().parent.parent
 
