@@ -9,6 +9,7 @@ from yade import wrapper
 
 import flexpm
 from flexpm.errors import InputError
+from flexpm.laboratory import runner
 from flexpm.report.maps import crack_picture
 from flexpm.results.cracks import ERASED, cracks_from_snapshot
 from flexpm.results.record import Curve
@@ -109,11 +110,18 @@ def test_nothing_is_left_without_bodies(make, model):
     assert len(snapshot.positions) == len(snapshot.contact) == len(snapshot.fragments) == 0
 
 
+@pytest.fixture
+def often(monkeypatch):
+    """Progress is told after some steps, on a machine of any speed."""
+    monkeypatch.setattr(runner, "_LOOK_UP", 0.001)
+
+
+@pytest.mark.usefixtures("often")
 def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, model):
     gone: set[int] = set()
 
     def progress(*_: object) -> None:
-        if not gone and O.iter > 300:
+        if not gone and O.iter > 100:
             for bond in [i for i in O.interactions.withBody(20) if i.isReal]:
                 gone.add(bond.id1 if bond.id2 == 20 else bond.id2)
                 O.interactions.erase(bond.id1, bond.id2)
@@ -125,6 +133,7 @@ def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, model):
     assert result.tensile_cracks > 0
 
 
+@pytest.mark.usefixtures("often")
 def test_a_test_whose_grain_is_erased_ends_in_one_line(specimen, model):
     def progress(*_: object) -> None:
         if O.bodies[30] is not None:
