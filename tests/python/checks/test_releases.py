@@ -42,11 +42,11 @@ def test_a_mirror_that_fails_is_a_row_with_its_message_and_without_its_name(
     monkeypatch.setattr(releases.subprocess, "run", lambda *_, **__: failed)
     table = tmp_path / "releases.csv"
     table.write_text(",".join(releases.FIELDS) + "\n" + ",".join(["12"] * len(releases.FIELDS)))
-    assert releases.main(["13", "--table", str(table)]) == 1
+    assert releases.main(["13", "--table", str(table)]) == 75
     with table.open(newline="") as file:
         old, new = csv.DictReader(file)
     assert old["release"] == "12" and new["release"] == "13"
-    assert new["result"] == ("failed: root of trixie: E: mirror:/debian trixie: cannot be resolved")
+    assert new["result"] == ("not tried: root of trixie: E: mirror:/debian trixie: cannot be resolved")
     assert "http://none.invalid" in capsys.readouterr().err
 
 
