@@ -46,7 +46,9 @@ def test_a_mirror_that_fails_is_a_row_with_its_message_and_without_its_name(
     with table.open(newline="") as file:
         old, new = csv.DictReader(file)
     assert old["release"] == "12" and new["release"] == "13"
-    assert new["result"] == ("not tried: root of trixie: E: mirror:/debian trixie: cannot be resolved")
+    assert new["result"] == (
+        "not tried: root of trixie: E: mirror:/debian trixie: cannot be resolved"
+    )
     assert "http://none.invalid" in capsys.readouterr().err
 
 
