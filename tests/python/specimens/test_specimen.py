@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from flexpm.errors import InputError
@@ -175,6 +175,9 @@ some_discs = st.lists(
 
 @settings(max_examples=150, deadline=None)
 @given(some_discs)
+@example(
+    ([(0.020000000000000004, 0.98), (0.02, 0.98), (0.02, 0.9799999999999999)], 3 * [0.0546875], 0.0)
+)
 def test_any_discs_tile_the_square_or_name_the_hidden_one(case):
     points, radii, short_edge = case
     try:

@@ -99,11 +99,14 @@ Tessellation tessellate(
         [](const std::vector<CellEdge>& cell) { return !cell.empty(); });
     for (std::size_t i = 0; i < discs.size(); ++i) {
         auto& cell = diagram.cells[i];
-        if (!any || (cell.size() > 0 && cell.size() < 3)) {
+        const bool is_sliver = !cell.empty() && cell.size() < 3;
+        if (outline.is_circle() && (!any || is_sliver)) {
             refuse("tessellate: discs", static_cast<double>(discs.size()), "",
                 "must be enough to span an area in a circle; add discs or use a polygon");
         }
-        if (cell.empty() && !options.allow_hidden) refuse_hidden(discs[i], static_cast<int>(i));
+        // of discs in nearly one place some may keep no area
+        if (!any || is_sliver || (cell.empty() && !options.allow_hidden))
+            refuse_hidden(discs[i], static_cast<int>(i));
     }
     const int uncollapsed = count_shared_edges(diagram);
     const auto merged = collapse_edges(diagram, outline, options.short_edge, 0.0);
