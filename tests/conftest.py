@@ -15,8 +15,8 @@ import pytest
 # must be set before YADE is loaded; scripts/test sets it too
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-# an example takes as long as a busy machine needs; they are drawn by night and are the same each time
-# by day, so that a change is judged by what it has changed
+# an example takes as long as a busy machine needs; they are drawn by night and are the same each
+# time by day, so that a change is judged by what it has changed
 hypothesis.settings.register_profile("day", deadline=None, derandomize=True)
 hypothesis.settings.register_profile("night", deadline=None)
 hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE") or "day")
