@@ -13,7 +13,8 @@ from typing import Any
 import click
 
 from ..errors import InputError
-from ..laboratory.run_spec import LOADINGS, STARTS, RunSpec
+from ..laboratory.loading_rate import LOADINGS
+from ..laboratory.run_spec import STARTS, RunSpec
 from ..models.options import MESHES, MODELS, POINTS
 from ..require import (
     ANY,

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import InputError
+from ..require import require_one_of
 
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
 #: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %.
@@ -49,6 +50,9 @@ QUASISTATIC_RATIO = {
 #: The same of a loading that waits for cracks, as a multiple [-]: more of its rows lie where cracks
 #: run, which unbalances rigid grains most.
 _WAITING_RATIO = {"flexible": 1.0, "rigid": 2.0}
+#: How a loading goes on: ``constant``: the ends move at one velocity; ``adaptive``: faster while
+#: the specimen is elastic; ``waiting``: faster still, and nearly still while a crack runs.
+LOADINGS = ("constant", "adaptive", "waiting")
 #: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
 STOP_RATIO = 0.5
 #: Largest part that can be asked for [-]: a smaller fall makes no peak (``measures.PEAK_DROP``).
@@ -71,12 +75,14 @@ class Loading:
     """How the ends of a specimen are driven, and when its test ends."""
 
     rate: float = 1.0  #: factor on the default loading rate [-]
-    #: ``constant``; ``adaptive``: faster while the specimen is elastic; ``waiting``: as long as no
-    #: crack runs. The last two are for grains
-    kind: str = "constant"
+    kind: str = "constant"  #: one of ``LOADINGS``; others than constant are for grains
     static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
     max_strain: float | None = None  #: axial strain at which the test ends [-]; None: the default
     stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
+
+    def __post_init__(self) -> None:
+        """Refuse a kind that there is not."""
+        require_one_of("Loading: kind", self.kind, LOADINGS)
 
 
 @dataclass(frozen=True)
@@ -122,6 +128,11 @@ def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:
 
 def _waiting(test: str, model: str) -> tuple[float, tuple[float, float]]:
     """Largest factor and running shares of a loading that waits for cracks [-]."""
+    if model not in RUNNING_SHARE:
+        raise InputError(
+            f"Loading: kind = waiting, must be another for model {model}; waiting is for "
+            f"{' and '.join(RUNNING_SHARE)} grains"
+        )
     share = RUNNING_SHARE[model][test]
     return WAITING_CONSTANT / rate_constant(test, model), (share, _SHARE_AFTER_PEAK * share)
 

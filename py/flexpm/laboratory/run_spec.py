@@ -24,7 +24,7 @@ from ..require import (
     require_one_of,
 )
 from ..specimens.spec import SIZES, SpecimenSpec
-from .loading_rate import LARGEST_STOP_RATIO, STOP_RATIO
+from .loading_rate import LARGEST_STOP_RATIO, LOADINGS, RUNNING_SHARE, STOP_RATIO
 
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
@@ -47,11 +47,6 @@ ELASTIC = "elastic"
 #: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
 #: where the first contact point is about to leave its elastic branch.
 STARTS = ("rest", "static")
-#: ``constant``: the ends move at one velocity; ``adaptive``: faster while the specimen is elastic;
-#: ``waiting``: faster still, and nearly still while a crack runs.
-LOADINGS = ("constant", "adaptive", "waiting")
-#: Models of which a loading can wait for cracks.
-_WAITING_MODELS = ("flexible", "rigid")
 
 #: Options that a test has no use for.
 UNUSED: dict[str, tuple[str, ...]] = {
@@ -257,10 +252,10 @@ class RunSpec:
             self._check_waiting()
 
     def _check_waiting(self) -> None:
-        if self.model not in _WAITING_MODELS:
+        if self.model not in RUNNING_SHARE:
             raise InputError(
                 f"run: loading = waiting, must be adaptive or constant for model {self.model}; "
-                f"waiting is for {' and '.join(_WAITING_MODELS)} grains"
+                f"waiting is for {' and '.join(RUNNING_SHARE)} grains"
             )
         if is_brittle(self.material):
             raise InputError(

@@ -9,6 +9,7 @@ import pytest
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
+from flexpm.errors import InputError
 from flexpm.laboratory import rig as rigs
 from flexpm.laboratory.grain_rig import NodeRig, PlateRig
 from flexpm.laboratory.rig import TestRig
@@ -115,3 +116,10 @@ def test_a_strain_that_does_not_come_is_refused_in_one_line(rectangle, monkeypat
 def test_only_boundary_nodes_are_preloaded(rectangle):
     with pytest.raises(flexpm.SimulationError, match="must be False for model rigid"):
         rig_of(rectangle, "rigid").load(flexpm.Loading(static=True))
+
+
+def test_a_loading_that_cannot_be_is_refused(rectangle):
+    with pytest.raises(InputError, match="kind = 'wating', must be one of constant, adaptive"):
+        flexpm.Loading(kind="wating")
+    with pytest.raises(InputError, match="kind = waiting, must be another"):
+        rig_of(rectangle, "jcfpm").load(flexpm.Loading(kind="waiting"))

@@ -15,8 +15,8 @@ import flexpm
 from flexpm import materials
 from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
-from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO
-from flexpm.laboratory.run_spec import ELASTIC, LOADINGS, TESTS, RunSpec, described
+from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO, LOADINGS
+from flexpm.laboratory.run_spec import ELASTIC, TESTS, RunSpec, described
 from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
 from flexpm.materials.mixing import is_brittle
 from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
