@@ -115,6 +115,49 @@ def load_toml(path: Path, what: str) -> Table:
         raise InputError(f"{what} = {str(path)!r}, is no valid TOML file: {error}") from None
 
 
+def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
+    """Read a table with a header: names of the columns and rows of text.
+
+    Raises:
+        InputError: if it cannot be read or a row has another length than the header.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            lines = list(csv.reader(file))
+    except OSError as error:
+        raise InputError(
+            f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a file of flexpm"
+        ) from None
+    except (ValueError, csv.Error) as error:
+        raise InputError(f"{what} = {str(path)!r}, is no table: {error}") from None
+    if not lines or any(len(line) != len(lines[0]) for line in lines):
+        raise InputError(f"{what} = {str(path)!r}, must have rows as long as its header")
+    return lines[0], lines[1:]
+
+
+def load_json(path: Path, what: str) -> Table:
+    """Read a JSON file that holds a table.
+
+    Args:
+        path: The file.
+        what: What it is, for messages.
+
+    Raises:
+        InputError: if it cannot be read or holds something else.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(
+            f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a file of flexpm"
+        ) from None
+    except (ValueError, RecursionError):
+        content = None
+    if not isinstance(content, dict):
+        raise InputError(f"{what} = {str(path)!r}, is no JSON table; give a file of flexpm")
+    return content
+
+
 def output_folder(path: Path | str) -> Path:
     """Make the folder `path` if it does not exist and check that files can be written there.
 

@@ -24,15 +24,14 @@ from click.shell_completion import shell_complete
 from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import json_text, output_folder, write_text
-from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
 from ..materials.material import load
 from ..report import tables
-from ..require import NOT_NEGATIVE, nearest, require_known
+from ..require import nearest
 from ..text import name_of
 from . import compare as cli_compare
-from . import inputs, packings, signals, terminal
+from . import inputs, runs, signals, terminal
 from . import options as cli_options
-from .options import Count, Quantity
+from .options import Count
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen
@@ -72,103 +71,6 @@ def command() -> None:
 
     All quantities are in SI units.
     """
-
-
-@command.command()
-@click.argument("test", metavar="TEST")
-@cli_options.model_options
-@cli_options.rectangle_options
-@cli_options.disc_options
-@cli_options.packing_options
-@cli_options.seeds_options
-@click.option(
-    "--confinement",
-    type=Quantity("Pa", NOT_NEGATIVE),
-    default=RunSpec.confinement,
-    metavar="PA",
-    show_default=True,
-    help="Lateral pressure [Pa].",
-)
-@cli_options.loading_options
-@cli_options.threads_option
-@cli_options.out_option
-@click.option(
-    "--discard-checkpoint",
-    is_flag=True,
-    help="Start again if the folder holds a checkpoint that is damaged or of another run.",
-)
-@cli_options.quiet_option
-def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
-    """Run a laboratory test and write its files.
-
-    TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
-    compression of a disc of the given diameter.
-    """
-    require_known("test", test, TESTS)
-    chosen = inputs.material(options)
-    spec = inputs.run_spec(test, options, chosen)
-    if several := packings.asked(options):
-        asked = options | {"discard_checkpoint": discard_checkpoint}
-        packings.carry_out({"": spec}, several, asked, out=out, quiet=quiet)
-        return
-    folder = inputs.locked_folder(out)
-    inputs.load_yade()
-    from ..laboratory import checkpoint, protocols
-
-    if discard_checkpoint and (why := checkpoint.discard_unusable(folder, spec)):
-        terminal.say(f"starts again: {why}")
-    with terminal.Progress(quiet) as progress:
-        specimen = inputs.packed(spec.specimen, progress)
-        plan = protocols.plan_run(spec, specimen, chosen, folder)
-        foresee = None if quiet else progress.foresee
-        result = protocols.carry_out(
-            plan, threads=options["threads"], progress=progress, foresee=foresee
-        )
-    terminal.say(tables.result_table(result))
-    inputs.tell_warnings(result)
-    terminal.say(f"  files                   {folder}/")
-    if result.resumed_at is not None:
-        again = "was complete" if result.resumed_at >= result.steps else "was taken up"
-        terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")
-    if result.failed:
-        raise SimulationError(
-            f"status = {result.status} after {result.steps} steps, no strength was found; "
-            f"what was reached is in {folder}"
-        )
-
-
-@command.command(short_help="Elastic constants by one direct solve.")
-@cli_options.model_options
-@cli_options.rectangle_options
-@cli_options.packing_options
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write result.json into this folder, too.",
-)
-@cli_options.quiet_option
-def elastic(out: Path | None, **options: Any) -> None:
-    """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
-    chosen = inputs.material(options)
-    spec = inputs.run_spec(ELASTIC, options, chosen)
-    folder = None if out is None else inputs.locked_folder(out)
-    inputs.load_yade()
-    from ..models import grains
-
-    with terminal.Progress(options["quiet"]) as progress:
-        specimen = inputs.packed(spec.specimen, progress)
-        progress.close()
-        found = grains.elastic(
-            specimen, chosen, model=spec.model, points=spec.points, mesh=spec.mesh
-        )
-    if folder is not None:
-        asked = spec.to_json()
-        about = {name: asked[name] for name in ("test", "model", "material")}
-        about |= {"flexpm": __version__, "seed": spec.specimen.seed}
-        write_text(folder / "result.json", json_text({**about, **found, "inputs": asked}))
-    terminal.say(f"{spec.model} model, {name_of(chosen.name)}, seed {spec.specimen.seed}")
-    terminal.say(tables.elastic_table(found))
 
 
 @command.group(cls=Commands, short_help="Make a specimen, without a test.")
@@ -308,7 +210,8 @@ def doctor(ctx: click.Context) -> None:
     ctx.exit(0 if sound else 1)
 
 
-command.add_command(cli_compare.compare)
+for _one in (cli_compare.compare, runs.run, runs.rerun, runs.elastic):
+    command.add_command(_one)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -23,6 +23,7 @@ from ..require import require_known
 from ..results.cracks import cracks_from_snapshot
 from ..results.result import Result
 from ..results.vtu import write_vtu
+from ..specimens import given
 from ..specimens.specimen import Specimen
 from .checkpoint import INTERVAL, Checkpoint
 from .loading_rate import Loading, quasistatic_ratio
@@ -34,7 +35,7 @@ from .runner import Foresee, Runner
 #: Names of the files of a run.
 FILES = (
     *("result.json", "curve.csv", "cracks.csv", "fragments.csv", "specimen.vtu", "final.vtu"),
-    *("curve.png", "cracks.png", "fragments.png", "checkpoint.json"),
+    *("curve.png", "cracks.png", "fragments.png", "checkpoint.json", given.FILE),
 )
 
 
@@ -192,6 +193,8 @@ def carry_out(
             the run will probably have and the wall time of those that are left [s].
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
+    if folder is not None:
+        given.save(folder, plan.specimen)
     yade.O.reset()
     built = build(
         plan.specimen,

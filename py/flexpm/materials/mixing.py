@@ -71,6 +71,23 @@ def description(rock: Material, model: str = "flexible") -> Table:
     }
 
 
+def from_description(described: Table, model: str) -> Material:
+    """The material that a ``description`` was taken from, as far as `model` knows it.
+
+    Args:
+        described: As ``description`` gives it, with the ``name`` of the rock.
+        model: Name of the model.
+
+    Raises:
+        InputError: for a key that is unknown, missing or out of range.
+    """
+    values: Table = dict(described)
+    kinds = [_as_in_a_file(kind, model) for kind in values.pop("minerals", ())]
+    for kind in kinds:
+        kind.pop("plane", None)  # the same for all
+    return Material.from_dict(_as_in_a_file(values, model) | ({"mineral": kinds} if kinds else {}))
+
+
 def is_brittle(described: Table) -> bool:
     """Whether contacts break at their peak, with no energy left for softening, in any mineral.
 
@@ -78,6 +95,13 @@ def is_brittle(described: Table) -> bool:
         described: As ``description`` gives it; a key that is missing says nothing.
     """
     return any(map(_breaks_at_once, described.get("minerals") or [described]))
+
+
+def _as_in_a_file(law: Table, model: str) -> Table:
+    """Values of one model as a material's file has them; a value that is null is not there."""
+    given = {key: value for key, value in law.items() if value is not None}
+    elastic = {key: given.pop(key) for key in ELASTIC_KEYS if key in given}
+    return given | {"elastic": {elastic_set_name(model): elastic}}
 
 
 def _breaks_at_once(law: Table) -> bool:

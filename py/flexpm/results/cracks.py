@@ -7,12 +7,14 @@ The table also names the points of bonds that a script has erased, which are no 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..files import csv_text
+from ..errors import InputError
+from ..files import csv_text, load_csv
 from .record import Curve
 from .snapshot import Snapshot
 
@@ -42,6 +44,25 @@ def cracks_csv(cracks: Sequence[Crack]) -> str:
         for crack in cracks
     )
     return csv_text(Crack._fields, rows)
+
+
+def read_cracks(path: Path) -> list[Crack]:
+    """Read what ``cracks_csv`` gave.
+
+    Raises:
+        InputError: if the file cannot be read or holds no cracks.
+    """
+    names, rows = load_csv(path, "cracks")
+    modes = {name: mode for mode, name in NAMES.items()}
+    try:
+        if tuple(names) != Crack._fields:
+            raise ValueError(f"columns {', '.join(names)}")
+        return [
+            Crack(int(step), float(strain), float(x), float(y), modes[mode], int(at), int(point))
+            for step, strain, x, y, mode, at, point in rows
+        ]
+    except (ValueError, KeyError) as error:
+        raise InputError(f"cracks = {str(path)!r}, holds no cracks: {error}") from None
 
 
 def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:

@@ -9,11 +9,13 @@ compression tests, narrowing in tension tests.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
 from ..arrays import FloatArray
-from ..files import csv_text
+from ..errors import InputError
+from ..files import csv_text, load_csv
 
 #: Columns of the record: the columns of curve.csv.
 COLUMNS = (
@@ -81,6 +83,24 @@ class Curve:
         """Take the record's columns from `rows` (rows, columns) whose columns have `names`."""
         rows = np.asarray(rows, dtype=float).reshape(-1, len(names))
         return cls.from_array(rows[:, [list(names).index(column) for column in COLUMNS]])
+
+    @classmethod
+    def read(cls, path: Path) -> Curve:
+        """Read what ``csv`` gave; a column that an older flexpm did not write is nan.
+
+        Raises:
+            InputError: if the file cannot be read or holds no record.
+        """
+        names, rows = load_csv(path, "record")
+        try:
+            found = np.array(rows, dtype=float).reshape(len(rows), len(names))
+        except ValueError as error:
+            raise InputError(f"record = {str(path)!r}, holds no numbers: {error}") from None
+        columns = [
+            found[:, names.index(name)] if name in names else np.full(len(rows), np.nan)
+            for name in COLUMNS
+        ]
+        return cls.from_array(np.column_stack(columns))
 
     def csv(self) -> str:
         """The record as CSV text; numbers are written so that they read back unchanged."""

@@ -10,9 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files import Table, json_text, output_folder, write_text
+from ..errors import InputError
+from ..files import Table, json_text, load_json, output_folder, write_text
 from . import doubts, measures
-from .cracks import MODES, Crack, cracks_csv
+from .cracks import MODES, Crack, cracks_csv, read_cracks
 from .record import Curve
 from .snapshot import Snapshot
 
@@ -162,6 +163,29 @@ class Result:
         }
         inputs = content.pop("inputs")
         return content | {"warnings": self.warnings, "inputs": inputs}
+
+    @classmethod
+    def read(cls, folder: Path | str) -> Result:
+        """Read what a run has left: numbers, inputs, record and cracks; no final state.
+
+        Args:
+            folder: The run's, with result.json, curve.csv and cracks.csv.
+
+        Raises:
+            InputError: if a file cannot be read, or is not that of a run.
+        """
+        folder = Path(folder)
+        content = load_json(folder / "result.json", "result")
+        given = {key: value for key, value in content.items() if key in cls.__dataclass_fields__}
+        try:
+            result = cls(**given)
+        except TypeError as error:
+            raise InputError(
+                f"result = {str(folder / 'result.json')!r}, is not that of a run: {error}"
+            ) from None
+        result.curve = Curve.read(folder / "curve.csv")
+        result.cracks = read_cracks(folder / "cracks.csv")
+        return result
 
     def write(self, folder: Path | str) -> None:
         """Write result.json and the tables into `folder`, each whole or not at all."""

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands `flexpm run`, `rerun` and `elastic`: one test or solve. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .._version import __version__
+from ..errors import SimulationError
+from ..files import Table, json_text, load_json, write_text
+from ..laboratory import rerun as reruns
+from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
+from ..materials.material import Material
+from ..report import tables
+from ..require import NOT_NEGATIVE, require_known
+from ..text import name_of
+from . import inputs, packings, terminal
+from . import options as cli_options
+from .options import Quantity
+
+if TYPE_CHECKING:
+    from ..specimens.specimen import Specimen
+
+
+_discard_option = click.option(
+    "--discard-checkpoint",
+    is_flag=True,
+    help="Start again if the folder holds a checkpoint that is damaged or of another run.",
+)
+
+
+@click.command()
+@click.argument("test", metavar="TEST")
+@cli_options.model_options
+@cli_options.rectangle_options
+@cli_options.disc_options
+@cli_options.packing_options
+@cli_options.seeds_options
+@click.option(
+    "--confinement",
+    type=Quantity("Pa", NOT_NEGATIVE),
+    default=RunSpec.confinement,
+    metavar="PA",
+    show_default=True,
+    help="Lateral pressure [Pa].",
+)
+@cli_options.loading_options
+@cli_options.threads_option
+@cli_options.out_option
+@_discard_option
+@cli_options.quiet_option
+def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
+    """Run a laboratory test and write its files.
+
+    TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
+    compression of a disc of the given diameter.
+    """
+    require_known("test", test, TESTS)
+    chosen = inputs.material(options)
+    spec = inputs.run_spec(test, options, chosen)
+    if several := packings.asked(options):
+        asked = options | {"discard_checkpoint": discard_checkpoint}
+        packings.carry_out({"": spec}, several, asked, out=out, quiet=quiet)
+        return
+    options |= {"quiet": quiet, "discard_checkpoint": discard_checkpoint}
+    folder = inputs.locked_folder(out)
+    _simulate(spec, chosen, lambda shown: inputs.packed(spec.specimen, shown), folder, options)
+
+
+@click.command(short_help="A run again from its result.json.")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    default=Path("flexpm-rerun"),
+    metavar="DIR",
+    show_default=True,
+    help="Folder for the files.",
+)
+@cli_options.threads_option
+@_discard_option
+@cli_options.quiet_option
+def rerun(file: Path, out: Path, **options: Any) -> None:
+    """Repeat the run that has left FILE, its result.json (or its folder).
+
+    All that determined the run is in that file. Discs or minerals that a script has given to it
+    are read from specimen.npz beside it. At the end the numbers are compared with those of FILE.
+    """
+    file = file / "result.json" if file.is_dir() else file
+    spec, chosen = reruns.read_inputs(file)
+    before = load_json(file, "result")
+    folder = inputs.locked_folder(out)
+
+    def specimen(shown: terminal.Progress) -> Specimen:
+        inputs.load_yade()
+        from ..specimens import given
+
+        return given.load(spec.specimen, file.parent, shown)
+
+    try:
+        if spec.test == ELASTIC:
+            _solve(spec, chosen, specimen, folder, options["quiet"])
+        else:
+            _simulate(spec, chosen, specimen, folder, options)
+    finally:  # also of a run that fails again
+        _tell_differences(file, before, folder)
+
+
+@click.command(short_help="Elastic constants by one direct solve.")
+@cli_options.model_options
+@cli_options.rectangle_options
+@cli_options.packing_options
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write result.json into this folder, too.",
+)
+@cli_options.quiet_option
+def elastic(out: Path | None, **options: Any) -> None:
+    """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
+    chosen = inputs.material(options)
+    spec = inputs.run_spec(ELASTIC, options, chosen)
+    folder = None if out is None else inputs.locked_folder(out)
+    _solve(
+        spec, chosen, lambda shown: inputs.packed(spec.specimen, shown), folder, options["quiet"]
+    )
+
+
+def _tell_differences(file: Path, before: Table, folder: Path) -> None:
+    """Say whether the numbers of a run are those that it had before."""
+    again = folder / "result.json"
+    if not again.exists():
+        return
+    found = reruns.differences(before, load_json(again, "result"))
+    told = f"other than in {file}: {', '.join(found)}" if found else f"the same as in {file}"
+    terminal.say(f"  numbers                 {told}")
+
+
+def _simulate(
+    spec: RunSpec,
+    chosen: Material,
+    make: Callable[[terminal.Progress], Specimen],
+    folder: Path,
+    options: Table,
+) -> None:
+    """Run a test and tell its outcome.
+
+    Args:
+        spec: The run.
+        chosen: Its material.
+        make: Makes its specimen.
+        folder: For its files.
+        options: Of the command.
+
+    Raises:
+        SimulationError: if it found no strength.
+    """
+    inputs.load_yade()
+    from ..laboratory import checkpoint, protocols
+
+    if options["discard_checkpoint"] and (why := checkpoint.discard_unusable(folder, spec)):
+        terminal.say(f"starts again: {why}")
+    with terminal.Progress(options["quiet"]) as progress:
+        plan = protocols.plan_run(spec, make(progress), chosen, folder)
+        foresee = None if options["quiet"] else progress.foresee
+        result = protocols.carry_out(
+            plan, threads=options["threads"], progress=progress, foresee=foresee
+        )
+    terminal.say(tables.result_table(result))
+    inputs.tell_warnings(result)
+    terminal.say(f"  files                   {folder}/")
+    if result.resumed_at is not None:
+        again = "was complete" if result.resumed_at >= result.steps else "was taken up"
+        terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")
+    if result.failed:
+        raise SimulationError(
+            f"status = {result.status} after {result.steps} steps, no strength was found; "
+            f"what was reached is in {folder}"
+        )
+
+
+def _solve(
+    spec: RunSpec,
+    chosen: Material,
+    make: Callable[[terminal.Progress], Specimen],
+    folder: Path | None,
+    quiet: bool,
+) -> None:
+    """Find the elastic constants and tell them; arguments as for a simulation."""
+    inputs.load_yade()
+    from ..models import grains
+
+    with terminal.Progress(quiet) as progress:
+        specimen = make(progress)
+        progress.close()
+        found = grains.elastic(
+            specimen, chosen, model=spec.model, points=spec.points, mesh=spec.mesh
+        )
+    if folder is not None:
+        asked = spec.to_json()
+        about = {name: asked[name] for name in ("test", "model", "material")}
+        about |= {"flexpm": __version__, "seed": spec.specimen.seed}
+        write_text(folder / "result.json", json_text({**about, **found, "inputs": asked}))
+    terminal.say(f"{spec.model} model, {name_of(chosen.name)}, seed {spec.specimen.seed}")
+    terminal.say(tables.elastic_table(found))
