@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 import importlib
+import itertools
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import flexpm
+from flexpm.laboratory import runner
 
 # importing flexpm has told Python where YADE is
 wrapper = importlib.import_module("yade.wrapper")
@@ -22,6 +25,11 @@ PULL = 5e-9
 @pytest.fixture(scope="session")
 def specimen() -> flexpm.Specimen:
     return flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
+
+
+@pytest.fixture(scope="session")
+def disc() -> flexpm.Specimen:
+    return flexpm.Specimen.disc(0.02, 0.01, seed=1)
 
 
 @pytest.fixture
@@ -50,6 +58,13 @@ def half_broken(make: Callable[..., flexpm.Model]) -> flexpm.Model:
     cracked = damage == 1.0
     assert (cracked.any(axis=1) & ~cracked.all(axis=1)).any()
     return model
+
+
+@pytest.fixture
+def look_each_tenth_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a test call its progress each tenth step, on a machine of any speed."""
+    seconds = itertools.count(step=runner._LOOK_UP / 10)
+    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
 
 
 def solver_of_scene() -> Any:

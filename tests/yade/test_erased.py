@@ -234,6 +234,7 @@ def test_a_scene_saved_just_after_erasing_continues_to_the_same_bits(make, bits,
     assert len(handle) == kept
 
 
+@pytest.mark.usefixtures("look_each_tenth_step")
 def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, tmp_path):
     gone: set[int] = set()
 
@@ -250,3 +251,31 @@ def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, tmp_path):
     assert len(cracks) == result.tensile_cracks + result.shear_cracks > 0
     assert cracks.count("tensile") == result.tensile_cracks
     assert result.energy_error < 0.01
+
+
+@pytest.mark.usefixtures("look_each_tenth_step")
+@pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial", "brazilian"])
+@pytest.mark.parametrize("model", ["flexible", "rigid", "inner"])
+def test_a_test_goes_on_without_grains_that_it_loads(specimen, disc, test, model):
+    """The particle at the bottom is erased, then the one at the top."""
+    erasures = [max, min]
+
+    def progress(*_: object) -> None:
+        if erasures and O.iter > 100 * (3 - len(erasures)):
+            cells = [body for body in O.bodies if isinstance(body.shape, wrapper.LaguerreCell)]
+            chosen = erasures.pop()(cells, key=lambda body: body.state.pos[1])
+            O.bodies.erase(chosen.id)
+
+    result = flexpm.run(
+        test,
+        disc if test == "brazilian" else specimen,
+        model=model,
+        rate=8.0,
+        confinement=2e6 if test == "biaxial" else 0.0,
+        progress=progress,
+    )
+    assert not erasures
+    assert result.status in ("ok", "no_peak", "not_quasistatic")
+    assert np.isfinite(result.curve["axial_stress"]).all()
+    assert result.energy_error < 0.01
+    assert len({crack.contact for crack in result.cracks if crack.mode == ERASED}) > 2

@@ -9,7 +9,6 @@ from yade import wrapper
 
 import flexpm
 from flexpm.errors import InputError
-from flexpm.laboratory import runner
 from flexpm.report.maps import crack_picture
 from flexpm.results.cracks import ERASED, cracks_from_snapshot
 from flexpm.results.record import Curve
@@ -110,13 +109,7 @@ def test_nothing_is_left_without_bodies(make, model):
     assert len(snapshot.positions) == len(snapshot.contact) == len(snapshot.fragments) == 0
 
 
-@pytest.fixture
-def often(monkeypatch):
-    """Progress is told after some steps, on a machine of any speed."""
-    monkeypatch.setattr(runner, "_LOOK_UP", 0.001)
-
-
-@pytest.mark.usefixtures("often")
+@pytest.mark.usefixtures("look_each_tenth_step")
 def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, model):
     gone: set[int] = set()
 
@@ -133,11 +126,33 @@ def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, model):
     assert result.tensile_cracks > 0
 
 
-@pytest.mark.usefixtures("often")
-def test_a_test_whose_grain_is_erased_ends_in_one_line(specimen, model):
+@pytest.mark.usefixtures("look_each_tenth_step")
+@pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial", "brazilian"])
+def test_a_test_whose_grain_is_erased_ends_in_one_line(specimen, disc, test, model):
     def progress(*_: object) -> None:
         if O.bodies[30] is not None:
             O.bodies.erase(30)
 
-    with pytest.raises(InputError, match="grain 30 = erased"):
-        flexpm.run("tension", specimen, model=model, rate=4.0, progress=progress)
+    chosen = disc if test == "brazilian" else specimen
+    with pytest.raises(InputError, match="^grain 30 = erased, must exist for a test"):
+        flexpm.run(
+            test,
+            chosen,
+            model=model,
+            rate=4.0,
+            confinement=2e6 if test == "biaxial" else 0.0,
+            progress=progress,
+        )
+
+
+@pytest.mark.usefixtures("look_each_tenth_step")
+@pytest.mark.parametrize("test", ["uniaxial", "brazilian"])
+def test_a_test_whose_plate_is_erased_ends_in_one_line(specimen, disc, test, model):
+    def progress(*_: object) -> None:
+        plates = [body.id for body in O.bodies if isinstance(body.shape, wrapper.Box)]
+        if len(plates) == 2:
+            O.bodies.erase(plates[1])
+
+    chosen = disc if test == "brazilian" else specimen
+    with pytest.raises(InputError, match="^plate [0-9]+ = erased, must exist for a test"):
+        flexpm.run(test, chosen, model=model, rate=4.0, progress=progress)

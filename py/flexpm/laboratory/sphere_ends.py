@@ -19,15 +19,15 @@ from .rig import BOTTOM, TOP
 class Ends:
     """What holds a specimen at its ends: a plate each, or the outermost layers of spheres."""
 
-    def __init__(self, bottom: Sequence[int], top: Sequence[int]) -> None:
+    def __init__(self, built: SphereModel, bottom: Sequence[int], top: Sequence[int]) -> None:
         """Take the bodies of both ends."""
-        self._bottom, self._top = bottom, top
+        self._built, self._bottom, self._top = built, bottom, top
 
     def move(self, velocity: float) -> None:
         """Move the upper end, positive away from the lower one [m/s, or m per step]."""
         for bodies, speed in ((self._bottom, 0.0), (self._top, velocity)):
             for body in bodies:
-                state = yade.O.bodies[body].state
+                state = self._built.state_of(body)
                 state.vel = (state.vel[0], speed, 0.0)
 
     def forces(self) -> tuple[float, float]:
@@ -40,7 +40,7 @@ class Ends:
 
     def travel(self) -> float:
         """Displacement of the upper end, positive away from the lower one [m]."""
-        return yade.O.bodies[self._top[0]].state.displ()[1]
+        return self._built.state_of(self._top[0]).displ()[1]
 
 
 def heights(specimen: Specimen) -> tuple[float, float]:
@@ -52,7 +52,7 @@ def heights(specimen: Specimen) -> tuple[float, float]:
 def plates_of(built: SphereModel) -> Ends:
     """The two frictionless horizontal plates that have been laid; the lower one stands still."""
     bottom, top = built.plates
-    return Ends([bottom], [top])
+    return Ends(built, [bottom], [top])
 
 
 def grips_of(built: SphereModel) -> Ends:
@@ -61,14 +61,14 @@ def grips_of(built: SphereModel) -> Ends:
         [built.ids[grain] for grain in tributary_lengths(built.specimen, side)]
         for side in (BOTTOM, TOP)
     )
-    return Ends(bottom, top)
+    return Ends(built, bottom, top)
 
 
 def close_grips(built: SphereModel) -> None:
     """Hold the outermost layers of spheres axially; they stay free to move sideways."""
     for side in (BOTTOM, TOP):
         for grain in tributary_lengths(built.specimen, side):
-            state = yade.O.bodies[built.ids[grain]].state
+            state = built.state_of(built.ids[grain])
             state.blockedDOFs = "yzXY"
             state.isDamped = False  # else YADE counts a part of the grips' work as damped
     hold_middle(built)
@@ -79,7 +79,7 @@ def squeeze_rectangle(built: SphereModel, pressure: float | None) -> None:
     faces = heights(built.specimen)
     for side, face, sense in ((BOTTOM, faces[0], -1), (TOP, faces[1], 1)):
         lengths = tributary_lengths(built.specimen, side)
-        moved = np.mean([yade.O.bodies[built.ids[grain]].state.displ()[1] for grain in lengths])
+        moved = np.mean([built.state_of(built.ids[grain]).displ()[1] for grain in lengths])
         built.touch(built.add_plate(float(face + moved), sense), lengths)
     if pressure is None:
         hold_middle(built)
@@ -95,7 +95,7 @@ def squeeze_disc(built: SphereModel) -> None:
 
     Deviation D28: the spheres that touch first cannot move sideways, else the disc would roll.
     """
-    radii = np.array([yade.O.bodies[body].shape.radius for body in built.ids])
+    radii = built.kind.radii(built.specimen)
     heights = built.specimen.centres[:, 1]
     built.add_plate(float(np.min(heights - radii)), -1)
     built.add_plate(float(np.max(heights + radii)), 1)
@@ -112,7 +112,7 @@ def strain_evenly(built: SphereModel, velocity: float) -> None:
     """
     bottom, top = heights(built.specimen)
     for body, y in zip(built.ids, built.specimen.centres[:, 1].tolist(), strict=True):
-        state = yade.O.bodies[body].state
+        state = built.state_of(body)
         state.vel = (state.vel[0], velocity * (y - bottom) / (top - bottom), 0.0)
 
 
@@ -140,7 +140,7 @@ class Pressure:
         for grain, inward, arm in zip(
             self._edges[:, 0].tolist(), self._inward, self._arms, strict=True
         ):
-            axis, angle = yade.O.bodies[self._built.ids[grain]].state.ori.toAxisAngle()
+            axis, angle = self._built.state_of(self._built.ids[grain]).ori.toAxisAngle()
             turn = math.copysign(1.0, axis[2]) * angle
             force, lever = pressure * _turned(inward, turn), _turned(arm, turn)
             moment = lever[0] * force[1] - lever[1] * force[0]
@@ -165,7 +165,7 @@ def hold_middle(built: SphereModel) -> None:
 
 
 def _hold_sideways(built: SphereModel, grain: int) -> None:
-    state = yade.O.bodies[built.ids[grain]].state
+    state = built.state_of(built.ids[grain])
     state.blockedDOFs = "x" + str(state.blockedDOFs)
 
 

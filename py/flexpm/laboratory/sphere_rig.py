@@ -122,7 +122,7 @@ class SphereRig(TestRig):
         inputs = (
             contact_modulus(law["normal_stiffness"], specimen.mean_diameter),
             reference_strength(self.tension or self.disc, *strengths),
-            in_order(yade.O.bodies[body].state.mass for body in self.built.ids),
+            in_order(state.mass for state in self.built.states()),
             specimen.thickness,
             yade.O.dt,
         )
@@ -138,8 +138,8 @@ class SphereRig(TestRig):
         force.
         """
         largest, free = 0.0, 0.0
-        for body in self.built.ids:
-            force, blocked = yade.O.forces.f(body), str(yade.O.bodies[body].state.blockedDOFs)
+        for body, state in zip(self.built.ids, self.built.states(), strict=True):
+            force, blocked = yade.O.forces.f(body), str(state.blockedDOFs)
             moving = (force[k] if "xy"[k] not in blocked else 0.0 for k in (0, 1))
             largest = max(largest, math.hypot(force[0], force[1]))
             free = max(free, math.hypot(*moving))

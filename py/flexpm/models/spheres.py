@@ -31,7 +31,7 @@ from ..specimens.specimen import Specimen
 from .collider import collider
 from .options import SPHERE_MODELS
 from .sphere_bonds import Bonds, bonds_of, stiffness_bounds
-from .sphere_cracks import CrackWatch
+from .sphere_cracks import CrackWatch, body_with
 from .sphere_laws import LAWS, SphereLaw
 from .sphere_snapshot import snapshot
 
@@ -120,17 +120,22 @@ class SphereModel:
         erased = self.cracks.erased
         return {"grains": int(self.cracks.alive.sum()), "contacts": int((~erased).sum())}
 
-    def states(self) -> list[wrapper.State]:
-        """State of the body of each grain, for a test, which needs all of them.
+    def state_of(self, body: int) -> wrapper.State:
+        """State of a grain's or a plate's body, for a test, which needs all of them.
 
         Raises:
-            InputError: if a script has erased one.
+            InputError: if a script has erased it.
         """
-        if not self.cracks.alive.all():
-            grain = int(np.argmin(self.cracks.alive))
-            rule = "must exist for a test on YADE's spheres; erase its bonds instead"
-            raise InputError(f"grain {grain} = erased, {rule}")
-        return [yade.O.bodies[body].state for body in self.ids]
+        found = body_with(body)
+        if found is None:
+            name = f"grain {self.ids.index(body)}" if body in self.ids else f"plate {body}"
+            rule = "must exist for a test on YADE's spheres; erase bonds of grains instead"
+            raise InputError(f"{name} = erased, {rule}")
+        return found.state
+
+    def states(self) -> list[wrapper.State]:
+        """State of the body of each grain, see :meth:`state_of`."""
+        return [self.state_of(body) for body in self.ids]
 
     def describe_material(self) -> Table:
         """Name and parameters of the material."""
