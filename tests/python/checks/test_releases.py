@@ -79,6 +79,40 @@ def test_the_steps_are_those_of_the_dockerfile(releases):
     assert text.count("\nRUN ") == len(build) + len(install)
 
 
+def test_both_roots_have_the_same_sources_whatever_is_edited_meanwhile(
+    releases, tmp_path, monkeypatch
+):
+    unpacked = []
+
+    class Root:
+        def __init__(self, tarball: Path, sources: bytes, log: Path) -> None:
+            unpacked.append(sources)
+            self.path = tmp_path / f"root-{len(unpacked)}"
+            (self.path / "src").mkdir(parents=True)
+            (self.path / "out").mkdir()
+            (self.path / "out" / "flexpm_1_amd64.deb").touch()
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def run(self, command, must=True):
+            (tmp_path / "it.py").write_text("edited")
+            facts = "2025.2.0 14.2.0 3.13.5" if "dpkg-query" in command else ""
+            return subprocess.CompletedProcess(command, 0, stdout=facts)
+
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    (tmp_path / "it.py").write_text("first")
+    monkeypatch.setattr(releases, "Root", Root)
+    monkeypatch.setattr(releases, "bare_root", lambda _: tmp_path / "root.tar")
+    assert releases.try_release("13")["result"].startswith("failed: reference commands")
+    first, second = unpacked
+    assert first == second
+    assert b"first" in first
+
+
 def test_wrong_names_of_releases_are_refused(releases, capsys):
     with pytest.raises(SystemExit):
         releases.main(["11"])
