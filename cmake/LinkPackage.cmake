@@ -2,7 +2,7 @@
 # Make PACKAGE hold a link to each Python and data file of SOURCE, and no link to a file that is gone.
 cmake_minimum_required(VERSION 3.25)
 
-set(kinds *.py *.pyi *.toml py.typed)
+set(kinds *.py *.pyi *.toml *.html *.css *.js py.typed)
 list(TRANSFORM kinds PREPEND ${SOURCE}/ OUTPUT_VARIABLE in_source)
 list(TRANSFORM kinds PREPEND ${PACKAGE}/ OUTPUT_VARIABLE in_package)
 file(GLOB_RECURSE wanted RELATIVE ${SOURCE} ${in_source})

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
 @cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option
+@cli_options.report_option
 @cli_options.quiet_option
 def compare(
     test: str,
@@ -100,6 +101,7 @@ def compare(
             out=folder,
             progress=progress,
             threads=options["threads"],
+            report=options["report"],
             points=specs[0].points,
             **{name: options[name] for name in _SHARED},
         )

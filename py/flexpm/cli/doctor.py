@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from .. import _plugin, _vendor
+from ..report.page import CHARTS
 
 Check = tuple[str, bool, str]
 
@@ -27,6 +28,7 @@ _PACKAGES = (
     ("pandas", "the package python3-pandas", "tables of studies"),
     ("distributed", "the package python3-distributed", "studies"),
     ("tomli_w", "the package python3-tomli-w", "calibrated materials"),
+    ("jinja2", "the package python3-jinja2", "pages of results"),
     ("dfols", "DFO-LS from PyPI", "calibrations"),
 )
 
@@ -39,6 +41,7 @@ def checks() -> Iterator[Check]:
     """
     yield _python()
     yield from _packages()
+    yield _charts()
     yade, found = _yade()
     yield found
     if yade is None:
@@ -70,6 +73,13 @@ def _packages() -> Iterator[Check]:
             yield name, False, f"missing, needed for {purpose}; install {source}"
         else:
             yield name, True, f"{_version(name)} ({purpose})"
+
+
+def _charts() -> Check:
+    name = "libjs-chart.js"
+    if CHARTS.is_file():
+        return name, True, f"{CHARTS} (curves in pages of results)"
+    return name, False, f"missing, needed for curves in pages; install the package {name}"
 
 
 def _version(name: str) -> str:

@@ -149,9 +149,9 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
 
 @command.command(short_help="Many runs from one file.")
 @cli_options.many_runs_options
-def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
+def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
     """Do the runs of FILE that are not done yet; table and pictures are made from all."""
-    from ..studies import figures
+    from ..studies import figures, pages
     from ..studies import study as studies
 
     plan = studies.read(file)
@@ -159,6 +159,8 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
     with terminal.Progress(quiet, unit="runs") as progress:
         rows = studies.run(plan, folder, progress=progress, **options)
     pictures = figures.draw(plan, rows, folder)
+    if report:
+        pages.write(folder)
     failed = rows[rows["exit_code"] != 0]
     for _, row in failed.iterrows():
         terminal.say(f"failed: runs/{row['key']}: {' '.join(str(row['message']).split())}")
@@ -170,9 +172,9 @@ def study(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
 
 @command.command(short_help="Fit a material to a rock.")
 @cli_options.many_runs_options
-def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None:
+def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
     """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
-    from ..studies import calibration_problem, calibration_report, calibration_search
+    from ..studies import calibration_problem, calibration_report, calibration_search, pages
 
     plan = calibration_problem.read(file)
     start = load(plan.material_file, plan.model)
@@ -184,6 +186,8 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
     preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
     calibration_report.write_preset(preset, start, plan, found)
     calibration_report.picture(picture, plan, found)
+    if report:
+        pages.write(folder)
     terminal.say(
         tables.table(
             calibration_report.table_rows(plan, found), f"{name_of(plan.name)}, {plan.model} model"
@@ -193,6 +197,19 @@ def calibrate(file: Path, out: Path | None, quiet: bool, **options: Any) -> None
     missed = [name for name, met in found.met.items() if not met]
     if missed:
         raise SimulationError(f"targets = {', '.join(missed)}, not met; see {picture}")
+
+
+@command.command(short_help="The page of results again.")
+@click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
+def report(folder: Path) -> None:
+    """Make report.html in DIR again, the folder of a run, compare, study or calibrate.
+
+    It opens in any browser, without a network: inputs, results, curves, maps, warnings.
+    """
+    from ..studies import pages
+
+    inputs.locked_folder(pages.require_results(folder))
+    terminal.say(f"  files  {pages.write(folder)}")
 
 
 @command.command()

@@ -356,6 +356,14 @@ out_option = click.option(
     show_default=True,
     help="Folder for the files.",
 )
+report_option = click.option(
+    "--no-report",
+    "report",
+    is_flag=True,
+    flag_value=False,
+    default=True,
+    help="Write no report.html.",
+)
 quiet_option = click.option("--quiet", is_flag=True, help="Show no progress.")
 many_runs_options = combined(
     click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
@@ -381,5 +389,6 @@ many_runs_options = combined(
         metavar="KIND",
         help="Ask this batch system for workers: slurm, pbs, oar, ... (needs dask-jobqueue).",
     ),
+    report_option,
     quiet_option,
 )

@@ -64,6 +64,10 @@ def carry_out(
     for job in wanted:
         if job.folder not in failed:
             _tell_warnings(folder / job.folder, job.folder)
+    if options["report"]:
+        from ..studies import pages
+
+        pages.write(folder)
     terminal.say(f"  files  {folder}/")
     _report_failures(failed, len(wanted))
 

@@ -52,6 +52,7 @@ _discard_option = click.option(
 @cli_options.threads_option
 @cli_options.out_option
 @_discard_option
+@cli_options.report_option
 @cli_options.quiet_option
 def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
     """Run a laboratory test and write its files.
@@ -83,6 +84,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 )
 @cli_options.threads_option
 @_discard_option
+@cli_options.report_option
 @cli_options.quiet_option
 def rerun(file: Path, out: Path, **options: Any) -> None:
     """Repeat the run that has left FILE, its result.json (or its folder).
@@ -169,7 +171,11 @@ def _simulate(
         plan = protocols.plan_run(spec, make(progress), chosen, folder)
         foresee = None if options["quiet"] else progress.foresee
         result = protocols.carry_out(
-            plan, threads=options["threads"], progress=progress, foresee=foresee
+            plan,
+            threads=options["threads"],
+            progress=progress,
+            foresee=foresee,
+            report=options["report"],
         )
     terminal.say(tables.result_table(result))
     inputs.tell_warnings(result)

@@ -25,6 +25,7 @@ from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..specimens import given
 from ..specimens.specimen import Specimen
+from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint
 from .loading_rate import Loading, quasistatic_ratio
 from .rig import TestRig
@@ -36,6 +37,7 @@ from .runner import Foresee, Runner
 FILES = (
     *("result.json", "curve.csv", "cracks.csv", "fragments.csv", "specimen.vtu", "final.vtu"),
     *("curve.png", "cracks.png", "fragments.png", "checkpoint.json", given.FILE),
+    "report.html",
 )
 
 
@@ -70,6 +72,7 @@ def run(
     out: Path | str | None = None,
     progress: Progress | None = None,
     checkpoint_interval: float = INTERVAL,
+    report: bool = True,
 ) -> Result:
     """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
 
@@ -109,6 +112,7 @@ def run(
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
+        report: Write report.html, too.
 
     Returns:
         The measures, the record and the cracks.
@@ -134,7 +138,7 @@ def run(
         loading=loading or "",
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval)
-    return carry_out(plan, threads=threads, progress=progress)
+    return carry_out(plan, threads=threads, progress=progress, report=report)
 
 
 def plan_run(
@@ -182,6 +186,7 @@ def carry_out(
     threads: int = 1,
     progress: Progress | None = None,
     foresee: Foresee | None = None,
+    report: bool = True,
 ) -> Result:
     """Do a run; arguments and outcome as for ``run``.
 
@@ -191,6 +196,7 @@ def carry_out(
         progress: Called with (steps done, steps expected, text).
         foresee: Called once, as soon as steps of the loading have been timed, with the steps that
             the run will probably have and the wall time of those that are left [s].
+        report: Write report.html, too.
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     if folder is not None:
@@ -222,6 +228,8 @@ def carry_out(
     result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
     if folder is not None:
         write_files(folder, result)
+        if report:
+            write_report(folder, result)
     return result
 
 

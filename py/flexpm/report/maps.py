@@ -33,7 +33,7 @@ _GRAIN_TINTS = ("#ece7dc", "#e2dccd", "#d8d1bf", "#f2eee6")
 _FRAGMENTS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#f0e442", "#0072b2", "#d55e00")
 _LOOSE = "#8c8674"
 #: Minerals in their order.
-_MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
+MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
 _EDGE = "#6b6455"
 
 
@@ -86,9 +86,7 @@ def crack_picture(
         figure, axes = _map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
         handles += [
-            Patch(
-                facecolor=_MINERALS[number % len(_MINERALS)], edgecolor=_EDGE, label=label_of(name)
-            )
+            Patch(facecolor=MINERALS[number % len(MINERALS)], edgecolor=_EDGE, label=label_of(name))
             for number, name in enumerate(minerals)
         ]
         axes.legend(
@@ -102,7 +100,7 @@ def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
     tints = None
     if snapshot.grain_mineral is not None:
-        tints = [_MINERALS[number % len(_MINERALS)] for number in snapshot.grain_mineral]
+        tints = [MINERALS[number % len(MINERALS)] for number in snapshot.grain_mineral]
     _draw_rock(axes, snapshot, tints)
     segments, handles = crack_segments(snapshot), []
     for mode in (TENSILE, SHEAR):

@@ -31,6 +31,13 @@ def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> st
 
 def result_table(result: Result) -> str:
     """Short table of the outcome of a test."""
+    name = name_of(result.material.get("name", ""))
+    title = f"{result.test}, {result.model} model, {name}, seed {result.seed}"
+    return table(result_rows(result), title)
+
+
+def result_rows(result: Result) -> list[tuple[str, str]]:
+    """Names and values of the outcome of a test; the status is the last."""
     counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
     rows = [
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
@@ -49,8 +56,7 @@ def result_table(result: Result) -> str:
     ]
     if result.confinement:
         rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
-    name = name_of(result.material.get("name", ""))
-    return table(rows, f"{result.test}, {result.model} model, {name}, seed {result.seed}")
+    return rows
 
 
 def _first_cracks(result: Result) -> str:

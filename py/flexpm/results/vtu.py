@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_LINE,
@@ -21,9 +22,10 @@ from vtkmodules.vtkCommonDataModel import (
     vtkDataSetAttributes,
     vtkUnstructuredGrid,
 )
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..errors import InputError
 from ..files import whole_file
 from .snapshot import POINT_SHARES, Snapshot
 
@@ -37,6 +39,19 @@ _VECTOR = ("X", "Y", "Z")
 
 #: An array and the names of its components.
 Named = tuple[FloatArray | IntArray, tuple[str, ...]]
+
+
+class Drawing(NamedTuple):
+    """What a drawing of a specimen needs: M triangles and C contacts of P points."""
+
+    positions: FloatArray  #: of the nodes, then of the ends of the contacts, (N, 2) [m]
+    triangles: IntArray  #: nodes of each triangle, (M, 3)
+    triangle_grain: IntArray  #: (M,)
+    triangle_mineral: IntArray  #: of its grain, (M,)
+    contact: IntArray  #: number of each contact, (C,)
+    contact_grains: IntArray  #: (C, 2)
+    contact_ends: FloatArray  #: (C, 2, 2) [m]
+    bonded: BoolArray  #: whether each point holds, (C, P)
 
 
 def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
@@ -71,6 +86,42 @@ def _written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
         if writer.Write() != 1:
             raise MemoryError("VTK could not write a grid into memory")
         return file.read()
+
+
+def read_drawing(path: Path | str) -> Drawing:
+    """Read from a file of ``write_vtu`` what a drawing of the specimen needs.
+
+    Raises:
+        InputError: if the file cannot be read or is no such file.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise InputError(f"specimen = {str(path)!r}, cannot be read; give the folder of a run")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    cells = {
+        grid.GetCellData().GetArrayName(number): vtk_to_numpy(grid.GetCellData().GetArray(number))
+        for number in range(grid.GetCellData().GetNumberOfArrays())
+    }
+    if not {"kind", "grain", "contact", "grain_a", "grain_b", "point_damage"} <= cells.keys():
+        raise InputError(f"specimen = {str(path)!r}, has no grains of flexpm; give that of a run")
+    places = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    grains, contacts = cells["kind"] == GRAIN, cells["kind"] == CONTACT
+    count = 3 * np.count_nonzero(grains)
+    damage = cells["point_damage"][contacts].reshape(np.count_nonzero(contacts), -1)
+    return Drawing(
+        positions=places,
+        triangles=corners[:count].reshape(-1, 3),
+        triangle_grain=cells["grain"][grains],
+        triangle_mineral=cells["mineral"][grains],
+        contact=cells["contact"][contacts],
+        contact_grains=np.column_stack([cells["grain_a"], cells["grain_b"]])[contacts],
+        contact_ends=places[corners[count:]].reshape(-1, 2, 2),
+        bonded=damage < 1.0,
+    )
 
 
 def point_arrays(snapshot: Snapshot) -> dict[str, Named]:

@@ -135,6 +135,7 @@ def compare(
     """
     folder = None if out is None else output_folder(out)
     threads, interval = options.pop("threads", 1), options.pop("checkpoint_interval", INTERVAL)
+    report = options.pop("report", True)
     shared = {name: value for name, value in options.items() if value is not None}
     cases = [
         Case(
@@ -160,12 +161,16 @@ def compare(
     for number, (case, plan) in enumerate(zip(cases, plans, strict=True), 1):
         show = _named(progress, f"{number}/{len(cases)} {case.name}")
         try:
-            case.result = protocols.carry_out(plan, threads=threads, progress=show)
+            case.result = protocols.carry_out(plan, threads=threads, progress=show, report=False)
         except SimulationError as error:
             case.error = str(error)
     found = Comparison(test, cases, _envelopes(cases))
     if folder is not None:
         found.write(folder)
+        if report:
+            from . import pages  # what draws them loads long
+
+            pages.write(folder)
     return found
 
 

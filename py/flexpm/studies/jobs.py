@@ -193,7 +193,7 @@ def _measures(file: Path) -> Table:
 def arguments(test: str, used: Table) -> Iterator[str]:
     """The command for a test with its options, which are named as in a study."""
     # a checkpoint that cannot be used is no fault of the run
-    run = ("run", test, "--discard-checkpoint")
+    run = ("run", test, "--discard-checkpoint", "--no-report")
     yield from (test,) if test == run_spec.ELASTIC else run
     for key, value in used.items():
         if key.startswith("set."):

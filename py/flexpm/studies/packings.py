@@ -30,7 +30,7 @@ from .pool import Pool
 from .tables import table, write_table
 
 #: Measures of which means are taken, with the factor, heading and digits of the printed table.
-_SHOWN: dict[str, tuple[float, str, int]] = {
+SHOWN: dict[str, tuple[float, str, int]] = {
     "youngs_modulus": (1e-9, "E [GPa]", 4),
     "poissons_ratio": (1.0, "nu", 3),
     "peak_stress": (1e-6, "peak [MPa]", 4),
@@ -38,7 +38,7 @@ _SHOWN: dict[str, tuple[float, str, int]] = {
     "tensile_cracks": (1.0, "tensile", 4),
     "shear_cracks": (1.0, "shear", 4),
 }
-MEASURES = tuple(_SHOWN)
+MEASURES = tuple(SHOWN)
 #: Inputs by which runs are told apart beside the packing.
 _BY = ["model", "confinement"]
 #: What is said of the runs of a group, by the ending of the column in means.csv.
@@ -154,7 +154,7 @@ def text_table(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
     With several models or confinements only the last three, for each of them.
     """
     groups = means(rows)
-    header = [shown[1] for shown in _SHOWN.values()]
+    header = [shown[1] for shown in SHOWN.values()]
     lines = []
     if len(groups) == 1:
         for _, row in rows.iterrows():
@@ -195,7 +195,7 @@ def _counted(rows: pandas.DataFrame) -> pandas.Series:
 
 def _cells(row: pandas.Series, ending: str) -> list[str]:
     cells = []
-    for name, (factor, _, digits) in _SHOWN.items():
+    for name, (factor, _, digits) in SHOWN.items():
         value = row[f"{name}{ending}"]
         if pandas.isna(value):
             cells.append("-")

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was asked of a run, for people: each input with its unit and source, and the command.
+
+Nothing heavy is loaded before a page is written.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..files import Table
+from ..materials.keys import UNITS
+from ..materials.material import load, preset_names
+from ..specimens.spec import SIZES, SpecimenSpec
+from .run_spec import ELASTIC, UNUSED, RunSpec, described
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+
+#: Units of inputs that have one.
+_UNITS = {
+    **dict.fromkeys(("width", "height", "diameter", "thickness", "diameters"), "m"),
+    "confinement": "Pa",
+    "gravity": "m/s2",
+}
+#: Inputs that follow from test, model and material unless they are given.
+_FOLLOWING = ("start", "loading")
+_NESTED = ("specimen", "material")
+#: What stands for None.
+_OPEN = "by the reference strength"
+
+
+def write_report(folder: Path, result: Result) -> Path:
+    """Write report.html of a run into its folder, from its result and its specimen.vtu."""
+    from ..report.page_run import write_page
+
+    spec = RunSpec.from_json(result.inputs or {})
+    commands = [("From its one file:", "flexpm rerun result.json")]
+    if line := command(spec):
+        commands.append(("By all that was asked for:", line))
+    return write_page(folder, result, told(spec), commands)
+
+
+class Input(NamedTuple):
+    """One input of a run."""
+
+    name: str
+    value: object
+    unit: str  #: empty if it has none
+    source: str  #: where the value comes from
+
+
+def told(spec: RunSpec) -> list[Input]:
+    """All inputs of a run in order: test and model, specimen, material, loading."""
+    test, *others = _of_test(spec)
+    return [test, *_of_specimen(spec.specimen), *_of_material(spec), *others]
+
+
+def command(spec: RunSpec) -> str:
+    """The command for a run, or an empty text if it has files or arrays that no option names."""
+    preset = spec.material.get("name")
+    given = spec.specimen
+    if given.discs or given.minerals or preset not in preset_names() or "minerals" in spec.material:
+        return ""
+    words = ["flexpm", spec.test] if spec.test == ELASTIC else ["flexpm", "run", spec.test]
+    for name, value in (*_changes(spec.specimen), *_changes(_as_following(spec))):
+        if name == "short_edge":
+            return ""
+        words.append(f"--{name.replace('_', '-')}")
+        if value is not True:
+            words.append(_text(value))
+    words += _material_options(spec, str(preset))
+    return shlex.join(words)
+
+
+def _material_options(spec: RunSpec, preset: str) -> Iterator[str]:
+    usual = described(load(None, spec.model), spec.model)
+    base = described(load(preset, spec.model), spec.model)
+    if usual["name"] != preset:
+        yield from ("--material", preset)
+    for key, value in spec.material.items():
+        if base.get(key) != value:
+            yield from ("--set", f"{key}={_text(value)}")
+
+
+def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
+    usual: Table = {field.name: field.default for field in fields(spec)} | SIZES[spec.kind]
+    for name, default in usual.items():
+        value = getattr(spec, name)
+        if value is None:
+            continue
+        source = "default" if value == default else "given"
+        if name in ("discs", "outline", "minerals"):
+            source = "given as arrays; this is their checksum"
+        elif name == "kind":
+            source = "by the test"
+        label = "shape" if name == "kind" else name
+        yield Input(label, value, _UNITS.get(name, ""), source)
+
+
+def _of_material(spec: RunSpec) -> Iterator[Input]:
+    name = str(spec.material.get("name"))
+    known = name in preset_names()
+    preset = described(load(name, spec.model), spec.model) if known else {}
+    yield Input("material", name, "", "preset" if known else "given")
+    yield from _of_law("", spec.material, preset, f"preset {name}" if known else f"material {name}")
+    for kind in spec.material.get("minerals", ()):
+        yield from _of_law(f"{kind['name']}: ", kind, {}, f"material {name}")
+
+
+def _of_law(where: str, law: Table, preset: Table, source: str) -> Iterator[Input]:
+    for key, value in law.items():
+        if key in ("name", "minerals") or value is None:
+            continue
+        changed = bool(preset) and preset.get(key) != value
+        unit = (UNITS.get(key) or "").removeprefix("-")
+        yield Input(where + key, value, unit, "given" if changed else source)
+
+
+def _of_test(spec: RunSpec) -> Iterator[Input]:
+    unused = UNUSED[spec.test]
+    following = _as_following(spec)
+    for field in fields(spec):
+        if field.name in (*_NESTED, *unused):
+            continue
+        value = getattr(spec, field.name)
+        if field.name in _FOLLOWING:
+            source = "given" if getattr(following, field.name) else "default of the test"
+        else:
+            source = "default" if value == field.default else "given"
+        shown = _OPEN if value is None else value
+        yield Input(field.name, shown, _UNITS.get(field.name, ""), source)
+
+
+def _as_following(spec: RunSpec) -> RunSpec:
+    """The run with empty names where the default would give the same."""
+    plain = replace(spec, start="", loading="")
+    empty = {name: "" for name in _FOLLOWING if getattr(plain, name) == getattr(spec, name)}
+    shown = replace(spec)
+    for name, value in empty.items():
+        object.__setattr__(shown, name, value)
+    return shown
+
+
+def _changes(spec: RunSpec | SpecimenSpec) -> Iterator[tuple[str, object]]:
+    sizes = SIZES[spec.kind] if isinstance(spec, SpecimenSpec) else {}
+    for field in fields(spec):
+        value = getattr(spec, field.name)
+        default = sizes.get(field.name, field.default)
+        if field.name not in (*_NESTED, "test", "kind") and value not in (None, default):
+            yield field.name, value
+
+
+def _text(value: object) -> str:
+    return ",".join(map(str, value)) if isinstance(value, list | tuple) else str(value)

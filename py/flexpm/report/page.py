@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pages that open in a browser without a network: one file with tables, curves, maps, pictures.
+
+The template lays a page out, Chart.js of Debian's libjs-chart.js draws the curves; both are copied
+into the file. Nothing is fetched: the page forbids it to the browser.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..files import write_text
+
+#: Where Debian has the library of the curves.
+CHARTS = Path("/usr/share/javascript/chart.js/chart.min.js")
+#: Name of the file in the folder of the results.
+FILE = "report.html"
+_TEMPLATES = Path(__file__).with_name("templates")
+#: Significant digits of numbers in curves.
+_DIGITS = 6
+
+
+class Line(NamedTuple):
+    """A line of a chart."""
+
+    label: str
+    x: Sequence[float | None]
+    y: Sequence[float | None]
+    colour: str
+    axis: str = "y"  #: ``y`` to the left, ``y2`` to the right
+    dashed: bool = False
+    marks: Sequence[int] = ()  #: points that are drawn as such
+
+
+class Chart(NamedTuple):
+    """Lines over one quantity."""
+
+    name: str  #: of the element, a word
+    title: str
+    x: str  #: quantity and unit
+    y: str
+    lines: Sequence[Line]
+    y2: str = ""
+    shared: bool = True  #: the points of all lines belong together by their number
+
+
+class Rows(NamedTuple):
+    """A table."""
+
+    title: str
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    note: str = ""
+
+
+class Status(NamedTuple):
+    """How a run ended, in words."""
+
+    name: str
+    good: bool
+    meaning: str
+    advice: str
+
+
+class Picture(NamedTuple):
+    """A picture that is there as a file."""
+
+    title: str
+    file: Path
+
+    @property
+    def data(self) -> str:
+        """The file as text."""
+        return base64.b64encode(self.file.read_bytes()).decode()
+
+
+@dataclass
+class Map:
+    """Cracks and fragments on the undeformed grains, at several positions of a test.
+
+    Coordinates are whole numbers, y downwards; paths are those of SVG.
+    """
+
+    name: str  #: of the element, a word
+    title: str
+    size: tuple[int, int]
+    bar: tuple[int, str]  #: length of the scale bar and what it stands for
+    rock: Sequence[tuple[str, str, str]]  #: mineral, colour, path of all its grains
+    grains: Sequence[str]  #: path of each grain
+    cracks: Sequence[tuple[str, int, str]]  #: mode, position from which on it is there, path
+    fragments: Sequence[str]  #: at each position one letter a grain: its colour
+    texts: Sequence[str]  #: what is said of each position
+    rows: Sequence[int] = ()  #: point of the chart at each position
+    chart: str = ""  #: chart on which the position is marked
+
+
+@dataclass
+class Page:
+    """What a page shows; empty parts are left out."""
+
+    title: str
+    about: str
+    versions: str
+    status: Status | None = None
+    results: Rows | None = None
+    warnings: Sequence[str] = ()
+    charts: Sequence[Chart] = ()
+    maps: Sequence[Map] = ()
+    tables: Sequence[Rows] = ()
+    pictures: Sequence[Picture] = ()
+    texts: Sequence[tuple[str, str]] = ()  #: title and text as it stands
+    commands: Sequence[tuple[str, str]] = ()  #: what it does, and the command
+    cite: Sequence[str] = field(default_factory=list)
+
+
+def write(path: Path, page: Page) -> None:
+    """Write a page as one file, whole or not at all."""
+    import jinja2
+
+    room = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    drawn = {
+        "charts": [_plain(chart) for chart in page.charts],
+        "maps": [
+            {
+                "name": one.name,
+                "texts": one.texts,
+                "fragments": one.fragments,
+                "rows": one.rows,
+                "chart": one.chart,
+            }
+            for one in page.maps
+        ],
+    }
+    text = room.get_template("page.html").render(
+        page=page,
+        drawn=drawn,
+        library=CHARTS.read_text(encoding="utf-8") if page.charts and CHARTS.exists() else "",
+        style=(_TEMPLATES / "page.css").read_text(encoding="utf-8"),
+        script=(_TEMPLATES / "page.js").read_text(encoding="utf-8"),
+    )
+    write_text(path, text)
+
+
+def rows_to_draw(places: FloatArray, most: int, kept: Sequence[int] = ()) -> IntArray:
+    """Rows that show a line as well as all of them do: about evenly along it.
+
+    Args:
+        places: Coordinates of the rows, (N, K) of any units.
+        most: About how many rows.
+        kept: Rows that are taken in any case, besides the first and the last.
+    """
+    if len(places) == 0:
+        return np.zeros(0, dtype=int)
+    known = np.nan_to_num(places, posinf=0.0, neginf=0.0)
+    span = np.ptp(known, axis=0)
+    ways = np.abs(np.diff(known, axis=0)) / np.where(span > 0.0, span, 1.0)
+    along = np.concatenate([[0.0], np.cumsum(ways.sum(axis=1))])
+    even = np.searchsorted(along, np.linspace(0.0, along[-1], most))
+    found: IntArray = np.unique([0, *even, *kept, len(places) - 1])
+    return found
+
+
+def numbers(values: FloatArray, factor: float = 1.0) -> list[float | None]:
+    """Numbers as a page has them; what is not finite is missing."""
+    return [
+        float(f"{value:.{_DIGITS}g}") if np.isfinite(value) else None
+        for value in (factor * np.asarray(values, dtype=float)).tolist()
+    ]
+
+
+def _plain(chart: Chart) -> dict[str, object]:
+    return chart._asdict() | {"lines": [line._asdict() for line in chart.lines]}

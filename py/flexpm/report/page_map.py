@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of a page: cracks and fragments of a test on its undeformed grains, position by position.
+
+All comes from files of a run: specimen.vtu, cracks.csv and curve.csv.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..results.cracks import NAMES, Crack
+from ..results.fragments import Fragments, connected
+from ..results.record import Curve
+from ..results.result import Result
+from ..results.snapshot import POINT_SHARES
+from ..results.vtu import Drawing
+from .maps import MINERALS
+from .page import Map, rows_to_draw
+
+#: Length of the longer side in a map's own units, of 0.02 mm in the paper's specimen.
+_LENGTH = 8000
+#: Positions of a slider.
+_POSITIONS = 100
+#: Colours of fragments that are not the largest.
+_COLOURS = 7
+
+
+def crack_map(
+    name: str,
+    title: str,
+    drawing: Drawing,
+    result: Result,
+    rows: IntArray | None = None,
+    chart: str = "",
+) -> Map:
+    """Make the map of a test.
+
+    Args:
+        name: Of its element, a word.
+        title: Heading.
+        drawing: The specimen before the test.
+        result: The test, with at least one row in its record.
+        rows: Rows of the record that a chart shows; positions are some of these. None: of all.
+        chart: Name of that chart.
+    """
+    record, cracks = result.curve, result.cracks
+    minerals = [kind["name"] for kind in result.material.get("minerals", ())]
+    known = np.arange(len(record)) if rows is None else rows
+    places = np.column_stack([record["axial_strain"], record["axial_stress"], _counts(record)])
+    chosen = rows_to_draw(places[known], _POSITIONS)
+    positions = known[chosen]
+    scale, corner = _frame(drawing.positions)
+    outlines = _outlines(drawing, scale, corner)
+    at = np.searchsorted(record["step"][positions], [crack.step for crack in cracks])
+    at = np.minimum(at, len(positions) - 1)
+    found = _fragments(drawing, cracks, at, len(positions))
+    width, height = np.ptp(drawing.positions, axis=0) * scale
+    return Map(
+        name=name,
+        title=title,
+        size=(math.ceil(width), math.ceil(height)),
+        bar=_bar(scale, float(width)),
+        rock=_rock(drawing, outlines, minerals),
+        grains=outlines,
+        cracks=_crack_paths(drawing, cracks, at, scale, corner),
+        fragments=[_letters(one) for one in found],
+        texts=[_text(record, row, len(one)) for row, one in zip(positions, found, strict=True)],
+        rows=[int(row) for row in chosen],
+        chart=chart,
+    )
+
+
+def _counts(record: Curve) -> FloatArray:
+    return record["tensile_cracks"] + record["shear_cracks"]
+
+
+def _text(record: Curve, row: int, fragments: int) -> str:
+    strain, stress = 100.0 * record["axial_strain"][row], 1e-6 * record["axial_stress"][row]
+    tensile, shear = (int(record[f"{mode}_cracks"][row]) for mode in ("tensile", "shear"))
+    return (
+        f"step {int(record['step'][row])}: axial strain {strain:.4g} %, axial stress {stress:.4g} "
+        f"MPa, {tensile} points cracked in tension and {shear} in shear; fragments: {fragments}"
+    )
+
+
+def _frame(places: FloatArray) -> tuple[float, FloatArray]:
+    """Units of the map in a metre, and the upper left corner [m]."""
+    low, high = places.min(axis=0), places.max(axis=0)
+    return _LENGTH / float(np.max(high - low)), np.array([low[0], high[1]])
+
+
+def _units(places: FloatArray, scale: float, corner: FloatArray) -> IntArray:
+    """Places [m] in units of the map, y downwards."""
+    found: IntArray = np.rint((places - corner) * np.array([scale, -scale])).astype(int)
+    return found
+
+
+def _bar(scale: float, width: float) -> tuple[int, str]:
+    """Scale bar of a round length, about a quarter of the width."""
+    quarter = 0.25 * width / scale * 1e3  # mm
+    decade = 10.0 ** math.floor(math.log10(quarter))
+    length = max(step for step in (1.0, 2.0, 5.0) if step * decade <= quarter) * decade
+    return round(1e-3 * length * scale), f"{length:g} mm"
+
+
+def _outlines(drawing: Drawing, scale: float, corner: FloatArray) -> list[str]:
+    """Path of each grain: the edges of its triangles that no other one shares.
+
+    Nodes of inner particles that lie in one place of the map are one.
+    """
+    nodes = _units(drawing.positions, scale, corner)
+    grains = int(drawing.triangle_grain.max(initial=-1)) + 1
+    edges: list[set[tuple[tuple[int, int], tuple[int, int]]]] = [set() for _ in range(grains)]
+    starts = nodes[drawing.triangles]
+    ends = np.roll(starts, -1, axis=1)
+    for grain, first, last in zip(
+        np.repeat(drawing.triangle_grain, 3).tolist(),
+        map(tuple, starts.reshape(-1, 2).tolist()),
+        map(tuple, ends.reshape(-1, 2).tolist()),
+        strict=True,
+    ):
+        if (last, first) in edges[grain]:
+            edges[grain].remove((last, first))
+        elif first != last:
+            edges[grain].add((first, last))
+    return ["".join(map(_path, _loops(one))) for one in edges]
+
+
+def _loops(
+    edges: set[tuple[tuple[int, int], tuple[int, int]]],
+) -> list[list[tuple[int, int]]]:
+    """Corners of closed ways along edges that have a direction."""
+    following: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for first, last in sorted(edges):
+        following.setdefault(first, []).append(last)
+    loops = []
+    while following:
+        place = min(following)
+        loop = []
+        while place in following:
+            loop.append(place)
+            ways = following[place]
+            after = ways.pop()
+            if not ways:
+                del following[place]
+            place = after
+        loops.append(loop)
+    return [loop for loop in loops if len(loop) > 2]
+
+
+def _path(corners: Sequence[tuple[int, int]]) -> str:
+    """Closed path of SVG in steps from corner to corner."""
+    (x, y), *_ = corners
+    steps = "".join(
+        f"{b[0] - a[0]} {b[1] - a[1]} ".replace(" -", "-") for a, b in itertools.pairwise(corners)
+    )
+    return f"M{x} {y}l{steps.strip()}z"
+
+
+def _rock(
+    drawing: Drawing, outlines: Sequence[str], minerals: Sequence[str]
+) -> list[tuple[str, str, str]]:
+    """All grains of each mineral as one path."""
+    kind = np.zeros(len(outlines), dtype=int)
+    kind[drawing.triangle_grain] = drawing.triangle_mineral
+    found = []
+    for number in np.unique(kind).tolist():
+        name = minerals[number] if number < len(minerals) else ""
+        path = "".join(outlines[grain] for grain in np.flatnonzero(kind == number))
+        found.append((name, MINERALS[number % len(MINERALS)], path))
+    return found
+
+
+def _crack_paths(
+    drawing: Drawing,
+    cracks: Sequence[Crack],
+    at: IntArray,
+    scale: float,
+    corner: FloatArray,
+) -> list[tuple[str, int, str]]:
+    """Cracks of one mode that are there from the same position on as one path.
+
+    A point has its share of the contact. Points of contacts that came later have no place here.
+    """
+    bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[drawing.bonded.shape[1]])])
+    row_of = {number: row for row, number in enumerate(drawing.contact.tolist())}
+    parts: dict[tuple[str, int], list[str]] = {}
+    for crack, position in zip(cracks, at.tolist(), strict=True):
+        row = row_of.get(crack.contact)
+        if row is None:
+            continue
+        start, end = drawing.contact_ends[row]
+        shares = bounds[[crack.point, crack.point + 1], None]
+        (x0, y0), (x1, y1) = _units(start + shares * (end - start), scale, corner).tolist()
+        step = f"M{x0} {y0}l{x1 - x0} {y1 - y0}"
+        parts.setdefault((NAMES[crack.mode], position), []).append(step)
+    return [(mode, position, "".join(steps)) for (mode, position), steps in parts.items()]
+
+
+def _fragments(
+    drawing: Drawing, cracks: Sequence[Crack], at: IntArray, positions: int
+) -> list[Fragments]:
+    """Fragments at each position: grains hang together while a point of their contact holds."""
+    left = drawing.bonded.copy()
+    areas = _areas(drawing)
+    row_of = {number: row for row, number in enumerate(drawing.contact.tolist())}
+    order = np.argsort(at, kind="stable")
+    found, next_crack = [], 0
+    for position in range(positions):
+        while next_crack < len(order) and at[order[next_crack]] <= position:
+            crack = cracks[order[next_crack]]
+            if crack.contact in row_of:
+                left[row_of[crack.contact], crack.point] = False
+            next_crack += 1
+        found.append(connected(drawing.contact_grains, np.any(left, axis=1), areas))
+    return found
+
+
+def _areas(drawing: Drawing) -> FloatArray:
+    """Area of each grain [m2]."""
+    corners = drawing.positions[drawing.triangles]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    return np.bincount(drawing.triangle_grain, weights=0.5 * (ax * by - ay * bx)).astype(float)
+
+
+def _letters(found: Fragments) -> str:
+    """Colour of each grain: of the largest fragment, of a loose grain, or by the first grain."""
+    first = np.full(len(found), len(found.labels))
+    np.minimum.at(first, found.labels[found.labels >= 0], np.flatnonzero(found.labels >= 0))
+    letters = [
+        "0" if rank == 0 else "x" if grains == 1 else str(1 + start % _COLOURS)
+        for rank, (grains, start) in enumerate(zip(found.grains, first.tolist(), strict=True))
+    ]
+    return "".join("-" if label < 0 else letters[label] for label in found.labels.tolist())

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of one run, report.html in its folder. SI units; shown in GPa, MPa, mm and %."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.ticker import EngFormatter
+
+from ..arrays import IntArray
+from ..errors import InputError
+from ..results import measures
+from ..results.cracks import SHEAR, TENSILE
+from ..results.result import Result
+from ..results.vtu import read_drawing
+from ..text import name_of, words_of
+from .curves import fits_a_picture
+from .page import FILE, Chart, Line, Map, Page, Rows, Status, numbers, rows_to_draw, write
+from .page_map import crack_map
+from .style import COLOURS, CYCLE, MODE_NAMES
+from .tables import result_rows
+
+#: Points of a curve.
+_POINTS = 700
+#: Energies that a page shows, in the order of their colours.
+_ENERGIES = ("elastic", "damage", "friction", "damping", "kinetic", "potential")
+#: What each status means and what to do then; the FAQ of the documentation says more.
+STATUS = {
+    "ok": Status(
+        "ok",
+        True,
+        "The stress has passed its peak and the loading was slow enough: the strength can be used.",
+        "One packing says little about scatter: --seeds 1-5 tests five of them.",
+    ),
+    "no_peak": Status(
+        "no_peak",
+        False,
+        "The stress has not fallen by 10 % from its largest value, so there is no strength.",
+        "If the curve still rises at its end, raise --max-strain. If it has bent over, the rock "
+        "softens slowly: look at the fracture energies. Elastic constants can be used.",
+    ),
+    "not_quasistatic": Status(
+        "not_quasistatic",
+        False,
+        "The loading was too fast: forces were not balanced up to the peak, or the energies do "
+        "not balance. Strengths come out too high.",
+        "Run it again with half the --rate until the status is ok and the peak stands still. With "
+        "few grains a single crack unbalances the whole specimen: take more of them.",
+    ),
+    "diverged": Status(
+        "diverged",
+        False,
+        "A number has become infinite; what came before is in the curve.",
+        "Look for inputs in other units (Pa, m) and for stiffnesses that differ by many orders, "
+        "then lower the --rate.",
+    ),
+}
+#: What to cite, without the version.
+_PAPER = (
+    "N. Monteiro Azevedo, M. L. Braga Farinha, S. Oliveira: A Flexible Particle Model for Rock "
+    "Fracture: Validation and Assessment of the Influence of Deformability on the Macroscopic "
+    "Response. Geotechnics 2 (2022), 523-549. doi:10.3390/geotechnics2030026"
+)
+
+#: An input: name, value, unit, source.
+Input = tuple[str, object, str, str]
+
+
+def write_page(
+    folder: Path, result: Result, inputs: Iterable[Input], commands: Sequence[tuple[str, str]]
+) -> Path:
+    """Write the page of a run.
+
+    Args:
+        folder: Of the run, with specimen.vtu.
+        result: The run.
+        inputs: What was asked for.
+        commands: What repeats it.
+
+    Returns:
+        The file.
+    """
+    chart, rows = stress_chart(result)
+    found = run_map(folder, result, "map", "Cracks and fragments", rows, chart.name)
+    page = Page(
+        title=about(result),
+        about=size(result),
+        versions=versions(result),
+        status=STATUS.get(result.status),
+        results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1]),
+        warnings=result.warnings,
+        charts=[chart, _energy_chart(result)] if len(rows) else [],
+        maps=[] if found is None else [found],
+        tables=[inputs_table(inputs)],
+        commands=commands,
+        cite=cite(result.flexpm),
+    )
+    write(folder / FILE, page)
+    return folder / FILE
+
+
+def about(result: Result) -> str:
+    """Test, model and material in one line."""
+    name = name_of(result.material.get("name", ""))
+    confined = f" under {1e-6 * result.confinement:g} MPa" if result.confinement else ""
+    return f"{result.test}{confined}, {result.model} model, {name}"
+
+
+def size(result: Result) -> str:
+    """Size of a specimen, its grains and its seed in one line."""
+    parts = [f"{result.grains} grains", f"{result.contacts} contacts"]
+    inputs = result.inputs or {}
+    specimen = inputs.get("specimen") or {}
+    sides = [specimen[name] for name in ("width", "height", "diameter") if specimen.get(name)]
+    if sides:
+        parts.insert(0, " x ".join(f"{1e3 * side:g}" for side in sides) + " mm")
+    parts.append("given discs" if result.seed is None else f"seed {result.seed}")
+    return ", ".join(parts)
+
+
+def versions(result: Result) -> str:
+    """What computed the run."""
+    return f"Computed by flexpm {result.flexpm} with YADE {result.yade}."
+
+
+def cite(version: str) -> list[str]:
+    """What a work that uses results of flexpm names."""
+    code = f"The flexpm developers: flexpm, a flexible particle model of rock for YADE, {version}."
+    return [code, _PAPER, "V. Smilauer et al.: Yade documentation. https://yade-dem.org"]
+
+
+def stress_chart(result: Result) -> tuple[Chart, IntArray]:
+    """Stress and cracked points over strain, and the rows of the record that it shows."""
+    record = result.curve
+    if not fits_a_picture(record):
+        record = type(record)()
+    strain, stress = record["axial_strain"], record["axial_stress"]
+    cracks = record["tensile_cracks"] + record["shear_cracks"]
+    loading = measures.until_regained(record) if result.test == "brazilian" else record
+    peak = measures.peak_row(loading) if len(record) else None
+    kept = [] if peak is None else [peak]
+    rows = rows_to_draw(np.column_stack([strain, stress, cracks]), _POINTS, kept)
+    x = numbers(strain[rows], 100.0)
+    marks = [int(np.searchsorted(rows, row)) for row in kept]
+    lines = [Line("axial stress [MPa]", x, numbers(stress[rows], 1e-6), "#1c1c1c", marks=marks)]
+    for mode, column in ((TENSILE, "tensile_cracks"), (SHEAR, "shear_cracks")):
+        counts = numbers(record[column][rows])
+        lines.append(Line(MODE_NAMES[mode], x, counts, COLOURS[mode], "y2"))
+    chart = Chart(
+        "stress",
+        "Stress and cracks over strain",
+        "axial strain [%]",
+        "axial stress [MPa]",
+        lines,
+        "cracked contact points [-]",
+    )
+    return chart, rows
+
+
+def run_map(
+    folder: Path, result: Result, name: str, title: str, rows: IntArray | None, chart: str = ""
+) -> Map | None:
+    """Map of a run; None if its folder has no specimen or its record no row."""
+    if not len(result.curve):
+        return None
+    try:
+        drawing = read_drawing(folder / "specimen.vtu")
+    except InputError:
+        return None
+    shown = rows if rows is not None and len(rows) else None
+    return crack_map(name, title, drawing, result, shown, chart)
+
+
+def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:
+    """Inputs with their units and sources."""
+    rows = [
+        (words_of(name), _with_unit(value, unit), source) for name, value, unit, source in inputs
+    ]
+    note = "All digits are in result.json, in SI units."
+    return Rows(title, ("input", "value", "source"), rows, note)
+
+
+def _energy_chart(result: Result) -> Chart:
+    record = result.curve
+    columns = {f"{name} energy": record[f"{name}_energy"] for name in _ENERGIES}
+    shown = {name: values for name, values in columns.items() if np.any(values != 0.0)}
+    work = record["boundary_work"]
+    rows = rows_to_draw(np.column_stack([record["axial_strain"], work, *shown.values()]), _POINTS)
+    x = numbers(record["axial_strain"][rows], 100.0)
+    lines = [Line("boundary work", x, numbers(work[rows]), "#1c1c1c", dashed=True)]
+    for number, (name, values) in enumerate(shown.items()):
+        lines.append(Line(name, x, numbers(values[rows]), CYCLE[number % len(CYCLE)]))
+    return Chart("energies", "Energies over strain", "axial strain [%]", "energy [J]", lines)
+
+
+def _with_unit(value: object, unit: str) -> str:
+    """A value as people write it: with a prefix of its unit."""
+    if isinstance(value, list | tuple):
+        return " to ".join(_with_unit(one, unit) for one in value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, float):
+        return str(value)
+    if unit in ("Pa", "m", "Pa/m"):
+        return str(EngFormatter(unit)(value))
+    return f"{value:g} {unit}".rstrip()

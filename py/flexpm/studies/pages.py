@@ -1,0 +1,298 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""report.html of whatever has left its files in a folder. SI units; shown in GPa, MPa and %.
+
+A page is made from files alone, so it can be made again at any time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from .._version import __version__
+from ..errors import InputError
+from ..files import load_csv
+from ..laboratory.asked import told, write_report
+from ..laboratory.run_spec import RunSpec
+from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
+from ..report.page import write as write_page
+from ..report.page_run import STATUS, cite, inputs_table, run_map, size, versions
+from ..report.style import CYCLE
+from ..report.tables import scaled
+from ..results.result import Result
+from ..text import name_of, words_of
+from .jobs import place_of
+from .packings import SHOWN
+
+#: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
+_MOST_MAPS = 6
+#: Runs whose curves a page shows, points of each, and rows of a table.
+_MOST_CURVES, _POINTS, _MOST_ROWS = 30, 400, 300
+#: Files by which a folder is known, and what has left them.
+_KINDS = {
+    "result.json": "run",
+    "compare.csv": "compare",
+    "means.csv": "packings",
+    "table.csv": "study",
+    "history.csv": "calibrate",
+}
+#: Columns of a run that stand in each table of runs.
+_MORE = ("fragments", "status")
+
+
+def require_results(folder: Path) -> Path:
+    """Refuse a folder that holds no results.
+
+    Raises:
+        InputError: if it is no folder of run, compare, study or calibrate.
+    """
+    if _kind(folder) is None:
+        raise InputError(
+            f"report: folder = {str(folder)!r}, holds none of {', '.join(_KINDS)}; give the folder "
+            "of a run, compare, study or calibrate"
+        )
+    return folder
+
+
+def write(folder: Path) -> Path:
+    """Write report.html into the folder of a run, compare, study or calibrate.
+
+    Returns:
+        The file.
+
+    Raises:
+        InputError: if the folder holds no such results.
+    """
+    kind = _kind(require_results(folder))
+    if kind == "run":
+        return write_report(folder, Result.read(folder))
+    page = {
+        "compare": _comparison,
+        "packings": _packings,
+        "study": _study,
+        "calibrate": _calibration,
+    }[str(kind)](folder)
+    write_page(folder / FILE, page)
+    return folder / FILE
+
+
+def _kind(folder: Path) -> str | None:
+    return next((kind for name, kind in _KINDS.items() if (folder / name).is_file()), None)
+
+
+def _comparison(folder: Path) -> Page:
+    """Page of several models or confinements on one packing."""
+    rows = _read(folder / "compare.csv")
+    pressures = len({row["confinement"] for row in rows})
+    places = [place_of(row["model"], float(row["confinement"]), pressures) for row in rows]
+    found = _results(folder, places)
+    names = {place: place.replace("/", " ") for place in places}
+    first = next(iter(found.values()), None)
+    maps = [
+        made
+        for number, (place, one) in enumerate(found.items())
+        if number < _MOST_MAPS
+        and (made := run_map(folder / place, one, f"map-{number}", names[place], None)) is not None
+    ]
+    return Page(
+        title=f"{rows[0]['test']}, {len(rows)} runs compared",
+        about="" if first is None else size(first),
+        versions=_versions(found),
+        results=_runs("Results", rows, [names[place] for place in places], ("material",)),
+        warnings=_warnings(found),
+        charts=_curves({names[place]: one for place, one in found.items()}),
+        maps=maps,
+        tables=[*_envelope(folder), *_about(found)],
+        pictures=_pictures(folder, ("envelope.png",)),
+        commands=[("Each run:", _again(found))],
+        cite=cite(__version__),
+    )
+
+
+def _packings(folder: Path) -> Page:
+    """Page of a test on several packings."""
+    rows, means = _read(folder / "table.csv"), _read(folder / "means.csv")
+    places = [row["folder"] for row in rows]
+    found = _results(folder, places)
+    first = next(iter(found.values()), None)
+    about = "" if first is None else size(first).rpartition(", ")[0]
+    return Page(
+        title=f"{rows[0]['test']}, {len(rows)} packings",
+        about=about,
+        versions=_versions(found),
+        results=_means(means),
+        warnings=_warnings(found),
+        charts=_curves(found),
+        tables=[_runs("Runs", rows, places), *_envelope(folder), *_about(found)],
+        pictures=_pictures(folder, ("envelope.png",)),
+        commands=[("Each run:", _again(found))],
+        cite=cite(__version__),
+    )
+
+
+def _study(folder: Path) -> Page:
+    """Page of a study."""
+    rows = _read(folder / "table.csv")
+    places = [f"runs/{row['key']}" for row in rows]
+    found = _results(folder, places[:_MOST_CURVES])
+    names = list(rows[0])
+    inputs = names[1 : names.index("exit_code")]  # after the key
+    asked = [name for name in inputs if len({row[name] for row in rows}) > 1]
+    return Page(
+        title=f"Study {name_of(folder.resolve().name)}, {len(rows)} runs",
+        about="",
+        versions=_versions(found),
+        warnings=_warnings(found),
+        charts=_curves(found) if len(rows) <= _MOST_CURVES else [],
+        tables=[_runs("Runs", rows, places, asked), *_about(found)],
+        pictures=_pictures(folder),
+        commands=[("A run of the table, by the name of its folder:", f"flexpm rerun {places[0]}")],
+        cite=cite(__version__),
+    )
+
+
+def _calibration(folder: Path) -> Page:
+    """Page of a calibration."""
+    names, rows = load_csv(folder / "history.csv", "history")
+    shown = [[_plain(cell) for cell in row] for row in rows[-_MOST_ROWS:]]
+    return Page(
+        title=f"Calibration {name_of(folder.resolve().name)}",
+        about=f"{len(rows)} sets of values were tried",
+        versions=f"Made by flexpm {__version__}.",
+        tables=[Rows("Sets of values", [words_of(name) for name in names], shown)],
+        pictures=_pictures(folder),
+        texts=[
+            (f"Material {file.name}", file.read_text(encoding="utf-8"))
+            for file in sorted(folder.glob("*.toml"))
+        ],
+        cite=cite(__version__),
+    )
+
+
+def _read(path: Path) -> list[dict[str, str]]:
+    names, rows = load_csv(path, "table")
+    if not rows:
+        raise InputError(f"table = {str(path)!r}, has no runs; give the folder of finished runs")
+    return [dict(zip(names, row, strict=True)) for row in rows]
+
+
+def _results(folder: Path, places: Iterable[str]) -> dict[str, Result]:
+    """Results of runs by their folder; those that left none are left out."""
+    found = {}
+    for place in places:
+        if (folder / place / "curve.csv").is_file():
+            found[place] = Result.read(folder / place)
+    return found
+
+
+def _runs(
+    title: str,
+    rows: Sequence[Mapping[str, str]],
+    names: Sequence[str],
+    inputs: Sequence[str] = (),
+) -> Rows:
+    """One line a run: what was asked, what came out."""
+    header = ["run", *map(words_of, inputs), *(shown[1] for shown in SHOWN.values()), *_MORE]
+    lines = [
+        [
+            name,
+            *(_plain(row.get(key, "")) for key in inputs),
+            *(_cell(row.get(key, ""), *SHOWN[key]) for key in SHOWN),
+            *(row.get(key, "") or "-" for key in _MORE),
+        ]
+        for name, row in zip(names, rows, strict=True)
+    ]
+    note = "" if len(lines) <= _MOST_ROWS else f"The first {_MOST_ROWS} of {len(lines)} runs."
+    return Rows(title, header, lines[:_MOST_ROWS], note)
+
+
+def _means(means: Sequence[Mapping[str, str]]) -> Rows:
+    """Means over the packings with their standard deviations."""
+    header = ["model", "confinement [MPa]", "runs", *(shown[1] for shown in SHOWN.values())]
+    lines = []
+    for row in means:
+        cells = []
+        for key, (factor, _, digits) in SHOWN.items():
+            mean = _cell(row[key], factor, "", digits)
+            scatter = _cell(row[f"{key}_deviation"], factor, "", 2)
+            cells.append(f"{mean} ± {scatter}")
+        pressure = _cell(row["confinement"], 1e-6, "", 3)
+        counted = f"{int(row['runs']) - int(row['failed'])} of {row['runs']}"
+        lines.append([row["model"], pressure, counted, *cells])
+    note = "Mean and standard deviation of the packings; runs that failed are left out."
+    return Rows("Means", header, lines, note)
+
+
+def _cell(text: str, factor: float, _: str, digits: int) -> str:
+    if text.isdigit() and factor == 1.0:
+        return text  # a count
+    return scaled(float(text), factor, "", digits) if text else "-"
+
+
+def _plain(text: str) -> str:
+    """A cell as it is, a number with the digits that are read."""
+    try:
+        return f"{float(text):.5g}"
+    except ValueError:
+        return text or "-"
+
+
+def _curves(found: Mapping[str, Result]) -> list[Chart]:
+    """Stress over strain of all runs in one chart."""
+    lines = []
+    for number, (name, one) in enumerate([*found.items()][:_MOST_CURVES]):
+        strain, stress = one.curve["axial_strain"], one.curve["axial_stress"]
+        kept = [] if one.peak_stress is None else [int(np.argmax(stress == one.peak_stress))]
+        rows = rows_to_draw(np.column_stack([strain, stress]), _POINTS, kept)
+        marks = [int(np.searchsorted(rows, row)) for row in kept]
+        x, y = numbers(strain[rows], 100.0), numbers(stress[rows], 1e-6)
+        colour, dashed = CYCLE[number % len(CYCLE)], number // len(CYCLE) % 2 == 1
+        lines.append(Line(name, x, y, colour, dashed=dashed, marks=marks))
+    if not lines:
+        return []
+    title, y_title = "Stress over strain", "axial stress [MPa]"
+    return [Chart("stress", title, "axial strain [%]", y_title, lines, shared=False)]
+
+
+def _about(found: Mapping[str, Result]) -> list[Rows]:
+    """What the statuses mean that are not ok, and what was asked of the first run."""
+    ended = dict.fromkeys(one.status for one in found.values())
+    told_of = [STATUS[name] for name in ended if name in STATUS and not STATUS[name].good]
+    tables = []
+    if told_of:
+        rows = [(one.name, one.meaning, one.advice) for one in told_of]
+        tables.append(Rows("What the status means", ("status", "meaning", "what to do"), rows))
+    for place, first in [*found.items()][:1]:
+        asked = told(RunSpec.from_json(first.inputs or {}))
+        tables.append(inputs_table(asked, f"Inputs of {place}"))
+    return tables
+
+
+def _warnings(found: Mapping[str, Result]) -> list[str]:
+    return [f"{place}: {line}" for place, one in found.items() for line in one.warnings]
+
+
+def _versions(found: Mapping[str, Result]) -> str:
+    return "; ".join(dict.fromkeys(map(versions, found.values()))) or f"flexpm {__version__}."
+
+
+def _again(found: Iterable[str]) -> str:
+    return "\n".join(f"flexpm rerun {place}/result.json" for place in found)
+
+
+def _envelope(folder: Path) -> list[Rows]:
+    file = folder / "envelope.csv"
+    if not file.is_file():
+        return []
+    names, rows = load_csv(file, "envelope")
+    note = "SI units and degrees, with the standard errors of the fits."
+    lines = [[_plain(cell) for cell in row] for row in rows]
+    return [Rows("Strength criteria", [words_of(name) for name in names], lines, note)]
+
+
+def _pictures(folder: Path, names: Sequence[str] | None = None) -> list[Picture]:
+    """Pictures of a folder, or those of given names that are there."""
+    files = sorted(folder.glob("*.png")) if names is None else [folder / name for name in names]
+    return [Picture(words_of(file.stem), file) for file in files if file.is_file()]
