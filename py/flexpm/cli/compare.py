@@ -12,6 +12,7 @@ import click
 
 from ..errors import InputError, SimulationError
 from ..laboratory.run_spec import TESTS
+from ..materials.material import COMPARED
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
@@ -65,8 +66,8 @@ def compare(
 ) -> None:
     """Run a test with several models on one packing, or on several: one table, one picture.
 
-    TEST is as for run. Each model takes its default material unless one is given. Each run has a
-    folder of its own below the output folder; what is finished there is not run again.
+    TEST is as for run. All models have one material, augig-table7 unless another one is given. Each
+    run has a folder of its own below the output folder; what is finished there is not run again.
     """
     require_known("test", test, TESTS)
     if test != "biaxial" and any(confinements):
@@ -74,6 +75,7 @@ def compare(
             f"confinements = {max(confinements):g} Pa, must be 0 for {test}"
             f"{'' if test == 'brazilian' else '; use biaxial'}"
         )
+    options["material"] = options["material"] or COMPARED
     chosen = {model: inputs.material(options, model) for model in models}
     specs = [
         inputs.run_spec(test, options | {"model": model}, material)

@@ -256,7 +256,8 @@ material_options = combined(
     click.option(
         "--material",
         metavar="NAME|FILE",
-        help="Preset or TOML file; augig-table7 for the flexible model if not given.",
+        help="Preset or TOML file; if not given, augig-table7 for the flexible model and in "
+        "compare, else augig-table2-bilinear.",
     ),
     click.option(
         "--set",

@@ -76,6 +76,8 @@ def _given(options: Table) -> Table:
     """Options of a run that differ from their defaults, by name; the material as in a study."""
     names = (*run_spec.OPTIONS, "material")
     found = {name: options[name] for name in names if name in options and _is_given(name)}
+    if options["material"] is not None:
+        found["material"] = options["material"]  # also that of a comparison, which none has given
     parts = (one.partition("=") for one in options["assignments"])
     return found | {f"set.{key.strip()}": value.strip() for key, _, value in parts}
 

@@ -58,7 +58,8 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     """Run a laboratory test and write its files.
 
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
-    compression of a disc of the given diameter.
+    compression of a disc of the given diameter, whose axial stress is 2 P / (pi D t) under the
+    force P.
     """
     require_known("test", test, TESTS)
     chosen = inputs.material(options)

@@ -83,7 +83,8 @@ def run(
     Args:
         test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
-            ``brazilian``: a disc between two plates.
+            ``brazilian``: a disc between two plates, whose axial stress is 2 P / (pi D t), P the
+            force, D the diameter, t the thickness.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.

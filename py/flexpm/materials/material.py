@@ -31,6 +31,9 @@ from .mineral import Mineral
 #: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
 ENERGY_TOLERANCE = 1e-12
 
+#: Preset of a comparison unless told otherwise: it has an elastic set for each model.
+COMPARED = "augig-table7"
+
 _PRESETS = Path(__file__).with_name("presets")
 
 

@@ -19,6 +19,7 @@ from ..materials.references import Reference
 from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
 from ..results.strength import Envelope, MohrCoulomb
+from ..text import label_of
 from .curves import fits_a_picture
 from .maps import draw_cracks
 from .style import CYCLE, MODE_NAMES, STYLE, can_be_drawn, save
@@ -171,4 +172,5 @@ def _caption(runs: Runs) -> str:
     first = runs[0][1]
     tests = " and ".join(dict.fromkeys(result.test for _, result in runs))
     seed = "" if first.seed is None else f", seed {first.seed}"
-    return f"{tests}, one packing of {first.grains} grains{seed}"
+    materials = dict.fromkeys(label_of(result.material.get("name", "")) for _, result in runs)
+    return f"{tests}, one packing of {first.grains} grains{seed}; {', '.join(materials)}"

@@ -17,7 +17,7 @@ from ..files import Table, csv_text, output_folder, write_text
 from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
 from ..laboratory.run_spec import RunSpec, described
-from ..materials.material import Material
+from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
 from ..progress import Progress
@@ -120,8 +120,8 @@ def compare(
         test: As for :func:`flexpm.run`.
         specimen: The grains.
         models: Names of models.
-        material: Preset, file, or material, or one for each model by its name; None for the
-            default of each model.
+        material: Preset, file, or material, or one for each model by its name; None, and a model
+            without one, for ``augig-table7``, which has all elastic sets.
         confinements: Lateral pressures [Pa], for ``biaxial``; two or more give an envelope.
         out: Folder for tables and pictures, with a folder for each run; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -195,10 +195,10 @@ def table(cases: Sequence[Case]) -> str:
         rows.append((case.name, *numbers, found.status))
     drawn = columns((*header, "status"), rows)
     used = {case.model: name_of(case.material.name) for case in cases}
-    if len(set(used.values())) > 1:
-        each = ", ".join(f"{model} {name}" for model, name in used.items())
-        drawn += f"\n  materials differ: {each}; --material gives all the same"
-    return drawn
+    if len(set(used.values())) == 1:
+        return f"{drawn}\n  material of all: {next(iter(used.values()))}"
+    each = ", ".join(f"{model} {name}" for model, name in used.items())
+    return f"{drawn}\n  materials differ: {each}"
 
 
 def _materials(
@@ -207,8 +207,9 @@ def _materials(
     """Material of each model."""
     names = _each_once("models", models)
     if isinstance(material, Mapping) and set(material) <= set(names):
-        return {model: load_material(material.get(model), model) for model in names}
-    return {model: load_material(material, model) for model in names}
+        return {model: load_material(material.get(model, COMPARED), model) for model in names}
+    chosen = COMPARED if material is None else material
+    return {model: load_material(chosen, model) for model in names}
 
 
 def _each_once(name: str, values: Sequence[Value]) -> list[Value]:

@@ -11,6 +11,7 @@ from matplotlib.image import imread
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.materials.references import reference_of
+from flexpm.models.options import MODELS
 from flexpm.studies import comparison
 
 CONFINEMENTS = (0.0, 1e6, 3e6)
@@ -54,9 +55,9 @@ def test_tables_and_pictures_of_a_comparison(envelope):
         assert float(row["first_tensile_crack_stress"]) == case.result.first_tensile_crack_stress
         assert int(row["tensile_cracks"]) == case.result.tensile_cracks
         assert row["material"] == case.material.name
-    assert {case.material.name for case in found.cases} == {"augig-table7", "augig-table2-bilinear"}
+    assert {case.material.name for case in found.cases} == {"augig-table7"}
     said = comparison.table(found.cases).splitlines()[-1]
-    assert "materials differ: flexible augig-table7, rigid augig-table2-bilinear" in said
+    assert "material of all: augig-table7" in said
     assert "differ" not in comparison.table(found.cases[:3])
     for name in ("compare.png", "cracks.png", "envelope.png"):
         assert imread(folder / name).shape[0] > 300
@@ -147,6 +148,28 @@ def test_wrong_comparisons_are_one_line_and_exit_code_2(capsys, tmp_path, argume
     output, errors = capsys.readouterr()
     assert (output, errors.count("\n")) == ("", 1)
     assert message in errors
+
+
+def test_all_models_have_one_material_unless_told_otherwise():
+    found = comparison._materials(MODELS, None)
+    assert {material.name for material in found.values()} == {"augig-table7"}
+    for model, material in found.items():
+        material.law(model)  # it has a set for each
+    some = comparison._materials(("flexible", "rigid"), {"rigid": "augig-table2-bilinear"})
+    assert [one.name for one in some.values()] == ["augig-table7", "augig-table2-bilinear"]
+
+
+@pytest.mark.parametrize("packing", [[], ["--seeds", "1"]])
+def test_the_command_gives_all_models_one_material_and_names_it(capsys, tmp_path, packing):
+    arguments = ["compare", "tension", *SMALL, "--models", "flexible,jcfpm", *packing]
+    assert cli.main([*arguments, "--max-strain", "2e-5", "--out", str(tmp_path)]) == 3
+    said = capsys.readouterr().out
+    files = list(tmp_path.rglob("result.json"))
+    assert len(files) == 2
+    for file in files:
+        assert json.loads(file.read_text())["material"]["name"] == "augig-table7"
+    assert "augig-table7" in said
+    assert "augig-table2" not in said
 
 
 def test_materials_by_model_and_the_rock_they_stand_for(specimen):
