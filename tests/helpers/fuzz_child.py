@@ -166,7 +166,8 @@ class Script:
     def do_save(self) -> None:
         there = {body.id for body in self._yade.O.bodies}
         if any({one.id1, one.id2} - there for one in self._yade.O.interactions):
-            return  # YADE cannot load such a scene, of its own spheres either
+            # YADE cannot load such a scene, of its own spheres either
+            raise RuntimeError("interactions of erased bodies, which YADE would not load")
         self._yade.O.save(f"{self._folder.name}/scene.bin", quiet=True)
 
     def do_load(self) -> None:

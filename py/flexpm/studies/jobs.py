@@ -148,20 +148,17 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
     """Read what a job has left, and note its outcome in `folder` unless it was interrupted.
 
     Returns:
-        ``exit_code``, ``message`` (the line on stderr, or empty) and ``result``: the measures, an
-        empty dictionary if there are none.
+        ``exit_code``, ``message`` (the line on stderr; empty only if the run has succeeded) and
+        ``result``: the measures, an empty dictionary if there are none.
     """
     if isinstance(done, BaseException):  # the worker was lost, not the job's fault
         return {"exit_code": None, "message": f"{type(done).__name__}: {done}", "result": {}}
-    lines = [line for line in done.stderr.splitlines() if line.startswith("flexpm: ")]
     outcome = {
         "key": job.key,
         "inputs": dict(job.inputs),
         "exit_code": done.returncode,
         # a table must not depend on where its runs lie
-        "message": lines[-1].removeprefix("flexpm: ").replace(str(folder), job.folder)
-        if lines
-        else "",
+        "message": _message(done).replace(str(folder), job.folder),
         "result": _measures(folder / "result.json"),
     }
     if done.returncode in _FINAL:
@@ -169,6 +166,17 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
         write_text(folder / _OUTCOME, json_text(outcome))
         _remove_checkpoint(folder)  # the largest file, of no use any more
     return outcome
+
+
+def _message(done: CompletedProcess[str]) -> str:
+    """What a run has said, or how it ended if it could not say anything."""
+    lines = [line for line in done.stderr.splitlines() if line.strip()]
+    own = [line for line in lines if line.startswith("flexpm: ")]
+    if own or done.returncode == 0:
+        return own[-1].removeprefix("flexpm: ") if own else ""
+    if done.returncode < 0:
+        return f"ended by signal {-done.returncode}"
+    return lines[-1] if lines else f"ended with exit code {done.returncode}"
 
 
 def _remove_checkpoint(folder: Path) -> None:

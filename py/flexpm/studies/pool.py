@@ -137,8 +137,9 @@ class Pool:
             n_workers=self._workers or len(os.sched_getaffinity(0)),
             threads_per_worker=1,
             processes=False,
-            # any free port: another study may run on this machine
+            # any free port, as another study may run on this machine; workers have a page, too
             dashboard_address="127.0.0.1:0",
+            worker_dashboard_address="127.0.0.1:0",
         )
         self._cluster = local
         return local

@@ -6,6 +6,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -135,6 +136,16 @@ def test_the_surroundings_do_not_matter(tmp_path, change):
     done = subprocess.run(command, env=surroundings, capture_output=True, text=True)
     assert done.returncode == 3, done.stderr
     assert "no strength was found" in one_line(done.stderr)
+
+
+def test_the_command_needs_no_path(launcher):
+    command = [shutil.which(launcher[0]), *launcher[1:], "elastic", *TINY]
+    surroundings = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run(
+        command, env=surroundings | {"PATH": ""}, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "Young's modulus" in done.stdout
 
 
 def test_a_file_that_is_a_folder_is_named(capsys, tmp_path):

@@ -44,7 +44,8 @@ PLAIN = st.one_of(
     st.tuples(st.sampled_from(["save", "load"])),
     st.tuples(st.just("ask"), st.sampled_from(QUERIES[:7])),
     st.tuples(st.just("view"), NUMBER),
-    st.tuples(st.just("erase_bond"), NUMBER),
+    st.tuples(st.sampled_from(["erase_bond", "erase_body"]), NUMBER),
+    st.tuples(st.just("touch"), st.integers(0, 3)),
     st.tuples(st.sampled_from(["reset"])),
 )
 BUILD = st.tuples(
@@ -95,7 +96,11 @@ class Model:
             self.now = (step + call[1], bodies, seen["bonds"])
         elif name == "erase_bond" and self.now and self.now[2]:
             self.now = (*self.now[:2], self.now[2] - 1)
-        elif name == "save":
+        elif name == "erase_body" and self.now and self.now[1]:
+            step, bodies, bonds = self.now
+            assert seen["bonds"] <= bonds  # those of the body are gone
+            self.now = (step, bodies - 1, seen["bonds"])
+        elif name == "save" and not seen["error"]:
             self.saved = (self.now, seen["state"])
         elif name == "load" and self.saved:
             self.now, state = self.saved

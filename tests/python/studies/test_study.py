@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pandas
+import psutil
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -158,6 +159,34 @@ def test_the_outcome_of_an_interrupted_run_is_not_kept(tmp_path):
     assert jobs.conclude(job, tmp_path, OSError("lost"))["exit_code"] is None
     (tmp_path / "0" / "outcome.json").write_text('{"cut')
     assert jobs.known(tmp_path / "0") is None
+
+
+@pytest.mark.parametrize(
+    ("code", "stderr", "says"),
+    [
+        (-9, "", "ended by signal 9"),
+        (-6, "terminate called\n", "ended by signal 6"),
+        (1, "Traceback ...\nImportError: no yade\n\n", "ImportError: no yade"),
+        (134, "", "ended with exit code 134"),
+        (0, "a foreign line\n", ""),
+    ],
+)
+def test_a_failed_run_always_has_a_message(tmp_path, code, stderr, says):
+    job = jobs.make({"test": "uniaxial"}, tmp_path)
+    done = subprocess.CompletedProcess([], code, "", stderr)
+    assert jobs.conclude(job, tmp_path, done)["message"] == says
+
+
+def test_runs_of_this_machine_are_reached_from_this_machine_alone(tmp_path, monkeypatch):
+    def look(*_, **__):
+        sockets = psutil.Process().connections("inet")
+        listening = {one.laddr.ip for one in sockets if one.status == psutil.CONN_LISTEN}
+        return subprocess.CompletedProcess([], 3, "", f"flexpm: {sorted(listening)}\n")
+
+    monkeypatch.setattr(pool.subprocess, "run", look)
+    with pool.Pool(tmp_path, workers=2) as runs:
+        outcomes = runs.run([jobs.make({"test": "uniaxial"}, tmp_path)])
+    assert outcomes[0]["message"] == "['127.0.0.1']"  # Dask's page
 
 
 def test_results_of_an_older_number_are_named_once_and_run_again(tmp_path, monkeypatch, caplog):
