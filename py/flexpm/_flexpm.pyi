@@ -79,6 +79,23 @@ class InnerCells:
     @property
     def outer(self) -> IntArray: ...
 
+class PolygonOutline:
+    def __init__(self, corners: FloatArray, holes: list[FloatArray]) -> None: ...
+    @property
+    def rings(self) -> list[FloatArray]: ...
+    @property
+    def area(self) -> float: ...
+
+class Tiling:
+    @property
+    def tessellation(self) -> Tessellation: ...
+    @property
+    def discs(self) -> FloatArray: ...
+    @property
+    def origin(self) -> IntArray: ...
+    @property
+    def edge_joints(self) -> IntArray: ...
+
 class EnumClass_TestState(IntEnum):  # noqa: N801
     """The plugin puts it into the module yade."""
 
@@ -137,6 +154,20 @@ def insert_discs(radii: FloatArray, outline: Outline, shrink: float, seed: int) 
 def tessellate(
     centres: FloatArray, radii: FloatArray, outline: Outline, short_edge: float, allow_hidden: bool
 ) -> Tessellation: ...
+def cells_in_outline(
+    centres: FloatArray, radii: FloatArray, outline: PolygonOutline, short_edge: float
+) -> Tiling: ...
+def cells_of_polygons(
+    polygons: list[FloatArray], with_holes: bool
+) -> tuple[Tiling, list[FloatArray]]: ...
+def cells_of_file(
+    vertices: FloatArray,
+    cells: list[IntArray],
+    sides: IntArray,
+    joints: IntArray,
+    centres: FloatArray,
+    radii: FloatArray,
+) -> Tiling: ...
 def grain_meshes(
     tessellation: Tessellation, centres: FloatArray, radii: FloatArray, kind: str
 ) -> GrainMeshes: ...

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
 @cli_options.disc_options
 @cli_options.packing_options
 @cli_options.seeds_options
+@cli_options.specimen_option
 @cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option
@@ -96,7 +97,7 @@ def compare(
     with terminal.Progress(quiet) as progress:
         found = comparison.compare(
             test,
-            inputs.packed(specs[0].specimen, progress),
+            inputs.made(specs[0].specimen, options, progress),
             models,
             chosen,
             confinements=confinements,

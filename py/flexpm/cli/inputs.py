@@ -12,10 +12,11 @@ import click
 from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
-from ..laboratory.run_spec import RunSpec, shape_of
+from ..laboratory.run_spec import PACKING, RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
+from ..specimens import specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
@@ -57,8 +58,14 @@ def material(options: Table, model: str | None = None) -> Material:
 
 def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
     """The run that the options describe."""
-    refuse_other_sizes(shape_of(test))
-    spec = RunSpec.from_options(test, options | {"points": int(options["points"])}, chosen)
+    given = options | {"points": int(options["points"])}
+    if options["specimen_file"] is None:
+        refuse_other_sizes(shape_of(test))
+        spec = RunSpec.from_options(test, given, chosen)
+    else:
+        refuse_packing()
+        stored = specimen_file.spec_of(specimen_file.read(options["specimen_file"]))
+        spec = RunSpec.from_options(test, given, chosen, stored)
     told = click.get_current_context().meta.setdefault("flexpm.doubts", set())
     for line in doubts.of_inputs(spec.to_json()):
         if line not in told:
@@ -81,12 +88,24 @@ def specimen_spec(kind: str, options: Table) -> SpecimenSpec:
     return SpecimenSpec(kind, **{name: options[name] for name in names})
 
 
-def packed(spec: SpecimenSpec, progress: terminal.Progress) -> Specimen:
-    """Pack a specimen."""
+def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Specimen:
+    """Pack a specimen, or read it from the file of ``--specimen``."""
     load_yade()
     from ..specimens.specimen import Specimen
 
-    return Specimen.pack(spec, progress)
+    file = options.get("specimen_file")
+    return Specimen.pack(spec, progress) if file is None else Specimen.load(file)
+
+
+def refuse_packing() -> None:
+    """Refuse options of a packing beside a specimen that is read from a file."""
+    context = click.get_current_context()
+    for name in (*SIZES["rectangle"], *SIZES["disc"], *PACKING, "seeds"):
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            raise InputError(
+                f"{name} = {context.params.get(name)}, must not be given with specimen, which has "
+                "its own; leave one out"
+            )
 
 
 def refuse_other_sizes(shape: str) -> None:

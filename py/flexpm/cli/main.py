@@ -88,7 +88,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = inputs.packed(inputs.specimen_spec("rectangle", options), progress)
+        made = inputs.made(inputs.specimen_spec("rectangle", options), options, progress)
     _describe(made, folder, mesh)
 
 
@@ -102,7 +102,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = inputs.packed(inputs.specimen_spec("disc", options), progress)
+        made = inputs.made(inputs.specimen_spec("disc", options), options, progress)
     _describe(made, folder, mesh)
 
 

@@ -251,6 +251,13 @@ packing_options = combined(
     ),
     seed_option,
 )
+specimen_option = click.option(
+    "--specimen",
+    "specimen_file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Test a specimen of Specimen.save instead of packing one.",
+)
 disc_options = _length("--diameter", SIZES["disc"]["diameter"], "Diameter of the disc")
 material_options = combined(
     click.option(

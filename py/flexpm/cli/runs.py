@@ -40,6 +40,7 @@ _discard_option = click.option(
 @cli_options.disc_options
 @cli_options.packing_options
 @cli_options.seeds_options
+@cli_options.specimen_option
 @click.option(
     "--confinement",
     type=Quantity("Pa", NOT_NEGATIVE),
@@ -70,7 +71,9 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
         return
     options |= {"quiet": quiet, "discard_checkpoint": discard_checkpoint}
     folder = inputs.locked_folder(out)
-    _simulate(spec, chosen, lambda shown: inputs.packed(spec.specimen, shown), folder, options)
+    _simulate(
+        spec, chosen, lambda shown: inputs.made(spec.specimen, options, shown), folder, options
+    )
 
 
 @click.command(short_help="A run again from its result.json.")
@@ -90,8 +93,8 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 def rerun(file: Path, out: Path, **options: Any) -> None:
     """Repeat the run that has left FILE, its result.json (or its folder).
 
-    All that determined the run is in that file. Discs or minerals that a script has given to it
-    are read from specimen.npz beside it. At the end the numbers are compared with those of FILE.
+    All that determined the run is in that file. A specimen that is no plain packing is read from
+    grains.json beside it. At the end the numbers are compared with those of FILE.
     """
     file = file / "result.json" if file.is_dir() else file
     spec, chosen = reruns.read_inputs(file)
@@ -117,6 +120,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 @cli_options.model_options
 @cli_options.rectangle_options
 @cli_options.packing_options
+@cli_options.specimen_option
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
@@ -129,9 +133,8 @@ def elastic(out: Path | None, **options: Any) -> None:
     chosen = inputs.material(options)
     spec = inputs.run_spec(ELASTIC, options, chosen)
     folder = None if out is None else inputs.locked_folder(out)
-    _solve(
-        spec, chosen, lambda shown: inputs.packed(spec.specimen, shown), folder, options["quiet"]
-    )
+    quiet = options["quiet"]
+    _solve(spec, chosen, lambda shown: inputs.made(spec.specimen, options, shown), folder, quiet)
 
 
 def _tell_differences(file: Path, before: Table, folder: Path) -> None:
@@ -201,6 +204,7 @@ def _solve(
     """Find the elastic constants and tell them; arguments as for a simulation."""
     inputs.load_yade()
     from ..models import grains
+    from ..specimens import given
 
     with terminal.Progress(quiet) as progress:
         specimen = make(progress)
@@ -209,9 +213,11 @@ def _solve(
             specimen, chosen, model=spec.model, points=spec.points, mesh=spec.mesh
         )
     if folder is not None:
+        given.save(folder, specimen)
         asked = spec.to_json()
         about = {name: asked[name] for name in ("test", "model", "material")}
         about |= {"flexpm": __version__, "seed": spec.specimen.seed}
         write_text(folder / "result.json", json_text({**about, **found, "inputs": asked}))
-    terminal.say(f"{spec.model} model, {name_of(chosen.name)}, seed {spec.specimen.seed}")
+    seed = "" if spec.specimen.seed is None else f", seed {spec.specimen.seed}"
+    terminal.say(f"{spec.model} model, {name_of(chosen.name)}{seed}")
     terminal.say(tables.elastic_table(found))

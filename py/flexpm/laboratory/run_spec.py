@@ -64,13 +64,13 @@ _RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 _STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
 _PRESSURE = Bounds(at_least=0.0, at_most=1e15)
 _GRAVITY = Bounds(at_least=0.0, at_most=1e12)
-_PACKING = ("thickness", "diameters", "porosity", "seed")
+PACKING = ("thickness", "diameters", "porosity", "seed")
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
     *("dynamic", "gravity", "start", "loading"),
 )
 #: Fields that options of the command set, by their names.
-OPTIONS = (*SIZES["rectangle"], *SIZES["disc"], *_PACKING, *_SIMULATION)
+OPTIONS = (*SIZES["rectangle"], *SIZES["disc"], *PACKING, *_SIMULATION)
 
 
 @dataclass(frozen=True)
@@ -132,22 +132,30 @@ class RunSpec:
         self._set("material", dict(self.material))
 
     @classmethod
-    def from_options(cls, test: str, options: Table, material: Material) -> RunSpec:
-        """Describe the run of a packed specimen by options of the command.
+    def from_options(
+        cls,
+        test: str,
+        options: Table,
+        material: Material,
+        specimen: SpecimenSpec | None = None,
+    ) -> RunSpec:
+        """Describe the run of a specimen by options of the command.
 
         Args:
             test: Name of the test.
             options: Values by the names of ``OPTIONS``; None stands for the default. Other names,
                 and sizes of another shape than that of the test, are not looked at.
             material: The material, with the changes that the options ask for.
+            specimen: A specimen that is there already; None: packed as the options say.
 
         Raises:
             InputError: for a value out of range.
         """
         given = {name: value for name, value in options.items() if value is not None}
-        shape = shape_of(test)
-        packed = [name for name in (*SIZES[shape], *_PACKING) if name in given]
-        specimen = SpecimenSpec(shape, **{name: given[name] for name in packed})
+        if specimen is None:
+            shape = shape_of(test)
+            packed = [name for name in (*SIZES[shape], *PACKING) if name in given]
+            specimen = SpecimenSpec(shape, **{name: given[name] for name in packed})
         others = {name: given[name] for name in _SIMULATION if name in given}
         model = others.get("model", cls.model)
         return cls(test, specimen, described(material, model), **others)
@@ -266,6 +274,8 @@ class RunSpec:
     def _check_test(self) -> None:
         if self.test == ELASTIC:
             require_one_of("run: model", self.model, GRAIN_MODELS)
+        if self.model in SPHERE_MODELS:
+            self.specimen.require_discs(self.model)
         shape = shape_of(self.test)
         if self.specimen.kind != shape:
             raise InputError(

@@ -12,7 +12,8 @@ import yade
 from ..arrays import FloatArray
 from ..models.sphere_bonds import in_order, tributary_lengths
 from ..models.spheres import SphereModel
-from ..specimens.specimen import Circle, Specimen
+from ..specimens.kernel_input import Circle
+from ..specimens.specimen import Specimen
 from .rig import BOTTOM, TOP
 
 

@@ -190,6 +190,7 @@ def build(
     if not isinstance(specimen, Specimen):
         raise InputError(f"build: specimen = {quoted(specimen)}, must be a Specimen")
     if model in SPHERE_MODELS:
+        specimen.spec.require_discs(model)
         return spheres.build(
             specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
         )

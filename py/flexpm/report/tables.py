@@ -32,7 +32,8 @@ def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> st
 def result_table(result: Result) -> str:
     """Short table of the outcome of a test."""
     name = name_of(result.material.get("name", ""))
-    title = f"{result.test}, {result.model} model, {name}, seed {result.seed}"
+    seed = "" if result.seed is None else f", seed {result.seed}"
+    title = f"{result.test}, {result.model} model, {name}{seed}"
     return table(result_rows(result), title)
 
 

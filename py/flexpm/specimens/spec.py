@@ -6,6 +6,7 @@ Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from ..errors import InputError
@@ -42,7 +43,9 @@ class SpecimenSpec:
         seed: Of the packing; None for given discs.
         short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
         discs: Checksum of given discs; None for a packing.
-        outline: Checksum of the outline of given discs; None for a packing.
+        outline: Checksum of the outline of given discs or cells, or of one that was sawn out of a
+            packing; None for a packed rectangle or disc.
+        cells: Checksum of given cells; None if cells are those of the discs.
         minerals: Checksum of given minerals of the grains; None if there are none.
     """
 
@@ -58,6 +61,7 @@ class SpecimenSpec:
     discs: str | None = None
     outline: str | None = None
     minerals: str | None = None
+    cells: str | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -80,10 +84,20 @@ class SpecimenSpec:
         """``width`` and ``height``, or ``diameter`` [m]; none of a polygon."""
         return {name: getattr(self, name) for name in SIZES[self.kind]}
 
+    def require_discs(self, model: str) -> None:
+        """Refuse grains that are no discs, for a model of discs."""
+        cut = self.outline is not None and self.discs is None
+        what = "given cells" if self.cells is not None else "sawn grains" if cut else ""
+        if what:
+            raise InputError(
+                f"model = {model}, must be one of cells for a specimen of {what}; use flexible or "
+                "rigid"
+            )
+
     def _check_packing(self, where: str) -> None:
-        if self.kind == "polygon" or self.outline is not None:
-            raise InputError(f"{where}: discs are missing; only rectangles and discs are packed")
-        room = min(self.sizes.values())
+        if self.kind == "polygon" and self.outline is None:
+            raise InputError(f"{where}: outline is missing; only rectangles and discs need none")
+        room = min(self.sizes.values(), default=math.inf)
         self._set("diameters", require_diameters(where, self.diameters, room))
         self._set("porosity", require_porosity(where, self.porosity))
         self._set("seed", require_seed(where, self.seed))

@@ -4,19 +4,21 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
+import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ParamSpec, TypeVar
+from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 from .._flexpm import (
     GrainMeshes,
     Outline,
     Tessellation,
+    Tiling,
+    cells_in_outline,
+    cells_of_polygons,
     disc_count,
     disc_radii,
     grain_meshes,
@@ -25,42 +27,31 @@ from .._flexpm import (
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..progress import Progress
-from . import packing, statistics
-from .checks import SHORT_EDGE, require_length, require_short_edge
+from ..require import require_flag
+from . import packing, specimen_file, statistics
+from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
+from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
+from .outlines import kind_of, polygon_outline
 from .spec import SpecimenSpec
 
 _FEWEST_DISCS = 8
 
-Parameters = ParamSpec("Parameters")
-Returned = TypeVar("Returned")
-
-
-@dataclass(frozen=True)
-class Circle:
-    """Circular outline.
-
-    Attributes:
-        x: Centre [m].
-        y: Centre [m].
-        radius: Radius [m].
-    """
-
-    x: float
-    y: float
-    radius: float
-
 
 @dataclass(frozen=True, eq=False)
 class Specimen:
-    """Bonded grains that fill an outline. Make it by ``rectangle``, ``disc`` or ``from_discs``.
+    """Bonded grains that fill an outline.
+
+    Make it by ``rectangle``, ``disc``, ``polygon``, ``from_discs``, ``from_polygons`` or ``load``.
 
     Attributes:
-        discs: Rows x, y, radius [m], one per grain.
+        discs: Rows x, y, radius [m], one per grain: centre of its disc, or the point from which
+            all edges of a cell are seen that is no disc's, with the radius of a disc of its area.
         outline: Corners, counter-clockwise, (n, 2) [m], or a circle.
         tessellation: Cells of the grains; cell i belongs to disc i.
         spec: What it was made from.
         removed_discs: Generated discs that had no cell and were left out.
         minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
+        holes: Corners of each hole of the outline, clockwise, (n, 2) [m].
     """
 
     discs: FloatArray
@@ -69,6 +60,7 @@ class Specimen:
     spec: SpecimenSpec
     removed_discs: int = 0
     minerals: IntArray | None = None
+    holes: tuple[FloatArray, ...] = ()
 
     @classmethod
     def rectangle(
@@ -161,23 +153,166 @@ class Specimen:
             InputError: for discs that do not fit, or that were given instead of packed.
         """
         where = f"Specimen.{spec.kind}"
-        if spec.diameters is None or spec.porosity is None or spec.seed is None:
-            raise InputError(f"{where}: discs = {spec.discs}, cannot be packed; use from_discs")
-        smallest, largest = spec.diameters
+        if spec.discs is not None or spec.outline is not None:
+            raise InputError(
+                f"{where}: discs or outline = {spec.discs or spec.outline}, were given and cannot "
+                "be packed again; load the saved specimen"
+            )
         frame, outline = _frame_of(spec), _outline_of(spec)
         area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-        count = _call(disc_count, area, smallest, largest, spec.porosity)
-        if count < _FEWEST_DISCS:
-            raise InputError(
-                f"{where}: discs = {count}, must be >= {_FEWEST_DISCS} to fill the specimen; "
-                "choose smaller diameters"
-            )
-        radii = _call(disc_radii, count, smallest, largest, spec.seed)
-        mean = 0.5 * (smallest + largest)
-        centres, radii = _call(packing.pack, frame, radii, mean, spec.seed, progress)
-        given = np.column_stack((centres, radii))
+        given = _packed_discs(where, spec, frame, area, progress)
         discs, cells = _tessellated(given, outline, spec.short_edge, drop_hidden=True)
         return cls(discs, outline, cells, spec, removed_discs=len(given) - len(discs))
+
+    @classmethod
+    def polygon(
+        cls,
+        corners: Sequence[Sequence[float]] | FloatArray,
+        thickness: float,
+        diameters: tuple[float, float] = (2e-3, 4e-3),
+        porosity: float = 0.10,
+        seed: int = 1,
+        *,
+        holes: Sequence[Sequence[Sequence[float]] | FloatArray] = (),
+        short_edge: float = SHORT_EDGE,
+        progress: Progress | None = None,
+    ) -> Specimen:
+        """Saw an outline of any shape out of a packed block (D31 to D33).
+
+        The block is the box around the outline. Grains on the outline are cut; those inside keep
+        their cells. A rectangle along x and y, with holes or without, can be tested as such.
+
+        Args:
+            corners: Of a simple polygon, convex or not, in any sense [m].
+            thickness: Out of plane [m].
+            diameters: Smallest and largest disc diameter [m].
+            porosity: Sets the number of discs only [-]; the cells leave no pores.
+            seed: Any integer from 0 to 2**64 - 1; the same seed gives the same specimen.
+            holes: Corners of each hole [m].
+            short_edge: Collapse edges of cells below this share of the mean diameter [-].
+            progress: Called with (steps done, steps expected, text).
+
+        Returns:
+            The specimen.
+
+        Raises:
+            InputError: for a value out of range, or a polygon or holes that cross themselves or
+                each other.
+        """
+        where = "Specimen.polygon"
+        outline = polygon_outline(where, corners, holes)
+        ring, *inner = outline.rings
+        width, height = map(float, np.ptp(ring, axis=0))
+        require_diameters(where, diameters, min(width, height))
+        kind, sizes = kind_of(ring)
+        spec = SpecimenSpec(
+            kind,
+            width=sizes.get("width"),
+            height=sizes.get("height"),
+            thickness=thickness,
+            diameters=diameters,
+            porosity=porosity,
+            seed=seed,
+            short_edge=short_edge,
+            outline=checksum(np.vstack(outline.rings)),
+        )
+        frame = packing.Frame(width=width, height=height)
+        block = _packed_discs(where, spec, frame, width * height, progress)
+        length = spec.short_edge * 2.0 * float(np.mean(block[:, 2]))
+        centres, radii = columns(block + np.append(ring.min(axis=0), 0.0))
+        tiling = call(cells_in_outline, centres, radii, outline, length)
+        return cls._of_tiling(tiling, ring, inner, spec)
+
+    @classmethod
+    def from_polygons(
+        cls,
+        polygons: Sequence[Sequence[Sequence[float]] | FloatArray],
+        thickness: float,
+        *,
+        holes: bool = False,
+    ) -> Specimen:
+        """Make a specimen of given cells, which must tile their outline.
+
+        Corners closer than 1e-6 mean diameters are one, and a corner as close to an edge divides it
+        (D34). A cell whose edges are not all seen from one point is split (D32).
+
+        Args:
+            polygons: Corners of each cell, (n, 2) [m], in any sense.
+            thickness: Out of plane [m].
+            holes: Whether the cells may leave holes, of at least 2 % of a mean cell.
+
+        Returns:
+            The specimen; cells in the order given, second parts of split cells last.
+
+        Raises:
+            InputError: for cells that cross themselves, overlap, or leave a gap.
+        """
+        where = "Specimen.from_polygons"
+        require_length(where, "thickness", thickness)
+        require_flag(f"{where}: holes", holes)
+        given = [rows(f"{where}: polygon {number}", one) for number, one in enumerate(polygons)]
+        tiling, rings = call(cells_of_polygons, given, holes)
+        kind, sizes = kind_of(rings[0])
+        spec = SpecimenSpec(
+            kind,
+            width=sizes.get("width"),
+            height=sizes.get("height"),
+            thickness=thickness,
+            diameters=None,
+            porosity=None,
+            seed=None,
+            short_edge=0.0,
+            discs=checksum(tiling.discs),
+            outline=checksum(np.vstack(rings)),
+            cells=_cells_checksum(tiling.tessellation),
+        )
+        return cls._of_tiling(tiling, rings[0], rings[1:], spec)
+
+    @classmethod
+    def _of_tiling(
+        cls,
+        tiling: Tiling,
+        outline: FloatArray,
+        holes: Sequence[FloatArray],
+        spec: SpecimenSpec,
+    ) -> Specimen:
+        discs = tiling.discs
+        for array in (discs, outline, *holes):
+            array.setflags(write=False)
+        return cls(discs, outline, tiling.tessellation, spec, holes=tuple(holes))
+
+    @classmethod
+    def load(cls, path: Path | str) -> Specimen:
+        """Read a specimen that ``save`` has written: the same grains to the bit.
+
+        Raises:
+            InputError: if the file cannot be read, is no specimen, or was changed.
+        """
+        stored = specimen_file.read(Path(path))
+        return cls(**specimen_file.parts(stored))
+
+    def save(self, path: Path | str) -> None:
+        """Write the specimen as JSON; doc/files has the keys.
+
+        Args:
+            path: The file.
+        """
+        cells, outline = self.tessellation, self.outline
+        corners, ends = cells.cell_vertices.tolist(), cells.cell_offsets.tolist()
+        fields = {
+            "spec": dataclasses.asdict(self.spec),
+            "outline": (
+                dataclasses.asdict(outline) if isinstance(outline, Circle) else outline.tolist()
+            ),
+            "holes": [hole.tolist() for hole in self.holes],
+            "removed_discs": self.removed_discs,
+            "minerals": None if self.minerals is None else self.minerals.tolist(),
+            "vertices": cells.vertices.tolist(),
+            "cells": [corners[start:end] for start, end in itertools.pairwise(ends)],
+            "discs": self.discs.tolist(),
+            "sides": cells.boundary_edges[:, 1:].tolist(),
+        }
+        specimen_file.write(Path(path), fields)
 
     @classmethod
     def from_discs(
@@ -206,11 +341,11 @@ class Specimen:
         """
         require_length("Specimen.from_discs", "thickness", thickness)
         require_short_edge(short_edge)
-        discs = _disc_rows(centres, radii)
+        discs = disc_rows(centres, radii)
         if not isinstance(outline, Circle):
-            outline = _rows("Specimen.from_discs: outline", outline)
+            outline = rows("Specimen.from_discs: outline", outline)
         discs, cells = _tessellated(discs, outline, short_edge, drop_hidden=False)
-        kind, sizes = _kind_of(outline)
+        kind, sizes = kind_of(outline)
         spec = SpecimenSpec(
             kind,
             width=sizes.get("width"),
@@ -221,8 +356,8 @@ class Specimen:
             porosity=None,
             seed=None,
             short_edge=short_edge,
-            discs=_checksum(discs),
-            outline=_checksum(outline),
+            discs=checksum(discs),
+            outline=checksum(outline),
         )
         return cls(discs, outline, cells, spec)
 
@@ -243,7 +378,7 @@ class Specimen:
             )
         given = given.astype(np.int32)
         given.setflags(write=False)
-        spec = dataclasses.replace(self.spec, minerals=_checksum(given))
+        spec = dataclasses.replace(self.spec, minerals=checksum(given))
         return dataclasses.replace(self, minerals=given, spec=spec)
 
     @property
@@ -298,8 +433,8 @@ class Specimen:
         Raises:
             InputError: for an unknown mesh.
         """
-        centres, radii = _columns(self.discs)
-        return _call(grain_meshes, self.tessellation, centres, radii, mesh)
+        centres, radii = columns(self.discs)
+        return call(grain_meshes, self.tessellation, centres, radii, mesh)
 
     def statistics(self) -> dict[str, float | int | dict[str, float]]:
         """Count and measure grains, contacts, cells and meshes.
@@ -314,6 +449,34 @@ class Specimen:
             "removed_discs": self.removed_discs,
             "mean_diameter": self.mean_diameter,
         }
+
+
+def _packed_discs(
+    where: str,
+    spec: SpecimenSpec,
+    frame: packing.Frame,
+    area: float,
+    progress: Progress | None,
+) -> FloatArray:
+    """Rows x, y, radius [m] of discs packed into a frame of an area [m2]."""
+    assert spec.diameters is not None and spec.porosity is not None and spec.seed is not None
+    smallest, largest = spec.diameters
+    count = call(disc_count, area, smallest, largest, spec.porosity)
+    if count < _FEWEST_DISCS:
+        raise InputError(
+            f"{where}: discs = {count}, must be >= {_FEWEST_DISCS} to fill the specimen; "
+            "choose smaller diameters"
+        )
+    radii = call(disc_radii, count, smallest, largest, spec.seed)
+    mean = 0.5 * (smallest + largest)
+    centres, radii = call(packing.pack, frame, radii, mean, spec.seed, progress)
+    return np.column_stack((centres, radii))
+
+
+def _cells_checksum(cells: Tessellation) -> str:
+    """Short hash of the shapes of all cells."""
+    parts = (cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices)
+    return checksum(np.concatenate(parts).astype(float))
 
 
 def _frame_of(spec: SpecimenSpec) -> packing.Frame:
@@ -337,76 +500,14 @@ def _tessellated(
 ) -> tuple[FloatArray, Tessellation]:
     """Discs and their cells; hidden discs, which have no cell, are dropped or refused."""
     if isinstance(outline, Circle):
-        shape = _call(Outline.circle, outline.x, outline.y, outline.radius)
+        shape = call(Outline.circle, outline.x, outline.y, outline.radius)
     else:
-        shape = _call(Outline.polygon, outline)
+        shape = call(Outline.polygon, outline)
     while True:
         length = short_edge * 2.0 * float(np.mean(discs[:, 2])) if len(discs) else 0.0
-        cells = _call(tessellate, *_columns(discs), shape, length, drop_hidden)
+        cells = call(tessellate, *columns(discs), shape, length, drop_hidden)
         if len(cells.hidden_discs) == 0:
             break
         discs = np.delete(discs, cells.hidden_discs, axis=0)
     discs.setflags(write=False)
     return discs, cells
-
-
-def _kind_of(outline: FloatArray | Circle) -> tuple[str, dict[str, float]]:
-    """Shape and sizes; a rectangle starts at its lower left corner, with sides along x and y."""
-    if isinstance(outline, Circle):
-        return "disc", {"diameter": 2.0 * outline.radius}
-    (x0, y0), (x1, y1) = outline.min(axis=0), outline.max(axis=0)
-    box = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
-    if outline.shape == (4, 2) and np.array_equal(outline, box):
-        return "rectangle", {"width": float(x1 - x0), "height": float(y1 - y0)}
-    return "polygon", {}
-
-
-def _checksum(given: FloatArray | IntArray | Circle) -> str:
-    """Short hash of numbers, by which files name what is too long for them."""
-    plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
-    values = np.ascontiguousarray(plain, dtype=float)
-    return hashlib.sha256(values.tobytes()).hexdigest()[:16]
-
-
-def _call(
-    function: Callable[Parameters, Returned],
-    *arguments: Parameters.args,
-    **options: Parameters.kwargs,
-) -> Returned:
-    """Call the kernel; its complaint about a value becomes an InputError."""
-    try:
-        return function(*arguments, **options)
-    except InputError:
-        raise
-    except ValueError as error:
-        raise InputError(str(error)) from None
-
-
-def _columns(discs: FloatArray) -> tuple[FloatArray, FloatArray]:
-    return np.ascontiguousarray(discs[:, :2]), np.ascontiguousarray(discs[:, 2])
-
-
-def _disc_rows(centres: npt.ArrayLike, radii: npt.ArrayLike) -> FloatArray:
-    """Rows x, y, radius of discs given as centres and radii [m]."""
-    points = _rows("Specimen.from_discs: centres", centres)
-    try:
-        sizes = np.array(radii, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
-    if sizes.shape != (len(points),):
-        raise InputError(
-            f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
-            f"{len(points)}; complete them"
-        )
-    return np.column_stack((points, sizes))
-
-
-def _rows(name: str, values: npt.ArrayLike) -> FloatArray:
-    """Rows x, y of numbers; `name` is named in the message."""
-    try:
-        found = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: not numbers, must be rows x, y; correct them") from None
-    if found.ndim != 2 or found.shape[1] != 2:
-        raise InputError(f"{name} = array of shape {found.shape}, must be rows x, y; correct it")
-    return found

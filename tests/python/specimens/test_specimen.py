@@ -296,7 +296,7 @@ def test_given_discs_and_minerals_are_described_by_checksums():
     assert first == same
     assert (first.outline, first.seed, first.width) == (other.outline, None, 1.0)
     assert first.discs != other.discs
-    with pytest.raises(InputError, match="cannot be packed; use from_discs"):
+    with pytest.raises(InputError, match="cannot be packed again; load"):
         Specimen.pack(first)
     mixed = given(0.0).with_minerals([0, 1]).spec
     assert mixed.minerals != given(0.0).with_minerals([1, 0]).spec.minerals

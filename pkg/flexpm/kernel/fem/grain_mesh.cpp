@@ -147,12 +147,13 @@ void flip_edges(const std::vector<Point>& nodes, std::vector<Triangle>& triangle
 GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshKind kind)
 {
     const PolygonShape shape = polygon_shape(polygon);
-    if (!(shape.area > 0.0) || !is_star_shaped(polygon, shape.centroid, 0.0)) {
-        refuse("make_grain_mesh: polygon area", shape.area, "m^2",
-            "must be positive and the polygon star-shaped about its centroid; correct the cell");
-    }
     // A centre closer to an edge's line than round-off would give a triangle without area.
     const bool seen = is_star_shaped(polygon, centre, 1e-9 * shape.area);
+    if (!(shape.area > 0.0) || !(seen || is_star_shaped(polygon, shape.centroid, 0.0))) {
+        refuse("make_grain_mesh: polygon area", shape.area, "m^2",
+            "must be positive and the polygon star-shaped about its centre or centroid; correct "
+            "the cell");
+    }
     const Point inner = seen ? centre : shape.centroid;
     GrainMesh mesh = kind == MeshKind::fan ? standard_mesh(polygon, inner, MeshKind::fan, 0)
                                            : refined_mesh(polygon, inner);

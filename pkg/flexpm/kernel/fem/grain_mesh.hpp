@@ -29,8 +29,8 @@ struct GrainMesh {
 /// that gives the best angle; if that does not do, edges are flipped; if one stays inverted, a fan
 /// is used.
 ///
-/// @param centre  of the disc; the centroid of the polygon must see all its edges
-/// @throws std::invalid_argument  if the polygon is not star-shaped about its centroid
+/// @param centre  of the disc; it or the centroid of the polygon must see all its edges
+/// @throws std::invalid_argument  if the polygon is star-shaped about neither
 GrainMesh make_grain_mesh(const std::vector<Point>& polygon, Point centre, MeshKind kind);
 
 /// Meshes of all cells.

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/geometry/edge_collapse.hpp>
 
 #include <flexpm/kernel/geometry/polygon.hpp>
+#include <flexpm/kernel/geometry/reference_point.hpp>
 
 #include <algorithm>
 #include <set>
@@ -15,11 +16,12 @@ using Cell = std::vector<CellEdge>;
 
 class Collapser {
 public:
-    Collapser(PowerDiagram& d, const Outline& o, double threshold_, double smallest_) :
+    Collapser(PowerDiagram& d, const Outline& o, double threshold_, double smallest_, bool any) :
         diagram(d),
         outline(o),
         threshold(threshold_),
         smallest(smallest_),
+        seen_from_any(any),
         cells_at(d.vertices.size()),
         merged(d.vertices.size(), false)
     {
@@ -47,6 +49,7 @@ private:
     const Outline& outline;
     double threshold;
     double smallest;
+    bool seen_from_any;
     std::vector<std::set<int>> cells_at;  ///< cells that meet in a vertex
     std::vector<bool> merged;
     std::set<std::tuple<double, int, int>> queue;  ///< (length, smaller vertex, larger vertex)
@@ -126,7 +129,9 @@ private:
         for (const CellEdge& e : cell)
             polygon.push_back(e.vertex == moved ? target : diagram.vertices[e.vertex]);
         const PolygonShape shape = polygon_shape(polygon);
-        return shape.area > 0.0 && is_star_shaped(polygon, shape.centroid, smallest);
+        if (!(shape.area > 0.0)) return false;
+        return is_star_shaped(polygon, shape.centroid, smallest)
+            || (seen_from_any && reference_point(polygon));
     }
 
     void offer_edges_at(int vertex, const Cell& cell)
@@ -140,10 +145,10 @@ private:
 
 }  // namespace
 
-std::vector<bool> collapse_edges(
-    PowerDiagram& diagram, const Outline& outline, double threshold, double smallest)
+std::vector<bool> collapse_edges(PowerDiagram& diagram, const Outline& outline, double threshold,
+    double smallest, bool seen_from_any)
 {
-    return Collapser(diagram, outline, threshold, smallest).run();
+    return Collapser(diagram, outline, threshold, smallest, seen_from_any).run();
 }
 
 }  // namespace flexpm

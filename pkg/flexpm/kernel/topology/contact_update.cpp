@@ -202,6 +202,26 @@ bool has_ended(const Assembly& a, int contact)
     return centre_distance(a.grains, pair) > limit;
 }
 
+std::vector<int> ended_contacts(const Assembly& a)
+{
+    const Contacts& contacts = a.contacts;
+    std::vector<int> ended;
+    for (int first = 0, next = 0; first < contacts.count; first = next) {
+        while (next < contacts.count && contacts.pairs[next] == contacts.pairs[first])
+            ++next;
+        std::vector<int> of_pair;
+        bool stays = false;
+        for (int c = first; c < next; ++c) {
+            if (has_ended(a, c))
+                of_pair.push_back(c);
+            else
+                stays = stays || is_active(contacts, c);
+        }
+        if (!stays) ended.insert(ended.end(), of_pair.begin(), of_pair.end());
+    }
+    return ended;
+}
+
 bool follow_touches(Assembly& a, double damping, double dt)
 {
     Contacts& contacts = a.contacts;

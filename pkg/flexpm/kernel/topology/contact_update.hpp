@@ -33,6 +33,9 @@ bool is_touching(const Assembly& a, GrainPair pair);
 /// Whether only a new touch can bring the pair of a contact together again.
 bool has_ended(const Assembly& a, int contact);
 
+/// Contacts that have ended, ascending. A pair that shares several edges keeps all of its contacts until the last has.
+std::vector<int> ended_contacts(const Assembly& a);
+
 /// Let new contacts follow the places where their discs touch now (Eq. 7) as grains roll; traction and
 /// area stay, so no energy appears. Otherwise a grain would turn about a point of its outline into the
 /// other. Arguments as of change_contacts(). Returns whether any contact has moved.

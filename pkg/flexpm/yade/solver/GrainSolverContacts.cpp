@@ -79,9 +79,7 @@ void GrainSolver::changeContacts()
 	if (!listed) listCandidates(); // also in a scene that was loaded
 	if (assembly.step % checkPeriod == 0) {
 		listCandidates();
-		for (int c = 0; c < assembly.contacts.count; ++c) {
-			if (flexpm::has_ended(assembly, c)) ended.push_back(c);
-		}
+		ended = flexpm::ended_contacts(assembly);
 		if (flexpm::follow_touches(assembly, massDamping, scaled ? scene->dt : 0.)) limitStep();
 	}
 	vector<flexpm::GrainPair> touching;

@@ -136,6 +136,8 @@ void GrainSolver::insertContacts()
 {
 	const auto& world = Omega::instance().getScene();
 	for (int c = 0; c < assembly.contacts.count; ++c) {
+		// grains that share several edges have one interaction, which shows the first
+		if (c > 0 && assembly.contacts.pairs[c] == assembly.contacts.pairs[c - 1]) continue;
 		auto bond = boost::make_shared<Interaction>(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
 		makeBond(assembly, assembly.contacts.id[c], *bond);
 		bond->iterMadeReal = world->iter;

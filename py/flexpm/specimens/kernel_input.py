@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What users give for a specimen, as arrays that the kernel takes. Lengths in metres."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ParamSpec, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from ..arrays import FloatArray, IntArray
+from ..errors import InputError
+
+Parameters = ParamSpec("Parameters")
+Returned = TypeVar("Returned")
+
+
+@dataclass(frozen=True)
+class Circle:
+    """Circular outline.
+
+    Attributes:
+        x: Centre [m].
+        y: Centre [m].
+        radius: Radius [m].
+    """
+
+    x: float
+    y: float
+    radius: float
+
+
+def checksum(given: FloatArray | IntArray | Circle) -> str:
+    """Short hash of numbers, by which files name what is too long for them."""
+    plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
+    values = np.ascontiguousarray(plain, dtype=float)
+    return hashlib.sha256(values.tobytes()).hexdigest()[:16]
+
+
+def call(
+    function: Callable[Parameters, Returned],
+    *arguments: Parameters.args,
+    **options: Parameters.kwargs,
+) -> Returned:
+    """Call the kernel; its complaint about a value becomes an InputError."""
+    try:
+        return function(*arguments, **options)
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def columns(discs: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Centres and radii of rows x, y, radius [m]."""
+    return np.ascontiguousarray(discs[:, :2]), np.ascontiguousarray(discs[:, 2])
+
+
+def disc_rows(centres: npt.ArrayLike, radii: npt.ArrayLike) -> FloatArray:
+    """Rows x, y, radius of discs given as centres and radii [m]."""
+    points = rows("Specimen.from_discs: centres", centres)
+    try:
+        sizes = np.array(radii, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
+    if sizes.shape != (len(points),):
+        raise InputError(
+            f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
+            f"{len(points)}; complete them"
+        )
+    return np.column_stack((points, sizes))
+
+
+def rows(name: str, values: npt.ArrayLike) -> FloatArray:
+    """Rows x, y of numbers; `name` is named in the message."""
+    try:
+        found = np.array(values, dtype=float, order="C")
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: not numbers, must be rows x, y; correct them") from None
+    if found.ndim != 2 or found.shape[1] != 2:
+        raise InputError(f"{name} = array of shape {found.shape}, must be rows x, y; correct it")
+    return found

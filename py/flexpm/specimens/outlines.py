@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Outlines of any shape: polygons with holes, and which are rectangles. Lengths in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from .._flexpm import PolygonOutline
+from ..arrays import FloatArray
+from ..errors import InputError
+from ..require import quoted
+from .kernel_input import Circle, call, rows
+
+
+def polygon_outline(
+    where: str, corners: npt.ArrayLike, holes: Sequence[npt.ArrayLike] = ()
+) -> PolygonOutline:
+    """Check a polygon and its holes, each in any sense.
+
+    The four corners of a rectangle along x and y start at the lower left one, so that its sides are
+    numbered as those of a packed rectangle.
+
+    Raises:
+        InputError: for a ring that crosses itself or another one, or is no ring.
+    """
+    ring = rows(f"{where}: corners", corners)
+    box = box_of(ring)
+    for given in (ring, ring[::-1]) if len(ring) == 4 else ():
+        if any(np.array_equal(np.roll(given, first, axis=0), box) for first in range(4)):
+            ring = box
+    if isinstance(holes, str) or not isinstance(holes, Sequence | np.ndarray):
+        raise InputError(f"{where}: holes = {quoted(holes)}, must be a list of polygons")
+    inner = [rows(f"{where}: hole {number}", hole) for number, hole in enumerate(holes)]
+    return call(PolygonOutline, ring, inner)
+
+
+def box_of(corners: FloatArray) -> FloatArray:
+    """Corners of the box around points, from the lower left one, counter-clockwise [m]."""
+    (x0, y0), (x1, y1) = corners.min(axis=0), corners.max(axis=0)
+    return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
+
+
+def kind_of(outline: FloatArray | Circle) -> tuple[str, dict[str, float]]:
+    """Shape and sizes; a rectangle starts at its lower left corner, with sides along x and y."""
+    if isinstance(outline, Circle):
+        return "disc", {"diameter": 2.0 * outline.radius}
+    box = box_of(outline)
+    if outline.shape == (4, 2) and np.array_equal(outline, box):
+        width, height = box[2] - box[0]
+        return "rectangle", {"width": float(width), "height": float(height)}
+    return "polygon", {}

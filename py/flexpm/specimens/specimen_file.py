@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Specimens as JSON files, which read back to the same bits. SI units."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..files import Table, load_json, write_text
+from ..require import require_known
+from .spec import SpecimenSpec
+
+_FORMAT = "flexpm specimen 1"
+
+
+def write(path: Path, fields: Table) -> None:
+    """Write a specimen, whole or not at all.
+
+    Args:
+        path: The file.
+        fields: Its keys as doc/files has them, but format and checksum.
+    """
+    content = {"format": _FORMAT, **fields}
+    content["checksum"] = _checksum(content)
+    lines = [f"{json.dumps(key)}: {_text(value)}" for key, value in content.items()]
+    write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
+
+
+def read(path: Path) -> Table:
+    """Read the content of a file; nothing heavy is loaded.
+
+    Raises:
+        InputError: if it cannot be read, is no specimen, or was changed.
+    """
+    name = f"specimen = {str(path)!r}"
+    content = load_json(path, "specimen")
+    if content.get("format") != _FORMAT:
+        raise InputError(f"{name}, is no specimen of this flexpm; give a file of Specimen.save")
+    found = content.pop("checksum", None)
+    if found != _checksum(content):
+        raise InputError(
+            f"{name}, was changed since it was saved; make own cells by Specimen.from_polygons"
+        )
+    return content
+
+
+def spec_of(content: Table) -> SpecimenSpec:
+    """What the specimen of a file was made from."""
+    values: object = content["spec"]
+    if not isinstance(values, Mapping):
+        raise InputError("specimen file: spec must be a table; save the specimen again")
+    known = [field.name for field in dataclasses.fields(SpecimenSpec)]
+    for name in values:
+        require_known("specimen file: spec", name, known)
+    plain = dict(values)
+    if plain.get("diameters") is not None:
+        plain["diameters"] = tuple(plain["diameters"])
+    return SpecimenSpec(**plain)
+
+
+def parts(content: Table) -> Table:
+    """Arguments of Specimen, from the content of a file."""
+    import numpy as np
+
+    from .._flexpm import cells_of_file
+    from .kernel_input import Circle, call
+
+    def integers(key: str, columns: int) -> Any:
+        return np.array(content[key], dtype=np.int32).reshape(-1, columns)
+
+    discs = np.array(content["discs"], dtype=float)
+    tiling = call(
+        cells_of_file,
+        np.array(content["vertices"], dtype=float),
+        [np.array(cell, dtype=np.int32) for cell in content["cells"]],
+        integers("sides", 3),
+        np.empty((0, 3), dtype=np.int32),
+        np.ascontiguousarray(discs[:, :2]),
+        np.ascontiguousarray(discs[:, 2]),
+    )
+    outline = content["outline"]
+    found: Table = {
+        "discs": discs,
+        "outline": Circle(**outline) if isinstance(outline, Mapping) else np.array(outline),
+        "tessellation": tiling.tessellation,
+        "spec": spec_of(content),
+        "removed_discs": content["removed_discs"],
+        "holes": tuple(np.array(hole) for hole in content["holes"]),
+    }
+    if content["minerals"] is not None:
+        found["minerals"] = np.array(content["minerals"], dtype=np.int32)
+    for array in (discs, found["outline"], found.get("minerals"), *found["holes"]):
+        if isinstance(array, np.ndarray):
+            array.setflags(write=False)
+    return found
+
+
+def _text(value: object) -> str:
+    """JSON of a value; of a list of lists, a line each."""
+    if isinstance(value, list) and value and isinstance(value[0], list):
+        return "[\n" + ",\n".join(json.dumps(one, allow_nan=False) for one in value) + "\n]"
+    return json.dumps(value, allow_nan=False)
+
+
+def _checksum(content: Table) -> str:
+    text = json.dumps(content, sort_keys=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cells given as polygons: checked tilings; specimens saved and loaded."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import flexpm
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.report.maps import cell_polygons
+from flexpm.specimens.kernel_input import Circle
+from flexpm.specimens.specimen import Specimen
+
+#: Two courses of bricks: the joint of the upper ones lies on an edge of the lower one.
+BRICKS = [
+    [(0, 0), (2, 0), (2, 1), (0, 1)],
+    [(0, 1), (1, 1), (1, 2), (0, 2)],
+    [(1, 1), (2, 1), (2, 2), (1, 2)],
+]
+
+
+def scaled(polygons, size=1e-3):
+    return [size * np.array(polygon, dtype=float) for polygon in polygons]
+
+
+def test_bricks():
+    specimen = Specimen.from_polygons(scaled(BRICKS), 0.01)
+    cells = specimen.tessellation
+    assert cells.shared_edges[:, :2].tolist() == [[0, 1], [0, 2], [1, 2]]
+    np.testing.assert_allclose(cells.cell_areas, [2e-6, 1e-6, 1e-6], rtol=1e-12)
+    assert specimen.dimensions == {"width": 2e-3, "height": 2e-3}
+    np.testing.assert_allclose(specimen.discs[0], [1e-3, 0.5e-3, math.sqrt(2e-6 / math.pi)])
+    assert sorted(set(cells.boundary_edges[:, 3].tolist())) == [0, 1, 2, 3]
+    bottom = cells.boundary_edges[cells.boundary_edges[:, 3] == 0]
+    assert np.all(cells.vertices[bottom[:, 1:3]][..., 1] == 0.0)
+
+
+def test_the_cells_of_a_packing_are_the_same_again():
+    packed = Specimen.rectangle(0.02, 0.04, 0.08)
+    again = Specimen.from_polygons(
+        [polygon[::-1] for polygon in cell_polygons(packed.tessellation)], 0.08
+    )
+    assert again.kind == "rectangle"
+    pairs = packed.tessellation.shared_edges[:, :2]
+    np.testing.assert_array_equal(again.tessellation.shared_edges[:, :2], pairs)
+    # the centre nodes and the normals lie elsewhere
+    stiff = [flexpm.elastic(one)["youngs_modulus"] for one in (packed, again)]
+    assert stiff[1] == pytest.approx(stiff[0], rel=0.02)
+
+
+def test_corners_are_snapped():
+    off = scaled(BRICKS)
+    off[0] = off[0] + 3e-10  # of 1.6e-3 m, the mean diameter
+    specimen = Specimen.from_polygons(off, 0.01)
+    assert len(specimen.tessellation.shared_edges) == 3
+
+
+def test_a_bent_cell_is_split():
+    bent = [(0, 0), (3, 0), (3, 3), (2.8, 3), (2.8, 0.2), (0.2, 0.2), (0.2, 3), (0, 3)]
+    fill = [(0.2, 0.2), (2.8, 0.2), (2.8, 3), (0.2, 3)]
+    specimen = Specimen.from_polygons(scaled([bent, fill]), 0.01)
+    assert specimen.tessellation.cells == 3
+    assert math.fsum(specimen.tessellation.cell_areas) == pytest.approx(9e-6, rel=1e-12)
+    assert specimen.kind == "rectangle"
+
+
+def two_contacts_of_a_pair():
+    """A cell around a corner of another: they share two edges."""
+    corner = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    return Specimen.from_polygons(scaled([corner, [(1, 1), (2, 1), (2, 2), (1, 2)]]), 0.01)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_pair_may_share_two_edges(model):
+    specimen = two_contacts_of_a_pair()
+    assert specimen.tessellation.shared_edges[:, :2].tolist() == [[0, 1], [0, 1]]
+    built = flexpm.build(specimen, model=model)
+    assert built.counts()["contacts"] == 2
+    built.run(250)
+    assert built.counts()["contacts"] == 2
+    assert built.snapshot().contact_grains.tolist() == [[0, 1], [0, 1]]
+
+
+def test_erasing_a_pair_erases_all_of_its_contacts():
+    import yade
+
+    built = flexpm.build(two_contacts_of_a_pair())
+    yade.O.interactions.erase(0, 1)
+    built.run(1)
+    assert built.counts()["contacts"] == 0
+
+
+def test_a_hole_is_meant_or_refused():
+    frame = [
+        [(0, 0), (3, 0), (2, 1), (1, 1)],
+        [(3, 0), (3, 3), (2, 2), (2, 1)],
+        [(3, 3), (0, 3), (1, 2), (2, 2)],
+        [(0, 3), (0, 0), (1, 1), (1, 2)],
+    ]
+    specimen = Specimen.from_polygons(scaled(frame), 0.01, holes=True)
+    assert len(specimen.holes) == 1
+    with pytest.raises(InputError, match=r"gap at \(0.001, 0.001\) m, area = 1e-06 m\^2"):
+        Specimen.from_polygons(scaled(frame), 0.01)
+
+
+@pytest.mark.parametrize(
+    ("polygons", "message"),
+    [
+        ([], "polygons = 0, must be >= 1"),
+        ([BRICKS[0], [(0, 0.9), (2, 0.9), (2, 2), (0, 2)]], "overlap"),
+        ([*BRICKS, [(0.2, 0.2), (0.5, 0.2), (0.5, 0.5)]], "parts that hang together = 2"),
+        ([*BRICKS, BRICKS[1]], "must not overlap polygon 1"),
+        ([BRICKS[0], [(0, 1.1), (2, 1.1), (2, 2), (0, 2)]], "parts that hang together = 2"),
+        (
+            [BRICKS[0], [(0, 1), (1, 1.1), (2, 1), (2, 2), (0, 2)]],
+            "polygons: gap at|must not meet itself",
+        ),
+        ([[(0, 0), (1, 1), (1, 0), (0, 1)]], "polygon 0: side 2 .* must not cross or touch side 0"),
+        ([BRICKS[0][:2]], "polygon 0: corners = 2, must be >= 3"),
+        ([[(0, 0), (1, 0), (math.inf, 1)]], "must be finite"),
+        ([[(0, 0), (1, 0), (2, 0)]], "must not cross or touch"),
+    ],
+)
+def test_polygons_that_are_no_tiling(polygons, message):
+    with pytest.raises(InputError, match=message) as refused:
+        Specimen.from_polygons(scaled(polygons), 0.01)
+    assert "\n" not in str(refused.value)
+
+
+def test_spheres_have_no_given_cells():
+    specimen = Specimen.from_polygons(scaled(BRICKS), 0.01)
+    with pytest.raises(InputError, match="model = jcfpm, must be one of cells .* given cells"):
+        flexpm.build(specimen, model="jcfpm")
+
+
+def require_same(first, second):
+    assert first.spec == second.spec
+    for name in ("vertices", "cell_offsets", "cell_vertices", "shared_edges", "boundary_edges"):
+        np.testing.assert_array_equal(
+            getattr(first.tessellation, name), getattr(second.tessellation, name)
+        )
+    np.testing.assert_array_equal(first.discs, second.discs)
+    if isinstance(first.outline, Circle):
+        assert first.outline == second.outline
+    else:
+        np.testing.assert_array_equal(first.outline, second.outline)
+    assert len(first.holes) == len(second.holes)
+    if first.minerals is not None:
+        np.testing.assert_array_equal(first.minerals, second.minerals)
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda: Specimen.rectangle(0.02, 0.04, 0.08, seed=3),
+        lambda: Specimen.disc(0.03, 0.08),
+        lambda: Specimen.polygon([(0, 0), (0.03, 0), (0.03, 0.03), (0.01, 0.01)], 0.08),
+        lambda: Specimen.from_polygons(scaled(BRICKS), 0.01).with_minerals([0, 1, 0]),
+    ],
+)
+def test_a_specimen_is_loaded_to_the_bit(made, tmp_path):
+    specimen = made()
+    specimen.save(tmp_path / "specimen.json")
+    require_same(specimen, Specimen.load(tmp_path / "specimen.json"))
+
+
+def test_a_file_is_plain_json(tmp_path):
+    specimen = Specimen.from_polygons(scaled(BRICKS), 0.01)
+    specimen.save(tmp_path / "specimen.json")
+    content = json.loads((tmp_path / "specimen.json").read_text())
+    assert content["cells"] == [[0, 1, 2, 3, 4], [4, 3, 5, 6], [3, 2, 7, 5]]
+    assert content["vertices"][3] == [1e-3, 1e-3]
+
+
+def test_a_changed_file_is_refused(tmp_path):
+    file = tmp_path / "specimen.json"
+    Specimen.from_polygons(scaled(BRICKS), 0.01).save(file)
+    file.write_text(file.read_text().replace("0.002", "0.003"))
+    with pytest.raises(InputError, match="was changed since it was saved"):
+        Specimen.load(file)
+    file.write_text("{}")
+    with pytest.raises(InputError, match="is no specimen of this flexpm"):
+        Specimen.load(file)
+    file.write_text("{")
+    with pytest.raises(InputError, match="is no JSON table"):
+        Specimen.load(file)
+    with pytest.raises(InputError, match="cannot be read"):
+        Specimen.load(tmp_path / "none.json")
+
+
+def test_the_command_takes_a_specimen(tmp_path, capsys):
+    file = tmp_path / "specimen.json"
+    specimen = Specimen.polygon([(0, 0), (0.02, 0), (0.02, 0.04), (0, 0.04)], 0.08, seed=5)
+    specimen.save(file)
+    arguments = ["elastic", "--specimen", str(file), "--out", str(tmp_path / "out"), "--quiet"]
+    assert cli.main(arguments) == 0
+    found = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert found["youngs_modulus"] == flexpm.elastic(specimen)["youngs_modulus"]
+    assert found["inputs"]["specimen"]["outline"] == specimen.spec.outline
+    assert cli.main([*arguments, "--width", "0.02"]) == 2
+    assert "width = 0.02, must not be given with specimen" in capsys.readouterr().err
+    assert cli.main(["run", "uniaxial", "--specimen", str(tmp_path / "none")]) == 2
+    assert "cannot be read" in capsys.readouterr().err
