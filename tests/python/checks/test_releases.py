@@ -69,6 +69,10 @@ def test_a_bare_root_is_kept_for_a_week(releases, monkeypatch, tmp_path):
     monkeypatch.setattr(releases.time, "time", lambda: now + releases.WEEK + 1.0)
     releases.bare_root("trixie")
     assert len(made) == 2
+    assert not any("Check-Valid-Until" in word for word in made[-1])
+    # an index that has expired is taken only when asked for, and kept apart
+    assert releases.bare_root("sid", stale=True).name == "root-sid-stale.tar"
+    assert any("Check-Valid-Until" in word for word in made[-1])
 
 
 def test_the_steps_are_those_of_the_dockerfile(releases):
@@ -106,7 +110,7 @@ def test_both_roots_have_the_same_sources_whatever_is_edited_meanwhile(
     subprocess.run(["git", "init", "-q", tmp_path], check=True)
     (tmp_path / "it.py").write_text("first")
     monkeypatch.setattr(releases, "Root", Root)
-    monkeypatch.setattr(releases, "bare_root", lambda _: tmp_path / "root.tar")
+    monkeypatch.setattr(releases, "bare_root", lambda *_: tmp_path / "root.tar")
     assert releases.try_release("13")["result"].startswith("failed: reference commands")
     first, second = unpacked
     assert first == second
