@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import importlib.util
 import re
+import shutil
 import subprocess
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
@@ -83,6 +84,7 @@ def test_the_steps_are_those_of_the_dockerfile(releases):
     assert text.count("\nRUN ") == len(build) + len(install)
 
 
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
 def test_both_roots_have_the_same_sources_whatever_is_edited_meanwhile(
     releases, tmp_path, monkeypatch
 ):
