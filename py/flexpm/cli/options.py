@@ -14,6 +14,7 @@ import click
 
 from ..errors import InputError
 from ..laboratory.loading_rate import LOADINGS
+from ..laboratory.output import FILMS, MOST_FRAMES
 from ..laboratory.run_spec import STARTS, RunSpec
 from ..models.options import MESHES, MODELS, POINTS
 from ..require import (
@@ -371,6 +372,21 @@ report_option = click.option(
     flag_value=False,
     default=True,
     help="Write no report.html.",
+)
+frames_options = combined(
+    click.option(
+        "--frames",
+        type=Count(0, MOST_FRAMES),
+        default=0,
+        metavar="N",
+        help="Write the state at N even strains at least, and around the peak, for ParaView.",
+    ),
+    click.option(
+        "--film",
+        type=Name(*FILMS),
+        metavar="gif|mp4",
+        help="Write a film of the frames, 40 if their number is not given; mp4 needs ffmpeg.",
+    ),
 )
 quiet_option = click.option("--quiet", is_flag=True, help="Show no progress.")
 many_runs_options = combined(

@@ -26,6 +26,8 @@ def asked(options: Table) -> Sequence[int]:
         raise InputError(
             f"threads = {options['threads']}, must be 1 with seeds; packings run side by side"
         )
+    if seeds and (options.get("frames") or options.get("film")):
+        raise InputError("frames must not be given with seeds; run the packing that is wanted")
     if options["workers"] and not seeds:
         raise InputError(f"workers = {options['workers']}, must be given with seeds only")
     return seeds

@@ -13,6 +13,7 @@ from .._version import __version__
 from ..errors import SimulationError
 from ..files import Table, json_text, load_json, write_text
 from ..laboratory import rerun as reruns
+from ..laboratory.output import Output
 from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
 from ..materials.material import Material
 from ..report import tables
@@ -54,6 +55,7 @@ _discard_option = click.option(
 @cli_options.out_option
 @_discard_option
 @cli_options.report_option
+@cli_options.frames_options
 @cli_options.quiet_option
 def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
     """Run a laboratory test and write its files.
@@ -89,6 +91,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 @cli_options.threads_option
 @_discard_option
 @cli_options.report_option
+@cli_options.frames_options
 @cli_options.quiet_option
 def rerun(file: Path, out: Path, **options: Any) -> None:
     """Repeat the run that has left FILE, its result.json (or its folder).
@@ -166,6 +169,7 @@ def _simulate(
     Raises:
         SimulationError: if it found no strength.
     """
+    output = Output(options["report"], options["frames"], options["film"])
     inputs.load_yade()
     from ..laboratory import checkpoint, protocols
 
@@ -179,7 +183,7 @@ def _simulate(
             threads=options["threads"],
             progress=progress,
             foresee=foresee,
-            report=options["report"],
+            output=output,
         )
     terminal.say(tables.result_table(result))
     inputs.tell_warnings(result)

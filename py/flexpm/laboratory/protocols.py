@@ -11,7 +11,7 @@ import yade
 
 from .._version import __version__
 from ..errors import InputError
-from ..files import output_folder, refuse_folders
+from ..files import Table, output_folder, refuse_folders
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..models.grains import build
@@ -19,6 +19,7 @@ from ..models.options import SPHERE_MODELS
 from ..progress import Progress
 from ..report.curves import curve_picture
 from ..report.maps import crack_picture, fragment_picture
+from ..report.tables import size_text
 from ..require import require_known
 from ..results.cracks import cracks_from_snapshot
 from ..results.result import Result
@@ -27,7 +28,9 @@ from ..specimens import given
 from ..specimens.specimen import Specimen
 from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint
+from .frames import COLLECTION, TABLE, FrameWriter
 from .loading_rate import Loading, quasistatic_ratio
+from .output import Output
 from .rig import TestRig
 from .rigs import rig as rig_of
 from .run_spec import RunSpec, described
@@ -38,6 +41,7 @@ FILES = (
     *("result.json", "curve.csv", "cracks.csv", "fragments.csv", "specimen.vtu", "final.vtu"),
     *("curve.png", "cracks.png", "fragments.png", "checkpoint.json", given.FILE),
     "report.html",
+    *(TABLE, COLLECTION),
 )
 
 
@@ -73,6 +77,8 @@ def run(
     progress: Progress | None = None,
     checkpoint_interval: float = INTERVAL,
     report: bool = True,
+    frames: int = 0,
+    film: str | None = None,
 ) -> Result:
     """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
 
@@ -114,6 +120,8 @@ def run(
         progress: Called with (steps done, steps expected, text).
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
         report: Write report.html, too.
+        frames: Write the state at this many even strains at least, and around the peak; 0: none.
+        film: ``gif`` or ``mp4``: write a film of the frames, too.
 
     Returns:
         The measures, the record and the cracks.
@@ -121,6 +129,7 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
+    output = Output(report, frames, film)
     chosen = load_material(material, model)
     spec = RunSpec(
         test,
@@ -139,7 +148,7 @@ def run(
         loading=loading or "",
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval)
-    return carry_out(plan, threads=threads, progress=progress, report=report)
+    return carry_out(plan, threads=threads, progress=progress, output=output)
 
 
 def plan_run(
@@ -187,7 +196,7 @@ def carry_out(
     threads: int = 1,
     progress: Progress | None = None,
     foresee: Foresee | None = None,
-    report: bool = True,
+    output: Output | None = None,
 ) -> Result:
     """Do a run; arguments and outcome as for ``run``.
 
@@ -197,7 +206,7 @@ def carry_out(
         progress: Called with (steps done, steps expected, text).
         foresee: Called once, as soon as steps of the loading have been timed, with the steps that
             the run will probably have and the wall time of those that are left [s].
-        report: Write report.html, too.
+        output: What is written beside the results; None for the default.
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     if folder is not None:
@@ -218,9 +227,13 @@ def carry_out(
         built.rebind()
         built.set_threads(threads)
     elif folder is not None:
-        write_vtu(folder / "specimen.vtu", built.snapshot())
+        write_vtu(folder / "specimen.vtu", built.snapshot(), _about(spec.to_json()))
     runner = Runner(checkpoint, progress, foresee)
     rig = rig_of(built, tension=spec.test == "tension", runner=runner)
+    output = output or Output()
+    if folder is not None and output.frames:
+        resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
+        rig.watch = FrameWriter(folder, output.frames, _about(spec.to_json()), resumed_at)
     for stage in TESTS[spec.test]:
         stage(rig, spec)
     rig.finish()
@@ -229,9 +242,32 @@ def carry_out(
     result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
     if folder is not None:
         write_files(folder, result)
-        if report:
-            write_report(folder, result)
+        _write_others(folder, result, output, rig)
     return result
+
+
+def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) -> None:
+    """Write what can be left out: the page, the last frame, the film."""
+    if output.report:
+        write_report(folder, result)
+    if isinstance(rig.watch, FrameWriter):
+        rig.watch.finish(rig)
+        if output.film:
+            from ..report.film import write_film  # takes long to load
+
+            frames = [
+                (folder / one.file, one.axial_strain, one.axial_stress) for one in rig.watch.frames
+            ]
+            write_film(folder / f"film.{output.film}", result, frames)
+
+
+def _about(inputs: Table | None) -> Table:
+    """What a file for ParaView says of its run."""
+    if inputs is None:
+        return {}
+    specimen, material = inputs["specimen"], inputs["material"]
+    about = {name: inputs[name] for name in ("test", "model", "confinement")}
+    return {**about, "material": material["name"], "seed": specimen["seed"], "flexpm": __version__}
 
 
 def _confine(rig: TestRig, spec: RunSpec) -> None:
@@ -288,7 +324,8 @@ def write_files(folder: Path, result: Result) -> None:
     result.write(folder)
     curve_picture(folder / "curve.png", result)
     if result.snapshot is not None:
-        write_vtu(folder / "final.vtu", result.snapshot)
+        write_vtu(folder / "final.vtu", result.snapshot, _about(result.inputs))
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
-        crack_picture(folder / "cracks.png", result.snapshot, minerals=minerals)
-        fragment_picture(folder / "fragments.png", result.snapshot)
+        caption = size_text(result)
+        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals)
+        fragment_picture(folder / "fragments.png", result.snapshot, caption)

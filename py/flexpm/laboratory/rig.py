@@ -77,6 +77,8 @@ class TestRig(ABC):
         self.built, self.tension = built, tension
         self.disc = built.specimen.kind == "disc"
         self._runner = runner or Runner()
+        #: Called after each step.
+        self.watch: Callable[[TestRig], None] | None = None
 
     def confine(self, pressure: float) -> None:
         """Press on the top and the sides, the bottom held, until the forces balance.
@@ -224,6 +226,11 @@ class TestRig(ABC):
     def _step(self) -> None:
         yade.O.step()
 
+    def _watched_step(self) -> None:
+        self._step()
+        if self.watch is not None:
+            self.watch(self)
+
     @abstractmethod
     def _synchronize(self) -> None:
         """Bring YADE's objects up to date."""
@@ -236,7 +243,7 @@ class TestRig(ABC):
             return False
         try:
             self._runner.run(
-                self._step,
+                self._step if self.watch is None else self._watched_step,
                 over,
                 lambda: text or self._standing(),
                 save=self.saves_anywhere,

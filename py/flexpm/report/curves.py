@@ -17,6 +17,7 @@ from ..results.record import Curve
 from ..results.result import Result
 from ..text import label_of
 from .style import COLOURS, MODE_NAMES, STYLE, save
+from .tables import size_text
 
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
@@ -94,4 +95,6 @@ def _caption(result: Result) -> str:
     name = label_of(result.material.get("name", ""))
     where = f", confinement {1e-6 * confined:g} MPa" if confined else ""
     caption = f"{result.test}, {result.model} model, {name}{where}"
-    return caption if result.status == "ok" else f"{caption} ({result.status.replace('_', ' ')})"
+    if result.status != "ok":
+        caption += f" ({result.status.replace('_', ' ')})"
+    return f"{caption}\n{size_text(result)}"

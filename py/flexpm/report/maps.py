@@ -135,7 +135,7 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
     Args:
         path: Picture to write.
         snapshot: The state.
-        caption: Line above the picture; if empty, the number of fragments.
+        caption: Line above the number of fragments.
     """
     if not can_be_drawn(snapshot.positions):
         Path(path).unlink(missing_ok=True)  # of an earlier run
@@ -152,7 +152,8 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
         _draw_scale_bar(axes)
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
-        axes.set_title(label_of(caption or text), fontsize=9.5, loc="left")
+        lines = [line for line in (label_of(caption), text) if line]
+        axes.set_title("\n".join(lines), fontsize=9.5, loc="left")
         save(figure, path)
 
 

@@ -17,8 +17,7 @@ from ..results.cracks import NAMES, Crack
 from ..results.fragments import Fragments, connected
 from ..results.record import Curve
 from ..results.result import Result
-from ..results.snapshot import POINT_SHARES
-from ..results.vtu import Drawing
+from ..results.snapshot import POINT_SHARES, Snapshot
 from .maps import MINERALS
 from .page import Map, rows_to_draw
 
@@ -33,7 +32,7 @@ _COLOURS = 7
 def crack_map(
     name: str,
     title: str,
-    drawing: Drawing,
+    drawing: Snapshot,
     result: Result,
     rows: IntArray | None = None,
     chart: str = "",
@@ -108,7 +107,7 @@ def _bar(scale: float, width: float) -> tuple[int, str]:
     return round(1e-3 * length * scale), f"{length:g} mm"
 
 
-def _outlines(drawing: Drawing, scale: float, corner: FloatArray) -> list[str]:
+def _outlines(drawing: Snapshot, scale: float, corner: FloatArray) -> list[str]:
     """Path of each grain: the edges of its triangles that no other one shares.
 
     Nodes of inner particles that lie in one place of the map are one.
@@ -163,11 +162,12 @@ def _path(corners: Sequence[tuple[int, int]]) -> str:
 
 
 def _rock(
-    drawing: Drawing, outlines: Sequence[str], minerals: Sequence[str]
+    drawing: Snapshot, outlines: Sequence[str], minerals: Sequence[str]
 ) -> list[tuple[str, str, str]]:
     """All grains of each mineral as one path."""
     kind = np.zeros(len(outlines), dtype=int)
-    kind[drawing.triangle_grain] = drawing.triangle_mineral
+    if drawing.grain_mineral is not None:
+        kind = drawing.grain_mineral
     found = []
     for number in np.unique(kind).tolist():
         name = minerals[number] if number < len(minerals) else ""
@@ -177,7 +177,7 @@ def _rock(
 
 
 def _crack_paths(
-    drawing: Drawing,
+    drawing: Snapshot,
     cracks: Sequence[Crack],
     at: IntArray,
     scale: float,
@@ -187,7 +187,7 @@ def _crack_paths(
 
     A point has its share of the contact. Points of contacts that came later have no place here.
     """
-    bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[drawing.bonded.shape[1]])])
+    bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[drawing.point_damage.shape[1]])])
     row_of = {number: row for row, number in enumerate(drawing.contact.tolist())}
     parts: dict[tuple[str, int], list[str]] = {}
     for crack, position in zip(cracks, at.tolist(), strict=True):
@@ -203,11 +203,11 @@ def _crack_paths(
 
 
 def _fragments(
-    drawing: Drawing, cracks: Sequence[Crack], at: IntArray, positions: int
+    drawing: Snapshot, cracks: Sequence[Crack], at: IntArray, positions: int
 ) -> list[Fragments]:
     """Fragments at each position: grains hang together while a point of their contact holds."""
-    left = drawing.bonded.copy()
-    areas = _areas(drawing)
+    left = drawing.point_damage < 1.0
+    areas = drawing.grain_areas
     row_of = {number: row for row, number in enumerate(drawing.contact.tolist())}
     order = np.argsort(at, kind="stable")
     found, next_crack = [], 0
@@ -219,13 +219,6 @@ def _fragments(
             next_crack += 1
         found.append(connected(drawing.contact_grains, np.any(left, axis=1), areas))
     return found
-
-
-def _areas(drawing: Drawing) -> FloatArray:
-    """Area of each grain [m2]."""
-    corners = drawing.positions[drawing.triangles]
-    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    return np.bincount(drawing.triangle_grain, weights=0.5 * (ax * by - ay * bx)).astype(float)
 
 
 def _letters(found: Fragments) -> str:

@@ -14,13 +14,13 @@ from ..errors import InputError
 from ..results import measures
 from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
-from ..results.vtu import read_drawing
-from ..text import name_of, words_of
+from ..results.vtu import read_vtu
+from ..text import words_of
 from .curves import fits_a_picture
 from .page import FILE, Chart, Line, Map, Page, Rows, Status, numbers, rows_to_draw, write
 from .page_map import crack_map
 from .style import COLOURS, CYCLE, MODE_NAMES
-from .tables import result_rows
+from .tables import result_rows, size_text, test_text
 
 #: Points of a curve.
 _POINTS = 700
@@ -85,8 +85,8 @@ def write_page(
     chart, rows = stress_chart(result)
     found = run_map(folder, result, "map", "Cracks and fragments", rows, chart.name)
     page = Page(
-        title=about(result),
-        about=size(result),
+        title=test_text(result),
+        about=size_text(result),
         versions=versions(result),
         status=STATUS.get(result.status),
         results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1]),
@@ -99,25 +99,6 @@ def write_page(
     )
     write(folder / FILE, page)
     return folder / FILE
-
-
-def about(result: Result) -> str:
-    """Test, model and material in one line."""
-    name = name_of(result.material.get("name", ""))
-    confined = f" under {1e-6 * result.confinement:g} MPa" if result.confinement else ""
-    return f"{result.test}{confined}, {result.model} model, {name}"
-
-
-def size(result: Result) -> str:
-    """Size of a specimen, its grains and its seed in one line."""
-    parts = [f"{result.grains} grains", f"{result.contacts} contacts"]
-    inputs = result.inputs or {}
-    specimen = inputs.get("specimen") or {}
-    sides = [specimen[name] for name in ("width", "height", "diameter") if specimen.get(name)]
-    if sides:
-        parts.insert(0, " x ".join(f"{1e3 * side:g}" for side in sides) + " mm")
-    parts.append("given discs" if result.seed is None else f"seed {result.seed}")
-    return ", ".join(parts)
 
 
 def versions(result: Result) -> str:
@@ -166,7 +147,7 @@ def run_map(
     if not len(result.curve):
         return None
     try:
-        drawing = read_drawing(folder / "specimen.vtu")
+        drawing = read_vtu(folder / "specimen.vtu")
     except InputError:
         return None
     shown = rows if rows is not None and len(rows) else None

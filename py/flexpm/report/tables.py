@@ -60,6 +60,25 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
     return rows
 
 
+def test_text(result: Result) -> str:
+    """Test, model and material in one line."""
+    name = name_of(result.material.get("name", ""))
+    confined = f" under {1e-6 * result.confinement:g} MPa" if result.confinement else ""
+    return f"{result.test}{confined}, {result.model} model, {name}"
+
+
+def size_text(result: Result) -> str:
+    """Size of a specimen, its grains and its seed in one line."""
+    parts = [f"{result.grains} grains", f"{result.contacts} contacts"]
+    inputs = result.inputs or {}
+    specimen = inputs.get("specimen") or {}
+    sides = [specimen[name] for name in ("width", "height", "diameter") if specimen.get(name)]
+    if sides:
+        parts.insert(0, " x ".join(f"{1e3 * side:g}" for side in sides) + " mm")
+    parts.append("given discs" if result.seed is None else f"seed {result.seed}")
+    return ", ".join(parts)
+
+
 def _first_cracks(result: Result) -> str:
     stresses = result.first_tensile_crack_stress, result.first_shear_crack_stress
     return "at " + ", ".join(scaled(stress, 1e-6, "MPa") for stress in stresses)

@@ -57,11 +57,18 @@ class Snapshot:
     def fragments(self) -> Fragments:
         """What hangs together: grains between which a point is not fully damaged."""
         bonded = np.any(self.point_damage < 1.0, axis=1)
-        return connected(self.contact_grains, bonded, self._grain_areas())
+        return connected(self.contact_grains, bonded, self.grain_areas)
 
-    def _grain_areas(self) -> FloatArray:
+    @property
+    def grain_areas(self) -> FloatArray:
         """Undeformed area of each grain [m2]."""
-        corners = self.reference[self.triangles]
-        (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-        areas = np.bincount(self.triangle_grain, weights=0.5 * (ax * by - ay * bx))
+        areas = np.bincount(self.triangle_grain, weights=triangle_areas(self))
         return areas.astype(float, copy=False)
+
+
+def triangle_areas(snapshot: Snapshot) -> FloatArray:
+    """Undeformed area of each triangle, (M,) [m2]."""
+    corners = snapshot.reference[snapshot.triangles]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    areas: FloatArray = 0.5 * (ax * by - ay * bx)
+    return areas

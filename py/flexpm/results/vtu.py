@@ -7,32 +7,45 @@ Stress, traction and opening are positive in tension. The arrays are listed in t
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
     VTK_LINE,
     VTK_TRIANGLE,
     vtkCellArray,
     vtkDataSetAttributes,
+    vtkFieldData,
     vtkUnstructuredGrid,
 )
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import whole_file
-from .snapshot import POINT_SHARES, Snapshot
+from .snapshot import POINT_SHARES, Snapshot, triangle_areas
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
 _FARTHEST = 1e100
 
 GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
+
+#: Unit of each array that has one.
+UNITS = {
+    "displacement": "m",
+    "velocity": "m/s",
+    **dict.fromkeys(("opening", "slip", "point_opening", "point_slip"), "m"),
+    **dict.fromkeys(("stress", "grain_stress", "nodal_stress"), "Pa"),
+    **dict.fromkeys(("principal_stress_1", "principal_stress_2"), "Pa"),
+    **dict.fromkeys(("normal_traction", "shear_traction"), "Pa"),
+    **dict.fromkeys(("point_normal_traction", "point_shear_traction"), "Pa"),
+}
 
 _TENSOR = ("XX", "YY", "ZZ", "XY", "YZ", "XZ")
 _VECTOR = ("X", "Y", "Z")
@@ -41,25 +54,15 @@ _VECTOR = ("X", "Y", "Z")
 Named = tuple[FloatArray | IntArray, tuple[str, ...]]
 
 
-class Drawing(NamedTuple):
-    """What a drawing of a specimen needs: M triangles and C contacts of P points."""
-
-    positions: FloatArray  #: of the nodes, then of the ends of the contacts, (N, 2) [m]
-    triangles: IntArray  #: nodes of each triangle, (M, 3)
-    triangle_grain: IntArray  #: (M,)
-    triangle_mineral: IntArray  #: of its grain, (M,)
-    contact: IntArray  #: number of each contact, (C,)
-    contact_grains: IntArray  #: (C, 2)
-    contact_ends: FloatArray  #: (C, 2, 2) [m]
-    bonded: BoolArray  #: whether each point holds, (C, P)
-
-
-def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
+def write_vtu(
+    path: Path | str, snapshot: Snapshot, about: Mapping[str, object] | None = None
+) -> None:
     """Write `snapshot` as one VTK unstructured grid, whole or not at all.
 
     Args:
         path: Name of the file, ending in .vtu.
         snapshot: The state.
+        about: Field data: what the state is of, by name; numbers and texts, None is left out.
     """
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
@@ -67,6 +70,8 @@ def write_vtu(path: Path | str, snapshot: Snapshot) -> None:
         _add(grid.GetPointData(), name, array)
     for name, array in cell_arrays(snapshot).items():
         _add(grid.GetCellData(), name, array)
+    for name, value in (about or {}).items():
+        _describe(grid.GetFieldData(), name, value)
     grid.GetPointData().SetActiveVectors("displacement")
     grid.GetCellData().SetActiveAttribute("stress", vtkDataSetAttributes.TENSORS)
     writer = vtkXMLUnstructuredGridWriter()
@@ -88,40 +93,63 @@ def _written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
         return file.read()
 
 
-def read_drawing(path: Path | str) -> Drawing:
-    """Read from a file of ``write_vtu`` what a drawing of the specimen needs.
+def read_vtu(path: Path | str) -> Snapshot:
+    """Read the state that ``write_vtu`` has written; where points cracked is not in it.
 
     Raises:
         InputError: if the file cannot be read or is no such file.
     """
     path = Path(path)
     if not path.is_file():
-        raise InputError(f"specimen = {str(path)!r}, cannot be read; give the folder of a run")
+        raise InputError(f"state = {str(path)!r}, cannot be read; give a .vtu file of a run")
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(path))
     reader.Update()
     grid = reader.GetOutput()
-    cells = {
-        grid.GetCellData().GetArrayName(number): vtk_to_numpy(grid.GetCellData().GetArray(number))
-        for number in range(grid.GetCellData().GetNumberOfArrays())
-    }
-    if not {"kind", "grain", "contact", "grain_a", "grain_b", "point_damage"} <= cells.keys():
-        raise InputError(f"specimen = {str(path)!r}, has no grains of flexpm; give that of a run")
+    cells, points = _arrays_of(grid.GetCellData()), _arrays_of(grid.GetPointData())
+    if not ({"kind", "grain", "point_damage"} <= cells.keys() and "displacement" in points):
+        raise InputError(f"state = {str(path)!r}, has no grains of flexpm; give that of a run")
     places = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    grains, contacts = cells["kind"] == GRAIN, cells["kind"] == CONTACT
-    count = 3 * np.count_nonzero(grains)
-    damage = cells["point_damage"][contacts].reshape(np.count_nonzero(contacts), -1)
-    return Drawing(
-        positions=places,
-        triangles=corners[:count].reshape(-1, 3),
-        triangle_grain=cells["grain"][grains],
-        triangle_mineral=cells["mineral"][grains],
-        contact=cells["contact"][contacts],
-        contact_grains=np.column_stack([cells["grain_a"], cells["grain_b"]])[contacts],
-        contact_ends=places[corners[count:]].reshape(-1, 2, 2),
-        bonded=damage < 1.0,
+    count = int(np.count_nonzero(cells["kind"] == GRAIN))
+    nodes = len(places) - 2 * (len(cells["kind"]) - count)
+    grains = {name: values[:count] for name, values in cells.items()}
+    contacts = {name: values[count:] for name, values in cells.items()}
+    by_point = {
+        name: values.reshape(len(values), -1)
+        for name, values in contacts.items()
+        if name.startswith("point_")
+    }
+    damage = by_point["point_damage"]
+    traction = by_point["point_normal_traction"], by_point["point_shear_traction"]
+    mineral = np.zeros(int(np.max(grains["grain"], initial=-1)) + 1, dtype=int)
+    mineral[grains["grain"]] = grains["mineral"]
+    return Snapshot(
+        positions=places[:nodes],
+        reference=(places - points["displacement"][:, :2])[:nodes],
+        velocities=points["velocity"][:nodes, :2],
+        triangles=corners[: 3 * count].reshape(-1, 3),
+        triangle_grain=grains["grain"],
+        triangle_stress=grains["stress"][:, [0, 1, 3]],
+        triangle_stress_zz=grains["stress"][:, 2],
+        triangle_particle=grains["particle"],
+        contact=contacts["contact"],
+        contact_grains=np.column_stack([contacts["grain_a"], contacts["grain_b"]]),
+        contact_ends=places[nodes:].reshape(-1, 2, 2),
+        point_opening=by_point["point_opening"],
+        point_slip=by_point["point_slip"],
+        point_damage=damage,
+        point_traction=np.stack(traction, axis=-1),
+        crack_step=by_point["point_crack_step"],
+        crack_mode=by_point["point_crack_mode"],
+        crack_position=np.full((*damage.shape, 2), np.nan),
+        grain_mineral=mineral if mineral.any() else None,
     )
+
+
+def _arrays_of(data: vtkDataSetAttributes) -> dict[str, NDArray[Any]]:
+    arrays = (data.GetArray(number) for number in range(data.GetNumberOfArrays()))
+    return {array.GetName(): vtk_to_numpy(array) for array in arrays}
 
 
 def point_arrays(snapshot: Snapshot) -> dict[str, Named]:
@@ -131,13 +159,15 @@ def point_arrays(snapshot: Snapshot) -> dict[str, Named]:
     """
     nearest = _nearest_nodes(snapshot)
     displacement = snapshot.positions - snapshot.reference
-    return {
+    found: dict[str, Named] = {
         name: (_three(np.concatenate([values, values[nearest]])), _VECTOR)
         for name, values in (
             ("displacement", displacement),
             ("velocity", snapshot.velocities),
         )
     }
+    nodal = _mean_by(snapshot, snapshot.triangles, len(snapshot.positions))
+    return found | {"nodal_stress": (np.concatenate([nodal, nodal[nearest]]), _TENSOR)}
 
 
 def cell_arrays(snapshot: Snapshot) -> dict[str, Named]:
@@ -153,13 +183,10 @@ def principal_stresses(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _grain_arrays(snapshot: Snapshot) -> dict[str, Named]:
-    stress = snapshot.triangle_stress
-    tensor = np.zeros((len(stress), 6))
-    tensor[:, [0, 1, 3]] = stress
-    if snapshot.triangle_stress_zz is not None:
-        tensor[:, 2] = snapshot.triangle_stress_zz
+    stress, tensor = snapshot.triangle_stress, _tensors(snapshot)
     largest, smallest = principal_stresses(stress)
     grain, particle = snapshot.triangle_grain, snapshot.triangle_particle
+    means = _mean_by(snapshot, grain[:, None], int(np.max(grain, initial=-1)) + 1)
     return {
         "kind": (np.full(len(stress), GRAIN), ()),
         "grain": (grain, ()),
@@ -167,9 +194,37 @@ def _grain_arrays(snapshot: Snapshot) -> dict[str, Named]:
         "mineral": (_minerals(snapshot)[grain], ()),
         "fragment": (snapshot.fragments.labels[grain], ()),
         "stress": (tensor, _TENSOR),
+        "grain_stress": (means[grain], _TENSOR),
         "principal_stress_1": (largest, ()),
         "principal_stress_2": (smallest, ()),
     }
+
+
+def _tensors(snapshot: Snapshot) -> FloatArray:
+    """Stress of each triangle in the order of a tensor's components, (M, 6) [Pa]."""
+    tensor = np.zeros((len(snapshot.triangle_stress), 6))
+    tensor[:, [0, 1, 3]] = snapshot.triangle_stress
+    if snapshot.triangle_stress_zz is not None:
+        tensor[:, 2] = snapshot.triangle_stress_zz
+    return tensor
+
+
+def _mean_by(snapshot: Snapshot, owners: IntArray, count: int) -> FloatArray:
+    """Mean stress of the triangles of each owner, weighted by their areas, (count, 6) [Pa].
+
+    Args:
+        snapshot: The state.
+        owners: Numbers of those that each triangle belongs to, (M, K).
+        count: Number of owners; one without a triangle gets nan.
+    """
+    weights = triangle_areas(snapshot)
+    total = np.zeros((count, 7))
+    values = np.column_stack([_tensors(snapshot) * weights[:, None], weights])
+    for column in owners.T:
+        np.add.at(total, column, values)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found: FloatArray = total[:, :6] / total[:, 6:]
+    return found
 
 
 def _minerals(snapshot: Snapshot) -> IntArray:
@@ -277,12 +332,26 @@ def _three(plane: FloatArray) -> FloatArray:
     return np.column_stack([np.asarray(plane, dtype=float), np.zeros(len(plane))])
 
 
+def _describe(data: vtkFieldData, name: str, value: object) -> None:
+    """Add one value that holds for the whole file."""
+    if value is None:
+        return
+    if isinstance(value, int | float):
+        made = numpy_to_vtk(np.array([value]), deep=True)
+    else:
+        made = vtkStringArray()
+        made.InsertNextValue(str(value))
+    made.SetName(name)
+    data.AddArray(made)
+
+
 def _add(data: vtkDataSetAttributes, name: str, array: Named) -> None:
     values, components = array
     if np.issubdtype(values.dtype, np.integer):
         values = values.astype(np.int32)
     made = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
     made.SetName(name)
+    made.GetInformation().Set(vtkDataArray.UNITS_LABEL(), UNITS.get(name, "-"))
     for number, component in enumerate(components):
         made.SetComponentName(number, component)
     data.AddArray(made)

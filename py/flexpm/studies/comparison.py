@@ -16,6 +16,7 @@ from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
+from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec, described
 from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
@@ -158,10 +159,11 @@ def compare(
         protocols.plan_run(case.spec, specimen, case.material, case.folder, interval)
         for case in cases
     ]
+    own = Output(report=False)
     for number, (case, plan) in enumerate(zip(cases, plans, strict=True), 1):
         show = _named(progress, f"{number}/{len(cases)} {case.name}")
         try:
-            case.result = protocols.carry_out(plan, threads=threads, progress=show, report=False)
+            case.result = protocols.carry_out(plan, threads=threads, progress=show, output=own)
         except SimulationError as error:
             case.error = str(error)
     found = Comparison(test, cases, _envelopes(cases))

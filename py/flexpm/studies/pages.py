@@ -18,9 +18,9 @@ from ..laboratory.asked import told, write_report
 from ..laboratory.run_spec import RunSpec
 from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
 from ..report.page import write as write_page
-from ..report.page_run import STATUS, cite, inputs_table, run_map, size, versions
+from ..report.page_run import STATUS, cite, inputs_table, run_map, versions
 from ..report.style import CYCLE
-from ..report.tables import scaled
+from ..report.tables import scaled, size_text
 from ..results.result import Result
 from ..text import name_of, words_of
 from .jobs import place_of
@@ -98,7 +98,7 @@ def _comparison(folder: Path) -> Page:
     ]
     return Page(
         title=f"{rows[0]['test']}, {len(rows)} runs compared",
-        about="" if first is None else size(first),
+        about="" if first is None else size_text(first),
         versions=_versions(found),
         results=_runs("Results", rows, [names[place] for place in places], ("material",)),
         warnings=_warnings(found),
@@ -117,7 +117,7 @@ def _packings(folder: Path) -> Page:
     places = [row["folder"] for row in rows]
     found = _results(folder, places)
     first = next(iter(found.values()), None)
-    about = "" if first is None else size(first).rpartition(", ")[0]
+    about = "" if first is None else size_text(first).rpartition(", ")[0]
     return Page(
         title=f"{rows[0]['test']}, {len(rows)} packings",
         about=about,

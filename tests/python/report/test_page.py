@@ -23,7 +23,7 @@ from flexpm.laboratory import asked
 from flexpm.laboratory.run_spec import RunSpec
 from flexpm.report import page, page_map, page_run
 from flexpm.results.result import Result
-from flexpm.results.vtu import read_drawing
+from flexpm.results.vtu import read_vtu
 from flexpm.studies import pages
 
 SIZE = ["--width", "0.012", "--height", "0.024", "--thickness", "0.01"]
@@ -212,7 +212,7 @@ def test_outlines_of_the_grains_fill_the_specimen(tmp_path, model):
     area = sum(map(shown_area, found.grains))
     width, height = found.size
     assert area == pytest.approx(width * height, rel=2e-3)  # rounded to the map's units
-    assert len(read_drawing(tmp_path / "specimen.vtu").contact) > 50
+    assert len(read_vtu(tmp_path / "specimen.vtu").contact) > 50
 
 
 def shown_area(path: str) -> float:
@@ -274,7 +274,7 @@ def test_a_run_that_no_command_describes_has_none():
 
 def test_what_is_no_specimen_is_refused(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
-        read_drawing(tmp_path / "specimen.vtu")
+        read_vtu(tmp_path / "specimen.vtu")
 
 
 @pytest.mark.long
@@ -282,7 +282,7 @@ def test_a_page_of_the_papers_size_has_at_most_two_megabytes(tmp_path):
     specimen = flexpm.Specimen.rectangle(0.08, 0.16, 0.08)
     result = flexpm.run("uniaxial", specimen, max_strain=1e-6, out=tmp_path)
     assert result.grains == 1630
-    contacts = read_drawing(tmp_path / "specimen.vtu").contact
+    contacts = read_vtu(tmp_path / "specimen.vtu").contact
     # more cracks than a test has had, and a record as long
     lines = [f"{n},1e-7,0.0,0.0,tensile,{c},{n % 3}" for n, c in enumerate([*contacts] * 3)]
     head = (tmp_path / "cracks.csv").read_text()

@@ -12,7 +12,9 @@ from sample_snapshot import GRADIENT, STRESS, read_vtu, wall
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_TRIANGLE
 
+from flexpm.errors import InputError
 from flexpm.results.vtu import CONTACT, GRAIN, principal_stresses, write_vtu
+from flexpm.results.vtu import read_vtu as state_of
 
 
 @pytest.fixture(scope="module")
@@ -135,3 +137,43 @@ def test_a_failed_write_leaves_the_old_file(tmp_path):
     with pytest.raises(IndexError):
         write_vtu(path, dataclasses.replace(wall(), velocities=np.empty((1, 2))))
     assert path.read_text() == "old"
+
+
+def test_means_of_stress_are_weighted_by_the_triangles_areas(tmp_path):
+    """A grain whose lower triangle is alone in carrying stress, and has half of its area."""
+    snapshot = wall(columns=1, rows=2)
+    stress = np.zeros((8, 3))
+    stress[0] = STRESS  # the lower of the four triangles of the first grain
+    reference = snapshot.reference.copy()
+    reference[4] = [1e-3, 3e-3]  # its centre lies on its upper edge: the areas are 2, 1, 0 and 1
+    changed = dataclasses.replace(snapshot, triangle_stress=stress, reference=reference)
+    write_vtu(tmp_path / "it.vtu", changed)
+    _, points, cells = read_vtu(tmp_path / "it.vtu")
+    tensor = np.array([STRESS[0], STRESS[1], 0.0, STRESS[2], 0.0, 0.0])
+    assert np.allclose(cells["grain_stress"][:4], 0.5 * tensor, rtol=1e-12)
+    assert np.all(cells["grain_stress"][4:8] == 0.0)
+    nodal = points["nodal_stress"]
+    assert np.allclose(nodal[0], 2.0 / 3.0 * tensor, rtol=1e-12)  # beside one of area 1
+    assert np.allclose(nodal[4], 0.5 * tensor, rtol=1e-12)
+    assert np.all(nodal[2:4] == 0.0)
+
+
+def test_a_state_is_read_back_as_it_was(tmp_path):
+    snapshot = wall()
+    write_vtu(tmp_path / "it.vtu", snapshot)
+    read = state_of(tmp_path / "it.vtu")
+    for field in dataclasses.fields(snapshot):
+        before, after = (getattr(one, field.name) for one in (snapshot, read))
+        if before is not None and field.name != "crack_position":
+            assert np.allclose(after, before, rtol=0.0, atol=1e-15), field.name
+    assert np.array_equal(read.fragments.labels, snapshot.fragments.labels)
+
+
+@pytest.mark.parametrize("content", [None, "no grid", "<VTKFile/>"])
+def test_what_is_no_state_is_refused_in_one_line(tmp_path, content):
+    path = tmp_path / "it.vtu"
+    if content is not None:
+        path.write_text(content)
+    with pytest.raises(InputError, match=r"it\.vtu") as caught:
+        state_of(path)
+    assert "\n" not in str(caught.value)

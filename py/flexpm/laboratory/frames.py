@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Frames of a run: its state at even strains and around the peak, as files for ParaView. SI units.
+
+How far a test will strain is not known before. Frames begin close together, and every second one is
+removed when there are twice as many as asked for.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree
+
+import yade
+
+from ..errors import InputError
+from ..files import csv_text, load_csv, write_text
+from ..results.snapshot import Snapshot
+from ..results.vtu import write_vtu
+from .rig import TestRig
+
+#: Files of a run with frames, and the folder of the frames.
+TABLE, COLLECTION, FOLDER = "frames.csv", "frames.pvd", "frames"
+#: A state is kept as that of the peak until the stress exceeds its own by this factor [-].
+_GROWTH = 1.01
+#: Parts of the peak at which the falling stress gives a frame [-].
+_FALLS = (0.95, 0.8)
+#: Kinds of frames.
+_EVEN, _PEAK = "even", "peak"
+
+
+class Frame(NamedTuple):
+    """One state of a run that has been written."""
+
+    step: int
+    axial_strain: float  #: [-]
+    axial_stress: float  #: [Pa]
+    kind: str  #: ``even``, or ``peak`` for those around it
+    file: str  #: below the folder of the run
+
+
+class FrameWriter:
+    """Watches a rig and writes frames of it."""
+
+    def __init__(
+        self, folder: Path, wanted: int, about: Mapping[str, object], resumed_at: int | None
+    ) -> None:
+        """Take up the frames of an earlier start, or remove those of another run.
+
+        Args:
+            folder: Of the run.
+            wanted: Number of frames at even strains, > 0; up to twice as many are written.
+            about: What each file says of the run.
+            resumed_at: Step from which an earlier start goes on, None for none.
+        """
+        self._folder, self._wanted, self._about = folder, wanted, about
+        self.frames = _read(folder, resumed_at)
+        self._spacing = 0.0
+        self._next = -math.inf
+        self._confinement = 0.0
+        self._peak: tuple[Frame, Snapshot] | None = None
+        self._growing, self._falls = 0.0, list[float]()
+        (folder / FOLDER).mkdir(exist_ok=True)
+        kept = {one.file for one in self.frames}
+        for file in (folder / FOLDER).glob("frame-*.vtu"):
+            if f"{FOLDER}/{file.name}" not in kept:
+                file.unlink()
+
+    def __call__(self, rig: TestRig) -> None:
+        """Look at a rig after a step."""
+        strain, stress = rig.strain, rig.stress
+        if strain >= self._next:
+            self._take_even(rig, strain, stress)
+        above = stress - self._confinement
+        if above >= self._growing > 0.0:
+            self._peak = self._frame(strain, stress, _PEAK), rig.built.snapshot()
+            self._growing, self._falls = _GROWTH * above, list(_FALLS)
+        elif self._falls and above <= self._falls[0] * self._growing / _GROWTH:
+            self._falls.pop(0)
+            self._write_peak()
+            self._write(self._frame(strain, stress, _PEAK), rig.built.snapshot())
+
+    def finish(self, rig: TestRig) -> None:
+        """Write the last state and that of the peak, if there was one."""
+        self._write_peak()
+        last = self._frame(rig.strain, rig.stress, _EVEN)
+        if not rig.diverged:
+            self._write(last, rig.built.snapshot())
+
+    def _take_even(self, rig: TestRig, strain: float, stress: float) -> None:
+        if not self._spacing:
+            self._begin(rig)
+            if strain < self._next:
+                return
+        self._write(self._frame(strain, stress, _EVEN), rig.built.snapshot())
+        self._thin()
+        self._next = strain + self._spacing
+
+    def _begin(self, rig: TestRig) -> None:
+        """Choose the spacing; that of an earlier start is a power of two times it."""
+        self._spacing = rig.reference_strain / self._wanted
+        self._confinement = rig.confinement or 0.0
+        self._growing = 1e-3
+        even = [one.axial_strain for one in self.frames if one.kind == _EVEN]
+        if len(even) > 1:
+            times = (even[1] - even[0]) / self._spacing
+            self._spacing *= 2.0 ** max(0, round(math.log2(times)))
+            self._next = even[-1] + self._spacing
+
+    def _thin(self) -> None:
+        even = [one for one in self.frames if one.kind == _EVEN]
+        if len(even) <= 2 * self._wanted:
+            return
+        self._spacing *= 2.0
+        for one in even[1::2]:
+            self.frames.remove(one)
+            with contextlib.suppress(OSError):
+                (self._folder / one.file).unlink()
+        self._list()
+
+    def _frame(self, strain: float, stress: float, kind: str) -> Frame:
+        step = yade.O.iter
+        return Frame(step, strain, stress, kind, f"{FOLDER}/frame-{step:010d}.vtu")
+
+    def _write_peak(self) -> None:
+        if self._peak is not None:
+            self._write(*self._peak)
+            self._peak = None
+
+    def _write(self, frame: Frame, snapshot: Snapshot) -> None:
+        if any(one.step == frame.step for one in self.frames):
+            return
+        about = {name: value for name, value in frame._asdict().items() if name != "file"}
+        write_vtu(self._folder / frame.file, snapshot, {**self._about, **about})
+        self.frames = sorted([*self.frames, frame])
+        self._list()
+
+    def _list(self) -> None:
+        """Write the list of the frames, as a table and for ParaView."""
+        write_text(self._folder / TABLE, csv_text(Frame._fields, self.frames))
+        root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+        collection = ElementTree.SubElement(root, "Collection")
+        for one in self.frames:
+            ElementTree.SubElement(
+                collection, "DataSet", timestep=str(one.step), part="0", file=one.file
+            )
+        ElementTree.indent(root)
+        write_text(self._folder / COLLECTION, ElementTree.tostring(root, encoding="unicode"))
+
+
+def read(folder: Path) -> list[Frame]:
+    """Frames of a run in the order of its steps.
+
+    Raises:
+        InputError: if it has none, or their list cannot be read.
+    """
+    names, rows = load_csv(folder / TABLE, "frames")
+    try:
+        if tuple(names) != Frame._fields:
+            raise ValueError(f"columns {', '.join(names)}")
+        return [
+            Frame(int(step), float(strain), float(stress), kind, file)
+            for step, strain, stress, kind, file in rows
+        ]
+    except ValueError as error:
+        raise InputError(f"frames = {str(folder / TABLE)!r}, is no list: {error}") from None
+
+
+def _read(folder: Path, resumed_at: int | None) -> list[Frame]:
+    """Frames that an earlier start has left, up to where it is taken up."""
+    if resumed_at is None or not (folder / TABLE).is_file():
+        return []
+    return [one for one in read(folder) if one.step <= resumed_at and (folder / one.file).is_file()]
