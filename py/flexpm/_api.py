@@ -13,6 +13,7 @@ from .laboratory.rigs import rig
 from .materials import Material
 from .models.grains import Model, build, elastic
 from .report import curves as plot
+from .report import notebook as _notebook  # noqa: F401  # what notebooks show is registered there
 from .results import strength
 from .results import vtu as export
 from .results.result import Result

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ..files import Table
 from ..materials.keys import UNITS
 from ..materials.material import load, preset_names
-from ..specimens.spec import SIZES, SpecimenSpec
+from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
 from .run_spec import ELASTIC, UNUSED, RunSpec, described
 
 if TYPE_CHECKING:
@@ -61,13 +61,17 @@ def told(spec: RunSpec) -> list[Input]:
 
 
 def command(spec: RunSpec) -> str:
-    """The command for a run, or an empty text if it has files or arrays that no option names."""
+    """The command for a run, or an empty text if no options can ask for it."""
     preset = spec.material.get("name")
-    given = spec.specimen
-    if given.discs or given.minerals or preset not in preset_names() or "minerals" in spec.material:
+    if preset not in preset_names() or "minerals" in spec.material:
         return ""
     words = ["flexpm", spec.test] if spec.test == ELASTIC else ["flexpm", "run", spec.test]
-    for name, value in (*_changes(spec.specimen), *_changes(_as_following(spec))):
+    changes = [one for one in _changes(spec) if not _follows(spec, one[0])]
+    if spec.specimen.is_packed:
+        changes = [*_changes(spec.specimen), *changes]
+    else:
+        words += ["--specimen", GRAINS_FILE]
+    for name, value in changes:
         if name == "short_edge":
             return ""
         words.append(f"--{name.replace('_', '-')}")
@@ -94,8 +98,8 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         if value is None:
             continue
         source = "default" if value == default else "given"
-        if name in ("discs", "outline", "minerals"):
-            source = "given as arrays; this is their checksum"
+        if name in ("discs", "outline", "cells", "minerals"):
+            source = f"checksum of what is in {GRAINS_FILE}"
         elif name == "kind":
             source = "by the test"
         label = "shape" if name == "kind" else name
@@ -123,27 +127,24 @@ def _of_law(where: str, law: Table, preset: Table, source: str) -> Iterator[Inpu
 
 def _of_test(spec: RunSpec) -> Iterator[Input]:
     unused = UNUSED[spec.test]
-    following = _as_following(spec)
     for field in fields(spec):
         if field.name in (*_NESTED, *unused):
             continue
         value = getattr(spec, field.name)
-        if field.name in _FOLLOWING:
-            source = "given" if getattr(following, field.name) else "default of the test"
+        if _follows(spec, field.name):
+            source = "default of the test"
         else:
             source = "default" if value == field.default else "given"
         shown = _OPEN if value is None else value
         yield Input(field.name, shown, _UNITS.get(field.name, ""), source)
 
 
-def _as_following(spec: RunSpec) -> RunSpec:
-    """The run with empty names where the default would give the same."""
+def _follows(spec: RunSpec, name: str) -> bool:
+    """Whether an input has the value that follows from test, model and material."""
+    if name not in _FOLLOWING:
+        return False
     plain = replace(spec, start="", loading="")
-    empty = {name: "" for name in _FOLLOWING if getattr(plain, name) == getattr(spec, name)}
-    shown = replace(spec)
-    for name, value in empty.items():
-        object.__setattr__(shown, name, value)
-    return shown
+    return bool(getattr(plain, name) == getattr(spec, name))
 
 
 def _changes(spec: RunSpec | SpecimenSpec) -> Iterator[tuple[str, object]]:

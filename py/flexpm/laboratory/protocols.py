@@ -130,6 +130,8 @@ def run(
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
     output = Output(report, frames, film)
+    if out is None and output.frames:
+        raise InputError(f"run: frames = {output.frames}, must be 0 without out; give a folder")
     chosen = load_material(material, model)
     spec = RunSpec(
         test,

@@ -14,6 +14,7 @@ from typing import TypedDict
 
 from ..errors import InputError
 from ..files import Table, load_toml
+from ..notebook import Shown
 from ..require import nearest, quoted, require_known, require_table, require_text
 from . import mineral
 from .keys import (
@@ -69,7 +70,7 @@ class ElasticSet:
 
 
 @dataclass(frozen=True)
-class Material:
+class Material(Shown):
     """Contact strengths and elastic sets of a rock. All values are checked on construction."""
 
     name: str

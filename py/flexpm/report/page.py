@@ -122,15 +122,6 @@ class Page:
 
 def write(path: Path, page: Page) -> None:
     """Write a page as one file, whole or not at all."""
-    import jinja2
-
-    room = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(_TEMPLATES),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     drawn = {
         "charts": [_plain(chart) for chart in page.charts],
         "maps": [
@@ -144,7 +135,8 @@ def write(path: Path, page: Page) -> None:
             for one in page.maps
         ],
     }
-    text = room.get_template("page.html").render(
+    text = rendered(
+        "page.html",
         page=page,
         drawn=drawn,
         library=CHARTS.read_text(encoding="utf-8") if page.charts and CHARTS.exists() else "",
@@ -152,6 +144,20 @@ def write(path: Path, page: Page) -> None:
         script=(_TEMPLATES / "page.js").read_text(encoding="utf-8"),
     )
     write_text(path, text)
+
+
+def rendered(name: str, **content: object) -> str:
+    """Fill a template; what is filled in is text and no HTML."""
+    import jinja2  # only where a page is written
+
+    room = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return room.get_template(name).render(content)
 
 
 def rows_to_draw(places: FloatArray, most: int, kept: Sequence[int] = ()) -> IntArray:

@@ -157,7 +157,7 @@ def run_map(
 def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:
     """Inputs with their units and sources."""
     rows = [
-        (words_of(name), _with_unit(value, unit), source) for name, value, unit, source in inputs
+        (words_of(name), with_unit(value, unit), source) for name, value, unit, source in inputs
     ]
     note = "All digits are in result.json, in SI units."
     return Rows(title, ("input", "value", "source"), rows, note)
@@ -176,10 +176,10 @@ def _energy_chart(result: Result) -> Chart:
     return Chart("energies", "Energies over strain", "axial strain [%]", "energy [J]", lines)
 
 
-def _with_unit(value: object, unit: str) -> str:
+def with_unit(value: object, unit: str) -> str:
     """A value as people write it: with a prefix of its unit."""
     if isinstance(value, list | tuple):
-        return " to ".join(_with_unit(one, unit) for one in value)
+        return " to ".join(with_unit(one, unit) for one in value)
     if isinstance(value, bool):
         return "yes" if value else "no"
     if not isinstance(value, float):

@@ -75,7 +75,7 @@ def size_text(result: Result) -> str:
     sides = [specimen[name] for name in ("width", "height", "diameter") if specimen.get(name)]
     if sides:
         parts.insert(0, " x ".join(f"{1e3 * side:g}" for side in sides) + " mm")
-    parts.append("given discs" if result.seed is None else f"seed {result.seed}")
+    parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
 
 

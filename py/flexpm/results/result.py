@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import MISSING, Field, dataclass, field, fields
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import InputError
 from ..files import Table, json_text, load_json, output_folder, write_text
+from ..notebook import Shown
 from . import doubts, measures
 from .cracks import MODES, Crack, cracks_csv, read_cracks
 from .record import Curve
@@ -24,7 +25,7 @@ _SOFTENING = ("flexible", "rigid")
 
 
 @dataclass
-class Result:
+class Result(Shown):
     """Numbers of one test: the keys of result.json, then the record and the cracks.
 
     None stands for a quantity that the test has not reached or does not define.
@@ -177,12 +178,13 @@ class Result:
         folder = Path(folder)
         content = load_json(folder / "result.json", "result")
         given = {key: value for key, value in content.items() if key in cls.__dataclass_fields__}
-        try:
-            result = cls(**given)
-        except TypeError as error:
+        required = [one.name for one in fields(cls) if _is_required(one)]
+        if missing := [name for name in required if name not in given]:
             raise InputError(
-                f"result = {str(folder / 'result.json')!r}, is not that of a run: {error}"
-            ) from None
+                f"result = {str(folder / 'result.json')!r}, lacks {', '.join(missing)}; give that "
+                "of a test"
+            )
+        result = cls(**given)
         result.curve = Curve.read(folder / "curve.csv")
         result.cracks = read_cracks(folder / "cracks.csv")
         return result
@@ -195,6 +197,10 @@ class Result:
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", self.snapshot.fragments.csv())
         write_text(folder / "result.json", json_text(self.as_dict()))
+
+
+def _is_required(one: Field[object]) -> bool:
+    return one.default is MISSING and one.default_factory is MISSING
 
 
 def _plain(value: object) -> object:

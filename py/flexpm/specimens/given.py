@@ -7,16 +7,16 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..progress import Progress
-from .spec import SpecimenSpec
+from .spec import GRAINS_FILE, SpecimenSpec
 from .specimen import Specimen
 
 #: Name of the file.
-FILE = "grains.json"
+FILE = GRAINS_FILE
 
 
 def save(folder: Path, specimen: Specimen) -> None:
     """Save a specimen that was made from what a script has given; others need no file."""
-    if _is_given(specimen.spec):
+    if not specimen.spec.is_packed:
         specimen.save(folder / FILE)
 
 
@@ -31,7 +31,7 @@ def load(spec: SpecimenSpec, folder: Path, progress: Progress | None = None) -> 
     Raises:
         InputError: if the file is not there any more, or holds another specimen.
     """
-    if not _is_given(spec):
+    if spec.is_packed:
         return Specimen.pack(spec, progress)
     made = Specimen.load(folder / FILE)
     if made.spec != spec:
@@ -40,7 +40,3 @@ def load(spec: SpecimenSpec, folder: Path, progress: Progress | None = None) -> 
             "there"
         )
     return made
-
-
-def _is_given(spec: SpecimenSpec) -> bool:
-    return any(one is not None for one in (spec.discs, spec.outline, spec.minerals))

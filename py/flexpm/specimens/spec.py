@@ -25,6 +25,8 @@ SIZES: dict[str, dict[str, float]] = {
     "disc": {"diameter": 0.08},
     "polygon": {},
 }
+#: File beside the results of a run on a specimen that no packing gives again.
+GRAINS_FILE = "grains.json"
 _ALL_SIZES = ("width", "height", "diameter")
 
 
@@ -83,6 +85,11 @@ class SpecimenSpec:
     def sizes(self) -> dict[str, float]:
         """``width`` and ``height``, or ``diameter`` [m]; none of a polygon."""
         return {name: getattr(self, name) for name in SIZES[self.kind]}
+
+    @property
+    def is_packed(self) -> bool:
+        """Whether a packing of a rectangle or disc gives it again, without a file."""
+        return all(one is None for one in (self.discs, self.outline, self.minerals, self.cells))
 
     def require_discs(self, model: str) -> None:
         """Refuse grains that are no discs, for a model of discs."""

@@ -26,6 +26,7 @@ from .._flexpm import (
 )
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
+from ..notebook import Shown
 from ..progress import Progress
 from ..require import require_flag
 from . import packing, specimen_file, statistics
@@ -38,7 +39,7 @@ _FEWEST_DISCS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Specimen:
+class Specimen(Shown):
     """Bonded grains that fill an outline.
 
     Make it by ``rectangle``, ``disc``, ``polygon``, ``from_discs``, ``from_polygons`` or ``load``.

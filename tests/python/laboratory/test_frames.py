@@ -179,6 +179,11 @@ def test_what_cannot_be_filmed_is_refused(specimen, tmp_path, options, message):
     assert not list(tmp_path.iterdir())
 
 
+def test_frames_need_a_folder(specimen):
+    with pytest.raises(InputError, match="frames = 40, must be 0 without out"):
+        flexpm.run("tension", specimen, film="gif")
+
+
 def test_a_film_takes_frames_and_mp4_takes_ffmpeg(monkeypatch):
     assert Output(film="gif").frames == FILM_FRAMES
     monkeypatch.setattr(film, "has_ffmpeg", lambda: False)

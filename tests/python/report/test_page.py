@@ -272,6 +272,15 @@ def test_a_run_that_no_command_describes_has_none():
     assert asked.command(own) == ""
 
 
+def test_the_command_for_a_given_specimen_names_its_file(tmp_path):
+    packed = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
+    own = flexpm.Specimen.from_discs(packed.centres, packed.radii, packed.outline, 0.01)
+    flexpm.run("tension", own, max_strain=2e-5, out=tmp_path)
+    text = (tmp_path / page.FILE).read_text(encoding="utf-8")
+    assert "flexpm run tension --specimen grains.json --max-strain 2e-05" in text
+    assert "checksum of what is in grains.json" in text
+
+
 def test_what_is_no_specimen_is_refused(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         read_vtu(tmp_path / "specimen.vtu")

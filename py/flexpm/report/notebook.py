@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Specimens, materials and results as a notebook shows them: a picture beside a table. SI units."""
+
+from __future__ import annotations
+
+import base64
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..materials.keys import ELASTIC_SET, UNITS
+from ..materials.material import Law, Material
+from ..notebook import html_of
+from ..results.result import Result
+from ..specimens.specimen import Specimen
+from ..text import label_of, name_of, words_of
+from .curves import curve_picture
+from .maps import cell_polygons, specimen_picture
+from .page import rendered
+from .page_run import with_unit
+from .style import CYCLE, drawing
+from .tables import result_rows, size_text, test_text
+
+#: Model by which the elastic set of each name is asked for.
+_MODEL_OF = {name: model for model, name in reversed(ELASTIC_SET.items())}
+
+
+@html_of.register
+def _of_result(result: Result) -> str:
+    picture = _picture(lambda path: curve_picture(path, result)) if len(result.curve) else ""
+    title = f"{test_text(result)}; {size_text(result)}"
+    return _html(title, result_rows(result), picture, result.warnings)
+
+
+@html_of.register
+def _of_specimen(specimen: Specimen) -> str:
+    polygons = cell_polygons(specimen.tessellation)
+    found = specimen.statistics()
+    sizes = {**specimen.dimensions, "thickness": specimen.thickness}
+    rows = [(words_of(name), with_unit(value, "m")) for name, value in sizes.items()]
+    rows += [(name, str(found[name])) for name in ("grains", "contacts")]
+    rows.append(("mean diameter", with_unit(specimen.mean_diameter, "m")))
+    rows.append(("seed", "given grains" if specimen.seed is None else str(specimen.seed)))
+    picture = _picture(lambda path: specimen_picture(path, polygons))
+    return _html(f"Specimen, {specimen.kind}", rows, picture)
+
+
+@html_of.register
+def _of_material(material: Material) -> str:
+    laws = _laws(material)
+    rows = [
+        (words_of(key), *(_shown(law.get(key), key) for law in laws.values()))
+        for key in UNITS
+        if any(law.get(key) is not None for law in laws.values())
+    ]
+    kinds = [(f"mineral {kind.name}", f"{100.0 * kind.fraction:g} %") for kind in material.minerals]
+    picture = _picture(lambda path: _draw_law(path, next(iter(laws.values())))) if laws else ""
+    title = f"Material {name_of(material.name)}"
+    return _html(title, [("", *laws), *rows, *kinds] if laws else kinds, picture)
+
+
+def _laws(material: Material) -> dict[str, Law]:
+    """Parameters of each elastic set that a model can take."""
+    found = {}
+    for name in material.elastic:
+        try:
+            found[name] = material.law(_MODEL_OF[name])
+        except InputError:  # it lacks what its model needs
+            continue
+    return found
+
+
+def _shown(value: object, key: str) -> str:
+    return "-" if value is None else with_unit(value, (UNITS[key] or "").removeprefix("-"))
+
+
+def _draw_law(path: Path, law: Law) -> None:
+    """Draw the traction over the opening, and over the slip without a normal force."""
+    normal, shear = law["normal_stiffness"], law["shear_ratio"] * law["normal_stiffness"]
+    branches = (
+        ("tension", law["tensile_strength"], normal, law["tensile_fracture_energy"]),
+        ("shear, no normal force", law["cohesion"], shear, law["shear_fracture_energy"]),
+    )
+    with drawing(path, (4.4, 2.9)) as axes:
+        for colour, (label, strength, stiffness, energy) in zip(CYCLE, branches, strict=False):
+            way = 1e6 * np.array([0.0, strength / stiffness, 2.0 * energy / strength])
+            axes.plot(way, 1e-6 * np.array([0.0, strength, 0.0]), color=colour, label=label)
+        axes.set(xlabel="opening, slip [µm]", ylabel="traction [MPa]", xlim=(0, None))
+        axes.set_ylim(bottom=0.0)
+        axes.legend(frameon=False)
+        axes.set_title(label_of("law of a contact point"), fontsize=9.5, loc="left")
+
+
+def _picture(draw: Callable[[Path], None]) -> str:
+    """What a function draws into a file, as text; empty if it draws nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "picture.png"
+        draw(path)
+        return base64.b64encode(path.read_bytes()).decode() if path.exists() else ""
+
+
+def _html(
+    title: str, rows: Sequence[Sequence[str]], picture: str, warnings: Sequence[str] = ()
+) -> str:
+    return rendered("notebook.html", title=title, rows=rows, picture=picture, warnings=warnings)
