@@ -23,6 +23,7 @@ from ..text import label_of
 from .curves import fits_a_picture
 from .maps import draw_cracks
 from .style import CYCLE, MODE_NAMES, STYLE, can_be_drawn, save
+from .tables import stress_text
 
 Runs = Sequence[tuple[str, Result]]
 
@@ -54,7 +55,7 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
                 upper.plot(*place, "o", ms=4.0, mfc="white", mec=colour, mew=1.1)
             cracks = result.curve["tensile_cracks"] + result.curve["shear_cracks"]
             lower.plot(strain, cracks, color=colour, ls=dash, lw=1.4)
-        upper.set_ylabel("axial stress [MPa]")
+        upper.set_ylabel(f"{stress_text(runs[0][1].test)} [MPa]")
         upper.legend(frameon=False, loc="best")
         upper.set_title(_caption(runs), fontsize=9.5, loc="left")
         lower.set_ylabel("cracked contact points [-]")

@@ -17,7 +17,7 @@ from ..results.record import Curve
 from ..results.result import Result
 from ..text import label_of
 from .style import COLOURS, MODE_NAMES, STYLE, save
-from .tables import size_text
+from .tables import size_text, stress_text
 
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
@@ -47,11 +47,11 @@ def curve_picture(path: Path | str, result: Result) -> None:
         axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
         axes.patch.set_visible(False)
         (line,) = axes.plot(strain, 1e-6 * record["axial_stress"], color="black", lw=1.6)
-        line.set_label("axial stress")
+        line.set_label(stress_text(result.test))
         _draw_modulus(axes, result)
         _draw_peak(axes, result)
         axes.set_xlabel("axial strain [%]")
-        axes.set_ylabel("axial stress [MPa]")
+        axes.set_ylabel(f"{stress_text(result.test)} [MPa]")
         axes.set_xlim(left=0.0)
         axes.set_ylim(bottom=0.0, top=1.18 * axes.get_ylim()[1])  # room for the peak's label
         handles = [*axes.get_legend_handles_labels()[0], *counts.get_legend_handles_labels()[0]]

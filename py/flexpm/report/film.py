@@ -15,7 +15,7 @@ from ..results.vtu import read_vtu
 from .curves import fits_a_picture
 from .maps import draw_cracks
 from .style import STYLE, can_be_drawn
-from .tables import size_text, test_text
+from .tables import size_text, stress_text, test_text
 
 #: Frames a second.
 _PACE = 8
@@ -52,7 +52,9 @@ def write_film(path: Path, result: Result, frames: Sequence[tuple[Path, float, f
         figure.suptitle(f"{test_text(result)}\n{size_text(result)}", fontsize=9.5)
         strain = 100.0 * result.curve["axial_strain"]
         curve.plot(strain, 1e-6 * result.curve["axial_stress"], color="black", lw=1.4)
-        curve.set(xlabel="axial strain [%]", ylabel="axial stress [MPa]", xlim=(0, None))
+        curve.set(
+            xlabel="axial strain [%]", ylabel=f"{stress_text(result.test)} [MPa]", xlim=(0, None)
+        )
         curve.set_ylim(bottom=0.0)
         (now,) = curve.plot([], [], "o", ms=7.0, color="#d55e00")
         writer = _writer(path.suffix)

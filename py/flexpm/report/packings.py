@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .style import CYCLE, Axes, drawing
+from .tables import stress_text
 
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
@@ -56,7 +57,7 @@ def packings_picture(path: Path | str, test: str, groups: Sequence[Group]) -> No
                     axes.plot(*places, color=colour, lw=0.8, alpha=0.55, ls=style)
             _draw_mean(axes, group, colour)
         axes.set_xlabel("axial strain [%]")
-        axes.set_ylabel("axial stress [MPa]")
+        axes.set_ylabel(f"{stress_text(test)} [MPa]")
         axes.set_xlim(left=0.0)
         axes.set_ylim(bottom=0.0)
         axes.legend(frameon=False, title="mean and standard deviation of the peaks")

@@ -17,15 +17,17 @@ from ..results.result import Result
 from ..results.vtu import read_vtu
 from ..text import words_of
 from .curves import fits_a_picture
-from .page import FILE, Chart, Line, Map, Page, Rows, Status, numbers, rows_to_draw, write
+from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
 from .page_map import crack_map
 from .style import COLOURS, CYCLE, MODE_NAMES
-from .tables import result_rows, size_text, test_text
+from .tables import result_rows, size_text, stress_text, test_text
 
 #: Points of a curve.
 _POINTS = 700
 #: Energies that a page shows, in the order of their colours.
 _ENERGIES = ("elastic", "damage", "friction", "damping", "kinetic", "potential")
+#: Pictures that a page shows where a run has them.
+_PICTURES = {"events.png": "Acoustic emission"}
 #: What each status means and what to do then; the FAQ of the documentation says more.
 STATUS = {
     "ok": Status(
@@ -38,8 +40,8 @@ STATUS = {
         "no_peak",
         False,
         "The stress has not fallen by 10 % from its largest value, so there is no strength.",
-        "If the curve still rises at its end, raise --max-strain. If it has bent over, the rock "
-        "softens slowly: look at the fracture energies. Elastic constants can be used.",
+        "If the curve still rises at its end, raise --max-strain. If it has bent over and creeps "
+        "on, parts go on bearing: take more grains. Elastic constants can be used.",
     ),
     "not_quasistatic": Status(
         "not_quasistatic",
@@ -94,6 +96,11 @@ def write_page(
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         maps=[] if found is None else [found],
         tables=[inputs_table(inputs)],
+        pictures=[
+            Picture(title, folder / name)
+            for name, title in _PICTURES.items()
+            if (folder / name).is_file()
+        ],
         commands=commands,
         cite=cite(result.flexpm),
     )
@@ -125,7 +132,8 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
     rows = rows_to_draw(np.column_stack([strain, stress, cracks]), _POINTS, kept)
     x = numbers(strain[rows], 100.0)
     marks = [int(np.searchsorted(rows, row)) for row in kept]
-    lines = [Line("axial stress [MPa]", x, numbers(stress[rows], 1e-6), "#1c1c1c", marks=marks)]
+    label = f"{stress_text(result.test)} [MPa]"
+    lines = [Line(label, x, numbers(stress[rows], 1e-6), "#1c1c1c", marks=marks)]
     for mode, column in ((TENSILE, "tensile_cracks"), (SHEAR, "shear_cracks")):
         counts = numbers(record[column][rows])
         lines.append(Line(MODE_NAMES[mode], x, counts, COLOURS[mode], "y2"))
@@ -133,7 +141,7 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
         "stress",
         "Stress and cracks over strain",
         "axial strain [%]",
-        "axial stress [MPa]",
+        label,
         lines,
         "cracked contact points [-]",
     )

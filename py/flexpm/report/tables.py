@@ -44,7 +44,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
         ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
         ("Poisson's ratio", scaled(result.poissons_ratio, 1.0, "", 3)),
-        ("peak stress", scaled(result.peak_stress, 1e-6, "MPa")),
+        (_peak_text(result.test), scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
         ("cracked points", counts),
@@ -63,20 +63,31 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
 def test_text(result: Result) -> str:
     """Test, model and material in one line."""
     name = name_of(result.material.get("name", ""))
-    confined = f" under {1e-6 * result.confinement:g} MPa" if result.confinement else ""
+    pressure = (result.inputs or {}).get("confinement", result.confinement)
+    confined = f" under {1e-6 * pressure:g} MPa" if pressure else ""
     return f"{result.test}{confined}, {result.model} model, {name}"
 
 
 def size_text(result: Result) -> str:
     """Size of a specimen, its grains and its seed in one line."""
-    parts = [f"{result.grains} grains", f"{result.contacts} contacts"]
-    inputs = result.inputs or {}
-    specimen = inputs.get("specimen") or {}
-    sides = [specimen[name] for name in ("width", "height", "diameter") if specimen.get(name)]
-    if sides:
-        parts.insert(0, " x ".join(f"{1e3 * side:g}" for side in sides) + " mm")
+    specimen = (result.inputs or {}).get("specimen") or {}
+    parts = []
+    if specimen.get("width") and specimen.get("height"):
+        parts.append(f"{1e3 * specimen['width']:g} x {1e3 * specimen['height']:g} mm")
+    elif specimen.get("diameter"):
+        parts.append(f"disc of {1e3 * specimen['diameter']:g} mm")
+    parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
+
+
+def stress_text(test: str) -> str:
+    """Name of the stress that a test measures; that of a disc by its definition."""
+    return "stress 2 P / (π D t)" if test == "brazilian" else "axial stress"
+
+
+def _peak_text(test: str) -> str:
+    return "peak of 2 P / (pi D t)" if test == "brazilian" else "peak stress"
 
 
 def _first_cracks(result: Result) -> str:

@@ -20,7 +20,7 @@ from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_
 from ..report.page import write as write_page
 from ..report.page_run import STATUS, cite, inputs_table, run_map, versions
 from ..report.style import CYCLE
-from ..report.tables import scaled, size_text
+from ..report.tables import scaled, size_text, stress_text
 from ..results.result import Result
 from ..text import name_of, words_of
 from .jobs import place_of
@@ -252,7 +252,8 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
         lines.append(Line(name, x, y, colour, dashed=dashed, marks=marks))
     if not lines:
         return []
-    title, y_title = "Stress over strain", "axial stress [MPa]"
+    test = next(iter(found.values())).test
+    title, y_title = "Stress over strain", f"{stress_text(test)} [MPa]"
     return [Chart("stress", title, "axial strain [%]", y_title, lines, shared=False)]
 
 

@@ -2,8 +2,10 @@
 """The documentation names what exists: functions, tests, files' columns and arrays, deviations."""
 
 import re
+import shlex
 import shutil
 import sys
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,7 @@ from sample_snapshot import wall
 
 from flexpm import __version__, _flexpm
 from flexpm._plugin import load
+from flexpm.cli import main
 from flexpm.materials.material import preset_names
 from flexpm.results.cracks import Crack
 from flexpm.results.record import COLUMNS
@@ -99,3 +102,36 @@ def test_the_version_is_the_same_everywhere():
 def test_each_class_of_the_plugin_has_its_place_in_the_reference():
     named = re.findall(r"yade-class:: (\w+)", (DOC / "reference" / "yade.rst").read_text())
     assert sorted(named) == sorted(load())
+
+
+def shown_commands():
+    """Commands of flexpm that the pages show, without those that have placeholders."""
+    found = {}
+    for page in (ROOT / "README.md", *sorted(DOC.rglob("*.rst"))):
+        text = page.read_text().replace("\\\n", " ")
+        for line in re.findall(r"^ {4}(?:scripts/)?flexpm (.*)$", text, re.MULTILINE):
+            command = line.partition("#")[0].strip()
+            if not re.search(r"\b[A-Z]{3,}\b|\.\.\.", command):
+                found[command] = page.name
+    return found
+
+
+@pytest.mark.parametrize("command", shown_commands())
+def test_commands_of_the_pages_are_understood(command):
+    name, *arguments = shlex.split(command)
+    known = main.command.commands[name]
+    if name == "specimen":
+        name, *arguments = arguments
+        known = known.commands[name]
+    with known.make_context(name, arguments) as context:
+        assert context.args == []
+
+
+def test_the_first_page_shows_what_runs():
+    """Its example in Python prints a stress below that of the strain before the unloading."""
+    text = (DOC / "index.rst").read_text()
+    example = text.partition("and its record::")[2].partition(":doc:")[0]
+    scope = {}
+    exec(textwrap.dedent(example), scope)
+    assert 0.0 < scope["rig"].stress < 3e7
+    assert scope["rig"].record["axial_stress"].max() > 1.5 * scope["rig"].stress

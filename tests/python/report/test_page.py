@@ -166,6 +166,16 @@ def test_each_status_has_its_meaning_and_advice(status):
     assert len(found.meaning) > 40 < len(found.advice)
 
 
+def test_acoustic_emission_is_shown_where_there_is_a_picture_of_it(ended, tmp_path):
+    for name in ("result.json", "curve.csv", "cracks.csv"):
+        (tmp_path / name).write_bytes((ended / name).read_bytes())
+    assert "Acoustic emission" not in pages.write(tmp_path).read_text()
+    (tmp_path / "events.png").write_bytes((ended / "curve.png").read_bytes())
+    text = pages.write(tmp_path).read_text()
+    assert "<h2>Acoustic emission</h2>" in text
+    parsed(tmp_path / page.FILE)
+
+
 def test_a_name_from_a_file_is_text_and_no_program(ended, tmp_path):
     for file in ended.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
