@@ -160,6 +160,14 @@ def cells_in_outline(
 def cells_of_polygons(
     polygons: list[FloatArray], with_holes: bool
 ) -> tuple[Tiling, list[FloatArray]]: ...
+def cut_by_joints(
+    tessellation: Tessellation,
+    centres: FloatArray,
+    radii: FloatArray,
+    joints: IntArray,
+    lines: list[FloatArray],
+    numbers: IntArray,
+) -> Tiling: ...
 def cells_of_file(
     vertices: FloatArray,
     cells: list[IntArray],

@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 
 REFERENCE = Path(__file__).parents[2] / "tests" / "kernel" / "bench" / "instructions.json"
-CASES = ("refined", "fan", "rigid", "softening")
+CASES = ("refined", "fan", "rigid", "softening", "joints")
 TOLERANCE = 0.05
 _STEP = "flexpm::step(flexpm::Assembly&, flexpm::StepOptions const&)"
 

@@ -52,6 +52,7 @@ if TYPE_CHECKING:
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option
+@cli_options.joints_option
 @cli_options.loading_options
 @cli_options.threads_option
 @cli_options.out_option

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from ..laboratory.run_spec import PACKING, RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
-from ..specimens import specimen_file
+from ..specimens import joint_lines, specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
@@ -61,11 +62,13 @@ def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
     given = options | {"points": int(options["points"])}
     if options["specimen_file"] is None:
         refuse_other_sizes(shape_of(test))
-        spec = RunSpec.from_options(test, given, chosen)
+        specimen = RunSpec.packed(test, given)
     else:
         refuse_packing()
-        stored = specimen_file.spec_of(specimen_file.read(options["specimen_file"]))
-        spec = RunSpec.from_options(test, given, chosen, stored)
+        specimen = specimen_file.spec_of(specimen_file.read(options["specimen_file"]))
+    if options["joints_file"] is not None:
+        specimen = specimen.with_joints(joint_lines.read(options["joints_file"]))
+    spec = RunSpec.from_options(test, given, chosen, specimen)
     told = click.get_current_context().meta.setdefault("flexpm.doubts", set())
     for line in doubts.of_inputs(spec.to_json()):
         if line not in told:
@@ -89,12 +92,21 @@ def specimen_spec(kind: str, options: Table) -> SpecimenSpec:
 
 
 def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Specimen:
-    """Pack a specimen, or read it from the file of ``--specimen``."""
+    """Pack a specimen, or read it from the file of ``--specimen``; cut it by those of ``--joints``.
+
+    Args:
+        spec: The specimen, with or without the joints.
+        options: Of the command.
+        progress: Shows how far a packing is.
+    """
     load_yade()
     from ..specimens.specimen import Specimen
 
     file = options.get("specimen_file")
-    return Specimen.pack(spec, progress) if file is None else Specimen.load(file)
+    plain = replace(spec, joints=None, joint_names=None)
+    specimen = Specimen.pack(plain, progress) if file is None else Specimen.load(file)
+    cuts = options.get("joints_file")
+    return specimen if cuts is None else specimen.with_joints(joint_lines.read(cuts))
 
 
 def refuse_packing() -> None:

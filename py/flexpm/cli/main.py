@@ -81,6 +81,7 @@ def specimen() -> None:
 @specimen.command()
 @cli_options.rectangle_options
 @cli_options.packing_options
+@cli_options.joints_option
 @cli_options.drawn_mesh_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -95,6 +96,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 @specimen.command()
 @cli_options.disc_options
 @cli_options.packing_options
+@cli_options.joints_option
 @cli_options.drawn_mesh_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -308,6 +310,7 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
     triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None
-    maps.specimen_picture(picture, maps.cell_polygons(made.tessellation), triangles, caption)
+    polygons = maps.cell_polygons(made.tessellation)
+    maps.specimen_picture(picture, polygons, triangles, caption, made.joint_lines())
     terminal.say(tables.statistics_table(found))
     terminal.say(f"  files  {picture}, {folder / 'specimen.json'}")

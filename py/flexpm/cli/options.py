@@ -259,6 +259,13 @@ specimen_option = click.option(
     metavar="FILE",
     help="Test a specimen of Specimen.save instead of packing one.",
 )
+joints_option = click.option(
+    "--joints",
+    "joints_file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Cut the specimen along the segments of a CSV file x1,y1,x2,y2,name [m].",
+)
 disc_options = _length("--diameter", SIZES["disc"]["diameter"], "Diameter of the disc")
 material_options = combined(
     click.option(

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import Table
-from ..materials.keys import UNITS
+from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import load, preset_names
 from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
 from .run_spec import ELASTIC, UNUSED, RunSpec, described
@@ -63,7 +63,7 @@ def told(spec: RunSpec) -> list[Input]:
 def command(spec: RunSpec) -> str:
     """The command for a run, or an empty text if no options can ask for it."""
     preset = spec.material.get("name")
-    if preset not in preset_names() or "minerals" in spec.material:
+    if preset not in preset_names() or {"minerals", "joints"} & spec.material.keys():
         return ""
     words = ["flexpm", spec.test] if spec.test == ELASTIC else ["flexpm", "run", spec.test]
     changes = [one for one in _changes(spec) if not _follows(spec, one[0])]
@@ -98,7 +98,7 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         if value is None:
             continue
         source = "default" if value == default else "given"
-        if name in ("discs", "outline", "cells", "minerals"):
+        if name in ("discs", "outline", "cells", "minerals", "joints"):
             source = f"checksum of what is in {GRAINS_FILE}"
         elif name == "kind":
             source = "by the test"
@@ -114,14 +114,16 @@ def _of_material(spec: RunSpec) -> Iterator[Input]:
     yield from _of_law("", spec.material, preset, f"preset {name}" if known else f"material {name}")
     for kind in spec.material.get("minerals", ()):
         yield from _of_law(f"{kind['name']}: ", kind, {}, f"material {name}")
+    for joint in spec.material.get("joints", ()):
+        yield from _of_law(f"joint {joint['name']}: ", joint, {}, f"material {name}")
 
 
 def _of_law(where: str, law: Table, preset: Table, source: str) -> Iterator[Input]:
     for key, value in law.items():
-        if key in ("name", "minerals") or value is None:
+        if key in ("name", "minerals", "joints") or value is None:
             continue
         changed = bool(preset) and preset.get(key) != value
-        unit = (UNITS.get(key) or "").removeprefix("-")
+        unit = (UNITS.get(key) or JOINT_UNITS.get(key) or "").removeprefix("-")
         yield Input(where + key, value, unit, "given" if changed else source)
 
 

@@ -13,9 +13,10 @@ from dataclasses import MISSING, asdict, dataclass, fields, replace
 
 from ..errors import InputError
 from ..files import Table
+from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
-from ..models.options import GRAIN_MODELS, SPHERE_MODELS, check_options
+from ..models.options import GRAIN_MODELS, INNER_MODELS, SPHERE_MODELS, check_options
 from ..require import (
     Bounds,
     require_flag,
@@ -152,13 +153,18 @@ class RunSpec:
             InputError: for a value out of range.
         """
         given = {name: value for name, value in options.items() if value is not None}
-        if specimen is None:
-            shape = shape_of(test)
-            packed = [name for name in (*SIZES[shape], *PACKING) if name in given]
-            specimen = SpecimenSpec(shape, **{name: given[name] for name in packed})
+        specimen = cls.packed(test, given) if specimen is None else specimen
         others = {name: given[name] for name in _SIMULATION if name in given}
         model = others.get("model", cls.model)
         return cls(test, specimen, described(material, model), **others)
+
+    @staticmethod
+    def packed(test: str, options: Table) -> SpecimenSpec:
+        """The packed specimen that options of the command describe for a test."""
+        shape = shape_of(test)
+        given = {name: options.get(name) for name in (*SIZES[shape], *PACKING)}
+        named = {name: value for name, value in given.items() if value is not None}
+        return SpecimenSpec(shape, **named)
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:
@@ -234,13 +240,19 @@ class RunSpec:
     def _check_start(self) -> None:
         if not self.start:
             tension = (self.test, self.model, self.dynamic) == ("tension", "flexible", False)
-            self._set("start", "static" if tension else "rest")
+            static = tension and self.specimen.joints is None
+            self._set("start", "static" if static else "rest")
         require_one_of("run: start", self.start, STARTS)
         possible = self.model == "flexible" and self.test in ("uniaxial", "tension")
         if self.start == "static" and not possible:
             raise InputError(
                 f"run: start = static, must be rest for {self.test} of model {self.model}; static "
                 "needs the flexible model and uniaxial or tension"
+            )
+        if self.start == "static" and self.specimen.joints is not None:
+            raise InputError(
+                "run: start = static, must be rest for a specimen with joints, which are not "
+                "elastic; leave it out"
             )
 
     def _check_loading(self) -> None:
@@ -276,6 +288,10 @@ class RunSpec:
             require_one_of("run: model", self.model, GRAIN_MODELS)
         if self.model in SPHERE_MODELS:
             self.specimen.require_discs(self.model)
+        if self.model in INNER_MODELS:
+            self.specimen.require_no_joints(self.model)
+        laws = [joint["name"] for joint in self.material.get("joints", ())]
+        require_joints(self.specimen.joint_names or (), laws)
         shape = shape_of(self.test)
         if self.specimen.kind != shape:
             raise InputError(

@@ -55,6 +55,28 @@ _BOUNDS = {
     "shear_fracture_energy": _ENERGY,
 }
 
+#: Units of the keys of a joint; None marks true or false.
+JOINT_UNITS: dict[str, str | None] = {
+    "normal_stiffness": "Pa/m",
+    "shear_stiffness": "Pa/m",
+    "friction": "",
+    "cohesion": "Pa",
+    "tensile_strength": "Pa",
+    "tensile_fracture_energy": "N/m",
+    "shear_fracture_energy": "N/m",
+    "open": None,
+}
+_STRENGTH = Bounds(at_least=0.0, at_most=1e19)
+JOINT_BOUNDS = {
+    "normal_stiffness": _around(1e14),
+    "shear_stiffness": _around(1e14),
+    "friction": _BOUNDS["friction"],
+    "cohesion": _STRENGTH,
+    "tensile_strength": _STRENGTH,
+    "tensile_fracture_energy": _ENERGY,
+    "shear_fracture_energy": _ENERGY,
+}
+
 
 def checked(key: str, value: object, where: str = "") -> float | str:
     """Return `value` of `key` as float or word, or raise InputError naming the broken rule."""

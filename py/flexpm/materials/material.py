@@ -16,7 +16,8 @@ from ..errors import InputError
 from ..files import Table, load_toml
 from ..notebook import Shown
 from ..require import nearest, quoted, require_known, require_table, require_text
-from . import mineral
+from . import joint, mineral
+from .joint import Joint
 from .keys import (
     CHOICES,
     COMMON_KEYS,
@@ -84,6 +85,7 @@ class Material(Shown):
     density: float = 2650.0  #: [kg/m3], used by dynamic runs and by gravity
     plane: str = "stress"  #: plane stress or plane strain of the triangles
     minerals: tuple[Mineral, ...] = ()  #: kinds of grains; none: all grains alike
+    joints: tuple[Joint, ...] = ()  #: laws of contacts along cuts
 
     def __post_init__(self) -> None:
         for key in COMMON_KEYS:
@@ -99,6 +101,7 @@ class Material(Shown):
                 if getattr(self, key) is None:
                     raise InputError(f"material {key} is missing; bilinear softening needs it")
         object.__setattr__(self, "minerals", mineral.checked(self.minerals))
+        object.__setattr__(self, "joints", joint.checked(self.joints))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, object], name: str = "custom") -> Material:
@@ -106,7 +109,7 @@ class Material(Shown):
 
         Args:
             data: Common keys, a table `elastic` of sets, a list `mineral` of tables if grains
-                differ; `name` is optional.
+                differ, a table `joint` of joints if there are; `name` is optional.
             name: Name if `data` holds none.
 
         Raises:
@@ -115,13 +118,16 @@ class Material(Shown):
         common: Table = require_table("material", data)
         label = require_text("material name", common.pop("name", name))
         sets = require_table("material elastic", common.pop("elastic", {}))
-        kinds = common.pop("mineral", ())
+        kinds, cuts = common.pop("mineral", ()), common.pop("joint", {})
         for key in common:
-            require_known("material key", key, [*COMMON_KEYS, "name", "elastic", "mineral"])
+            require_known(
+                "material key", key, [*COMMON_KEYS, "name", "elastic", "mineral", "joint"]
+            )
         given = {set_name: _elastic_keys(set_name, values) for set_name, values in sets.items()}
         _refuse_missing(common, given)
         elastic = {set_name: ElasticSet(**values) for set_name, values in given.items()}
-        return cls(name=label, elastic=elastic, minerals=kinds, **common)
+        laws = joint.checked(require_table("material joint", cuts))
+        return cls(name=label, elastic=elastic, minerals=kinds, joints=laws, **common)
 
     def with_set(
         self,
@@ -134,7 +140,7 @@ class Material(Shown):
         Values may also be given by a mapping or as keywords.
 
         ``MINERAL.KEY=VALUE`` changes a key of one mineral; otherwise what a mineral changes itself
-        stays as it is.
+        stays as it is. ``joint.NAME.KEY=VALUE`` changes a key of a joint, or makes one.
 
         Choosing brittle softening drops fracture energies that came with the material, since
         brittle means that they equal the elastic energies. A stiffness or shear ratio given for
@@ -147,6 +153,8 @@ class Material(Shown):
         if not changes:
             return self
         name = elastic_set_name(model)
+        of_joints = {key: changes.pop(key) for key in list(changes) if joint.is_key(key)}
+        cuts = joint.with_values(self.joints, of_joints)
         of_minerals = {key: changes.pop(key) for key in list(changes) if "." in key}
         kinds = mineral.with_values(self.minerals, of_minerals, name)
         elastic = dict(self.elastic)
@@ -157,7 +165,7 @@ class Material(Shown):
             elastic[name] = dataclasses.replace(self._elastic(model), **own)
         if changes.get("softening") == "brittle":
             changes = dict.fromkeys(ENERGY_KEYS) | changes
-        changed = dataclasses.replace(self, elastic=elastic, minerals=kinds, **changes)
+        changed = dataclasses.replace(self, elastic=elastic, minerals=kinds, joints=cuts, **changes)
         changed.law(model)
         return changed
 
@@ -194,6 +202,14 @@ class Material(Shown):
             softening=self.softening,
             plane=self.plane,
         )
+
+    def joint_laws(self, model: str = "flexible") -> list[Table]:
+        """Parameters of all joints in effect for `model`, each with its name.
+
+        Raises:
+            InputError: as ``law``, or for a fracture energy below the elastic one.
+        """
+        return [one.law({**self.law(model)}) for one in self.joints]
 
     def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
         """Energies [N/m] a point has stored at its tensile and at its shear strength."""
@@ -314,8 +330,11 @@ def _checked_set(name: str, chosen: ElasticSet) -> ElasticSet:
 def _assigned(assignments: object) -> Table:
     """Values by key from texts ``KEY=VALUE`` or a mapping."""
     if isinstance(assignments, Mapping):
-        for key in assignments:
-            require_known("set", str(key).rpartition(".")[2], list(UNITS))
+        for key in map(str, assignments):
+            if joint.is_key(key):
+                joint.split(key)
+            else:
+                require_known("set", key.rpartition(".")[2], list(UNITS))
         return {str(key): value for key, value in assignments.items()}
     if isinstance(assignments, str):
         assignments = [assignments]
@@ -324,12 +343,14 @@ def _assigned(assignments: object) -> Table:
     return dict(map(_parse_assignment, assignments))
 
 
-def _parse_assignment(text: object) -> tuple[str, float | str]:
+def _parse_assignment(text: object) -> tuple[str, float | str | bool]:
     if not isinstance(text, str):
         raise InputError(f"set = {quoted(text)}, must read KEY=VALUE; for example young=30e9")
     key, equals, value = (part.strip() for part in text.partition("="))
     if not equals or not key or not value:
         raise InputError(f"set = {text!r}, must read KEY=VALUE; for example young=30e9")
+    if joint.is_key(key):
+        return key, joint.parsed(key, value)
     plain = key.rpartition(".")[2]
     require_known("set", plain, list(UNITS))
     if plain in CHOICES:

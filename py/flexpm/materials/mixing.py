@@ -55,6 +55,8 @@ def description(rock: Material, model: str = "flexible") -> Table:
             several.
     """
     values: Table = {**rock.law(model)}
+    if rock.joints:
+        values["joints"] = rock.joint_laws(model)
     if not rock.minerals:
         return values
     if model not in MODELS:
@@ -83,9 +85,11 @@ def from_description(described: Table, model: str) -> Material:
     """
     values: Table = dict(described)
     kinds = [_as_in_a_file(kind, model) for kind in values.pop("minerals", ())]
+    joints = {joint["name"]: _without_nulls(joint) for joint in values.pop("joints", ())}
     for kind in kinds:
         kind.pop("plane", None)  # the same for all
-    return Material.from_dict(_as_in_a_file(values, model) | ({"mineral": kinds} if kinds else {}))
+    own = ({"mineral": kinds} if kinds else {}) | ({"joint": joints} if joints else {})
+    return Material.from_dict(_as_in_a_file(values, model) | own)
 
 
 def is_brittle(described: Table) -> bool:
@@ -102,6 +106,10 @@ def _as_in_a_file(law: Table, model: str) -> Table:
     given = {key: value for key, value in law.items() if value is not None}
     elastic = {key: given.pop(key) for key in ELASTIC_KEYS if key in given}
     return given | {"elastic": {elastic_set_name(model): elastic}}
+
+
+def _without_nulls(joint: Table) -> Table:
+    return {key: value for key, value in joint.items() if key != "name" and value is not None}
 
 
 def _breaks_at_once(law: Table) -> bool:

@@ -18,6 +18,7 @@ from .._flexpm import Tessellation
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError, SimulationError
 from ..files import Table
+from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import description, mineral_materials, pair_materials
@@ -263,7 +264,9 @@ def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
         "points": points,
         "centre_line": False,
     }
-    if model not in INNER_MODELS:
+    if model in INNER_MODELS:
+        specimen.spec.require_no_joints(model)
+    else:
         discs = np.asarray(specimen.discs, dtype=float)
         return _Grains(specimen, specimen.tessellation, discs, options)
     cells = inner_particles.cells(specimen)
@@ -303,7 +306,9 @@ def _assembled(grains: _Grains, chosen: Material, model: str) -> wrapper.GrainSo
             radii=np.ascontiguousarray(grains.discs[:, 2]),
             thickness=float(grains.specimen.thickness),
             materials=_grain_materials(chosen, model),
-            options=grains.options | _mineral_options(grains.specimen, chosen, model),
+            options=grains.options
+            | _mineral_options(grains.specimen, chosen, model)
+            | _joint_options(grains.specimen, chosen, model),
         )
     except (ValueError, RuntimeError) as error:
         raise InputError(f"build: {error}") from error
@@ -322,6 +327,32 @@ def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> Table:
         return {}
     pairs = pair_materials(chosen, model)
     return {"minerals": found, "pairs": [_grain_material(pair, model) for pair in pairs]}
+
+
+def _joint_options(specimen: Specimen, chosen: Material, model: str) -> Table:
+    """Joints of the contacts and their laws, for the solver."""
+    if specimen.edge_joints is None:
+        return {}
+    laws = {law["name"]: law for law in chosen.joint_laws(model)}
+    names = specimen.spec.joint_names or ()
+    require_joints(names, list(laws))
+    return {
+        "edge_joints": np.ascontiguousarray(specimen.edge_joints, dtype=np.int32),
+        "joints": [_joint_material(laws[name]) for name in names],
+    }
+
+
+def _joint_material(law: Table) -> wrapper.GrainMat:
+    return wrapper.GrainMat(
+        label=law["name"],
+        normalStiffness=law["normal_stiffness"],
+        shearRatio=law["shear_stiffness"] / law["normal_stiffness"],
+        tensileStrength=law["tensile_strength"],
+        cohesion=law["cohesion"],
+        friction=law["friction"],
+        tensileFractureEnergy=law["tensile_fracture_energy"] or 0.0,
+        shearFractureEnergy=law["shear_fracture_energy"] or 0.0,
+    )
 
 
 def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:

@@ -42,6 +42,7 @@ def specimen_picture(
     polygons: Sequence[FloatArray],
     mesh: tuple[FloatArray, IntArray] | None = None,
     caption: str = "",
+    joints: Sequence[FloatArray] = (),
 ) -> None:
     """Draw the grains of a specimen.
 
@@ -50,10 +51,14 @@ def specimen_picture(
         polygons: Corners (V, 2) of each grain [m].
         mesh: Nodes (N, 2) [m] and triangles (M, 3) to draw in the grains.
         caption: Line above the picture.
+        joints: Ends (n, 2, 2) [m] of the contacts of each joint.
     """
     with rc_context(STYLE):
         figure, axes = _map_figure(polygons)
         _draw_grains(axes, polygons)
+        for number, ends in enumerate(joints):
+            colour = _FRAGMENTS[-1 - number % len(_FRAGMENTS)]
+            axes.add_collection(LineCollection(1e3 * ends, colors=colour, linewidths=1.4))
         if mesh is not None:
             nodes, triangles = (1e3 * np.asarray(mesh[0]), np.asarray(mesh[1]))
             lines = LineCollection(nodes[_unique_edges(triangles)], colors=_EDGE, linewidths=0.15)

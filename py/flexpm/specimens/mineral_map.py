@@ -58,7 +58,13 @@ def minerals_of(specimen: Specimen, material: Material) -> IntArray | None:
     if given is not None:
         return given
     fractions = [mineral.fraction for mineral in material.minerals]
-    return assign(fractions, specimen.tessellation.cell_areas, specimen.seed or 0)
+    areas = specimen.tessellation.cell_areas
+    if specimen.grains is None:
+        return assign(fractions, areas, specimen.seed or 0)
+    # pieces of a grain are of its mineral
+    found = assign(fractions, np.bincount(specimen.grains, areas).astype(float), specimen.seed or 0)
+    whole: IntArray = found[specimen.grains]
+    return whole
 
 
 def area_fractions(specimen: Specimen, found: IntArray, count: int) -> list[float]:

@@ -7,7 +7,7 @@ Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..errors import InputError
 from .checks import (
@@ -18,6 +18,7 @@ from .checks import (
     require_seed,
     require_short_edge,
 )
+from .joint_lines import Lines, checksum
 
 #: Sizes of each shape and their defaults [m]: the paper's specimens, Sec. 4.1.
 SIZES: dict[str, dict[str, float]] = {
@@ -48,6 +49,8 @@ class SpecimenSpec:
         outline: Checksum of the outline of given discs or cells, or of one that was sawn out of a
             packing; None for a packed rectangle or disc.
         cells: Checksum of given cells; None if cells are those of the discs.
+        joints: Checksum of the lines of joints; None if there are none.
+        joint_names: Names of the joints; None if there are none.
         minerals: Checksum of given minerals of the grains; None if there are none.
     """
 
@@ -64,6 +67,8 @@ class SpecimenSpec:
     outline: str | None = None
     minerals: str | None = None
     cells: str | None = None
+    joints: str | None = None
+    joint_names: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -73,6 +78,8 @@ class SpecimenSpec:
             self._set(name, self._size(where, name))
         self._set("thickness", require_length(where, "thickness", self.thickness))
         self._set("short_edge", require_short_edge(self.short_edge))
+        if self.joint_names is not None:  # a list in a file
+            self._set("joint_names", tuple(self.joint_names))
         if self.discs is None:
             self._check_packing(where)
         elif not (self.diameters is None and self.porosity is None and self.seed is None):
@@ -89,12 +96,31 @@ class SpecimenSpec:
     @property
     def is_packed(self) -> bool:
         """Whether a packing of a rectangle or disc gives it again, without a file."""
-        return all(one is None for one in (self.discs, self.outline, self.minerals, self.cells))
+        given = (self.discs, self.outline, self.minerals, self.cells, self.joints)
+        return all(one is None for one in given)
+
+    def with_joints(self, lines: Lines) -> SpecimenSpec:
+        """The same specimen, cut by more joints."""
+        names = [*(self.joint_names or ()), *lines]
+        return replace(
+            self,
+            joints=checksum(lines, self.joints),
+            joint_names=tuple(dict.fromkeys(names)),
+        )
+
+    def require_no_joints(self, model: str) -> None:
+        """Refuse joints, for a model that cuts the grains itself."""
+        if self.joints is not None:
+            raise InputError(
+                f"model = {model}, must be flexible or rigid for a specimen with joints; take one "
+                "of them"
+            )
 
     def require_discs(self, model: str) -> None:
         """Refuse grains that are no discs, for a model of discs."""
-        cut = self.outline is not None and self.discs is None
-        what = "given cells" if self.cells is not None else "sawn grains" if cut else ""
+        sawn = self.outline is not None and self.discs is None
+        kinds = {"joints": self.joints, "given cells": self.cells, "sawn grains": sawn or None}
+        what = next((kind for kind, one in kinds.items() if one is not None), "")
         if what:
             raise InputError(
                 f"model = {model}, must be one of cells for a specimen of {what}; use flexible or "

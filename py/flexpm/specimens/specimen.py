@@ -6,9 +6,10 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from .._flexpm import (
     Tiling,
     cells_in_outline,
     cells_of_polygons,
+    cut_by_joints,
     disc_count,
     disc_radii,
     grain_meshes,
@@ -29,7 +31,7 @@ from ..errors import InputError
 from ..notebook import Shown
 from ..progress import Progress
 from ..require import require_flag
-from . import packing, specimen_file, statistics
+from . import joint_lines, packing, specimen_file, statistics
 from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
 from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
 from .outlines import kind_of, polygon_outline
@@ -53,6 +55,8 @@ class Specimen(Shown):
         removed_discs: Generated discs that had no cell and were left out.
         minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
         holes: Corners of each hole of the outline, clockwise, (n, 2) [m].
+        edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
+        grains: Per cell the grain before joints cut it; None: each cell is a grain.
     """
 
     discs: FloatArray
@@ -62,6 +66,8 @@ class Specimen(Shown):
     removed_discs: int = 0
     minerals: IntArray | None = None
     holes: tuple[FloatArray, ...] = ()
+    edge_joints: IntArray | None = None
+    grains: IntArray | None = None
 
     @classmethod
     def rectangle(
@@ -154,10 +160,11 @@ class Specimen(Shown):
             InputError: for discs that do not fit, or that were given instead of packed.
         """
         where = f"Specimen.{spec.kind}"
-        if spec.discs is not None or spec.outline is not None:
+        if not spec.is_packed:
+            what = spec.discs or spec.outline or spec.minerals or spec.joints
             raise InputError(
-                f"{where}: discs or outline = {spec.discs or spec.outline}, were given and cannot "
-                "be packed again; load the saved specimen"
+                f"{where}: discs, outline, minerals or joints = {what}, were given and cannot be "
+                "packed again; load the saved specimen"
             )
         frame, outline = _frame_of(spec), _outline_of(spec)
         area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
@@ -300,6 +307,10 @@ class Specimen(Shown):
         """
         cells, outline = self.tessellation, self.outline
         corners, ends = cells.cell_vertices.tolist(), cells.cell_offsets.tolist()
+        found = (
+            np.full(len(cells.shared_edges), -1) if self.edge_joints is None else self.edge_joints
+        )
+        joints = np.column_stack((cells.shared_edges[:, 2:], found))
         fields = {
             "spec": dataclasses.asdict(self.spec),
             "outline": (
@@ -312,6 +323,8 @@ class Specimen(Shown):
             "cells": [corners[start:end] for start, end in itertools.pairwise(ends)],
             "discs": self.discs.tolist(),
             "sides": cells.boundary_edges[:, 1:].tolist(),
+            "joints": joints[found >= 0].tolist(),
+            "grains": None if self.grains is None else self.grains.tolist(),
         }
         specimen_file.write(Path(path), fields)
 
@@ -361,6 +374,58 @@ class Specimen(Shown):
             outline=checksum(outline),
         )
         return cls(discs, outline, cells, spec)
+
+    def with_joints(self, joints: Mapping[str, Any]) -> Specimen:
+        """Return the specimen cut by joints, whose laws the material has (D35 to D37).
+
+        Args:
+            joints: By the name of the joint a line, rows x, y [m], or a list of lines.
+
+        Returns:
+            Cells in their order, second parts of cut cells last.
+
+        Raises:
+            InputError: for a line outside the specimen, or a joint that cuts nothing.
+        """
+        lines = joint_lines.checked(joints)
+        spec = self.spec.with_joints(lines)
+        numbers = {name: number for number, name in enumerate(spec.joint_names or ())}
+        before = np.full(len(self.tessellation.shared_edges), -1, dtype=np.int32)
+        tiling = call(
+            cut_by_joints,
+            self.tessellation,
+            *columns(self.discs),
+            before if self.edge_joints is None else self.edge_joints,
+            [np.array(line) for given in lines.values() for line in given],
+            np.array([numbers[name] for name in lines for _ in lines[name]], dtype=np.int32),
+        )
+        for name in lines:
+            if numbers[name] not in tiling.edge_joints:
+                raise InputError(
+                    f"joint {name}: contacts = 0, must cut a cell; lengthen its lines or take "
+                    "smaller grains"
+                )
+        origin, discs, edge_joints = tiling.origin, tiling.discs, tiling.edge_joints
+        minerals = None if self.minerals is None else self.minerals[origin]
+        grains = origin if self.grains is None else self.grains[origin]
+        for array in (discs, edge_joints, grains, minerals):
+            if array is not None:
+                array.setflags(write=False)
+        return dataclasses.replace(
+            self,
+            discs=discs,
+            tessellation=tiling.tessellation,
+            spec=spec,
+            minerals=minerals,
+            edge_joints=edge_joints,
+            grains=grains,
+        )
+
+    def joint_lines(self) -> list[FloatArray]:
+        """Ends (n, 2, 2) [m] of the contacts of each joint, in the order of their names."""
+        cells, count = self.tessellation, len(self.spec.joint_names or ())
+        ends = cells.vertices[cells.shared_edges[:, 2:]]
+        return [ends[self.edge_joints == number] for number in range(count)]
 
     def with_minerals(self, minerals: Sequence[int] | IntArray) -> Specimen:
         """Return the same grains, each of a given mineral.

@@ -79,7 +79,7 @@ def parts(content: Table) -> Table:
         np.array(content["vertices"], dtype=float),
         [np.array(cell, dtype=np.int32) for cell in content["cells"]],
         integers("sides", 3),
-        np.empty((0, 3), dtype=np.int32),
+        integers("joints", 3),
         np.ascontiguousarray(discs[:, :2]),
         np.ascontiguousarray(discs[:, 2]),
     )
@@ -92,9 +92,12 @@ def parts(content: Table) -> Table:
         "removed_discs": content["removed_discs"],
         "holes": tuple(np.array(hole) for hole in content["holes"]),
     }
-    if content["minerals"] is not None:
-        found["minerals"] = np.array(content["minerals"], dtype=np.int32)
-    for array in (discs, found["outline"], found.get("minerals"), *found["holes"]):
+    for key in ("minerals", "grains"):
+        if content[key] is not None:
+            found[key] = np.array(content[key], dtype=np.int32)
+    if content["joints"]:
+        found["edge_joints"] = tiling.edge_joints
+    for array in (*found.values(), *found["holes"]):
         if isinstance(array, np.ndarray):
             array.setflags(write=False)
     return found

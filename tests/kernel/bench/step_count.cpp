@@ -19,10 +19,19 @@ constexpr double fast = 2e-7 * rows;   // every point in tension softens after a
 int main(int argc, char** argv)
 {
     const std::string name = argc == 2 ? argv[1] : "";
-    const bool softening = name == "softening";
+    const bool softening = name == "softening", joints = name == "joints";
     try {
-        flexpm::Assembly a = specimens::assemble(
-            specimens::grid(rows, rows, size), loaded::options(softening ? "refined" : name));
+        const specimens::Specimen grid = specimens::grid(rows, rows, size);
+        flexpm::AssemblyOptions options = loaded::options(softening || joints ? "refined" : name);
+        if (joints) {
+            options.joints = { specimens::strong_contact() };
+            // one joint, from side to side
+            for (const flexpm::SharedEdge& e : grid.cells.shared_edges) {
+                const bool upwards = e.cell_b == e.cell_a + rows;
+                options.edge_joint.push_back(upwards && e.cell_a / rows == rows / 2 ? 0 : -1);
+            }
+        }
+        flexpm::Assembly a = specimens::assemble(grid, options);
         loaded::load(a, softening ? fast : slow);
         loaded::run(a, 40);
         const flexpm::Energies e = flexpm::energies(a);
@@ -30,7 +39,7 @@ int main(int argc, char** argv)
             a.contacts.count, e.elastic, e.damage);
         return (e.damage > 0.0) == softening ? 0 : 1;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "step_count: %s (or: softening)\n", error.what());
+        std::fprintf(stderr, "step_count: %s (or: softening, joints)\n", error.what());
         return 2;
     }
 }

@@ -33,9 +33,10 @@ struct Contacts {
     int points = 3;  ///< of a contact: 1, 2 or 3; read it by points_of() and points_in()
     std::vector<LawParameters> laws;
     std::vector<GrainPair> pairs;
-    std::vector<int> id;   ///< lasting number: a place in the arrays changes, this does not
-    int next_id = 0;       ///< of the next contact; none is given twice
-    std::vector<int> law;  ///< index into `laws`
+    std::vector<int> id;     ///< lasting number: a place in the arrays changes, this does not
+    int next_id = 0;         ///< of the next contact; none is given twice
+    std::vector<int> law;    ///< index into `laws`
+    std::vector<int> joint;  ///< joint on which the contact lies, -1: none
     std::vector<std::uint8_t> bonded;  ///< 1: since the specimen was bonded, 0: touched later
     /// 1: a bond that a script has erased; its row is kept, without effect, for the record of cracks.
     std::vector<std::uint8_t> erased;
@@ -162,6 +163,7 @@ struct Contacts {
         visit("id", s.id);
         visit("next_id", s.next_id);
         visit("law", s.law);
+        visit("joint", s.joint);
         visit("bonded", s.bonded);
         visit("erased", s.erased);
         visit("close_pairs", s.close_pairs);

@@ -162,7 +162,7 @@ void check_contacts(const Assembly& a)
     check_index("contacts", contacts.count, most);
     check_index("points of a contact", contacts.points, 4, 1);
     for (std::size_t size : { contacts.pairs.size(), contacts.id.size(), contacts.law.size(),
-             contacts.bonded.size(), contacts.erased.size() }) {
+             contacts.joint.size(), contacts.bonded.size(), contacts.erased.size() }) {
         check_size("values of contacts", size, contacts.count);
     }
     // also for contacts that come

@@ -65,6 +65,32 @@ LawParameters make_law(const ContactMaterial& m)
     return p;
 }
 
+bool is_cracked(const ContactMaterial& joint)
+{
+    return joint.tensile_strength == 0.0 && joint.cohesion == 0.0;
+}
+
+LawParameters joint_law(const ContactMaterial& joint)
+{
+    constexpr double smallest_share = 1e-6;
+    check_positive("normal_stiffness", joint.normal_stiffness, "Pa/m");
+    check_positive("shear_ratio", joint.shear_ratio, "");
+    check_not_negative("tensile_strength", joint.tensile_strength, "Pa");
+    check_not_negative("cohesion", joint.cohesion, "Pa");
+    ContactMaterial m = joint;
+    // without any strength these have no effect: the law only needs a scale
+    if (is_cracked(joint)) m.cohesion = m.tensile_strength = 1e-9 * m.normal_stiffness;
+    m.tensile_strength = std::max(m.tensile_strength, smallest_share * m.cohesion);
+    m.cohesion = std::max(m.cohesion, smallest_share * m.tensile_strength);
+    const double tensile = 0.5 * m.tensile_strength * m.tensile_strength / m.normal_stiffness;
+    const double shear = 0.5 * m.cohesion * m.cohesion / (m.shear_ratio * m.normal_stiffness);
+    if (joint.tensile_strength == 0.0 || joint.tensile_fracture_energy == 0.0)
+        m.tensile_fracture_energy = tensile;
+    if (joint.cohesion == 0.0 || joint.shear_fracture_energy == 0.0)
+        m.shear_fracture_energy = shear;
+    return make_law(m);
+}
+
 ContactMaterial unbreakable(const ContactMaterial& material)
 {
     constexpr double far = 1.0;  // [m]

@@ -49,6 +49,14 @@ constexpr double brittle_limit = 1e200;
 ///         is below the elastic energy at the strength by more than 1e-12 of it
 LawParameters make_law(const ContactMaterial& material);
 
+/// Whether a joint has no strength: its points are cracked from the start.
+bool is_cracked(const ContactMaterial& joint);
+
+/// Law of a joint, whose strengths may be 0. Fracture energies of 0 are the elastic energies at the strengths.
+/// Deviation D36: beside a strength above 0 one of 0 counts as a millionth of it.
+/// @throws std::invalid_argument  as make_law(), for a strength below 0
+LawParameters joint_law(const ContactMaterial& joint);
+
 /// Material of the same stiffness and friction, with strengths that only an opening or a slip of one
 /// metre would come to.
 ContactMaterial unbreakable(const ContactMaterial& material);

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/geometry/edge_collapse.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/geometry/reference_point.hpp>
+#include <flexpm/kernel/tiling/diagonals.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -89,29 +90,6 @@ bool merge_cell(PlanarCells& cells, EdgeOwners& owners, int cell)
     return false;
 }
 
-/// Whether the segment between two corners runs inside a simple polygon.
-bool is_diagonal(const std::vector<Point>& p, int i, int j)
-{
-    const int n = static_cast<int>(p.size());
-    const auto at = [&](int k) { return p[(k + n) % n]; };
-    const Point a = p[i], b = p[j];
-    const auto leaves_inside = [&](int k, Point to) {
-        const Point out = at(k + 1) - p[k], in = at(k - 1) - p[k], way = to - p[k];
-        const bool convex = cross(out, in) >= 0.0;
-        const bool left = cross(out, way) > 0.0, right = cross(way, in) > 0.0;
-        return convex ? left && right : left || right;
-    };
-    if (!leaves_inside(i, b) || !leaves_inside(j, a)) return false;
-    for (int k = 0; k < n; ++k) {
-        const int l = (k + 1) % n;
-        if (k == i || k == j || l == i || l == j) continue;
-        const double of_k = cross(b - a, p[k] - a), of_l = cross(b - a, p[l] - a);
-        const double of_a = cross(p[l] - p[k], a - p[k]), of_b = cross(p[l] - p[k], b - p[k]);
-        if (of_k * of_l <= 0.0 && of_a * of_b <= 0.0) return false;
-    }
-    return true;
-}
-
 int reflex_corners(const std::vector<Point>& p)
 {
     int count = 0;
@@ -133,15 +111,6 @@ struct Diagonal {
     int i = -1, j = -1;
     double visibility = -std::numeric_limits<double>::infinity();
 };
-
-Loop part_of(const Loop& loop, int i, int j)
-{
-    Loop part;
-    for (int k = i; k != j; k = (k + 1) % static_cast<int>(loop.size()))
-        part.push_back(loop[k]);
-    part.push_back(loop[j]);
-    return part;
-}
 
 Diagonal best_diagonal(const PlanarCells& cells, const Loop& loop)
 {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -238,6 +239,40 @@ void find_close_pairs(Assembly& a, const Tessellation& t)
     }
 }
 
+int joint_of(const AssemblyOptions& options, int edge)
+{
+    return options.edge_joint.empty() ? -1 : options.edge_joint[edge];
+}
+
+/// No strength is left that a load could take: such a contact never counts as a crack.
+void crack_from_start(Contacts& contacts, int contact)
+{
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        contacts.state(contact, p, PointRow::shear_damage) = 1.0;
+}
+
+/// Grains on the two sides of a joint never touch by their discs, which would catch on each other as they slide along
+/// flat faces. Deviation D37.
+void part_sides_of_joints(Assembly& a)
+{
+    std::map<int, std::map<int, Point>> outward;  // of each joint and grain: sum of its normals
+    for (int c = 0; c < a.contacts.count; ++c) {
+        if (a.contacts.joint[c] < 0) continue;
+        auto& of_joint = outward[a.contacts.joint[c]];
+        const Point n = a.contacts.normal(c);
+        of_joint[a.contacts.pairs[c][0]] = of_joint[a.contacts.pairs[c][0]] + n;
+        of_joint[a.contacts.pairs[c][1]] = of_joint[a.contacts.pairs[c][1]] - n;
+    }
+    for (const auto& of_joint : outward) {
+        for (auto g = of_joint.second.begin(); g != of_joint.second.end(); ++g) {
+            for (auto h = std::next(g); h != of_joint.second.end(); ++h) {
+                if (dot(g->second, h->second) < 0.0)
+                    a.contacts.close_pairs[{ g->first, h->first }] = 0.0;
+            }
+        }
+    }
+}
+
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
     const std::vector<MeshedGrain>& grains, const AssemblyOptions& options)
 {
@@ -251,16 +286,20 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
                 discs[t.disc_of_cell[e.cell_a]], discs[t.disc_of_cell[e.cell_b]]);
         }
         const int edge = std::min(c, a.contacts.count - 1);
-        const bool of_edge = !options.edge_normal.empty() && options.edge_normal[edge] != 0;
+        const int joint = joint_of(options, edge);
+        const bool of_edge =
+            joint >= 0 || (!options.edge_normal.empty() && options.edge_normal[edge] != 0);
         fill_contact(a, c, e, grains, points, of_edge);
         if (c >= a.contacts.count) continue;
         a.contacts.pairs.push_back({ e.cell_a, e.cell_b });
         a.contacts.id.push_back(a.contacts.next_id++);
         a.contacts.bonded.push_back(1);
         a.contacts.erased.push_back(0);
-        a.contacts.law.push_back(!options.edge_law.empty()
-                ? options.edge_law[c]
-                : a.grains.law_index(e.cell_a, e.cell_b));
+        a.contacts.joint.push_back(joint);
+        a.contacts.law.push_back(joint >= 0 ? static_cast<int>(options.laws.size()) + joint
+                : !options.edge_law.empty() ? options.edge_law[c]
+                                            : a.grains.law_index(e.cell_a, e.cell_b));
+        if (joint >= 0 && is_cracked(options.joints[joint])) crack_from_start(a.contacts, c);
     }
 }
 
@@ -280,10 +319,15 @@ void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedG
 
 void check_edges(const Tessellation& t, const AssemblyOptions& o)
 {
-    for (std::size_t given : { o.edge_law.size(), o.edge_normal.size() }) {
+    for (std::size_t given : { o.edge_law.size(), o.edge_normal.size(), o.edge_joint.size() }) {
         if (given != 0 && given != t.shared_edges.size()) {
             refuse("choices for edges", static_cast<double>(given), "",
                 "must be one for each shared edge");
+        }
+    }
+    for (int joint : o.edge_joint) {
+        if (joint < -1 || joint >= static_cast<int>(o.joints.size())) {
+            refuse("joint of an edge", joint, "", "must be the index of a joint, or -1");
         }
     }
     for (int law : o.edge_law) {
@@ -351,6 +395,8 @@ Assembly make_assembly(
     }
     for (const auto& law : options.laws)
         a.contacts.laws.push_back(make_law(law));
+    for (const auto& joint : options.joints)
+        a.contacts.laws.push_back(joint_law(joint));
     std::vector<MeshedGrain> grains;
     for (int c = 0; c < a.grains.count; ++c) {
         grains.push_back(mesh_cell(t, discs, c, options));
@@ -363,6 +409,7 @@ Assembly make_assembly(
     lay_out_edges(a, t, grains);
     prepare_step(a);
     find_close_pairs(a, t);
+    part_sides_of_joints(a);
     return a;
 }
 

@@ -24,6 +24,10 @@ struct AssemblyOptions {
     std::vector<std::uint8_t> edge_normal;  ///< per shared edge: 1 takes the normal of the edge,
                                             ///< 0 that between the centres; empty: all 0
     std::vector<ContactMaterial> laws;      ///< per pair of materials: laws[i * elastic.size() + j]
+    std::vector<int>
+        edge_joint;  ///< per shared edge, into `joints`, -1: none; empty: all -1. An edge with a
+                     ///< joint takes its law and the normal of the edge
+    std::vector<ContactMaterial> joints;  ///< strengths may be 0, see joint_law()
 };
 
 /// @throws std::invalid_argument  if an option is out of range

@@ -9,6 +9,7 @@
 #include <flexpm/kernel/topology/touch_point.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace flexpm {
@@ -85,6 +86,7 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
     move_rows(contacts, order);
     const auto old_id = contacts.id;
     const auto old_law = contacts.law;
+    const auto old_joint = contacts.joint;
     const auto old_bonded = contacts.bonded;
     const auto old_erased = contacts.erased;
     contacts.count = static_cast<int>(order.size());
@@ -92,6 +94,7 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
     contacts.pairs.clear();
     contacts.id.clear();
     contacts.law.clear();
+    contacts.joint.clear();
     contacts.bonded.clear();
     contacts.erased.clear();
     for (int c = 0; c < contacts.count; ++c) {
@@ -100,6 +103,7 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
         contacts.pairs.push_back(pair);
         contacts.id.push_back(is_new ? contacts.next_id++ : old_id[from]);
         contacts.law.push_back(is_new ? a.grains.law_index(pair[0], pair[1]) : old_law[from]);
+        contacts.joint.push_back(is_new ? -1 : old_joint[from]);
         contacts.bonded.push_back(is_new ? 0 : old_bonded[from]);
         contacts.erased.push_back(is_new ? 0 : old_erased[from]);
         if (is_new) fill_touch(a, c, pair);
@@ -154,6 +158,16 @@ Point between_centres(const Grains& grains, GrainPair pair)
     return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
 }
 
+/// Whether the faces of a joint have slid past each other: no place of one lies opposite to the other.
+bool has_slid_off(const Contacts& contacts, int contact)
+{
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        const double slip = std::abs(contacts.state(contact, p, PointRow::slip));
+        if (slip * std::abs(contacts.inverse_edge_length(contact, 0)) < 1.0) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool is_active(const Contacts& contacts, int contact)
@@ -196,6 +210,7 @@ bool has_ended(const Assembly& a, int contact)
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         if (damage_of(contacts, contact, p) < 1.0) return false;
     }
+    if (contacts.joint[contact] >= 0) return has_slid_off(contacts, contact);
     const GrainPair pair = contacts.pairs[contact];
     double limit = touching_distance(a, pair);
     if (contacts.bonded[contact]) limit = std::max(limit, norm(contacts.branch(contact)));

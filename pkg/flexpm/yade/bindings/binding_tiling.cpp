@@ -5,6 +5,7 @@
 #include <flexpm/yade/bindings/bindings.hpp>
 
 #include <flexpm/kernel/tiling/given_cells.hpp>
+#include <flexpm/kernel/tiling/joint_cut.hpp>
 #include <flexpm/kernel/tiling/outline_cells.hpp>
 
 #include <memory>
@@ -90,6 +91,20 @@ namespace {
 		return std::make_shared<Tiling>(flexpm::cells_of_file(stored));
 	}
 
+	std::shared_ptr<Tiling>
+	cutByJoints(const flexpm::Tessellation& tessellation, py::object centres, py::object radii, py::object joints, py::list lines, py::object numbers)
+	{
+		const InputArray<int> ofEdges(joints, 1, "joints"), ofLines(numbers, 1, "numbers");
+		const Rings           places = rings(lines, "joint");
+		if (places.size() != ofLines.size(0))
+			throw std::invalid_argument("numbers of joints = " + std::to_string(ofLines.size(0)) + ", must be one for each line");
+		std::vector<flexpm::JointLine> all;
+		for (std::size_t i = 0; i < places.size(); ++i)
+			all.push_back({ places[i], ofLines.data()[i] });
+		return std::make_shared<Tiling>(
+		        flexpm::cut_by_joints(tessellation, discs(centres, radii), { ofEdges.data(), ofEdges.data() + ofEdges.size(0) }, all));
+	}
+
 	/// Part of the whole, which it keeps alive.
 	std::shared_ptr<flexpm::Tessellation> tessellationOf(const std::shared_ptr<Tiling>& tiling)
 	{
@@ -129,6 +144,10 @@ void register_tiling_bindings()
 	        cellsOfPolygons,
 	        (py::arg("polygons"), py::arg("with_holes")),
 	        "Checked tiling of polygons, each (n, 2) [m], and the rings of its outline.");
+	py::def("cut_by_joints",
+	        cutByJoints,
+	        (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("joints"), py::arg("lines"), py::arg("numbers")),
+	        "Cells cut by lines, each (n, 2) [m], of joints with numbers; joints has those that shared edges have already, -1 without.");
 	py::def("cells_of_file",
 	        cellsOfFile,
 	        (py::arg("vertices"), py::arg("cells"), py::arg("sides"), py::arg("joints"), py::arg("centres"), py::arg("radii")),

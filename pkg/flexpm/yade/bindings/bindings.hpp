@@ -13,7 +13,7 @@ void register_instruction_set_bindings();
 /// StrainGauge; scales, stresses and end of a test.
 void register_laboratory_bindings();
 
-/// PolygonOutline, Tiling; cells_in_outline, cells_of_polygons, cells_of_file.
+/// PolygonOutline, Tiling; cells_in_outline, cells_of_polygons, cells_of_file, cut_by_joints.
 void register_tiling_bindings();
 
 /// InnerCells; inner_cells.

@@ -89,6 +89,12 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 		o.grain_material.assign(ofGrain.data(), ofGrain.data() + ofGrain.size(0));
 	}
 	if (options.has_key("outer")) chooseInner(options, o);
+	if (options.has_key("edge_joints")) {
+		const flexpm_bindings::InputArray<int> ofEdge(options["edge_joints"], 1, "edge_joints");
+		o.edge_joint.assign(ofEdge.data(), ofEdge.data() + ofEdge.size(0));
+		for (const auto& m : materialsOf(py::list(options["joints"])))
+			o.joints.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	}
 	const py::extract<const flexpm::Tessellation&> cells(tessellation);
 	assembly  = flexpm::make_assembly(cells(), flexpm_bindings::discs(centres, radii), o);
 	materials = ofGrains;

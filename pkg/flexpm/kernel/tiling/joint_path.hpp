@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Where a line crosses the edges of cells, as steps from vertex to vertex. SI units.
+/// Deviation D35: a vertex close to the line is moved onto it where the cells around it stay sound, and stands for the
+/// place where the line passes.
+#pragma once
+
+#include <flexpm/kernel/tiling/planar_cells.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// Line of a joint through two points or more.
+struct JointLine {
+    std::vector<Point> points;  ///< [m]
+    int joint = 0;              ///< number of the joint
+};
+
+/// Distance from a line within which vertices are on it, in mean diameters.
+constexpr double snap_distance = 0.1;
+
+/// A step of a line within one cell, or along an edge.
+struct JointStep {
+    int from, to;  ///< vertices
+};
+
+/// Steps of a line, in its order. Vertices are put into the edges that it crosses far from their ends. An end within a
+/// cell is moved to the cell's edge: on if the line has covered half of its way through the cell, else back.
+/// @param mean_area  of a cell
+/// @throws std::invalid_argument  if the line lies outside of all cells
+std::vector<JointStep> joint_steps(PlanarCells& cells, const JointLine& line, double mean_area);
+
+}  // namespace flexpm

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Joints of a rock: the law of the contacts along a cut. SI units, strengths are magnitudes."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from ..errors import InputError
+from ..files import Table
+from ..require import quoted, require_flag, require_known, require_number, require_table
+from .keys import JOINT_BOUNDS, JOINT_UNITS
+
+_REQUIRED = ("normal_stiffness", "shear_stiffness", "friction")
+_STRENGTHS = {
+    "tensile_strength": ("normal_stiffness", "tensile_fracture_energy"),
+    "cohesion": ("shear_stiffness", "shear_fracture_energy"),
+}
+#: A fracture energy this far below the elastic energy [relative] is round-off.
+_TOLERANCE = 1e-12
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Law of the contacts of a joint. Without strengths they are cracked from the start."""
+
+    name: str
+    normal_stiffness: float | None = None  #: [Pa/m]
+    shear_stiffness: float | None = None  #: [Pa/m]
+    friction: float | None = None  #: tangent of the friction angle [-]
+    cohesion: float = 0.0  #: [Pa]
+    tensile_strength: float = 0.0  #: [Pa]
+    tensile_fracture_energy: float | None = None  #: [N/m]; None: brittle
+    shear_fracture_energy: float | None = None  #: [N/m]; None: brittle
+    open: bool = False  #: a notch: what is not given is that of the rock
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name or set(self.name) & set(". =,\"'"):
+            raise InputError(
+                f"joint = {quoted(self.name)}, must be a name without spaces, dots, commas, quotes "
+                "and equals signs"
+            )
+        for key, value in self._values().items():
+            object.__setattr__(self, key, self._checked(key, value))
+        object.__setattr__(
+            self, "open", require_flag(f"material [joint.{self.name}] open", self.open)
+        )
+        if self.open:
+            self._refuse_strengths()
+            return
+        for key in _REQUIRED:
+            if getattr(self, key) is None:
+                raise InputError(
+                    f"material [joint.{self.name}] {key} is missing; give it, or open = true for a "
+                    "notch"
+                )
+
+    @classmethod
+    def from_dict(cls, name: str, data: object) -> Joint:
+        """Make a joint from a table `[joint.NAME]`.
+
+        Raises:
+            InputError: naming the key that is unknown, missing or out of range.
+        """
+        values = require_table(f"material [joint.{name}]", data)
+        for key in values:
+            require_known(f"material [joint.{name}] key", key, list(JOINT_UNITS))
+        return cls(name, **values)
+
+    def law(self, rock: Mapping[str, object]) -> Table:
+        """Parameters in effect.
+
+        Args:
+            rock: Law of the rock's own contacts, from which a notch takes what it does not give.
+
+        Raises:
+            InputError: if a fracture energy lies below the elastic energy.
+        """
+        found: Table = {"name": self.name, **self._values(), "open": self.open}
+        if self.open:
+            stiffness = float(rock["normal_stiffness"])  # type: ignore[arg-type]
+            ratio = float(rock["shear_ratio"])  # type: ignore[arg-type]
+            usual = {
+                "normal_stiffness": stiffness,
+                "shear_stiffness": ratio * stiffness,
+                "friction": rock["friction"],
+            }
+            found |= {key: value for key, value in usual.items() if found[key] is None}
+        for strength, (stiffness_key, energy) in _STRENGTHS.items():
+            elastic = found[strength] ** 2 / (2.0 * found[stiffness_key])
+            given = found[energy]
+            if given is not None and given < elastic * (1.0 - _TOLERANCE):
+                raise InputError(
+                    f"material [joint.{self.name}] {energy} = {given!r} N/m, must not be below the "
+                    f"elastic energy at the peak; the smallest allowed value is {elastic!r} N/m"
+                )
+            if given is None and elastic > 0.0:
+                found[energy] = elastic
+        return found
+
+    def _values(self) -> Table:
+        return {
+            field.name: getattr(self, field.name)
+            for field in dataclasses.fields(self)
+            if field.name not in ("name", "open")
+        }
+
+    def _checked(self, key: str, value: object) -> float | None:
+        if value is None:
+            return None
+        label = f"material [joint.{self.name}] {key}"
+        return require_number(label, value, JOINT_BOUNDS[key], JOINT_UNITS[key] or "")
+
+    def _refuse_strengths(self) -> None:
+        for key in ("tensile_strength", "cohesion"):
+            if getattr(self, key) > 0.0:
+                raise InputError(
+                    f"material [joint.{self.name}] {key} = {getattr(self, key)!r} Pa, must be 0 "
+                    "for an open joint; leave out one of them"
+                )
+
+
+def checked(joints: object) -> tuple[Joint, ...]:
+    """Joints from tables by name, or from joints; each name is there once."""
+    if isinstance(joints, Mapping):
+        return tuple(Joint.from_dict(name, values) for name, values in joints.items())
+    if isinstance(joints, tuple | list) and all(isinstance(one, Joint) for one in joints):
+        names = [joint.name for joint in joints]
+        if len({*names}) == len(names):
+            return tuple(joints)
+    raise InputError(f"material joint = {quoted(joints)}, must be tables [joint.NAME]")
+
+
+def with_values(joints: tuple[Joint, ...], values: Mapping[str, object]) -> tuple[Joint, ...]:
+    """Joints with changed values, by ``joint.NAME.KEY``; a name that is new makes a joint."""
+    tables: dict[str, Table] = {joint.name: _table(joint) for joint in joints}
+    for label, value in values.items():
+        name, key = split(label)
+        tables.setdefault(name, {})[key] = value
+    return checked(tables)
+
+
+def require_joints(names: Iterable[str], known: Sequence[str]) -> None:
+    """Refuse a specimen with a joint that the material does not have."""
+    for name in names:
+        if not known:
+            raise InputError(
+                f"joint = {name!r}, has no law; add a table [joint.{name}] to the material"
+            )
+        require_known("joint", name, known)
+
+
+def is_key(label: str) -> bool:
+    """Whether a key reads ``joint.NAME.KEY``."""
+    return label.startswith("joint.") and label.count(".") == 2
+
+
+def split(label: str) -> tuple[str, str]:
+    """Name and key of ``joint.NAME.KEY``, which a joint has."""
+    _, name, key = label.split(".")
+    require_known(f"set joint.{name}", key, list(JOINT_UNITS))
+    return name, key
+
+
+def parsed(label: str, text: str) -> float | bool:
+    """Value of ``joint.NAME.KEY=TEXT``."""
+    key = split(label)[1]
+    if key == "open":
+        if text not in ("true", "false"):
+            raise InputError(f"set {label} = {text!r}, must be true or false")
+        return text == "true"
+    try:
+        return float(text)
+    except ValueError:
+        unit = JOINT_UNITS[key] or ""
+        raise InputError(f"set {label} = {text!r} {unit}".rstrip() + ", must be a number") from None
+
+
+def _table(joint: Joint) -> Table:
+    values = dataclasses.asdict(joint)
+    del values["name"]
+    return values

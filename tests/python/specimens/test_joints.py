@@ -1,0 +1,314 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Joints: cells cut by lines, their laws, refused input, the command."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import flexpm
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.materials.material import load
+from flexpm.materials.mixing import description, from_description
+from flexpm.report.maps import cell_polygons
+from flexpm.specimens import joint_lines
+from flexpm.specimens.specimen import Specimen
+
+WIDTH, HEIGHT = 0.02, 0.04
+DIP = [(0.0, 0.01), (0.02, 0.03)]
+LAW = "joint.weak.normal_stiffness=1e14 joint.weak.shear_stiffness=3e13 joint.weak.friction=0.5"
+
+
+@pytest.fixture(scope="module")
+def rectangle():
+    return Specimen.rectangle(WIDTH, HEIGHT, 0.08)
+
+
+@pytest.fixture(scope="module")
+def weak():
+    return load().with_set(LAW.split())
+
+
+def joint_edges(specimen, number=0):
+    """Ends (n, 2, 2) [m] of the contacts of a joint."""
+    cells = specimen.tessellation
+    return cells.vertices[cells.shared_edges[specimen.edge_joints == number][:, 2:]]
+
+
+def off(places, line):
+    """Distances of places from a straight line [m]."""
+    (x0, y0), (x1, y1) = line
+    across = (x1 - x0) * (places[..., 1] - y0) - (y1 - y0) * (places[..., 0] - x0)
+    return np.abs(across) / math.hypot(x1 - x0, y1 - y0)
+
+
+def require_pieces(specimen, uncut):
+    """No sliver, no sharp cut, all edges seen, the whole area."""
+    cells = specimen.tessellation
+    assert math.fsum(cells.cell_areas) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
+    mean = WIDTH * HEIGHT / len(uncut.discs)
+    assert cells.cell_areas.min() >= 0.02 * mean
+    smallest = math.pi
+    for polygon, (x, y, _) in zip(cell_polygons(cells), specimen.discs, strict=True):
+        out = np.roll(polygon, -1, axis=0) - polygon
+        back = np.roll(out, 1, axis=0)
+        turn = np.arctan2(back[:, 0] * out[:, 1] - back[:, 1] * out[:, 0], (back * out).sum(axis=1))
+        smallest = min(smallest, math.pi - turn.max())
+        assert turn.sum() == pytest.approx(2.0 * math.pi)
+        seen = polygon - (x, y)
+        after = np.roll(seen, -1, axis=0)
+        assert (seen[:, 0] * after[:, 1] - seen[:, 1] * after[:, 0]).min() > 0.0
+    assert smallest >= math.radians(5.0)
+
+
+def test_a_joint_from_side_to_side(rectangle):
+    cut = rectangle.with_joints({"weak": DIP})
+    require_pieces(cut, rectangle)
+    edges = joint_edges(cut)
+    lengths = np.hypot(*(edges[:, 1] - edges[:, 0]).T)
+    assert off(edges, DIP).max() < 0.5 * rectangle.mean_diameter
+    assert 1.0 <= lengths.sum() / math.hypot(0.02, 0.02) < 1.1
+    assert len(cut.discs) > len(rectangle.discs)
+    # whole grains are as they were, in their places
+    same = cut.grains[: len(rectangle.discs)]
+    np.testing.assert_array_equal(same, np.arange(len(rectangle.discs)))
+    assert (cut.discs[: len(rectangle.discs)] == rectangle.discs).all(axis=1).sum() > 10
+
+
+def test_a_joint_parts_the_specimen(rectangle, weak):
+    """Without strength it leaves two fragments from the start, and no crack."""
+    built = flexpm.build(rectangle.with_joints({"weak": DIP}), weak)
+    assert built.solver.cracks() == (0, 0)
+    snapshot = built.snapshot()
+    assert snapshot.point_damage.max() == 1.0
+    sound = (snapshot.point_damage < 1.0).any(axis=1)
+    # union of what is bonded
+    parts = np.arange(snapshot.contact_grains.max() + 1)
+    for _ in range(len(parts)):
+        a, b = parts[snapshot.contact_grains[sound]].T
+        low = np.minimum(a, b)
+        before = parts.copy()
+        np.minimum.at(parts, snapshot.contact_grains[sound][:, 0], low)
+        np.minimum.at(parts, snapshot.contact_grains[sound][:, 1], low)
+        if np.array_equal(before, parts):
+            break
+    assert len(set(parts.tolist())) == 2
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_weak_joint_is_the_strength(rectangle, weak, model):
+    """A cohesionless joint at 45 degrees with friction 0.5 slides; what is left is inertia."""
+    cut = rectangle.with_joints({"weak": DIP})
+    options = {"max_strain": 5e-4, "rate": 0.5, "loading": "constant"}
+    result = flexpm.run("uniaxial", cut, weak, model, **options)
+    whole = flexpm.elastic(rectangle, weak, model)["youngs_modulus"] * 5e-4
+    assert result.curve["axial_stress"].max() < 0.3 * whole
+    assert result.tensile_cracks == 0
+    assert result.energy_error < 0.01
+
+
+def test_a_joint_as_strong_as_the_rock_is_the_rock(rectangle):
+    """With the stiffness of the rock's contacts it changes the constants no more than its cells."""
+    rock = load()
+    law = rock.law()
+    joint = {
+        "normal_stiffness": law["normal_stiffness"],
+        "shear_stiffness": law["shear_ratio"] * law["normal_stiffness"],
+        **{key: law[key] for key in ("friction", "cohesion", "tensile_strength")},
+        **{key: law[key] for key in ("tensile_fracture_energy", "shear_fracture_energy")},
+    }
+    strong = rock.with_set({f"joint.weak.{key}": value for key, value in joint.items()})
+    cut = rectangle.with_joints({"weak": DIP})
+    found = flexpm.elastic(cut, strong)["youngs_modulus"]
+    assert found == pytest.approx(flexpm.elastic(rectangle, rock)["youngs_modulus"], rel=0.03)
+    built = flexpm.build(cut, strong)
+    assert built.snapshot().point_damage.max() == 0.0
+
+
+def test_a_notch_ends_where_the_cut_ends(rectangle):
+    notched = rectangle.with_joints({"notch": [(0.01, -0.001), (0.01, 0.012)]})
+    edges = joint_edges(notched)
+    assert edges[..., 1].min() == 0.0
+    # half of its way through the last cell, or back to the one before
+    assert abs(edges[..., 1].max() - 0.012) <= 0.5 * 0.005
+    require_pieces(notched, rectangle)
+    opened = load().with_set("joint.notch.open=true")
+    law = opened.joint_laws()[0]
+    assert law["friction"] == opened.friction
+    assert law["normal_stiffness"] == opened.law()["normal_stiffness"]
+    flexpm.build(notched, opened).run(3)
+
+
+def test_a_line_may_bend_and_joints_may_cross(rectangle):
+    lines = {
+        "bent": [(0.004, -0.001), (0.006, 0.02), (0.016, 0.024)],
+        "across": [[(0.0, 0.015), (0.02, 0.016)], [(0.0, 0.03), (0.02, 0.03)]],
+    }
+    cut = rectangle.with_joints(lines)
+    require_pieces(cut, rectangle)
+    assert cut.spec.joint_names == ("bent", "across")
+    assert {*cut.edge_joints.tolist()} == {-1, 0, 1}
+    one_by_one = rectangle.with_joints({"bent": lines["bent"]}).with_joints(
+        {"across": lines["across"]}
+    )
+    require_pieces(one_by_one, rectangle)
+    assert one_by_one.spec.joint_names == ("bent", "across")
+
+
+segments = st.tuples(
+    st.floats(0.001, WIDTH - 0.001),
+    st.floats(0.001, HEIGHT - 0.001),
+    st.floats(0.0, math.pi),
+    st.floats(0.004, 0.02),
+)
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.lists(segments, min_size=1, max_size=100), st.integers(1, 5))
+def test_any_set_of_joints(drawn, seed):
+    uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
+    lines = [
+        [
+            (x - length * math.cos(angle), y - length * math.sin(angle)),
+            (x + length * math.cos(angle), y + length * math.sin(angle)),
+        ]
+        for x, y, angle, length in drawn
+    ]
+    require_pieces(uncut.with_joints({"set": lines}), uncut)
+
+
+def test_a_cut_specimen_is_loaded_to_the_bit(rectangle, tmp_path):
+    cut = rectangle.with_joints({"weak": DIP})
+    cut.save(tmp_path / "cut.json")
+    again = Specimen.load(tmp_path / "cut.json")
+    assert again.spec == cut.spec
+    for name in ("edge_joints", "grains", "discs"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(cut, name))
+    np.testing.assert_array_equal(again.tessellation.shared_edges, cut.tessellation.shared_edges)
+
+
+def test_pieces_have_the_mineral_of_their_grain(rectangle):
+    marked = rectangle.with_minerals(np.arange(len(rectangle.discs)) % 3)
+    cut = marked.with_joints({"weak": DIP})
+    np.testing.assert_array_equal(cut.minerals, marked.minerals[cut.grains])
+
+
+@pytest.mark.parametrize(
+    ("joints", "message"),
+    [
+        ({"a": [(0.03, 0.0), (0.04, 0.02)]}, "must lie inside the specimen"),
+        ({"a": [(0.0101, 0.02), (0.0102, 0.02)]}, "joint a: contacts = 0, must cut a cell"),
+        ({"a": [(0.0, 0.0)]}, "joint a = .* must be a line of two points"),
+        ({"a": [(0.0, 0.01), (0.0, 0.01)]}, "must not be there twice"),
+        ({"a": [(0.0, math.nan), (0.0, 0.01)]}, "must be a line of two points"),
+        ({"a b": DIP}, "must be a name without spaces"),
+        ({}, "must be lines by the name"),
+        ("joints", "must be lines by the name"),
+    ],
+)
+def test_joints_that_cannot_be(rectangle, joints, message):
+    with pytest.raises(InputError, match=message) as refused:
+        rectangle.with_joints(joints)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"friction": 0.5}, r"\[joint.a\] normal_stiffness is missing"),
+        ({"open": True, "cohesion": 1e6}, r"\[joint.a\] cohesion = 1000000.0 Pa, must be 0"),
+        ({"frictoin": 0.5}, r"\[joint.a\] key = 'frictoin', unknown \(did you mean friction"),
+        ({"open": 1}, r"\[joint.a\] open = 1, must be true or false"),
+        ({"cohesion": -1.0}, r"\[joint.a\] cohesion = -1.0 Pa, must be >= 0"),
+        (
+            {"cohesion": 1e7, "shear_fracture_energy": 1e-3},
+            r"\[joint.a\] shear_fracture_energy = 0.001 N/m, must not be below",
+        ),
+    ],
+)
+def test_laws_that_cannot_be(values, message):
+    whole = {"normal_stiffness": 1e14, "shear_stiffness": 3e13, "friction": 0.5}
+    given = values if "open" in values or "friction" in values else {**whole, **values}
+    base = {"tensile_strength": 1e7, "cohesion": 3e7, "friction": 0.4, "softening": "brittle"}
+    sets = {"flexible": {"young": 3e10, "poisson": 0.2, "normal_stiffness": 1e14}}
+    sets["flexible"]["shear_ratio"] = 0.3
+    with pytest.raises(InputError, match=message):
+        load({**base, "elastic": sets, "joint": {"a": given}}).joint_laws()
+
+
+def test_a_joint_without_a_law_is_named(rectangle, weak):
+    cut = rectangle.with_joints({"wek": DIP})
+    with pytest.raises(InputError, match=r"joint = 'wek', unknown \(did you mean weak\?\)"):
+        flexpm.run("uniaxial", cut, weak)
+    with pytest.raises(InputError, match=r"joint = 'wek', has no law; add a table \[joint.wek\]"):
+        flexpm.elastic(cut)
+
+
+@pytest.mark.parametrize("model", ["jcfpm", "cohfrict", "inner", "inner-un"])
+def test_other_models_have_no_joints(rectangle, weak, model):
+    cut = rectangle.with_joints({"weak": DIP})
+    for call in (flexpm.build, lambda *given: flexpm.run("uniaxial", *given)):
+        with pytest.raises(InputError, match=f"model = {model}, must be .* joints"):
+            call(cut, weak, model)
+
+
+def test_a_material_with_joints_comes_back(weak):
+    told = {"name": weak.name, **description(weak, "flexible")}
+    again = from_description(told, "flexible")
+    assert description(again, "flexible") == description(weak, "flexible")
+    changed = weak.with_set("joint.weak.friction=0.7")
+    assert changed.joints[0].friction == 0.7
+    with pytest.raises(InputError, match=r"set joint.weak = 'frction', unknown"):
+        weak.with_set("joint.weak.frction=0.7")
+
+
+def test_a_file_of_joints(tmp_path):
+    file = tmp_path / "joints.csv"
+    file.write_text("x1,y1,x2,y2,name\n0,0.01,0.01,0.02,a\n0.01,0.02,0.02,0.02,a\n0,0,1,1,b\n")
+    assert joint_lines.read(file) == {
+        "a": [[(0.0, 0.01), (0.01, 0.02), (0.02, 0.02)]],
+        "b": [[(0.0, 0.0), (1.0, 1.0)]],
+    }
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("x1,y1,x2,y2\n0,0,1,1\n", "columns x1,y1,x2,y2,name"),
+        ("", "columns x1,y1,x2,y2,name"),
+        ("x1,y1,x2,y2,name\n0,0,x,1,a\n", "line 2: x2 = 'x' m, must be a number"),
+        ("x1,y1,x2,y2,name\n0,0,1,1,a\n0,0,0,0,a\n", "line 3: x2, y2 = .* must not be the start"),
+        ("x1,y1,x2,y2,name\n0,0,1,1,\n", "must be a name"),
+        ("x1,y1,x2,y2,name\n0,0,1\n", "line 2: y2 = None m"),
+    ],
+)
+def test_files_that_hold_no_joints(tmp_path, text, message):
+    file = tmp_path / "joints.csv"
+    file.write_text(text)
+    with pytest.raises(InputError, match=message):
+        joint_lines.read(file)
+
+
+def test_the_command_cuts_a_specimen(tmp_path, capsys, rectangle):
+    file = tmp_path / "joints.csv"
+    file.write_text("x1,y1,x2,y2,name\n0,0.01,0.02,0.03,weak\n")
+    sizes = ["--width", str(WIDTH), "--height", str(HEIGHT), "--quiet"]
+    settings_ = [word for one in LAW.split() for word in ("--set", one)]
+    out = tmp_path / "out"
+    call = ["elastic", *sizes, *settings_, "--joints", str(file), "--out", str(out)]
+    assert cli.main(call) == 0
+    found = json.loads((out / "result.json").read_text())
+    cut = rectangle.with_joints({"weak": DIP})
+    expected = flexpm.elastic(cut, load().with_set(LAW.split()))
+    assert found["youngs_modulus"] == expected["youngs_modulus"]
+    assert found["inputs"]["specimen"]["joints"] == cut.spec.joints
+    assert cli.main(["rerun", str(out), "--quiet", "--out", str(tmp_path / "again")]) == 0
+    assert "the same as in" in capsys.readouterr().out
+    assert cli.main(["run", "uniaxial", *sizes, "--joints", str(file)]) == 2
+    assert "joint = 'weak', has no law" in capsys.readouterr().err
+    drawn = ["specimen", "rectangle", *sizes, "--joints", str(file), "--out", str(out)]
+    assert cli.main(drawn) == 0
