@@ -55,8 +55,8 @@ STATUS = {
         "diverged",
         False,
         "A number has become infinite; what came before is in the curve.",
-        "Look for inputs in other units (Pa, m) and for stiffnesses that differ by many orders, "
-        "then lower the --rate.",
+        "Lower the --rate if it was raised. Look for inputs in other units (Pa, m) and for "
+        "stiffnesses that differ by many orders.",
     ),
 }
 #: What to cite, without the version.

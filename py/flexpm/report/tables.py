@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -23,8 +24,8 @@ def table(rows: Iterable[tuple[str, str]], title: str = "") -> str:
 
 
 def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> str:
-    """`value` times `factor` with its unit, or a dash for a missing value."""
-    if value is None:
+    """`value` times `factor` with its unit, or a dash for one that is missing or not finite."""
+    if value is None or not math.isfinite(value):
         return "-"
     return f"{factor * value:#.{digits}g}".rstrip(".") + (f" {unit}" if unit else "")
 

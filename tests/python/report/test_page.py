@@ -158,6 +158,16 @@ def test_a_folder_without_results_is_refused_in_one_line(capsys, tmp_path):
     assert not (tmp_path / "none").exists()
 
 
+def test_a_page_of_a_run_that_diverged_is_the_same_when_made_again(tmp_path):
+    command = ["run", "uniaxial", *SIZE, "--rate", "1e9", "--quiet", "--out", str(tmp_path)]
+    assert cli.main(command) == 3
+    before = (tmp_path / page.FILE).read_text(encoding="utf-8")
+    parsed(tmp_path / page.FILE)
+    assert "<h2>diverged</h2>" in before
+    assert "<td>nan" not in before
+    assert pages.write(tmp_path).read_text(encoding="utf-8") == before
+
+
 @pytest.mark.parametrize("status", ["ok", "no_peak", "not_quasistatic", "diverged"])
 def test_each_status_has_its_meaning_and_advice(status):
     found = page_run.STATUS[status]
