@@ -76,8 +76,8 @@ def write_vtu(
     grid.GetCellData().SetActiveAttribute("stress", vtkDataSetAttributes.TENSORS)
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(grid)
-    writer.SetDataModeToAppended()
-    writer.EncodeAppendedDataOff()
+    # as text: raw data are no XML, and VTK up to 9.2 reads none with expat 2.6 or its backports
+    writer.SetDataModeToBinary()
     writer.SetCompressorTypeToLZ4()
     content = _written(writer)
     with whole_file(path) as temporary:

@@ -3,6 +3,7 @@
 
 import dataclasses
 import time
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -137,6 +138,16 @@ def test_a_failed_write_leaves_the_old_file(tmp_path):
     with pytest.raises(IndexError):
         write_vtu(path, dataclasses.replace(wall(), velocities=np.empty((1, 2))))
     assert path.read_text() == "old"
+
+
+def test_a_file_is_xml_throughout(tmp_path):
+    """Raw data in it would keep ParaView of an up-to-date Debian 12 from reading it."""
+    write_vtu(tmp_path / "it.vtu", wall(), {"test": "tension <&>", "seed": 1, "none": None})
+    root = ElementTree.parse(tmp_path / "it.vtu").getroot()
+    assert root.get("type") == "UnstructuredGrid"
+    assert root.find("AppendedData") is None
+    names = [one.get("Name") for one in root.findall("UnstructuredGrid/FieldData/*")]
+    assert names == ["test", "seed"]
 
 
 def test_means_of_stress_are_weighted_by_the_triangles_areas(tmp_path):
