@@ -98,7 +98,7 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         if value is None:
             continue
         source = "default" if value == default else "given"
-        if name in ("discs", "outline", "cells", "minerals", "joints"):
+        if name in ("discs", "outline", "cells", "minerals", "joints", "strengths"):
             source = f"checksum of what is in {GRAINS_FILE}"
         elif name == "kind":
             source = "by the test"

@@ -265,7 +265,7 @@ def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
         "centre_line": False,
     }
     if model in INNER_MODELS:
-        specimen.spec.require_no_joints(model)
+        specimen.spec.require_alike(model)
     else:
         discs = np.asarray(specimen.discs, dtype=float)
         return _Grains(specimen, specimen.tessellation, discs, options)
@@ -330,13 +330,16 @@ def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> Table:
 
 
 def _joint_options(specimen: Specimen, chosen: Material, model: str) -> Table:
-    """Joints of the contacts and their laws, for the solver."""
+    """Strengths of the contacts, their joints and the laws of these, for the solver."""
+    strengths: Table = {}
+    if specimen.strengths is not None:
+        strengths["edge_strengths"] = np.ascontiguousarray(specimen.strengths)
     if specimen.edge_joints is None:
-        return {}
+        return strengths
     laws = {law["name"]: law for law in chosen.joint_laws(model)}
     names = specimen.spec.joint_names or ()
     require_joints(names, list(laws))
-    return {
+    return strengths | {
         "edge_joints": np.ascontiguousarray(specimen.edge_joints, dtype=np.int32),
         "joints": [_joint_material(laws[name]) for name in names],
     }

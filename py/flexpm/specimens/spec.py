@@ -51,6 +51,7 @@ class SpecimenSpec:
         cells: Checksum of given cells; None if cells are those of the discs.
         joints: Checksum of the lines of joints; None if there are none.
         joint_names: Names of the joints; None if there are none.
+        strengths: Checksum of the factors of the contacts' strengths; None if they are alike.
         minerals: Checksum of given minerals of the grains; None if there are none.
     """
 
@@ -69,6 +70,7 @@ class SpecimenSpec:
     cells: str | None = None
     joints: str | None = None
     joint_names: tuple[str, ...] | None = None
+    strengths: str | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -96,7 +98,7 @@ class SpecimenSpec:
     @property
     def is_packed(self) -> bool:
         """Whether a packing of a rectangle or disc gives it again, without a file."""
-        given = (self.discs, self.outline, self.minerals, self.cells, self.joints)
+        given = (self.discs, self.outline, self.minerals, self.cells, self.joints, self.strengths)
         return all(one is None for one in given)
 
     def with_joints(self, lines: Lines) -> SpecimenSpec:
@@ -108,18 +110,20 @@ class SpecimenSpec:
             joint_names=tuple(dict.fromkeys(names)),
         )
 
-    def require_no_joints(self, model: str) -> None:
-        """Refuse joints, for a model that cuts the grains itself."""
-        if self.joints is not None:
-            raise InputError(
-                f"model = {model}, must be flexible or rigid for a specimen with joints; take one "
-                "of them"
-            )
+    def require_alike(self, model: str) -> None:
+        """Refuse joints and strengths of each contact, for a model with contacts of its own."""
+        for what, one in (("joints", self.joints), ("strengths of contacts", self.strengths)):
+            if one is not None:
+                raise InputError(
+                    f"model = {model}, must be flexible or rigid for a specimen with {what}; take "
+                    "one of them"
+                )
 
     def require_discs(self, model: str) -> None:
         """Refuse grains that are no discs, for a model of discs."""
         sawn = self.outline is not None and self.discs is None
-        kinds = {"joints": self.joints, "given cells": self.cells, "sawn grains": sawn or None}
+        self.require_alike(model)
+        kinds = {"given cells": self.cells, "sawn grains": sawn or None}
         what = next((kind for kind, one in kinds.items() if one is not None), "")
         if what:
             raise InputError(

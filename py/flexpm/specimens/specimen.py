@@ -30,14 +30,16 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..notebook import Shown
 from ..progress import Progress
-from ..require import require_flag
+from ..require import Bounds, require_flag, require_number
 from . import joint_lines, packing, specimen_file, statistics
-from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
+from .checks import SHORT_EDGE, require_diameters, require_length, require_seed, require_short_edge
 from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
 from .outlines import kind_of, polygon_outline
 from .spec import SpecimenSpec
 
 _FEWEST_DISCS = 8
+#: Keeps the draw of strengths apart from other draws with the same seed.
+_WEIBULL_STREAM = 38
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +59,7 @@ class Specimen(Shown):
         holes: Corners of each hole of the outline, clockwise, (n, 2) [m].
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
         grains: Per cell the grain before joints cut it; None: each cell is a grain.
+        strengths: Factor of the strengths of each contact [-]; None: all 1.
     """
 
     discs: FloatArray
@@ -68,6 +71,7 @@ class Specimen(Shown):
     holes: tuple[FloatArray, ...] = ()
     edge_joints: IntArray | None = None
     grains: IntArray | None = None
+    strengths: FloatArray | None = None
 
     @classmethod
     def rectangle(
@@ -161,10 +165,10 @@ class Specimen(Shown):
         """
         where = f"Specimen.{spec.kind}"
         if not spec.is_packed:
-            what = spec.discs or spec.outline or spec.minerals or spec.joints
+            what = spec.discs or spec.outline or spec.minerals or spec.joints or spec.strengths
             raise InputError(
-                f"{where}: discs, outline, minerals or joints = {what}, were given and cannot be "
-                "packed again; load the saved specimen"
+                f"{where}: discs, outline, minerals, joints or strengths = {what}, were given and "
+                "cannot be packed again; load the saved specimen"
             )
         frame, outline = _frame_of(spec), _outline_of(spec)
         area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
@@ -324,6 +328,7 @@ class Specimen(Shown):
             "discs": self.discs.tolist(),
             "sides": cells.boundary_edges[:, 1:].tolist(),
             "joints": joints[found >= 0].tolist(),
+            "strengths": None if self.strengths is None else self.strengths.tolist(),
             "grains": None if self.grains is None else self.grains.tolist(),
         }
         specimen_file.write(Path(path), fields)
@@ -388,6 +393,11 @@ class Specimen(Shown):
             InputError: for a line outside the specimen, or a joint that cuts nothing.
         """
         lines = joint_lines.checked(joints)
+        if self.strengths is not None:
+            raise InputError(
+                f"Specimen.with_joints: strengths = {len(self.strengths)}, belong to other "
+                "contacts; cut first, then give strengths"
+            )
         spec = self.spec.with_joints(lines)
         numbers = {name: number for number, name in enumerate(spec.joint_names or ())}
         before = np.full(len(self.tessellation.shared_edges), -1, dtype=np.int32)
@@ -420,6 +430,44 @@ class Specimen(Shown):
             edge_joints=edge_joints,
             grains=grains,
         )
+
+    def with_strengths(self, factors: Sequence[float] | FloatArray) -> Specimen:
+        """Return the specimen with contacts of different strength (D38).
+
+        Args:
+            factors: For each contact, in the order of ``tessellation.shared_edges``, the factor of
+                cohesion and tensile strength [-]; the fracture energies have its square.
+
+        Raises:
+            InputError: if it is not one number above zero for each contact.
+        """
+        given, count = np.asarray(factors), len(self.tessellation.shared_edges)
+        numbers = given.shape == (count,) and given.dtype.kind in "iuf"
+        if not numbers or not (np.isfinite(given).all() and given.min(initial=1.0) > 0.0):
+            raise InputError(
+                f"Specimen.with_strengths: factors = {given.dtype} array of shape {given.shape}, "
+                f"must be {count} numbers above 0, one for each contact"
+            )
+        strengths = np.array(given, dtype=float)
+        strengths.setflags(write=False)
+        spec = dataclasses.replace(self.spec, strengths=checksum(strengths))
+        return dataclasses.replace(self, strengths=strengths, spec=spec)
+
+    def with_weibull_strengths(self, modulus: float, seed: int = 1) -> Specimen:
+        """Return the specimen with strengths that follow Weibull's distribution, of mean 1.
+
+        Args:
+            modulus: Weibull's modulus m [-]; the smaller, the wider the scatter.
+            seed: The same seed draws the same.
+
+        Raises:
+            InputError: for a modulus out of range.
+        """
+        where = "Specimen.with_weibull_strengths"
+        shape = require_number(f"{where}: modulus", modulus, Bounds(at_least=1.0, at_most=1e6))
+        draw = np.random.default_rng([_WEIBULL_STREAM, require_seed(where, seed)])
+        factors = draw.weibull(shape, len(self.tessellation.shared_edges))
+        return self.with_strengths(factors / math.gamma(1.0 + 1.0 / shape))
 
     def joint_lines(self) -> list[FloatArray]:
         """Ends (n, 2, 2) [m] of the contacts of each joint, in the order of their names."""

@@ -95,6 +95,8 @@ def parts(content: Table) -> Table:
     for key in ("minerals", "grains"):
         if content[key] is not None:
             found[key] = np.array(content[key], dtype=np.int32)
+    if content["strengths"] is not None:
+        found["strengths"] = np.array(content["strengths"])
     if content["joints"]:
         found["edge_joints"] = tiling.edge_joints
     for array in (*found.values(), *found["holes"]):

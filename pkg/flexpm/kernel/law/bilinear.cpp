@@ -65,6 +65,17 @@ LawParameters make_law(const ContactMaterial& m)
     return p;
 }
 
+ContactMaterial scaled_strength(const ContactMaterial& material, double factor)
+{
+    check_positive("factor of the strength of a contact", factor, "");
+    ContactMaterial m = material;
+    m.tensile_strength *= factor;
+    m.cohesion *= factor;
+    m.tensile_fracture_energy *= factor * factor;
+    m.shear_fracture_energy *= factor * factor;
+    return m;
+}
+
 bool is_cracked(const ContactMaterial& joint)
 {
     return joint.tensile_strength == 0.0 && joint.cohesion == 0.0;

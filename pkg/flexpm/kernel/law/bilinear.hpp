@@ -49,6 +49,10 @@ constexpr double brittle_limit = 1e200;
 ///         is below the elastic energy at the strength by more than 1e-12 of it
 LawParameters make_law(const ContactMaterial& material);
 
+/// Material whose strengths are multiplied by a factor, and fracture energies by its square: the curves of Fig. 3 grow in
+/// both directions, so a brittle contact stays brittle.
+ContactMaterial scaled_strength(const ContactMaterial& material, double factor);
+
 /// Whether a joint has no strength: its points are cracked from the start.
 bool is_cracked(const ContactMaterial& joint);
 

@@ -244,6 +244,20 @@ int joint_of(const AssemblyOptions& options, int edge)
     return options.edge_joint.empty() ? -1 : options.edge_joint[edge];
 }
 
+/// Index of the law of a shared edge; strengths of its own make it a law of its own.
+int law_of_edge(Assembly& a, const SharedEdge& e, int edge, const AssemblyOptions& options)
+{
+    const int joint = joint_of(options, edge), pairs = static_cast<int>(options.laws.size());
+    const int law = joint >= 0      ? pairs + joint
+        : !options.edge_law.empty() ? options.edge_law[edge]
+                                    : a.grains.law_index(e.cell_a, e.cell_b);
+    if (options.edge_strength.empty()) return law;
+    const double factor = options.edge_strength[edge];
+    a.contacts.laws.push_back(joint >= 0 ? joint_law(scaled_strength(options.joints[joint], factor))
+                                         : make_law(scaled_strength(options.laws[law], factor)));
+    return static_cast<int>(a.contacts.laws.size()) - 1;
+}
+
 /// No strength is left that a load could take: such a contact never counts as a crack.
 void crack_from_start(Contacts& contacts, int contact)
 {
@@ -296,9 +310,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
         a.contacts.bonded.push_back(1);
         a.contacts.erased.push_back(0);
         a.contacts.joint.push_back(joint);
-        a.contacts.law.push_back(joint >= 0 ? static_cast<int>(options.laws.size()) + joint
-                : !options.edge_law.empty() ? options.edge_law[c]
-                                            : a.grains.law_index(e.cell_a, e.cell_b));
+        a.contacts.law.push_back(law_of_edge(a, e, c, options));
         if (joint >= 0 && is_cracked(options.joints[joint])) crack_from_start(a.contacts, c);
     }
 }
@@ -319,7 +331,8 @@ void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedG
 
 void check_edges(const Tessellation& t, const AssemblyOptions& o)
 {
-    for (std::size_t given : { o.edge_law.size(), o.edge_normal.size(), o.edge_joint.size() }) {
+    for (std::size_t given :
+        { o.edge_law.size(), o.edge_normal.size(), o.edge_joint.size(), o.edge_strength.size() }) {
         if (given != 0 && given != t.shared_edges.size()) {
             refuse("choices for edges", static_cast<double>(given), "",
                 "must be one for each shared edge");

@@ -27,6 +27,9 @@ struct AssemblyOptions {
     std::vector<int>
         edge_joint;  ///< per shared edge, into `joints`, -1: none; empty: all -1. An edge with a
                      ///< joint takes its law and the normal of the edge
+    std::vector<double>
+        edge_strength;  ///< per shared edge: factor of its strengths, see scaled_strength();
+                        ///< empty: all 1
     std::vector<ContactMaterial> joints;  ///< strengths may be 0, see joint_law()
 };
 

@@ -89,6 +89,10 @@ void GrainSolver::assemble(py::object tessellation, py::object centres, py::obje
 		o.grain_material.assign(ofGrain.data(), ofGrain.data() + ofGrain.size(0));
 	}
 	if (options.has_key("outer")) chooseInner(options, o);
+	if (options.has_key("edge_strengths")) {
+		const flexpm_bindings::InputArray<double> ofEdge(options["edge_strengths"], 1, "edge_strengths");
+		o.edge_strength.assign(ofEdge.data(), ofEdge.data() + ofEdge.size(0));
+	}
 	if (options.has_key("edge_joints")) {
 		const flexpm_bindings::InputArray<int> ofEdge(options["edge_joints"], 1, "edge_joints");
 		o.edge_joint.assign(ofEdge.data(), ofEdge.data() + ofEdge.size(0));
