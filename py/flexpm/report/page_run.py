@@ -187,7 +187,8 @@ def _energy_chart(result: Result) -> Chart:
 def with_unit(value: object, unit: str) -> str:
     """A value as people write it: with a prefix of its unit."""
     if isinstance(value, list | tuple):
-        return " to ".join(with_unit(one, unit) for one in value)
+        names = any(isinstance(one, str) for one in value)
+        return (", " if names else " to ").join(with_unit(one, unit) for one in value)
     if isinstance(value, bool):
         return "yes" if value else "no"
     if not isinstance(value, float):

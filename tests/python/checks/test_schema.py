@@ -12,7 +12,7 @@ import pytest
 
 import flexpm
 from flexpm.laboratory.run_spec import ELASTIC, STARTS, TESTS, RunSpec
-from flexpm.materials.keys import UNITS
+from flexpm.materials.keys import JOINT_UNITS, UNITS
 from flexpm.models.options import MESHES, MODELS, POINTS
 from flexpm.results.result import Result
 from flexpm.specimens.spec import SIZES, SpecimenSpec
@@ -41,6 +41,7 @@ def test_the_schema_has_every_field():
     assert set(parts["run_spec"]["properties"]) == names(RunSpec)
     assert set(parts["specimen"]["properties"]) == names(SpecimenSpec)
     assert set(UNITS) < set(parts["material"]["properties"])
+    assert set(JOINT_UNITS) | {"name"} == set(parts["joint"]["properties"])
 
 
 def test_the_schema_has_every_word():

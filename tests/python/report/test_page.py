@@ -21,6 +21,7 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.laboratory import asked
 from flexpm.laboratory.run_spec import RunSpec
+from flexpm.materials.material import load
 from flexpm.report import page, page_map, page_run
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu
@@ -282,6 +283,24 @@ def spec_of(arguments: list[str]) -> RunSpec:
     with runs.run.make_context("run", list(arguments)) as context:
         options = dict(context.params)
         return inputs.run_spec(options.pop("test"), options, inputs.material(options))
+
+
+def test_a_specimen_with_a_joint_has_its_parts_from_the_start_and_is_run_again(tmp_path):
+    line = {"weak": np.array([[-0.001, 0.009], [0.013, 0.015]])}
+    specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01).with_joints(line)
+    law = {"normal_stiffness": 1e14, "shear_stiffness": 3e13, "friction": 0.6}
+    weak = load("augig-table7").with_set({f"joint.weak.{key}": law[key] for key in law})
+    result = flexpm.run("uniaxial", specimen, weak, max_strain=5e-4, out=tmp_path / "first")
+    found = page_run.run_map(tmp_path / "first", result, "map", "", None)
+    assert found.texts[0].endswith("fragments: 2")
+    assert found.texts[-1].endswith(f"fragments: {result.fragments}")
+    text = (tmp_path / "first" / page.FILE).read_text(encoding="utf-8")
+    assert "<td>joint weak: shear stiffness</td><td>30 TPa/m</td>" in text
+    assert "<td>joint names</td><td>weak</td>" in text
+    command = ["rerun", str(tmp_path / "first"), "--quiet", "--out", str(tmp_path / "second")]
+    assert cli.main(command) == 3
+    curves = [(tmp_path / name / "curve.csv").read_bytes() for name in ("first", "second")]
+    assert curves[0] == curves[1]
 
 
 def test_a_run_that_no_command_describes_has_none():
