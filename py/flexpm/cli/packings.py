@@ -80,6 +80,8 @@ def _given(options: Table) -> Table:
     found = {name: options[name] for name in names if name in options and _is_given(name)}
     if options["material"] is not None:
         found["material"] = options["material"]  # also that of a comparison, which none has given
+    if options["joints_file"] is not None:
+        found["joints"] = str(options["joints_file"].resolve())  # runs have folders of their own
     parts = (one.partition("=") for one in options["assignments"])
     return found | {f"set.{key.strip()}": value.strip() for key, _, value in parts}
 

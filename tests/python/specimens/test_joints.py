@@ -310,5 +310,11 @@ def test_the_command_cuts_a_specimen(tmp_path, capsys, rectangle):
     assert "the same as in" in capsys.readouterr().out
     assert cli.main(["run", "uniaxial", *sizes, "--joints", str(file)]) == 2
     assert "joint = 'weak', has no law" in capsys.readouterr().err
+    several = ["run", "uniaxial", *sizes, *settings_, "--joints", str(file), "--seeds", "1-2"]
+    short = ["--max-strain", "1e-5", "--rate", "16", "--no-report"]
+    assert cli.main([*several, *short, "--out", str(tmp_path / "several")]) == 3  # no peak
+    for seed in (1, 2):
+        result = tmp_path / "several" / f"seed-{seed}" / "result.json"
+        assert json.loads(result.read_text())["inputs"]["specimen"]["joints"] == cut.spec.joints
     drawn = ["specimen", "rectangle", *sizes, "--joints", str(file), "--out", str(out)]
     assert cli.main(drawn) == 0
