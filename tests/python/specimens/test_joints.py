@@ -3,6 +3,7 @@
 
 import json
 import math
+import os
 
 import numpy as np
 import pytest
@@ -20,6 +21,8 @@ from flexpm.specimens.specimen import Specimen
 
 WIDTH, HEIGHT = 0.02, 0.04
 DIP = [(0.0, 0.01), (0.02, 0.03)]
+#: Sets of random joints by day and by night.
+_SETS = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 50
 LAW = "joint.weak.normal_stiffness=1e14 joint.weak.shear_stiffness=3e13 joint.weak.friction=0.5"
 
 
@@ -167,7 +170,7 @@ segments = st.tuples(
 )
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=_SETS, deadline=None)
 @given(st.lists(segments, min_size=1, max_size=100), st.integers(1, 5))
 def test_any_set_of_joints(drawn, seed):
     uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
