@@ -14,6 +14,7 @@ import selectors
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -25,13 +26,21 @@ QUERIES = (
 )
 #: Attributes that a script may set to nonsense.
 NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
-#: Wall time of an example [s]; the machine may be busy.
+#: Time of the processor that an example may take [s].
 LONGEST = 120.0
+#: Wall time after which one that does nothing has hung [s]; the machine may be busy.
+HUNG = 1200.0
 
 
 def examples(count: int) -> int:
     """Number of examples of a test: `count`, by night a hundred times as many."""
     return count * (100 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 1)
+
+
+def used(process: int) -> float:
+    """Time that a process has had of the processor [s]."""
+    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 class Child:
@@ -48,16 +57,29 @@ class Child:
         text = json.dumps(example)
         process.stdin.write(text + "\n")
         process.stdin.flush()
-        selector = selectors.DefaultSelector()
-        selector.register(process.stdout, selectors.EVENT_READ)
-        answered = selector.select(LONGEST)
+        answered = self._has_answered(process)
         line = process.stdout.readline() if answered else ""
         if line:
             return json.loads(line)
-        how = f"ended with {process.wait()}" if answered else f"did not end in {LONGEST} s"
+        how = (
+            f"ended with {process.wait()}"
+            if answered
+            else f"did not end in {LONGEST} s of the processor"
+        )
         self.close()
         self._errors.seek(0)
         raise AssertionError(f"the process {how} in {text}: {self._errors.read()[-2000:]}")
+
+    @staticmethod
+    def _has_answered(process: subprocess.Popen[str]) -> bool:
+        """Wait for an answer or the end of a process, as long as it may take."""
+        selector = selectors.DefaultSelector()
+        selector.register(process.stdout, selectors.EVENT_READ)
+        first, begin = used(process.pid), time.monotonic()
+        while not selector.select(1.0):
+            if used(process.pid) - first > LONGEST or time.monotonic() - begin > HUNG:
+                return False
+        return True
 
     def close(self) -> None:
         """End the child."""

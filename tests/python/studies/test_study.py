@@ -13,7 +13,6 @@ import time
 from pathlib import Path
 
 import pandas
-import psutil
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -177,16 +176,32 @@ def test_a_failed_run_always_has_a_message(tmp_path, code, stderr, says):
     assert jobs.conclude(job, tmp_path, done)["message"] == says
 
 
-def test_runs_of_this_machine_are_reached_from_this_machine_alone(tmp_path, monkeypatch):
-    def look(*_, **__):
-        sockets = psutil.Process().connections("inet")
-        listening = {one.laddr.ip for one in sockets if one.status == psutil.CONN_LISTEN}
-        return subprocess.CompletedProcess([], 3, "", f"flexpm: {sorted(listening)}\n")
+LISTENING = """
+import psutil, subprocess
+from pathlib import Path
+from flexpm.studies import jobs, pool
 
-    monkeypatch.setattr(pool.subprocess, "run", look)
-    with pool.Pool(tmp_path, workers=2) as runs:
-        outcomes = runs.run([jobs.make({"test": "uniaxial"}, tmp_path)])
-    assert outcomes[0]["message"] == "['127.0.0.1']"  # Dask's page
+def look(*_, **__):
+    sockets = psutil.Process().connections("inet")
+    listening = {one.laddr.ip for one in sockets if one.status == psutil.CONN_LISTEN}
+    return subprocess.CompletedProcess([], 3, "", f"flexpm: {sorted(listening)}")
+
+pool.subprocess.run = look
+with pool.Pool(Path("."), workers=2) as runs:
+    print(runs.run([jobs.make({"test": "uniaxial"}, Path("."))])[0]["message"])
+"""
+
+
+def test_runs_of_this_machine_are_reached_from_this_machine_alone(tmp_path, package_parent):
+    """In a process of its own: threads of Dask would stay in that of the other tests."""
+    done = subprocess.run(
+        ["/usr/bin/python3", "-P", "-c", LISTENING],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(package_parent)},
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout == "['127.0.0.1']\n", done.stderr  # Dask's pages
 
 
 def test_results_of_an_older_number_are_named_once_and_run_again(tmp_path, monkeypatch, caplog):
