@@ -158,7 +158,7 @@ kinds = {"float": FLOAT, "int": INT, "bool": True, "Vector3": (FLOAT, FLOAT, 0.0
          "list": [], "dict": {}, "tuple": (), "str": "x"}
 def arguments(method):
     signature = method.__doc__.split("->")[0].split("(", 1)[1]
-    return [kinds[kind] for kind in re.findall(r"\\((\\w+)\\)", signature)[1:]]
+    return [kinds[kind] for kind in re.findall(r"\\((?:[\\w.]*[.])?(\\w+)\\)", signature)[1:]]
 told = []
 def look(thing, name):
     try:
