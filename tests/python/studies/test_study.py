@@ -271,7 +271,7 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
         assert inputs.run_spec("biaxial", context.params, material) == job.spec
     names = {option.name for option in main.command.commands["run"].params}
     inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
-    inert |= {"seeds", "workers", "report", "specimen_file", "frames", "film"}
+    inert |= {"seeds", "workers", "report", "specimen_file", "joints_file", "frames", "film"}
     assert names - inert == {*run_spec.OPTIONS, "material"}
 
 
