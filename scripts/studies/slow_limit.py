@@ -17,61 +17,77 @@ import csv
 import statistics
 from collections import defaultdict
 from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
 import flexpm
+from flexpm.materials.material import default_name, load
+from flexpm.materials.mixing import description, is_brittle
 from flexpm.results import measures
 
 TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
-#: Confinement of biaxial tests [Pa].
-CONFINEMENT = 4e6
 #: Factors on the constant rate, the slow ones; that of confined flexible grains is slow already.
 SLOW = {("biaxial", "flexible"): (1.0, 0.5)}
 SLOW_OTHERS = (0.5, 0.25)
 #: Ways of loading and factors on their rates.
-WAYS = (("adaptive", 1.0), ("waiting", 0.5), ("waiting", 1.0), ("waiting", 2.0))
+WAYS = (("adaptive", 1.0), ("waiting", 1.0), ("waiting", 2.0), ("waiting", 4.0))
+WAYS_BRITTLE = (("constant", 1.0), ("waiting", 1.0), ("waiting", 2.0), ("waiting", 4.0))
+
+
+class Packing(NamedTuple):
+    """What is tested, and how."""
+
+    test: str
+    model: str
+    material: str
+    confinement: float  #: [Pa]
+    scale: float  #: lengths over the paper's [-]
+    seed: int
 
 
 class Run(NamedTuple):
     """What tells runs apart."""
 
-    test: str
-    model: str
-    scale: float  #: lengths over the paper's [-]
-    seed: int
+    packing: Packing
     loading: str
     rate: float  #: factor on the rate of this way of loading [-]
 
 
-FIELDS = (*Run._fields, "peak_stress", "unbalanced_median", "steps", "status")
+FIELDS = (
+    *(*Packing._fields, "loading", "rate"),
+    *("peak_stress", "unbalanced_median", "steps", "status"),
+)
 
 
-def runs_of(test: str, model: str, scale: float, seeds: list[int]) -> Iterator[Run]:
-    """All runs of a test."""
-    slow = [("constant", rate) for rate in SLOW.get((test, model), SLOW_OTHERS)]
-    for seed in seeds:
-        for loading, rate in (*WAYS, *slow):
-            yield Run(test, model, scale, seed, loading, rate)
+def runs_of(packing: Packing) -> Iterator[Run]:
+    """All runs of a packing."""
+    brittle = is_brittle(description(load(packing.material), packing.model))
+    slow = [("constant", rate) for rate in SLOW.get(packing[:2], SLOW_OTHERS)]
+    for loading, rate in sorted({*(WAYS_BRITTLE if brittle else WAYS), *slow}):
+        yield Run(packing, loading, rate)
 
 
 def done(run: Run) -> list[object]:
     """Row of a run."""
-    if run.test == "brazilian":
-        specimen = flexpm.Specimen.disc(0.08 * run.scale, 0.08, seed=run.seed)
+    packing = run.packing
+    width = 0.08 * packing.scale
+    if packing.test == "brazilian":
+        specimen = flexpm.Specimen.disc(width, 0.08, seed=packing.seed)
     else:
-        width = 0.08 * run.scale
-        specimen = flexpm.Specimen.rectangle(width, 2.0 * width, 0.08, seed=run.seed)
+        specimen = flexpm.Specimen.rectangle(width, 2.0 * width, 0.08, seed=packing.seed)
     result = flexpm.run(
-        run.test,
+        packing.test,
         specimen,
-        model=run.model,
-        confinement=CONFINEMENT if run.test == "biaxial" else 0.0,
+        packing.material,
+        model=packing.model,
+        confinement=packing.confinement,
         loading=run.loading,
         rate=run.rate,
     )
     ratio = measures.median_unbalanced_ratio(result.curve)
-    return [*run, result.peak_stress, ratio, result.steps, result.status]
+    peak, steps = result.peak_stress, result.steps
+    return [*packing, run.loading, run.rate, peak, ratio, steps, result.status]
 
 
 def read(table: Path) -> dict[Run, dict[str, str]]:
@@ -79,30 +95,32 @@ def read(table: Path) -> dict[Run, dict[str, str]]:
     if not table.exists():
         return {}
     with table.open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {
-        Run(
-            row["test"],
-            row["model"],
-            float(row["scale"]),
-            int(row["seed"]),
-            row["loading"],
-            float(row["rate"]),
-        ): row
-        for row in rows
-    }
+        return {run_of(row): row for row in csv.DictReader(file)}
 
 
-def limits(rows: dict[Run, dict[str, str]]) -> dict[tuple[str, str, float, int], float]:
-    """Peak at a rate of zero of each packing [Pa]: the line through the two slow rates."""
-    slow: dict[tuple[str, str, float, int], list[tuple[float, float]]] = defaultdict(list)
+def run_of(row: dict[str, str]) -> Run:
+    """What a row is of."""
+    packing = Packing(
+        row["test"],
+        row["model"],
+        row["material"],
+        float(row["confinement"]),
+        float(row["scale"]),
+        int(row["seed"]),
+    )
+    return Run(packing, row["loading"], float(row["rate"]))
+
+
+def limits(rows: dict[Run, dict[str, str]]) -> dict[Packing, float]:
+    """Peak at a rate of zero of each packing [Pa]: the line through the two slowest rates."""
+    constant: dict[Packing, list[tuple[float, float]]] = defaultdict(list)
     for run, row in rows.items():
         if run.loading == "constant":
-            slow[run[:4]].append((run.rate, float(row["peak_stress"])))
+            constant[run.packing].append((run.rate, float(row["peak_stress"])))
     found = {}
-    for packing, pairs in slow.items():
-        if len(pairs) == 2:
-            (r1, p1), (r2, p2) = sorted(pairs)
+    for packing, pairs in constant.items():
+        if len(pairs) >= 2:
+            (r1, p1), (r2, p2) = sorted(pairs)[:2]
             found[packing] = p1 - r1 * (p2 - p1) / (r2 - r1)
     return found
 
@@ -110,16 +128,17 @@ def limits(rows: dict[Run, dict[str, str]]) -> dict[tuple[str, str, float, int],
 def print_table(rows: dict[Run, dict[str, str]]) -> None:
     """Print means of differences to the limit with their standard errors, steps and ratios."""
     limit = limits(rows)
-    groups: dict[tuple[str, ...], list[tuple[float, float, float]]] = defaultdict(list)
+    groups: dict[tuple[object, ...], list[tuple[float, float, float]]] = defaultdict(list)
     for run, row in rows.items():
-        if run[:4] not in limit:
+        if run.packing not in limit:
             continue
-        difference = 100.0 * (float(row["peak_stress"]) / limit[run[:4]] - 1.0)
-        key = (run.model, run.test, f"{run.scale:g}", run.loading, f"{run.rate:g}")
+        difference = 100.0 * (float(row["peak_stress"]) / limit[run.packing] - 1.0)
         numbers = (difference, float(row["steps"]), float(row["unbalanced_median"]))
-        groups[key].append(numbers)
+        groups[(*run.packing[:-1], run.loading, run.rate)].append(numbers)
     print(
-        "model,test,scale,loading,rate,packings,difference_percent,standard_error,rms,steps,ratio"
+        *(*Packing._fields[:-1], "loading", "rate", "packings", "difference_percent"),
+        *("standard_error", "rms", "steps", "ratio"),
+        sep=",",
     )
     for key in sorted(groups):
         differences, steps, ratios = zip(*groups[key], strict=True)
@@ -142,24 +161,27 @@ def main() -> None:
     parser.add_argument("tests", nargs="*", metavar="TEST", help=f"of {', '.join(TESTS)}")
     parser.add_argument("--table", dest="shown", action="store_true", help="print the means")
     parser.add_argument("--model", nargs="+", default=["flexible", "rigid"])
+    parser.add_argument("--material", help="preset; the default of the model unless given")
+    parser.add_argument("--confinement", type=float, default=4e6, help="of biaxial tests [Pa]")
     parser.add_argument("--scale", type=float, default=0.5, help="lengths over the paper's [-]")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4])
     options = parser.parse_args()
     if options.shown:
         print_table(read(options.table))
         return
-    for test in options.tests:
-        for model in options.model:
-            for run in runs_of(test, model, options.scale, options.seeds):
-                if run in read(options.table):
-                    continue
-                new = not options.table.exists()
-                row = done(run)
-                with options.table.open("a", newline="") as file:
-                    writer = csv.writer(file, lineterminator="\n")
-                    if new:
-                        writer.writerow(FIELDS)
-                    writer.writerow(row)
+    for test, model, seed in product(options.tests, options.model, options.seeds):
+        confinement = options.confinement if test == "biaxial" else 0.0
+        material = options.material or default_name(model)
+        for run in runs_of(Packing(test, model, material, confinement, options.scale, seed)):
+            if run in read(options.table):
+                continue
+            new = not options.table.exists()
+            row = done(run)
+            with options.table.open("a", newline="") as file:
+                writer = csv.writer(file, lineterminator="\n")
+                if new:
+                    writer.writerow(FIELDS)
+                writer.writerow(row)
 
 
 if __name__ == "__main__":

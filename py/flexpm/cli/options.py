@@ -353,9 +353,9 @@ loading_options = combined(
         "--loading",
         type=Name(*LOADINGS),
         metavar="constant|adaptive|waiting",
-        help="adaptive: load faster while the specimen is elastic; the default of the grain models "
-        "with scaled masses, unless contacts are brittle. waiting: faster still, and nearly stand "
-        "still while a crack runs; for flexible and rigid grains.",
+        help="waiting: load fast, and nearly stand still while a crack runs; the default of "
+        "flexible and rigid grains with scaled masses. adaptive: load faster while the specimen is "
+        "elastic; the default of inner particles unless contacts are brittle.",
     ),
 )
 drawn_mesh_option = click.option(

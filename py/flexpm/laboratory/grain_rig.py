@@ -17,7 +17,7 @@ from yade import wrapper
 
 from ..models.grains import Model
 from ..results.record import Curve
-from .loading_rate import Scales, Schedule
+from .loading_rate import SLOWEST_WAIT, Scales, Schedule
 from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
 from .runner import Runner
 
@@ -94,6 +94,7 @@ class GrainRig(TestRig):
         if recorder.loading is None:
             self._begin_record()
             recorder.loading = self._take_hold()
+            recorder.loading.undampedLoading = plan.running_shares is not None
             # elastic velocities raise no wave: a loading that has them may begin at full speed
             factor = 1.0 if self.disc else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
@@ -114,6 +115,7 @@ class GrainRig(TestRig):
         return wrapper.CrackWaitController(
             recorder=self._recorder,
             fastest=plan.fastest,
+            slowest=SLOWEST_WAIT,
             sweep=self._loaded_area() * plan.fastest * abs(plan.velocity),
             runningShare=before,
             shareAfterPeak=after,
@@ -214,7 +216,7 @@ class PlateRig(GrainRig):
             self._lay_touching()
         else:
             self._lay_ends()
-        # no elastic velocities follow from plates that touch a disc at a point
+        # plates that touch a disc at a point press into it at first: its velocities change soon
         upper = wrapper.PlateController(plates=[1], elasticStart=not self.disc)
         self.built.add_engines(before=(upper,))
         return upper

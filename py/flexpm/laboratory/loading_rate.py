@@ -27,13 +27,23 @@ RATE_CONSTANT = {
 #: The rate of an adaptive loading is up to this k while the specimen is elastic [-].
 FASTEST_CONSTANT = 0.04
 #: The rate of a loading that waits for cracks is up to this k [-].
-WAITING_CONSTANT = 0.08
+WAITING_CONSTANT = 0.16
 #: Cracks run where damage and friction take more than this share of what a waiting loading would
 #: supply at its fastest [-], by model and test.
 RUNNING_SHARE = {
-    "flexible": {"uniaxial": 0.002, "tension": 0.02, "biaxial": 0.002, "brazilian": 0.01},
-    "rigid": {"uniaxial": 0.01, "tension": 0.02, "biaxial": 0.01, "brazilian": 0.02},
+    "flexible": {"uniaxial": 0.002, "tension": 0.01, "biaxial": 0.003, "brazilian": 0.01},
+    "rigid": {"uniaxial": 0.005, "tension": 0.02, "biaxial": 0.0075, "brazilian": 0.006},
 }
+#: Slowest rate of a loading that waits over its fastest [-].
+SLOWEST_WAIT = 0.01
+#: Wave crossings that a test with a loading that waits takes, about, between half the paper's size
+#: and the whole of it [-].
+_LIKELY_CROSSINGS = {
+    "flexible": {"uniaxial": 110, "tension": 20, "biaxial": 250, "brazilian": 45},
+    "rigid": {"uniaxial": 140, "tension": 60, "biaxial": 160, "brazilian": 105},
+}
+#: Part of these shares for brittle contacts, of whose cracks only waves tell [-].
+_BRITTLE_PART = 0.05
 #: The same after the peak, where a specimen may take work for long without a crack that runs, as a
 #: multiple [-].
 _SHARE_AFTER_PEAK = 5.0
@@ -41,17 +51,31 @@ _SHARE_AFTER_PEAK = 5.0
 #: about what the fastest rate gives at which halving still moves the mean peak by less than 2 %.
 QUASISTATIC_RATIO = {
     "flexible": {"uniaxial": 0.0015, "tension": 0.0045, "biaxial": 0.001, "brazilian": 0.008},
-    "rigid": {"uniaxial": 0.004, "tension": 0.005, "biaxial": 0.003, "brazilian": 0.012},
+    "rigid": {"uniaxial": 0.005, "tension": 0.005, "biaxial": 0.003, "brazilian": 0.012},
     "inner": {"uniaxial": 0.005, "tension": 0.005, "biaxial": 0.005, "brazilian": 0.005},
     # a bond that breaks at once leaves its whole force unbalanced, however slow the test is
     "jcfpm": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
     "cohfrict": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
 }
-#: The same of a loading that waits for cracks, as a multiple [-]: more of its rows lie where cracks
-#: run, which unbalances rigid grains most.
-_WAITING_RATIO = {"flexible": 1.0, "rigid": 2.0}
+#: The same of a loading that waits for cracks, for the ratio that a fifth of the loading exceeds
+#: (``measures.unbalanced_under_way``) [-], with softening and with brittle contacts: between what
+#: the rate in use and four times that rate give.
+_WAITING_RATIO = {
+    "flexible": {
+        "uniaxial": (0.0025, 0.06),
+        "tension": (0.005, 0.6),
+        "biaxial": (0.0017, 0.045),
+        "brazilian": (0.033, 0.028),
+    },
+    "rigid": {
+        "uniaxial": (0.02, 0.15),
+        "tension": (0.017, 0.1),
+        "biaxial": (0.022, 0.1),
+        "brazilian": (0.09, 0.06),
+    },
+}
 #: How a loading goes on: ``constant``: the ends move at one velocity; ``adaptive``: faster while
-#: the specimen is elastic; ``waiting``: faster still, and nearly still while a crack runs.
+#: the specimen is elastic; ``waiting``: fast, and nearly still while a crack runs.
 LOADINGS = ("constant", "adaptive", "waiting")
 #: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
 STOP_RATIO = 0.5
@@ -94,6 +118,7 @@ class Scales:
     strength: float  #: that the contacts alone would give [Pa]
     height: float  #: [m]
     width: float  #: [m]
+    damage_share: float = 0.0  #: least part of a fracture energy that damage takes; 0: brittle [-]
 
 
 @dataclass(frozen=True)
@@ -109,7 +134,8 @@ class Schedule:
     max_strain: float  #: at which the test ends [-]
     stop_ratio: float  #: part of its peak to which the stress falls in the end [-]
     least_peak: float  #: stress above the confinement before which no fall counts [Pa]
-    steps: int  #: up to the largest strain at factor 1
+    steps: int  #: up to the largest strain at the slowest
+    likely_steps: int  #: as most tests have
     min_strain: float = -1e300  #: at which the test ends, too [-]
 
 
@@ -126,21 +152,27 @@ def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:
     return max(FASTEST_CONSTANT * min(rate, 1.0) / (rate * rate_constant(test, model)), 1.0)
 
 
-def _waiting(test: str, model: str) -> tuple[float, tuple[float, float]]:
+def _waiting(test: str, model: str, damage_share: float) -> tuple[float, tuple[float, float]]:
     """Largest factor and running shares of a loading that waits for cracks [-]."""
     if model not in RUNNING_SHARE:
         raise InputError(
             f"Loading: kind = waiting, must be another for model {model}; waiting is for "
             f"{' and '.join(RUNNING_SHARE)} grains"
         )
-    share = RUNNING_SHARE[model][test]
+    share = max(damage_share, _BRITTLE_PART) * RUNNING_SHARE[model][test]
     return WAITING_CONSTANT / rate_constant(test, model), (share, _SHARE_AFTER_PEAK * share)
 
 
-def quasistatic_ratio(test: str, model: str, loading: str = "constant") -> float:
-    """Largest median unbalanced-force ratio of a quasi-static test on a model [-]."""
-    multiple = _WAITING_RATIO[model] if loading == "waiting" else 1.0
-    return multiple * QUASISTATIC_RATIO[_LIKE.get(model, model)][test]
+def quasistatic_ratio(
+    test: str, model: str, *, waiting: bool = False, brittle: bool = False
+) -> float:
+    """Largest unbalanced-force ratio of a quasi-static test on a model [-].
+
+    The median, or that under way of a loading that waits for cracks.
+    """
+    if waiting:
+        return _WAITING_RATIO[model][test][brittle]
+    return QUASISTATIC_RATIO[_LIKE.get(model, model)][test]
 
 
 def schedule(
@@ -180,11 +212,18 @@ def schedule(
             f"run: steps = {steps:.3g} up to the largest strain, must be <= {_MOST_STEPS:g}; "
             "raise the rate or lower max_strain"
         )
-    fastest, shares = 1.0, None
+    fastest, shares, slowest = 1.0, None, 1.0
     if loading.kind == "adaptive":
         fastest = fastest_factor(test, model, loading.rate)
     elif loading.kind == "waiting":
-        fastest, shares = _waiting(test, model)
+        fastest, shares = _waiting(test, model, scales.damage_share)
+        slowest = min(SLOWEST_WAIT * fastest, 1.0)
+    # most tests end well before the largest strain: up to that of the reference strength they go at
+    # the fastest rate, then about as far at the slowest
+    likely = (1.0 + 1.0 / fastest) * reference / largest * steps
+    if loading.kind == "waiting":
+        # twice the rate saves a third of the steps, roughly: cracks take their time
+        likely = _LIKELY_CROSSINGS[model][test] / math.sqrt(loading.rate) * scales.crossing_steps
     return Schedule(
         velocity,
         fastest,
@@ -193,5 +232,6 @@ def schedule(
         largest,
         loading.stop_ratio,
         _LEAST_PEAK * scales.strength,
-        math.ceil(steps),
+        math.ceil(steps / slowest),
+        math.ceil(min(likely, steps / slowest)),
     )

@@ -14,6 +14,7 @@ from ..errors import InputError
 from ..files import Table, output_folder, refuse_folders
 from ..materials.material import Material
 from ..materials.material import load as load_material
+from ..materials.mixing import is_brittle
 from ..models.grains import build
 from ..models.options import SPHERE_MODELS
 from ..progress import Progress
@@ -110,11 +111,11 @@ def run(
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
             for uniaxial compression and tension of the flexible model. None: ``static`` for its
             tension with scaled masses, else ``rest``.
-        loading: ``adaptive``: faster than the rate while the specimen is elastic, down to the rate
-            as damage and friction take the work; ``waiting``: faster still, and nearly still while
-            a crack runs, for ``flexible`` and ``rigid``; ``constant``: at the rate. None:
-            ``adaptive`` for the grain models with scaled masses unless the contacts are brittle,
-            else ``constant``.
+        loading: ``waiting``: fast, and nearly still while a crack runs, for ``flexible`` and
+            ``rigid``; ``adaptive``: faster than the rate while the specimen is elastic, down to the
+            rate as damage and friction take the work; ``constant``: at the rate. None: ``waiting``
+            for flexible and rigid grains with scaled masses, ``adaptive`` for inner particles
+            unless contacts are brittle, else ``constant``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -309,8 +310,10 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.inputs = spec.to_json()
     result.curve = rig.record
     result.cracks = cracks_from_snapshot(snapshot, result.curve)
+    waiting, brittle = spec.loading == "waiting", is_brittle(spec.material)
     result.measure(
-        quasistatic_ratio(spec.test, spec.model, spec.loading),
+        quasistatic_ratio(spec.test, spec.model, waiting=waiting, brittle=brittle),
+        waiting=waiting,
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )

@@ -298,8 +298,4 @@ class TestRig(ABC):
 
 
 def _span(plan: Schedule) -> Span:
-    # most tests end well before the largest strain: up to that of the reference strength they go at
-    # the fastest rate, then about as far at the slowest
-    slow = plan.reference_strain / plan.max_strain * plan.steps
-    likely = math.ceil((1.0 + 1.0 / plan.fastest) * slow)
-    return Span(plan.steps + _LATEST_LOOK, min(plan.steps, likely))
+    return Span(plan.steps + _LATEST_LOOK, plan.likely_steps)

@@ -37,6 +37,9 @@ TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
 #: and model; runs of these that were finished before get other keys and are done again.
 RESULTS: dict[tuple[str, str], int] = {
     **{(test, model): 2 for test in TESTS for model in SPHERE_MODELS},
+    # discs of other places, the same on all machines
+    **{("brazilian", model): 2 for model in GRAIN_MODELS},
+    **{("brazilian", model): 3 for model in SPHERE_MODELS},
     # 3: contacts keep their numbers, other ones in cracks.csv once discs have come to touch
     **{("biaxial", model): 3 for model in GRAIN_MODELS},
     ("uniaxial", "rigid"): 2,
@@ -97,8 +100,9 @@ class RunSpec:
         gravity: Acceleration downwards [m/s2].
         start: How the loading begins, one of ``STARTS``; empty: ``static`` for tension of the
             flexible model with scaled masses, else ``rest``.
-        loading: How the loading goes on, one of ``LOADINGS``; empty: ``adaptive`` for grain models
-            with scaled masses unless contacts are brittle, else ``constant``.
+        loading: How the loading goes on, one of ``LOADINGS``; empty: ``waiting`` for flexible and
+            rigid grains with scaled masses, ``adaptive`` for inner particles unless contacts are
+            brittle, else ``constant``.
     """
 
     test: str
@@ -211,18 +215,34 @@ class RunSpec:
     def older_keys(self) -> list[str]:
         """Keys that the run had under earlier numbers of the results, or by an earlier default.
 
-        Brittle contacts were loaded adaptively before.
+        Grains were loaded adaptively before, then those with brittle contacts at a constant rate.
         """
         keys = [self.key(number) for number in range(1, self.results)]
-        if self.loading == "constant" and self._adapts and is_brittle(self.material):
-            before = replace(self, loading="adaptive")
-            keys = [before.key(number) for number in range(1, self.results + 1)] + keys
+        if self._adapts and self.loading == self._default_loading:
+            earlier = ("adaptive", "constant") if is_brittle(self.material) else ("adaptive",)
+            before = [replace(self, loading=loading) for loading in earlier]
+            numbers = range(1, self.results + 1)
+            keys = [
+                spec.key(number)
+                for spec in before
+                if spec.loading != self.loading
+                for number in numbers
+            ] + keys
         return keys
 
     @property
     def _adapts(self) -> bool:
-        """Whether the loading can be adaptive."""
+        """Whether the loading can be another than constant."""
         return self.model in GRAIN_MODELS and not self.dynamic and self.test != ELASTIC
+
+    @property
+    def _default_loading(self) -> str:
+        if not self._adapts:
+            return "constant"
+        if self.model in RUNNING_SHARE:
+            return "waiting"
+        # brittle contacts crack before damage takes work: an adaptive rate would fall too late
+        return "constant" if is_brittle(self.material) else "adaptive"
 
     def _check_numbers(self) -> None:
         self._set("rate", require_number("run: rate", self.rate, _RATE))
@@ -256,13 +276,10 @@ class RunSpec:
             )
 
     def _check_loading(self) -> None:
-        adapts = self._adapts
         if not self.loading:
-            # brittle contacts crack before damage takes work: the rate would fall too late
-            fast = adapts and not is_brittle(self.material)
-            self._set("loading", "adaptive" if fast else "constant")
+            self._set("loading", self._default_loading)
         require_one_of("run: loading", self.loading, LOADINGS)
-        if self.loading != "constant" and not adapts:
+        if self.loading != "constant" and not self._adapts:
             raise InputError(
                 f"run: loading = {self.loading}, must be constant for model {self.model}"
                 f"{' with real masses' if self.dynamic else ''}; {self.loading} needs grains and "
@@ -276,11 +293,6 @@ class RunSpec:
             raise InputError(
                 f"run: loading = waiting, must be adaptive or constant for model {self.model}; "
                 f"waiting is for {' and '.join(RUNNING_SHARE)} grains"
-            )
-        if is_brittle(self.material):
-            raise InputError(
-                "run: loading = waiting, must be constant for brittle contacts; their cracks take "
-                "no damage energy that a loading could wait for"
             )
 
     def _check_test(self) -> None:

@@ -25,6 +25,8 @@ ELASTIC_WINDOW = (0.05, 0.25)
 #: The largest stress counts as a peak once the stress has fallen by this fraction of it.
 PEAK_DROP = 0.10
 _SEATED = 0.2
+#: Part of the loading in which a test is at least as well balanced as `unbalanced_under_way` [-].
+_UNDER_WAY = 0.8
 #: Shares of the peak between which the early and the late modulus are taken.
 _EARLY, _LATE = (0.15, 0.25), (0.75, 0.85)
 #: Cracking has set in once this share of all cracked points of a mode have cracked.
@@ -191,6 +193,22 @@ def median_unbalanced_ratio(curve: Curve) -> float | None:
     where the rate does not matter.
     """
     return _while_loaded(curve, curve["unbalanced_ratio"] / _faster(curve), np.nanmedian)
+
+
+def unbalanced_under_way(curve: Curve) -> float | None:
+    """Unbalanced-force ratio that a fifth of the loading up to the peak exceeds [-].
+
+    For loadings that wait for cracks: rows count by the rate at which the load went on. Those of a
+    preload, in which nothing is free, do not count.
+    """
+    rates = np.where(curve["unbalanced_ratio"] > 0.0, curve["velocity_factor"], 0.0)
+
+    def quantile(rows: FloatArray) -> float:
+        order = np.argsort(rows[:, 0])
+        ratio, done = rows[order, 0], np.cumsum(rows[order, 1])
+        return float(ratio[np.searchsorted(done, _UNDER_WAY * done[-1])])
+
+    return _while_loaded(curve, np.column_stack((curve["unbalanced_ratio"], rates)), quantile)
 
 
 def end_mismatch(curve: Curve) -> float | None:

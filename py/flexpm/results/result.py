@@ -94,13 +94,16 @@ class Result(Shown):
         self,
         max_unbalanced: float,
         *,
+        waiting: bool = False,
         initial_energy: float | None = None,
         diverged: bool = False,
     ) -> None:
         """Fill the measured quantities and the status from `curve`.
 
         Args:
-            max_unbalanced: Largest median unbalanced-force ratio taken as quasi-static [-].
+            max_unbalanced: Largest unbalanced-force ratio taken as quasi-static [-]: the median, or
+                that under way.
+            waiting: The loading waited for cracks: the ratio is that under way.
             initial_energy: Energy when the work began to count [J]; if None, from the first row.
             diverged: The simulation met a number that is not finite.
         """
@@ -125,7 +128,8 @@ class Result(Shown):
         if peak is not None:
             self.peak_stress = float(record["axial_stress"][peak])
             self.peak_strain = float(record["axial_strain"][peak])
-        ratio = measures.median_unbalanced_ratio(record)
+        of_loading = measures.unbalanced_under_way if waiting else measures.median_unbalanced_ratio
+        ratio = of_loading(record)
         self.status = self._status(diverged, peak, ratio is None or ratio > max_unbalanced)
 
     def measure_fragments(self, snapshot: Snapshot) -> None:

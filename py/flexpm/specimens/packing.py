@@ -250,8 +250,9 @@ def _walls(frame: Frame, material: wrapper.Material) -> list[wrapper.Body]:
 def _ring(radius: float, material: wrapper.Material) -> list[wrapper.Body]:
     """Facets whose cuts with the plane z = 0 are the chords of a regular polygon."""
     count = max(24, math.ceil(2.0 * math.pi * radius / 0.5))
-    angles = 2.0 * math.pi * np.arange(count) / count
-    corners = radius * np.column_stack((np.cos(angles), np.sin(angles)))
+    angles = [2.0 * math.pi * k / count for k in range(count)]
+    # numpy has cosines of its own on some processors: discs would differ between machines
+    corners = radius * np.array([(math.cos(angle), math.sin(angle)) for angle in angles])
     facets = []
     for k in range(count):
         a, b = corners[k], corners[(k + 1) % count]

@@ -139,6 +139,7 @@ class DiscLoop(InteractionLoop):
 
 class LoadingController(Engine):
     velocityFactor: float
+    undampedLoading: bool
 
 class EndDisplacementController(LoadingController):
     velocity: float

@@ -51,7 +51,7 @@ inline void drive(flexpm::Assembly& a, double velocity)
 inline void load(flexpm::Assembly& a, double velocity)
 {
     drive(a, velocity);
-    flexpm::start_elastically(a);
+    flexpm::start_elastically(a, false);
 }
 
 inline void run(flexpm::Assembly& a, int steps)

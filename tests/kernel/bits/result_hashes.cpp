@@ -116,7 +116,7 @@ void print_elastic()
     flexpm::move_top(a, -1e-8);
     flexpm::preload(a, 0.5, 50, 1.0);
     sample_runs::step(a, 50);
-    flexpm::release_preload(a, -1e-8, 1.0);
+    flexpm::release_preload(a, -1e-8, 1.0, false);
     sample_runs::step(a, 50);
     const flexpm::SpecimenStrain strain = flexpm::specimen_strain(a);
     Hash hash;

@@ -11,7 +11,7 @@ using namespace flexpm;
 
 namespace {
 
-constexpr CrackWaitRule rule = { 16.0, 0.002, 0.01, 400.0 };
+constexpr CrackWaitRule rule = { 16.0, 0.01, 0.002, 0.01, 400.0 };
 
 /// What is seen in 100 steps whose fastest work is 1 J, at a part of the peak.
 CrackWatch watch(double dissipated, double part_of_peak = 1.0, double fastest_work = 1.0)
@@ -66,9 +66,12 @@ TEST_CASE("A waiting loading doubles its velocity in a crossing and halves it in
 TEST_CASE("A rule of a waiting loading without sense is refused")
 {
     const double none = std::nan("");
-    for (const CrackWaitRule& bad : { CrackWaitRule { 0.0, 0.002, 0.01, 400.0 },
-             CrackWaitRule { none, 0.002, 0.01, 400.0 }, CrackWaitRule { 16.0, 0.0, 0.01, 400.0 },
-             CrackWaitRule { 16.0, 0.002, -1.0, 400.0 }, CrackWaitRule { 16.0, 0.002, 0.01, 0.0 } })
+    for (const CrackWaitRule& bad : { CrackWaitRule { 0.0, 0.01, 0.002, 0.01, 400.0 },
+             CrackWaitRule { none, 0.01, 0.002, 0.01, 400.0 },
+             CrackWaitRule { 16.0, 0.01, 0.0, 0.01, 400.0 },
+             CrackWaitRule { 16.0, 0.01, 0.002, -1.0, 400.0 },
+             CrackWaitRule { 16.0, 0.01, 0.002, 0.01, 0.0 },
+             CrackWaitRule { 16.0, 0.0, 0.002, 0.01, 400.0 } })
         CHECK_THROWS_AS(factor_for_cracks(1.0, watch(0.0), bad), std::invalid_argument);
     for (double factor : { 0.0, -1.0, none })
         CHECK_THROWS_AS(factor_for_cracks(factor, watch(0.0), rule), std::invalid_argument);

@@ -76,3 +76,24 @@ TEST_CASE("Both ends share the stress; what one has more than the other is their
     CHECK(axial_stress(split, Sense::compression, splitting_area(0.08, 0.02))
         == Approx(2.0 * 7.0 / (pi * 0.08 * 0.02)));
 }
+
+TEST_CASE(
+    "What a contact holds at its strength is no part of the damage, and all there is if brittle")
+{
+    Assembly a = specimens::assemble(specimens::grid(2, 2, 2e-3), specimens::options());
+    ContactMaterial m;
+    m.normal_stiffness = 1e14;
+    m.shear_ratio = 1.0;
+    m.tensile_strength = 1e7;
+    m.cohesion = 2e7;
+    m.friction = 0.5;
+    const double tensile = 0.5 * m.tensile_strength * m.tensile_strength / m.normal_stiffness;
+    const double shear = 0.5 * m.cohesion * m.cohesion / m.normal_stiffness;
+    m.tensile_fracture_energy = 10.0 * tensile;
+    m.shear_fracture_energy = 4.0 * shear;
+    a.contacts.laws = { make_law(m) };
+    CHECK(damage_share(a) == Approx(0.75));
+    m.tensile_fracture_energy = tensile;
+    a.contacts.laws.push_back(make_law(m));
+    CHECK(damage_share(a) == Approx(0.0).margin(1e-12));
+}

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include "support/balance.hpp"
@@ -267,4 +268,32 @@ TEST_CASE("energies of blocks are those of their grains and points")
     CHECK(flexpm::contact_energy(a.contacts) == Approx(stored).epsilon(1e-12));
     CHECK(found.damage == Approx(lost.damage).epsilon(1e-12));
     CHECK(found.friction == Approx(lost.friction).epsilon(1e-12));
+}
+
+TEST_CASE("The power of damping sums to its work, and is none where all move with the loading")
+{
+    const bool rigid = GENERATE(false, true);
+    auto options = specimens::options();
+    options.rigid = rigid;
+    Assembly a = specimens::assemble(specimens::grid(4, 3, 3e-3), options);
+    flexpm::scale_masses(a, 0.7);
+    flexpm::reset_energy_balance(a);
+    if (rigid) {
+        for (int g = 0; g < a.grains.count; ++g)
+            flexpm::set_motion(
+                a.grains, g, { tiny * (g % 3), -tiny * (g % 2) }, 1e2 * tiny * g, 1.0);
+    } else {
+        shake(a, tiny, 7);
+    }
+    double sum = 0.0;
+    flexpm::StepOptions o;
+    o.dt = 0.05;  // steps that are short beside all vibrations: a power times dt is a work
+    for (int i = 0; i < 2000; ++i) {
+        flexpm::step(a, o);
+        sum += o.dt * flexpm::damping_power(a, o.damping);
+    }
+    CHECK(sum / flexpm::energies(a).damping == Approx(1.0).epsilon(0.05));
+    a.grains.loading_velocity = a.grains.velocity;
+    a.grains.loading_spin = a.grains.spin;
+    CHECK(flexpm::damping_power(a, o.damping) == 0.0);
 }

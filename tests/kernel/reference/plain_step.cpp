@@ -118,6 +118,20 @@ void press(Specimen& s, const BoundaryEdge& e)
         s.nodes[node].push(half * Point { -along.y, along.x });
 }
 
+/// Time step and alpha of Eq. 2.
+struct Integration {
+    double dt, damping;
+};
+
+/// Velocity half a step after the force, with local damping of what it has beyond that of the loading.
+double accelerated(
+    double velocity, double loading, double force, double inverse_mass, Integration by)
+{
+    const double own = velocity - loading;
+    const double sign = own > 0.0 ? 1.0 : (own < 0.0 ? -1.0 : 0.0);
+    return velocity + by.dt * (force - by.damping * std::fabs(force) * sign) * inverse_mass;
+}
+
 /// A spring at each point, with friction; a loaded plate moves along its normal as a body of its own.
 void push(Specimen& s, Plate& plate, double dt, double damping)
 {
@@ -144,8 +158,8 @@ void push(Specimen& s, Plate& plate, double dt, double damping)
     }
     if (!plate.loaded) return;
     const double net = plate.load - dot(n, plate.force), speed = dot(n, plate.velocity);
-    const double drag = speed > 0.0 ? -1.0 : (speed < 0.0 ? 1.0 : 0.0);
-    plate.velocity = (speed + dt * (net + drag * damping * std::fabs(net)) / plate.mass) * n;
+    const double loading = dot(n, plate.loading_velocity);
+    plate.velocity = accelerated(speed, loading, net, 1.0 / plate.mass, { dt, damping }) * n;
 }
 
 // ---- triangles ---------------------------------------------------------------------------------
@@ -212,17 +226,11 @@ void strain_triangle(Specimen& s, const Grain& grain, const std::array<int, 3>& 
 
 // ---- motion, Eqs. 1-3 --------------------------------------------------------------------------
 
-/// Velocity half a step after the force, with local damping; a held one stays.
-double accelerated(double velocity, double force, double inverse_mass, double dt, double damping)
+void accelerate(Node& n, Point force, Integration by)
 {
-    const double sign = velocity > 0.0 ? 1.0 : (velocity < 0.0 ? -1.0 : 0.0);
-    return velocity + dt * (force - damping * std::fabs(force) * sign) * inverse_mass;
-}
-
-void accelerate(Node& n, Point force, double dt, double damping)
-{
-    if (!n.held_x) n.velocity.x = accelerated(n.velocity.x, force.x, n.inverse_mass, dt, damping);
-    if (!n.held_y) n.velocity.y = accelerated(n.velocity.y, force.y, n.inverse_mass, dt, damping);
+    const Point old = n.velocity, loading = n.loading_velocity;
+    if (!n.held_x) n.velocity.x = accelerated(old.x, loading.x, force.x, n.inverse_mass, by);
+    if (!n.held_y) n.velocity.y = accelerated(old.y, loading.y, force.y, n.inverse_mass, by);
 }
 
 /// Places at the end of the step. The nodes of a rigid grain follow its centre by exact rotation.
@@ -242,11 +250,11 @@ void move(Specimen& s, Grain& grain, double dt)
     }
 }
 
-void accelerate(Specimen& s, Grain& grain, double dt, double damping)
+void accelerate(Specimen& s, Grain& grain, Integration by)
 {
     if (!grain.is_rigid()) {
         for (int n : grain.nodes)
-            accelerate(s.nodes[n], s.nodes[n].force, dt, damping);
+            accelerate(s.nodes[n], s.nodes[n].force, by);
         return;
     }
     Node& centre = s.nodes[grain.centre];
@@ -256,13 +264,13 @@ void accelerate(Specimen& s, Grain& grain, double dt, double damping)
         force = force + s.nodes[n].force;
         moment += cross(s.nodes[n].place() - centre.place(), s.nodes[n].force);
     }
-    accelerate(centre, force, dt, damping);
+    accelerate(centre, force, by);
     if (!grain.spin_held)
-        grain.spin = accelerated(grain.spin, moment, grain.inverse_inertia, dt, damping);
+        grain.spin = accelerated(grain.spin, grain.loading_spin, moment, grain.inverse_inertia, by);
     // velocities of the nodes whose product with dt is the exact way of the coming step
     for (int n : grain.nodes) {
         const Point arm = s.nodes[n].place() - centre.place();
-        s.nodes[n].velocity = centre.velocity + (1.0 / dt) * turned_by(dt * grain.spin, arm);
+        s.nodes[n].velocity = centre.velocity + (1.0 / by.dt) * turned_by(by.dt * grain.spin, arm);
     }
 }
 
@@ -289,7 +297,7 @@ void step(Specimen& s, double dt, double damping)
             strain_triangle(s, grain, triangle);
     }
     for (Grain& grain : s.grains)
-        accelerate(s, grain, dt, damping);
+        accelerate(s, grain, { dt, damping });
     ++s.step;
 }
 

@@ -241,6 +241,19 @@ void draw_boundary(Random& random, Assembly& a, std::string& name)
         flexpm::prescribe_spin(a.grains, below(random, a.grains.count), 0.0, 1.0);
 }
 
+/// Let a part of all velocities be that of a loading, which is not damped.
+void draw_loading(Random& random, Assembly& a)
+{
+    const double part = chance(random, 0.5) ? 0.0 : between(random, -0.5, 1.0);
+    flexpm::Grains& grains = a.grains;
+    for (std::size_t i = 0; i < grains.velocity.size(); ++i)
+        grains.loading_velocity[i] = part * grains.velocity[i];
+    for (std::size_t i = 0; i < grains.spin.size(); ++i)
+        grains.loading_spin[i] = part * grains.spin[i];
+    for (flexpm::Plate& p : a.plates)
+        p.loading_velocity = part * p.velocity;
+}
+
 /// A length over which the contacts of a specimen soften [m].
 double softening_way(Random& random, const Assembly& a)
 {
@@ -296,6 +309,7 @@ void RandomCase::draw_motion()
             driven::set_velocity(assembly, g, velocity);
         }
     }
+    draw_loading(random, assembly);
     next_motion += 2 + below(random, 15);
 }
 

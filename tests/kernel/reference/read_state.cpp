@@ -28,6 +28,7 @@ Node read_node(const flexpm::Grains& grains, int offset)
     n.reference = vector_at(grains.reference, offset);
     n.displacement = vector_at(grains.displacement, offset);
     n.velocity = vector_at(grains.velocity, offset);
+    n.loading_velocity = vector_at(grains.loading_velocity, offset);
     n.force = vector_at(grains.force, offset);
     n.held_x = grains.prescribed[flexpm::component(offset, 0)] != 0;
     n.held_y = grains.prescribed[flexpm::component(offset, 1)] != 0;
@@ -56,6 +57,7 @@ void read_grain(const flexpm::Grains& grains, int g, Specimen& s, Numbers& numbe
         const int slot = grains.slot[g];
         grain.angle = flexpm::rotation_of(grains, g);
         grain.spin = grains.spin[slot];
+        grain.loading_spin = grains.loading_spin[slot];
         grain.spin_held = grains.spin_prescribed[slot] != 0;
         grain.inverse_inertia = grains.inverse_inertia[slot];
     }
@@ -104,6 +106,7 @@ Plate read_plate(const Assembly& a, const flexpm::Plate& from, const Numbers& nu
     plate.mass = from.mass;
     plate.displacement = from.displacement;
     plate.velocity = from.velocity;
+    plate.loading_velocity = from.loading_velocity;
     plate.force = from.force;
     for (int i = 0; i < flexpm::plate_points(from); ++i) {
         const flexpm::PlatePoint p = flexpm::plate_point(from, i);

@@ -74,7 +74,7 @@ def test_a_test_of_stages_is_the_test_of_that_name(rectangle, model, kind):
     rig = rig_of(rectangle, model)
     assert isinstance(rig, kind)
     rig.confine(3e6)
-    kind = "constant" if model == "jcfpm" else "adaptive"
+    kind = "constant" if model == "jcfpm" else "waiting"
     rig.load(flexpm.Loading(rate=8.0, kind=kind, max_strain=3e-4))
     expected = flexpm.run(
         "biaxial", rectangle, model=model, confinement=3e6, rate=8.0, max_strain=3e-4

@@ -190,7 +190,8 @@ def test_each_input_changes_the_key_but_a_name_does_not():
 def test_start_and_loading_follow_from_test_and_model():
     assert (plain("tension").start, plain("tension", dynamic=True).start) == ("static", "rest")
     assert (plain("uniaxial").start, plain("tension", model="rigid").start) == ("rest", "rest")
-    assert (plain().loading, plain(model="jcfpm").loading) == ("adaptive", "constant")
+    loadings = {"flexible": "waiting", "rigid": "waiting", "inner": "adaptive", "jcfpm": "constant"}
+    assert {model: plain(model=model).loading for model in loadings} == loadings
     assert plain("tension", start="static").key() == plain("tension").key()
 
 
@@ -199,41 +200,54 @@ def spec_of(material: str | materials.Material, model: str, **options: Any) -> R
     return RunSpec("tension", SpecimenSpec(), law, model, **options)
 
 
-@pytest.mark.parametrize("model", GRAIN_MODELS)
-def test_brittle_contacts_are_loaded_at_the_constant_rate_unless_told_otherwise(model):
-    brittle = spec_of("augig-table2-brittle", model)
-    assert brittle.loading == brittle.to_json()["loading"] == "constant"
-    assert spec_of("augig-table2-brittle", model, loading="adaptive").loading == "adaptive"
-    assert spec_of("augig-table2-bilinear", model).loading == "adaptive"
-    assert spec_of("augig-table2-brittle", model, dynamic=True).loading == "constant"
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_loading_waits_for_cracks_brittle_or_not_unless_told_otherwise(model):
+    for material in ("augig-table2-brittle", "augig-table2-bilinear"):
+        waiting = spec_of(material, model)
+        assert waiting.loading == waiting.to_json()["loading"] == "waiting"
+        assert spec_of(material, model, loading="adaptive").loading == "adaptive"
+        assert spec_of(material, model, dynamic=True).loading == "constant"
+
+
+def test_inner_particles_are_loaded_adaptively_unless_contacts_are_brittle():
+    assert spec_of("augig-table2-brittle", "inner").loading == "constant"
+    assert spec_of("augig-table2-bilinear", "inner").loading == "adaptive"
 
 
 @pytest.mark.parametrize("key", ["tensile_fracture_energy", "shear_fracture_energy"])
 def test_an_energy_at_the_elastic_energy_is_brittle_whatever_it_is_called(key):
     rock = materials.load("augig-table2-bilinear")
     elastic = dict(zip(ENERGY_KEYS, rock.elastic_energies(), strict=True))[key]
-    assert spec_of(rock.with_set({key: elastic}), "flexible").loading == "constant"
-    assert spec_of(rock.with_set({key: 1.01 * elastic}), "flexible").loading == "adaptive"
+    assert is_brittle(described(rock.with_set({key: elastic}), "flexible"))
+    assert not is_brittle(described(rock.with_set({key: 1.01 * elastic}), "flexible"))
 
 
-def test_one_brittle_mineral_makes_the_loading_constant():
+def test_one_brittle_mineral_makes_a_rock_brittle():
     kinds = [
         {"name": "quartz", "fraction": 0.5, "softening": "brittle"},
         {"name": "feldspar", "fraction": 0.5},
     ]
     rock = dataclasses.replace(materials.load("augig-table2-bilinear"), minerals=kinds)
-    assert spec_of(rock, "rigid").loading == "constant"
+    assert is_brittle(described(rock, "rigid"))
 
 
-def test_the_key_of_a_brittle_run_is_that_of_its_loading_and_the_adaptive_one_is_older():
-    runs = {
+def test_the_key_of_a_run_is_that_of_its_loading_and_those_of_earlier_defaults_are_older():
+    brittle = {
         loading: spec_of("augig-table2-brittle", "rigid", loading=loading)
+        for loading in ("", "waiting", "constant", "adaptive")
+    }
+    assert brittle[""].key() == brittle["waiting"].key()
+    assert brittle[""].older_keys() == [brittle["adaptive"].key(), brittle["constant"].key()]
+    assert brittle["adaptive"].older_keys() == brittle["constant"].older_keys() == []
+    soft = {
+        loading: spec_of("augig-table2-bilinear", "rigid", loading=loading)
         for loading in ("", "constant", "adaptive")
     }
-    assert runs[""].key() == runs["constant"].key() != runs["adaptive"].key()
-    assert runs[""].older_keys() == [runs["adaptive"].key()]
-    assert runs["adaptive"].older_keys() == []
-    assert spec_of("augig-table2-bilinear", "rigid", loading="constant").older_keys() == []
+    assert soft[""].older_keys() == [soft["adaptive"].key()]
+    inner = spec_of("augig-table2-brittle", "inner")
+    assert inner.older_keys() == [
+        spec_of("augig-table2-brittle", "inner", loading="adaptive").key()
+    ]
 
 
 @pytest.mark.parametrize(

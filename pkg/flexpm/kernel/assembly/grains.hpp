@@ -55,6 +55,7 @@ struct Grains {
     Array<double> reference;         ///< position when bonded [m]
     Array<double> displacement;      ///< from `reference` [m]
     Array<double> velocity;          ///< half a step after `displacement` [m/s]
+    Array<double> loading_velocity;  ///< part of `velocity` that damping does not act on [m/s]
     Array<double> force;             ///< contacts, elements, pressure; without damping [N]
     Array<std::uint8_t> prescribed;  ///< 1: the velocity is given, not integrated
     Array<double> inverse_mass;      ///< [block][node][lane], of the scaled or real mass [1/kg]
@@ -63,6 +64,7 @@ struct Grains {
     // centre node, which alone can be prescribed; velocities of all nodes follow from centre and spin.
     Array<double> rotation;         ///< [block][RotationRow][lane]
     Array<double> spin;             ///< angular velocity, half a step after `rotation` [rad/s]
+    Array<double> loading_spin;     ///< part of `spin` that damping does not act on [rad/s]
     Array<double> inverse_inertia;  ///< of the scaled or real moment of inertia [1/(kg m^2)]
     Array<std::uint8_t> spin_prescribed;  ///< 1: the spin is given, not integrated
 
@@ -119,11 +121,13 @@ struct Grains {
         visit("reference", s.reference);
         visit("displacement", s.displacement);
         visit("velocity", s.velocity);
+        visit("loading_velocity", s.loading_velocity);
         visit("force", s.force);
         visit("prescribed", s.prescribed);
         visit("inverse_mass", s.inverse_mass);
         visit("rotation", s.rotation);
         visit("spin", s.spin);
+        visit("loading_spin", s.loading_spin);
         visit("inverse_inertia", s.inverse_inertia);
         visit("spin_prescribed", s.spin_prescribed);
         visit("shape", s.shape);

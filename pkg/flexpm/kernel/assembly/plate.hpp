@@ -28,7 +28,9 @@ struct Plate {
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
     double load = 0.0;    ///< force on the plate along its normal [N]
     Point velocity;       ///< half a step after `displacement` [m/s]
-    double mass = 0.0;    ///< of a loaded plate, scaled [kg]
+    Point
+        loading_velocity;  ///< part of `velocity` of a loaded plate that damping does not act on [m/s]
+    double mass = 0.0;     ///< of a loaded plate, scaled [kg]
 
     // state
     Point displacement;           ///< [m]
@@ -65,6 +67,8 @@ struct Plate {
         visit("load", s.load);
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
+        visit("loading_velocity_x", s.loading_velocity.x);
+        visit("loading_velocity_y", s.loading_velocity.y);
         visit("mass", s.mass);
         visit("displacement_x", s.displacement.x);
         visit("displacement_y", s.displacement.y);

@@ -95,8 +95,9 @@ void check_blocks(const Grains& grains)
         check_index("values of nodes", nodes, std::numeric_limits<int>::max() / 2);
         check_index("values of triangles", triangles, std::numeric_limits<int>::max());
     }
-    for (std::size_t size : { grains.reference.size(), grains.displacement.size(),
-             grains.velocity.size(), grains.force.size(), grains.prescribed.size() }) {
+    for (std::size_t size :
+        { grains.reference.size(), grains.displacement.size(), grains.velocity.size(),
+            grains.loading_velocity.size(), grains.force.size(), grains.prescribed.size() }) {
         check_size("values of nodes", size, nodes);
     }
     check_size("masses", grains.inverse_mass.size(), nodes / dimension);
@@ -119,8 +120,8 @@ void check_grains(const Grains& grains)
     check_indices("material of a grain", grains.material, kinds);
     check_indices("grain of a particle", grains.parent, grains.count);
     const std::int64_t slots = static_cast<std::int64_t>(grains.in_slot.size());
-    for (std::size_t size :
-        { grains.spin.size(), grains.inverse_inertia.size(), grains.spin_prescribed.size() }) {
+    for (std::size_t size : { grains.spin.size(), grains.loading_spin.size(),
+             grains.inverse_inertia.size(), grains.spin_prescribed.size() }) {
         check_size("rotations", size, slots);
     }
     check_size("rotations", grains.rotation.size(), RotationRow::count * slots);

@@ -69,7 +69,8 @@ void integrate_loaded(Plate& plate, double dt, double damping)
     double speed = dot(plate.normal, plate.velocity);
     const double old = speed;
     StepSums sums;
-    integrate_one<true>({ net, 1.0 / plate.mass, 0.0 }, dt, damping, speed, sums, 0);
+    const double loading = dot(plate.normal, plate.loading_velocity);
+    integrate_one<true>({ net, 1.0 / plate.mass, 0.0, loading }, dt, damping, speed, sums, 0);
     plate.velocity = speed * plate.normal;
     plate.damping_work += plate.damping_work_next + sums.damped[0];
     plate.damping_work_next = sums.damped_next[0];

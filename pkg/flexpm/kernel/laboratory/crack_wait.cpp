@@ -13,6 +13,7 @@ namespace {
 void check(const CrackWaitRule& rule)
 {
     check_positive("largest velocity factor", rule.fastest, "");
+    check_positive("smallest velocity factor over the largest", rule.slowest, "");
     check_positive("dissipated share of running cracks", rule.running_share, "");
     check_positive("dissipated share after the peak", rule.share_after_peak, "");
     check_positive("steps of a crossing", rule.crossing, "");
@@ -26,7 +27,7 @@ double wanted_part(const CrackWatch& seen, const CrackWaitRule& rule)
         (fallen ? rule.share_after_peak : rule.running_share) * std::max(seen.fastest_work, 0.0);
     if (seen.dissipated <= allowed) return 1.0;
     const double square = allowed / seen.dissipated * (allowed / seen.dissipated);
-    return std::max(square * square, smallest_wait_factor);
+    return std::max(square * square, rule.slowest);
 }
 
 }  // namespace

@@ -3,29 +3,28 @@
 /// crack runs. SI units.
 ///
 /// The rate alters a strength only while cracks run: the load must not go on before they have stopped. That one runs is
-/// seen by what damage and friction take, compared with what the loading would supply at its fastest in the same time.
-/// The unbalanced force would not do: a change of the rate unbalances nodes itself.
+/// seen by what damage and friction take, and damping from the waves that it sends out, compared with what the loading
+/// would supply at its fastest in the same time. Of a brittle crack the waves alone tell.
 #pragma once
 
 namespace flexpm {
 
 struct CrackWaitRule {
     double fastest = 1.0;  ///< largest factor on the velocity [-]
+    /// Smallest factor over the largest [-]. Nothing follows from a load that stands still: it would never go on.
+    double slowest = 0.01;
     /// From this dissipated share on cracks count as running, before the peak and once the stress has fallen
     /// from it [-]. After the peak a specimen may take work for long without a crack that runs.
     double running_share = 0.002, share_after_peak = 0.01;
     double crossing = 1.0;  ///< steps in which a wave crosses the specimen
 };
 
-/// Smallest factor over the largest [-]. Nothing follows from a load that stands still: it would never go on.
-constexpr double smallest_wait_factor = 0.01;
-
 /// Part of its peak below which a stress has fallen from it [-].
 constexpr double fallen_from_peak = 0.9;
 
 /// What a controller sees of a test at two measured steps.
 struct CrackWatch {
-    double dissipated;  ///< by damage and friction in between [J]
+    double dissipated;  ///< by damage, friction and the damping of waves in between [J]
     double
         fastest_work;  ///< of the loading in that time, at the present stress and the fastest velocity [J]
     double stress, peak;  ///< now and the largest so far, above the confinement [Pa]

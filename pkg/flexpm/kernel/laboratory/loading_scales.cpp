@@ -4,6 +4,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace flexpm {
@@ -57,14 +58,25 @@ double reference_strength(Sense sense, const ContactStrength& contact)
 
 TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height)
 {
-    return { crossing_steps(inputs, width, height), inputs.modulus, inputs.strength, height,
-        width };
+    return { crossing_steps(inputs, width, height), inputs.modulus, inputs.strength, height, width,
+        inputs.damage_share };
 }
 
 TestScales disc_scales(const ScaleInputs& inputs, double diameter)
 {
     return { crossing_steps(inputs, 0.25 * pi * diameter, diameter), 0.25 * inputs.modulus,
-        inputs.strength, diameter, diameter };
+        inputs.strength, diameter, diameter, inputs.damage_share };
+}
+
+double damage_share(const Assembly& a)
+{
+    double elastic = 0.0;
+    for (const LawParameters& law : a.contacts.laws) {
+        const double slip = law.cohesion / law.shear_stiffness;
+        elastic = std::max(
+            { elastic, law.elastic_opening / law.critical_opening, slip / law.critical_slip });
+    }
+    return std::max(1.0 - elastic, 0.0);
 }
 
 ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)
@@ -76,6 +88,7 @@ ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
     in.thickness = a.thickness;
     in.dt = dt;
+    in.damage_share = damage_share(a);
     return in;
 }
 

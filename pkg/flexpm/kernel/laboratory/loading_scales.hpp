@@ -31,11 +31,12 @@ double reference_strength(Sense sense, const ContactStrength& contact);
 
 /// What the scales of a test follow from.
 struct ScaleInputs {
-    double modulus = 0.0;    ///< contact_modulus() or series_modulus() [Pa]
-    double strength = 0.0;   ///< reference_strength() [Pa]
-    double mass = 0.0;       ///< of all that moves, scaled or real [kg]
-    double thickness = 0.0;  ///< [m]
-    double dt = 1.0;         ///< of a step [s], 1 with scaled masses
+    double modulus = 0.0;       ///< contact_modulus() or series_modulus() [Pa]
+    double strength = 0.0;      ///< reference_strength() [Pa]
+    double mass = 0.0;          ///< of all that moves, scaled or real [kg]
+    double thickness = 0.0;     ///< [m]
+    double dt = 1.0;            ///< of a step [s], 1 with scaled masses
+    double damage_share = 0.0;  ///< damage_share() [-]
 };
 
 /// Scales of a test, for its loading rate and its default end.
@@ -46,12 +47,18 @@ struct TestScales {
     double strength = 0.0;  ///< reference_strength() [Pa]
     double height = 0.0;    ///< [m]
     double width = 0.0;     ///< [m]
+    double damage_share =
+        0.0;  ///< damage_share() of the contacts; 0 of bonds that break at once [-]
 };
 TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height);
 
 /// Scales of a disc between two plates, which close about four times as much as a strip of the disc's material
 /// strains under the recorded stress.
 TestScales disc_scales(const ScaleInputs& inputs, double diameter);
+
+/// Least part of a fracture energy that damage takes [-]; the rest is elastic energy that a contact has at its strength,
+/// which it releases. 0 in the brittle limit.
+double damage_share(const Assembly& a);
 
 /// The inputs of bonded grains, means over all of them; rigid grains have a contact_modulus().
 ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt);

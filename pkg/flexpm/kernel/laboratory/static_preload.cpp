@@ -88,6 +88,12 @@ double spin_in(const Grains& grains, int grain, const Array<double>& velocity)
     return cross(arm, vector_at(velocity, n) - vector_at(velocity, c)) / dot(arm, arm);
 }
 
+void add_motion(Grains& grains, int grain, Point velocity, double spin)
+{
+    const Point v = vector_at(grains.velocity, grains.centre(grain)) + velocity;
+    set_motion(grains, grain, v, grains.spin[grains.slot[grain]] + spin, 1.0);
+}
+
 }  // namespace
 
 Array<double> elastic_velocities(const Assembly& a)
@@ -110,26 +116,59 @@ Array<double> elastic_velocities(const Assembly& a)
     return solve_static(moved, prescribed).displacement;
 }
 
-void start_elastically(Assembly& a)
+void start_elastically(Assembly& a, bool undamped)
 {
     const Array<double> velocity = elastic_velocities(a);
     for (Plate& p : a.plates) {
-        if (p.loaded) p.velocity = velocity_before(a, p, velocity);
+        if (!p.loaded) continue;
+        p.velocity = velocity_before(a, p, velocity);
+        if (undamped) p.loading_velocity = p.velocity;
     }
     Grains& grains = a.grains;
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
-            const int c = grains.centre(g);
-            const Point v = vector_at(grains.velocity, c) + vector_at(velocity, c);
-            const double spin = grains.spin[grains.slot[g]] + spin_in(grains, g, velocity);
-            set_motion(grains, g, v, spin, 1.0);
+            const double spin = spin_in(grains, g, velocity);
+            const Point v = vector_at(velocity, grains.centre(g));
+            add_motion(grains, g, v, spin);
+            if (!undamped) continue;
+            set_vector(grains.loading_velocity, grains.centre(g), v);
+            grains.loading_spin[grains.slot[g]] = spin;
             continue;
         }
         for_each_component(grains, g, [&](int i) {
-            if (!grains.prescribed[i]) grains.velocity[i] += velocity[i];
+            if (grains.prescribed[i]) return;
+            grains.velocity[i] += velocity[i];
+            if (undamped) grains.loading_velocity[i] = velocity[i];
         });
     }
+}
+
+void change_loading(Assembly& a, double ratio)
+{
+    check_finite("velocity of the loading over that before", ratio, "");
+    Grains& grains = a.grains;
+    const double before = kinetic_of_velocities(grains);
+    for (Plate& p : a.plates) {
+        p.velocity = p.velocity + (ratio - 1.0) * p.loading_velocity;
+        p.loading_velocity = ratio * p.loading_velocity;
+    }
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
+        if (grains.is_rigid(g)) {
+            const Point v = vector_at(grains.loading_velocity, grains.centre(g));
+            double& spin = grains.loading_spin[grains.slot[g]];
+            add_motion(grains, g, (ratio - 1.0) * v, (ratio - 1.0) * spin);
+            set_vector(grains.loading_velocity, grains.centre(g), ratio * v);
+            spin *= ratio;
+            continue;
+        }
+        for_each_component(grains, g, [&](int i) {
+            grains.velocity[i] += (ratio - 1.0) * grains.loading_velocity[i];
+            grains.loading_velocity[i] *= ratio;
+        });
+    }
+    a.ledger.prescribed_work[0] += kinetic_of_velocities(grains) - before;
 }
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)
@@ -162,7 +201,7 @@ void preload(Assembly& a, double share, int steps, double dt)
     });
 }
 
-void release_preload(Assembly& a, double velocity, double dt)
+void release_preload(Assembly& a, double velocity, double dt, bool undamped)
 {
     need_sides(a);
     const double now = a.grains.velocity[component(side_nodes(a, top_side).front(), 1)];
@@ -175,7 +214,11 @@ void release_preload(Assembly& a, double velocity, double dt)
     for_each_component(a.grains, [&](int i) { a.grains.prescribed[i] = 0; });
     grip_bottom(a);
     move_top(a, velocity);
-    a.ledger.initial += kinetic_of_velocities(a.grains);
+    for_each_component(a.grains, [&](int i) {
+        if (undamped && !a.grains.prescribed[i])
+            a.grains.loading_velocity[i] = a.grains.velocity[i];
+    });
+    a.ledger.prescribed_work[0] += kinetic_of_velocities(a.grains);
 }
 
 }  // namespace flexpm

@@ -20,8 +20,13 @@ Array<double> elastic_velocities(const Assembly& a);
 /// Add these velocities to all nodes that are free, and give them to plates under a load, so that
 /// loading starts without a wave. Held nodes and driven plates have theirs already.
 ///
+/// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D31
 /// @throws std::runtime_error  as solve_static()
-void start_elastically(Assembly& a);
+void start_elastically(Assembly& a, bool undamped);
+
+/// Change the velocities that damping does not act on to `ratio` times what they are, and all velocities with them, so
+/// that a change of the loading's velocity raises no wave. The kinetic energy that this gives is work of the boundary.
+void change_loading(Assembly& a, double ratio);
 
 /// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
 /// elastic branch, at small displacements [s]; infinite if none does.
@@ -35,7 +40,9 @@ double elastic_time(const Assembly& a, const Array<double>& velocity);
 void preload(Assembly& a, double share, int steps, double dt);
 
 /// Release the nodes; the top goes on at `velocity` [m/s], all others as the elastic solution
-/// does. The kinetic energy that this gives counts as initial energy.
-void release_preload(Assembly& a, double velocity, double dt);
+/// does. The kinetic energy that this gives is work of the boundary.
+///
+/// @param undamped  as for start_elastically()
+void release_preload(Assembly& a, double velocity, double dt, bool undamped);
 
 }  // namespace flexpm

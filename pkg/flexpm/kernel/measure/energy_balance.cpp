@@ -36,6 +36,34 @@ FLEXPM_INLINE bool all_finite(const double* values, int count)
 
 }  // namespace
 
+double damping_power(const Assembly& a, double damping)
+{
+    const Grains& grains = a.grains;
+    double total = 0.0;
+    const auto add = [&](double force, double velocity) { total += std::fabs(force * velocity); };
+    const auto add_vector = [&](Point force, int node) {
+        const Point v = vector_at(grains.velocity, node) - vector_at(grains.loading_velocity, node);
+        if (!grains.prescribed[component(node, 0)]) add(force.x, v.x);
+        if (!grains.prescribed[component(node, 1)]) add(force.y, v.y);
+    };
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.is_rigid(g)) {
+            const int slot = grains.slot[g];
+            const Resultant on = resultant_on(grains, g);
+            add_vector(on.force, grains.centre(g));
+            if (!grains.spin_prescribed[slot])
+                add(on.moment, grains.spin[slot] - grains.loading_spin[slot]);
+            continue;
+        }
+        for (int n = 0; n < grains.nodes_of(g); ++n)
+            add_vector(vector_at(grains.force, grains.node(g, n)), grains.node(g, n));
+    }
+    for (const Plate& p : a.plates) {
+        if (p.loaded) add(p.unbalanced, dot(p.normal, p.velocity - p.loading_velocity));
+    }
+    return damping * total;
+}
+
 double kinetic_of_velocities(const Grains& grains)
 {
     double total = 0.0;

@@ -34,6 +34,10 @@ struct Dissipation {
 
 Dissipation dissipation(const Assembly& a);
 
+/// Power that local damping takes from what grains and loaded plates move beyond the velocities of the loading, by the
+/// forces and velocities of the last step [W, or J per unit step]. Waves that cracks send out feed it.
+double damping_power(const Assembly& a, double damping);
+
 /// Start a new energy balance: the present energy becomes the initial energy, works and
 /// dissipation count from zero. Before the first step the kinetic energy is that of the velocities
 /// set; later it is that of the last step, which must have been measured.

@@ -14,6 +14,7 @@ struct NodeRows {
     int nodes;
     double* displacement;
     double* velocity;
+    const double* loading_velocity;
     const double* force;
     const std::uint8_t* prescribed;
     const double* inverse_mass;

@@ -25,10 +25,12 @@ RigidRows rigid_rows(Grains& grains, int block)
     const int first = grains.block_nodes[block], nodes = grains.group(block).nodes;
     const int centre = first + node_stride * (nodes - 1);
     return { nodes, grains.reference.data() + first, grains.displacement.data() + first,
-        grains.velocity.data() + first, grains.force.data() + first,
-        grains.prescribed.data() + centre, grains.inverse_mass.data() + centre / dimension,
+        grains.velocity.data() + first, grains.loading_velocity.data() + centre,
+        grains.force.data() + first, grains.prescribed.data() + centre,
+        grains.inverse_mass.data() + centre / dimension,
         grains.rotation.data() + RotationRow::count * lanes * block,
-        grains.spin.data() + lanes * block, grains.spin_prescribed.data() + lanes * block,
+        grains.spin.data() + lanes * block, grains.loading_spin.data() + lanes * block,
+        grains.spin_prescribed.data() + lanes * block,
         grains.inverse_inertia.data() + lanes * block };
 }
 

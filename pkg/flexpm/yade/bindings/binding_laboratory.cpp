@@ -30,12 +30,12 @@ namespace {
 
 	py::dict rectangleScales(double modulus, double strength, double mass, double thickness, double dt, double width, double height)
 	{
-		return scales_dict(flexpm::rectangle_scales({ modulus, strength, mass, thickness, dt }, width, height));
+		return scales_dict(flexpm::rectangle_scales({ modulus, strength, mass, thickness, dt, 0 }, width, height));
 	}
 
 	py::dict discScales(double modulus, double strength, double mass, double thickness, double dt, double diameter)
 	{
-		return scales_dict(flexpm::disc_scales({ modulus, strength, mass, thickness, dt }, diameter));
+		return scales_dict(flexpm::disc_scales({ modulus, strength, mass, thickness, dt, 0 }, diameter));
 	}
 
 	double axialStress(double bottom, double top, double area, bool tension) { return flexpm::axial_stress({ bottom, top }, senseOf(tension), area); }

@@ -8,7 +8,7 @@
 
 namespace flexpm_bindings {
 
-/// The scales by name: crossing_steps [-], modulus and strength [Pa], height and width [m].
+/// The scales by name: crossing_steps [-], modulus and strength [Pa], height and width [m], damage_share [-].
 inline boost::python::dict scales_dict(const flexpm::TestScales& scales)
 {
 	boost::python::dict d;
@@ -17,6 +17,7 @@ inline boost::python::dict scales_dict(const flexpm::TestScales& scales)
 	d["strength"]       = scales.strength;
 	d["height"]         = scales.height;
 	d["width"]          = scales.width;
+	d["damage_share"]   = scales.damage_share;
 	return d;
 }
 

@@ -38,7 +38,7 @@ public:
 		, /* ctor */
 		, .add_property("names", &AxialRecorder::names, "Names of the record's columns.")
 		.add_property("rows", &AxialRecorder::rows, "The record, (rows, columns); a copy.")
-		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m].")
+		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes [-].")
 	);
 	// clang-format on
 };

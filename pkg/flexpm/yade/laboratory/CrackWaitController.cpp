@@ -19,13 +19,11 @@ void CrackWaitController::action()
 	if (!recorder || !recorder->loading)
 		throw std::runtime_error("CrackWaitController.recorder = None or without loading, must be the recorder of the test");
 	flexpm::check_positive("CrackWaitController.sweep", sweep, "m3/s");
-	const flexpm::Dissipation sum   = flexpm::dissipation(solver->assembly);
-	const Real                now   = sum.damage + sum.friction;
-	const int                 steps = solver->measurePeriod;
-	const flexpm::CrackWatch  watch = {
-		 seen < 0 ? 0 : now - seen, flexpm::swept_work(recorder->stress, sweep, steps * scene->dt), recorder->differential, recorder->peak, Real(steps)
-	};
-	const flexpm::CrackWaitRule rule   = { fastest, runningShare, shareAfterPeak, crossingSteps };
+	const flexpm::Dissipation   sum = flexpm::dissipation(solver->assembly);
+	const Real                  now = sum.damage + sum.friction, steps = solver->measurePeriod, time = steps * scene->dt;
+	const Real                  lost   = (seen < 0 ? 0 : now - seen) + time * flexpm::damping_power(solver->assembly, solver->damping);
+	const flexpm::CrackWatch    watch  = { lost, flexpm::swept_work(recorder->stress, sweep, time), recorder->differential, recorder->peak, steps };
+	const flexpm::CrackWaitRule rule   = { fastest, slowest, runningShare, shareAfterPeak, crossingSteps };
 	Real&                       factor = recorder->loading->velocityFactor;
 	factor                             = flexpm::factor_for_cracks(factor, watch, rule);
 	seen                               = now;

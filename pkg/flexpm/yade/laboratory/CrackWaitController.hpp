@@ -13,12 +13,13 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(CrackWaitController, BoundaryController,
-		"Lets a loading wait for cracks: it goes fast while the specimen is elastic and nearly stands still while damage and friction "
-		"say that a crack runs. It looks at each measured step of :yref:`GrainSolver`. Place it last, after :yref:`AxialRecorder`.",
+		"Lets a loading wait for cracks: it goes fast while the specimen is elastic and nearly stands still while what damage, "
+		"friction and damping take says that a crack runs. It looks at each measured step of :yref:`GrainSolver`. Place it last, after :yref:`AxialRecorder`.",
 		((shared_ptr<AxialRecorder>, recorder,,, "Record of the test; the velocityFactor of its loading is set."))
-		((Real, fastest, 1.,, "Largest velocity factor [-]; the smallest is a hundredth of it."))
+		((Real, fastest, 1.,, "Largest velocity factor [-]."))
+		((Real, slowest, .01,, "Smallest velocity factor over the largest [-]."))
 		((Real, sweep, 0.,, "Volume that the loaded area sweeps at this factor: area times velocity [m3/s, or m3 per step with scaled masses]."))
-		((Real, runningShare, .002,, "Cracks run where damage and friction take more than this share of what the loading would supply at its fastest [-]."))
+		((Real, runningShare, .002,, "Cracks run where damage, friction and damping take more than this share of what the loading would supply at its fastest [-]."))
 		((Real, shareAfterPeak, .01,, "The same once the stress has fallen from its peak [-]."))
 		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
 		((Real, seen, -1., Attr::hidden, "Damage and friction energy at the last look, negative before the first [J]."))

@@ -14,15 +14,17 @@ EndDisplacementController::~EndDisplacementController() = default;
 
 void EndDisplacementController::action()
 {
-	const Real before = drivenAt;
-	follow(velocity, seenVelocity, drivenAt);
+	const Real before = drivenAt, ratio = follow(velocity, seenVelocity, drivenAt);
 	if (gripped && (!holdTop || drivenAt == before)) return;
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop) return;
 	flexpm::move_top(assembly, drivenAt);
 	flexpm::update_prescribed_work(assembly, scene->dt);
-	if (!gripped && elasticStart) flexpm::start_elastically(assembly);
+	if (undampedLoading && gripped)
+		flexpm::change_loading(assembly, ratio);
+	else if ((elasticStart || undampedLoading) && !gripped)
+		flexpm::start_elastically(assembly, undampedLoading);
 	gripped = true;
 }
 
@@ -40,7 +42,7 @@ void EndDisplacementController::preload(Real share, int steps)
 void EndDisplacementController::release()
 {
 	const auto world = Omega::instance().getScene();
-	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, drivenAt, world->dt);
+	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, drivenAt, world->dt, undampedLoading);
 }
 
 } // namespace yade

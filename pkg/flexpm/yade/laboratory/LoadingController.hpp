@@ -14,23 +14,32 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(LoadingController, BoundaryController,
 		"Base of engines that load a specimen at a velocity. Not to be used directly.",
 		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` writes it [-] |yupdate|."))
+		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on what grains move beyond them."))
 		((Real, seenFactor, 0., Attr::hidden, "The factor at the last step; 0 before the first [-]."))
 	);
 	// clang-format on
 
 protected:
-	/// Bring the present velocity to the coming step: what is set times the factor.
+	/// Bring the present velocity to the coming step: what is set times the factor. Returns its ratio to that before.
 	///
 	/// A change of the factor alone acts by its ratio, so that the velocity keeps its bits while the factor does.
-	template <class Velocity> void follow(const Velocity& set, Velocity& seen, Velocity& present)
+	template <class Velocity> Real follow(const Velocity& set, Velocity& seen, Velocity& present)
 	{
-		if (seenFactor == 0 || set != seen)
+		Real ratio = seenFactor == 0 ? 1 : velocityFactor / seenFactor;
+		if (seenFactor == 0 || set != seen) {
+			ratio *= over(set, seen);
 			present = set * velocityFactor;
-		else
-			present *= velocityFactor / seenFactor;
+		} else {
+			present *= ratio;
+		}
 		seen       = set;
 		seenFactor = velocityFactor;
+		return ratio;
 	}
+
+private:
+	static Real over(Real set, Real seen) { return seen == 0 ? 0 : set / seen; }
+	static Real over(const Vector3r& set, const Vector3r& seen) { return seen == Vector3r::Zero() ? 0 : set.dot(seen) / seen.squaredNorm(); }
 };
 REGISTER_SERIALIZABLE(LoadingController);
 

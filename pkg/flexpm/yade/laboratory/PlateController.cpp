@@ -14,15 +14,18 @@ PlateController::~PlateController() = default;
 
 void PlateController::action()
 {
-	follow(velocity, seenVelocity, drivenAt);
-	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	const Real ratio    = follow(velocity, seenVelocity, drivenAt);
+	auto&      assembly = GrainSolver::ofScene(*scene)->assembly;
 	for (int plate : plates) {
 		if (loaded)
 			flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
 		else
 			flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
 	}
-	if (elasticStart && !started) flexpm::start_elastically(assembly);
+	if (undampedLoading && started && ratio != 1)
+		flexpm::change_loading(assembly, ratio);
+	else if ((elasticStart || undampedLoading) && !started)
+		flexpm::start_elastically(assembly, undampedLoading);
 	started = true;
 }
 
