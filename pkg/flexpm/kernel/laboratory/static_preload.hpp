@@ -20,7 +20,7 @@ Array<double> elastic_velocities(const Assembly& a);
 /// Add these velocities to all nodes that are free, and give them to plates under a load, so that
 /// loading starts without a wave. Held nodes and driven plates have theirs already.
 ///
-/// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D31
+/// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D30
 /// @throws std::runtime_error  as solve_static()
 void start_elastically(Assembly& a, bool undamped);
 
