@@ -78,6 +78,7 @@ def test_biaxial_strains_are_those_of_plane_elasticity(plane):
         material,
         confinement=pressure,
         max_strain=1e-3,
+        loading="constant",
         rate=SLOW,
     )
     own = {n: 1.0 / young + (n - 1) / (n * law["normal_stiffness"] * size) for n in (nx, ny)}

@@ -242,7 +242,7 @@ def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, tmp_path):
         if not gone and O.iter > 1000:
             gone.update(erase(bonds_of(20)))
 
-    result = flexpm.run("tension", specimen, rate=4.0, out=tmp_path, progress=progress)
+    result = flexpm.run("tension", specimen, rate=0.5, out=tmp_path, progress=progress)
     with (tmp_path / "cracks.csv").open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert gone
@@ -270,7 +270,7 @@ def test_a_test_goes_on_without_grains_that_it_loads(specimen, disc, test, model
         test,
         disc if test == "brazilian" else specimen,
         model=model,
-        rate=8.0,
+        rate=1.0,
         confinement=2e6 if test == "biaxial" else 0.0,
         progress=progress,
     )

@@ -131,7 +131,7 @@ def test_the_window_draws_deformed_grains(package_parent: Path, tmp_path: Path) 
     assert ink(stretched) > 2.0 * ink(plain)
 
 
-@pytest.mark.parametrize(("wrong", "code"), [(None, 0), ("rate=2.0", 1)])
+@pytest.mark.parametrize(("wrong", "code"), [(None, 0), (", specimen)", 1)])
 def test_yades_list_of_checks_runs_that_of_flexpm(
     package_parent: Path, tmp_path: Path, wrong: str | None, code: int
 ) -> None:
@@ -141,7 +141,7 @@ def test_yades_list_of_checks_runs_that_of_flexpm(
     script = (ROOT / "scripts" / "yade-check" / "checkFlexpm.py").read_text()
     if wrong is not None:
         assert wrong in script
-        script = script.replace(wrong, "rate=200.0")
+        script = script.replace(wrong, ", specimen, rate=200.0)")
     (checks / "checkFlexpm.py").write_text(script)
     # what the program yade has at hand where it runs the list
     (tmp_path / "driver.py").write_text(

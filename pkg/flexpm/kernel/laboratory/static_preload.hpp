@@ -18,7 +18,8 @@ namespace flexpm {
 Array<double> elastic_velocities(const Assembly& a);
 
 /// Add these velocities to all nodes that are free, and give them to plates under a load, so that
-/// loading starts without a wave. Held nodes and driven plates have theirs already.
+/// loading starts without a wave. Held nodes and driven plates have theirs already. The kinetic energy that this gives is
+/// work of the boundary.
 ///
 /// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D30
 /// @throws std::runtime_error  as solve_static()
