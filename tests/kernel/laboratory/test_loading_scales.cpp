@@ -94,6 +94,6 @@ TEST_CASE(
     a.contacts.laws = { make_law(m) };
     CHECK(damage_share(a) == Approx(0.75));
     m.tensile_fracture_energy = tensile;
-    a.contacts.laws.push_back(make_law(m));
+    a.contacts.laws = { make_law(m) };
     CHECK(damage_share(a) == Approx(0.0).margin(1e-12));
 }

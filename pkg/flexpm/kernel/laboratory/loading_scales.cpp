@@ -71,7 +71,8 @@ TestScales disc_scales(const ScaleInputs& inputs, double diameter)
 double damage_share(const Assembly& a)
 {
     double elastic = 0.0;
-    for (const LawParameters& law : a.contacts.laws) {
+    for (int g = 0; g < a.grains.count; ++g) {
+        const LawParameters law = own_law(a, g);
         const double slip = law.cohesion / law.shear_stiffness;
         elastic = std::max(
             { elastic, law.elastic_opening / law.critical_opening, slip / law.critical_slip });
