@@ -47,7 +47,9 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     assignments = [f"{key}={rounded(value)!r}" for key, value in outcome.best.values.items()]
     found = start.with_set(assignments, plan.model)
     content = _without_none(dataclasses.asdict(found)) | {"name": plan.name}
-    kinds = content.pop("minerals")
+    kinds, joints = content.pop("minerals"), content.pop("joints")
+    if joints:
+        content["joint"] = {one.pop("name"): _without_none(one) for one in map(dict, joints)}
     if kinds:
         content["mineral"] = [kind | kind.pop("changes") for kind in map(dict, kinds)]
     notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]

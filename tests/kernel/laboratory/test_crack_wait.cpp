@@ -47,6 +47,16 @@ TEST_CASE("A loading that waits goes on at a hundredth of its fastest velocity")
     CHECK(settled(16.0, watch(1e-9, 1.0, -1.0)) == Approx(0.16));
 }
 
+TEST_CASE("A run that has diverged leaves the velocity a number")
+{
+    const double none = std::nan("");
+    for (const CrackWatch& seen : { watch(none), watch(0.1, 1.0, none), watch(0.1, none) }) {
+        const double factor = factor_for_cracks(1.0, seen, rule);
+        CHECK(std::isfinite(factor));
+        CHECK(factor > 0.0);
+    }
+}
+
 TEST_CASE("Once the stress has fallen from its peak more counts as at rest")
 {
     CHECK(settled(1.0, watch(0.01, 0.91)) == Approx(0.16));

@@ -30,4 +30,4 @@ def test_a_grid_reaches_the_disk_by_way_of_python(tmp_path):
     small = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
     flexpm.export.write_vtu(tmp_path / "grid.vtu", flexpm.build(small).snapshot())
     content = (tmp_path / "grid.vtu").read_bytes()
-    assert content.startswith(b"<VTKFile") and content.endswith(b"</VTKFile>\n")
+    assert content.startswith(b"<?xml") and content.endswith(b"</VTKFile>\n")

@@ -25,7 +25,8 @@ double wanted_part(const CrackWatch& seen, const CrackWaitRule& rule)
     const bool fallen = seen.stress < fallen_from_peak * seen.peak;
     const double allowed =
         (fallen ? rule.share_after_peak : rule.running_share) * std::max(seen.fastest_work, 0.0);
-    if (seen.dissipated <= allowed) return 1.0;
+    // no number: the run has diverged, which is seen elsewhere
+    if (!(seen.dissipated > allowed)) return 1.0;
     const double square = allowed / seen.dissipated * (allowed / seen.dissipated);
     return std::max(square * square, rule.slowest);
 }
