@@ -70,6 +70,8 @@ _TRACED = re.compile(r"^(\d+) +(\w+)\((.*)$")
 _CHANGING = ((r"-[0-9a-f]{8}\.", "-*."), (r"checkpoint-\d+(\.1)?", "checkpoint-N"))
 #: A run's measures that are no results.
 _TIMES = ("step_time",)
+#: The same in a page.
+_STEP_TIME = re.compile(rb"(?<=\d) of [\d.e-]+ ms(?=</td>)")
 
 
 class Place(NamedTuple):
@@ -168,6 +170,8 @@ class Campaign:
             content = file.read_bytes()
             if file.suffix == ".json":
                 content = json.dumps(_without_times(json.loads(content))).encode()
+            if file.suffix == ".html":
+                content = _STEP_TIME.sub(b"", content)
             # a scene holds its time of day, and its checksum does
             if not file.name.startswith("checkpoint"):
                 found[name] = hashlib.sha256(content).hexdigest()[:16]
