@@ -222,3 +222,47 @@ TEST_CASE("Parameters of the law that make no sense are refused")
     refused(&ContactMaterial::tensile_fracture_energy, least.tensile_fracture_energy * (1 - 1e-9));
     refused(&ContactMaterial::shear_fracture_energy, least.shear_fracture_energy * (1 - 1e-9));
 }
+
+TEST_CASE("A factor on the strengths stretches the curve in both directions")
+{
+    const ContactMaterial m = specimens::granite_contact();
+    const double factor = 1.7;
+    const ContactMaterial strong = flexpm::scaled_strength(m, factor);
+    const LawParameters one = make_law(m), other = make_law(strong);
+    CHECK(other.tensile_strength == Approx(factor * one.tensile_strength));
+    CHECK(other.cohesion == Approx(factor * one.cohesion));
+    CHECK(other.elastic_opening == Approx(factor * one.elastic_opening));
+    CHECK(other.critical_opening == Approx(factor * one.critical_opening));
+    CHECK(other.critical_slip == Approx(factor * one.critical_slip));
+    CHECK(other.normal_stiffness == one.normal_stiffness);
+    CHECK_THROWS_AS(flexpm::scaled_strength(m, 0.0), std::invalid_argument);
+}
+
+TEST_CASE("A joint may lack a strength or an energy: what lacks breaks at once")
+{
+    ContactMaterial m = specimens::granite_contact();
+    CHECK(flexpm::joint_law(m).critical_opening == make_law(m).critical_opening);
+    CHECK(flexpm::joint_law(m).critical_slip == make_law(m).critical_slip);
+    CHECK_FALSE(flexpm::is_cracked(m));
+
+    m.tensile_fracture_energy = m.shear_fracture_energy = 0.0;
+    const LawParameters brittle = flexpm::joint_law(m);
+    CHECK(brittle.critical_opening == Approx(brittle.elastic_opening));
+    CHECK(brittle.critical_slip == Approx(m.cohesion / (m.shear_ratio * m.normal_stiffness)));
+
+    m.tensile_strength = 0.0;
+    m.tensile_fracture_energy = 1.0;
+    CHECK(flexpm::joint_law(m).tensile_strength == Approx(1e-6 * m.cohesion));
+    CHECK_FALSE(flexpm::is_cracked(m));
+
+    m.tensile_strength = 1e6;
+    m.cohesion = 0.0;
+    m.shear_fracture_energy = 1.0;
+    CHECK(flexpm::joint_law(m).cohesion == Approx(1.0));
+
+    m.tensile_strength = 0.0;
+    CHECK(flexpm::is_cracked(m));
+    CHECK(flexpm::joint_law(m).tensile_strength > 0.0);
+    m.cohesion = -1.0;
+    CHECK_THROWS_AS(flexpm::joint_law(m), std::invalid_argument);
+}

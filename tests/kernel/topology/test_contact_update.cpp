@@ -264,3 +264,47 @@ TEST_CASE("Masses rise for a new contact, never fall, and the energy of that is 
     CHECK(a.ledger.initial
         == Approx(flexpm::kinetic_of_velocities(a.grains) - kinetic).margin(1e-30));
 }
+
+namespace {
+
+/// Crack all points of a contact, whose faces have slid by a part of their length.
+void slide(Assembly& a, int contact, double part)
+{
+    const double length = 1.0 / std::fabs(a.contacts.inverse_edge_length(contact, 0));
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        a.contacts.state(contact, p, flexpm::PointRow::shear_damage) = 1.0;
+        a.contacts.state(contact, p, flexpm::PointRow::slip) = part * length;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("A contact on a joint ends once its faces have slid past each other")
+{
+    Assembly a = row_of_three();
+    a.contacts.joint[0] = 0;
+    CHECK_FALSE(flexpm::has_ended(a, 0));
+    slide(a, 0, -0.9);
+    CHECK_FALSE(flexpm::has_ended(a, 0));
+    slide(a, 0, -1.1);
+    CHECK(flexpm::has_ended(a, 0));
+    CHECK(flexpm::ended_contacts(a) == std::vector<int> { 0 });
+}
+
+TEST_CASE("Contacts of one pair of grains end together")
+{
+    Assembly a = row_of_three();
+    a.contacts.pairs[1] = a.contacts.pairs[0];
+    a.contacts.joint[0] = a.contacts.joint[1] = 0;
+    slide(a, 0, 0.9);
+    slide(a, 1, 0.9);
+    CHECK(flexpm::ended_contacts(a).empty());
+    slide(a, 0, 1.1);
+    CHECK(flexpm::ended_contacts(a).empty());
+    slide(a, 1, 1.1);
+    CHECK(flexpm::ended_contacts(a) == std::vector<int> { 0, 1 });
+    // a bond without area is over already and kept for its cracks alone
+    for (int p = 0; p < a.contacts.points_of(1); ++p)
+        a.contacts.area(1, p) = 0.0;
+    CHECK(flexpm::ended_contacts(a) == std::vector<int> { 0 });
+}
