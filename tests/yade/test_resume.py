@@ -30,10 +30,10 @@ PYTHON = "/usr/bin/python3"
 SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
 DISC = {"diameter": 0.016, "thickness": 0.01, "seed": 1}
 TESTS = {
-    "uniaxial": {"rate": 0.5},
-    "tension": {"rate": 0.25},
+    "uniaxial": {"rate": 0.25},
+    "tension": {"rate": 0.1},
     "biaxial": {"rate": 1.5, "confinement": 5e6},
-    "brazilian": {"rate": 0.25},
+    "brazilian": {"rate": 0.06},
 }
 #: On the rate: a step of rigid grains is short, one of inner particles long.
 FACTORS = {"rigid": 0.125, "inner": 4.0, "inner-un": 4.0}

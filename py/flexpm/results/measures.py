@@ -190,9 +190,10 @@ def median_unbalanced_ratio(curve: Curve) -> float | None:
     """Median of the unbalanced-force ratio over the same rows [-]; proportional to the rate.
 
     Rows at a faster rate count with the ratio that the slowest would have given: they are driven so
-    where the rate does not matter.
+    where the rate does not matter. Those of a preload, in which nothing is free, do not count.
     """
-    return _while_loaded(curve, curve["unbalanced_ratio"] / _faster(curve), np.nanmedian)
+    ratio = np.where(curve["unbalanced_ratio"] > 0.0, curve["unbalanced_ratio"], np.nan)
+    return _while_loaded(curve, ratio / _faster(curve), np.nanmedian)
 
 
 def unbalanced_under_way(curve: Curve) -> float | None:
