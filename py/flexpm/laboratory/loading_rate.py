@@ -51,7 +51,7 @@ _SHARE_AFTER_PEAK = 5.0
 #: about what the fastest rate gives at which halving still moves the mean peak by less than 2 %.
 QUASISTATIC_RATIO = {
     "flexible": {"uniaxial": 0.0015, "tension": 0.0045, "biaxial": 0.001, "brazilian": 0.008},
-    "rigid": {"uniaxial": 0.005, "tension": 0.005, "biaxial": 0.003, "brazilian": 0.012},
+    "rigid": {"uniaxial": 0.004, "tension": 0.005, "biaxial": 0.003, "brazilian": 0.012},
     "inner": {"uniaxial": 0.005, "tension": 0.005, "biaxial": 0.005, "brazilian": 0.005},
     # a bond that breaks at once leaves its whole force unbalanced, however slow the test is
     "jcfpm": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
@@ -218,12 +218,13 @@ def schedule(
     elif loading.kind == "waiting":
         fastest, shares = _waiting(test, model, scales.damage_share)
         slowest = min(SLOWEST_WAIT * fastest, 1.0)
-    # most tests end well before the largest strain: up to that of the reference strength they go at
-    # the fastest rate, then about as far at the slowest
-    likely = (1.0 + 1.0 / fastest) * reference / largest * steps
     if loading.kind == "waiting":
         # twice the rate saves a third of the steps, roughly: cracks take their time
         likely = _LIKELY_CROSSINGS[model][test] / math.sqrt(loading.rate) * scales.crossing_steps
+    else:
+        # most tests end well before the largest strain: up to that of the reference strength they
+        # go at the fastest rate, then about as far at the slowest
+        likely = (1.0 + 1.0 / fastest) * reference / largest * steps
     return Schedule(
         velocity,
         fastest,

@@ -154,6 +154,18 @@ TEST_CASE("A change of the loading's velocity raises no wave")
     CHECK_THROWS_AS(change_loading(a, std::nan("")), std::invalid_argument);
 }
 
+TEST_CASE("A node that is held later keeps its velocity when that of the loading changes")
+{
+    Assembly a = driven_grains(-1e-9);
+    start_elastically(a, true);
+    const int node = a.grains.centre(0);
+    prescribe(a, { node }, 1, 0.0);
+    const double free = a.grains.velocity[component(a.grains.centre(1), 1)];
+    change_loading(a, 3.0);
+    CHECK(a.grains.velocity[component(node, 1)] == 0.0);
+    CHECK(a.grains.velocity[component(a.grains.centre(1), 1)] == Approx(3.0 * free));
+}
+
 TEST_CASE("The elastic limit follows from the strengths of the point that reaches one first")
 {
     // one bond in pure tension: the top moves until K_n u = sigma_t

@@ -176,6 +176,7 @@ void change_loading(Assembly& a, double ratio)
             continue;
         }
         for_each_component(grains, g, [&](int i) {
+            if (grains.prescribed[i]) return;  // held since the loading began
             grains.velocity[i] += (ratio - 1.0) * grains.loading_velocity[i];
             grains.loading_velocity[i] *= ratio;
         });
