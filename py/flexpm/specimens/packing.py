@@ -57,6 +57,11 @@ class Frame:
     height: float = 0.0
     radius: float = 0.0
 
+    @property
+    def area(self) -> float:
+        """Within the outline [m2]."""
+        return math.pi * self.radius**2 if self.radius else self.width * self.height
+
     def scaled(self, factor: float) -> Frame:
         """Return the frame with all lengths multiplied by ``factor``."""
         return Frame(self.width * factor, self.height * factor, self.radius * factor)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,31 +14,24 @@ import numpy as np
 
 from .._flexpm import (
     GrainMeshes,
-    Outline,
     Tessellation,
     Tiling,
     cells_in_outline,
     cells_of_polygons,
     cut_by_joints,
-    disc_count,
-    disc_radii,
     grain_meshes,
-    tessellate,
 )
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..notebook import Shown
 from ..progress import Progress
-from ..require import Bounds, require_flag, require_number
-from . import joint_lines, packing, specimen_file, statistics
-from .checks import SHORT_EDGE, require_diameters, require_length, require_seed, require_short_edge
+from ..require import require_flag
+from . import joint_lines, packed, packing, specimen_file, statistics
+from . import strengths as contact_strengths
+from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
 from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
 from .outlines import kind_of, polygon_outline
 from .spec import SpecimenSpec
-
-_FEWEST_DISCS = 8
-#: Keeps the draw of strengths apart from other draws with the same seed.
-_WEIBULL_STREAM = 38
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,10 +162,10 @@ class Specimen(Shown):
                 f"{where}: discs, outline, minerals, joints or strengths = {what}, were given and "
                 "cannot be packed again; load the saved specimen"
             )
-        frame, outline = _frame_of(spec), _outline_of(spec)
-        area = math.pi * frame.radius**2 if frame.radius else frame.width * frame.height
-        given = _packed_discs(where, spec, frame, area, progress)
-        discs, cells = _tessellated(given, outline, spec.short_edge, drop_hidden=True)
+        frame, outline = packed.frame_of(spec), packed.outline_of(spec)
+        area = frame.area
+        given = packed.packed_discs(where, spec, frame, area, progress)
+        discs, cells = packed.tessellated(given, outline, spec.short_edge, drop_hidden=True)
         return cls(discs, outline, cells, spec, removed_discs=len(given) - len(discs))
 
     @classmethod
@@ -229,7 +221,7 @@ class Specimen(Shown):
             outline=checksum(np.vstack(outline.rings)),
         )
         frame = packing.Frame(width=width, height=height)
-        block = _packed_discs(where, spec, frame, width * height, progress)
+        block = packed.packed_discs(where, spec, frame, width * height, progress)
         length = spec.short_edge * 2.0 * float(np.mean(block[:, 2]))
         centres, radii = columns(block + np.append(ring.min(axis=0), 0.0))
         tiling = call(cells_in_outline, centres, radii, outline, length)
@@ -363,7 +355,7 @@ class Specimen(Shown):
         discs = disc_rows(centres, radii)
         if not isinstance(outline, Circle):
             outline = rows("Specimen.from_discs: outline", outline)
-        discs, cells = _tessellated(discs, outline, short_edge, drop_hidden=False)
+        discs, cells = packed.tessellated(discs, outline, short_edge, drop_hidden=False)
         kind, sizes = kind_of(outline)
         spec = SpecimenSpec(
             kind,
@@ -441,15 +433,7 @@ class Specimen(Shown):
         Raises:
             InputError: if it is not one number above zero for each contact.
         """
-        given, count = np.asarray(factors), len(self.tessellation.shared_edges)
-        numbers = given.shape == (count,) and given.dtype.kind in "iuf"
-        if not numbers or not (np.isfinite(given).all() and given.min(initial=1.0) > 0.0):
-            raise InputError(
-                f"Specimen.with_strengths: factors = {given.dtype} array of shape {given.shape}, "
-                f"must be {count} numbers above 0, one for each contact"
-            )
-        strengths = np.array(given, dtype=float)
-        strengths.setflags(write=False)
+        strengths = contact_strengths.checked(factors, len(self.tessellation.shared_edges))
         spec = dataclasses.replace(self.spec, strengths=checksum(strengths))
         return dataclasses.replace(self, strengths=strengths, spec=spec)
 
@@ -463,11 +447,8 @@ class Specimen(Shown):
         Raises:
             InputError: for a modulus out of range.
         """
-        where = "Specimen.with_weibull_strengths"
-        shape = require_number(f"{where}: modulus", modulus, Bounds(at_least=1.0, at_most=1e6))
-        draw = np.random.default_rng([_WEIBULL_STREAM, require_seed(where, seed)])
-        factors = draw.weibull(shape, len(self.tessellation.shared_edges))
-        return self.with_strengths(factors / math.gamma(1.0 + 1.0 / shape))
+        contacts = len(self.tessellation.shared_edges)
+        return self.with_strengths(contact_strengths.weibull(modulus, seed, contacts))
 
     def joint_lines(self) -> list[FloatArray]:
         """Ends (n, 2, 2) [m] of the contacts of each joint, in the order of their names."""
@@ -565,63 +546,7 @@ class Specimen(Shown):
         }
 
 
-def _packed_discs(
-    where: str,
-    spec: SpecimenSpec,
-    frame: packing.Frame,
-    area: float,
-    progress: Progress | None,
-) -> FloatArray:
-    """Rows x, y, radius [m] of discs packed into a frame of an area [m2]."""
-    assert spec.diameters is not None and spec.porosity is not None and spec.seed is not None
-    smallest, largest = spec.diameters
-    count = call(disc_count, area, smallest, largest, spec.porosity)
-    if count < _FEWEST_DISCS:
-        raise InputError(
-            f"{where}: discs = {count}, must be >= {_FEWEST_DISCS} to fill the specimen; "
-            "choose smaller diameters"
-        )
-    radii = call(disc_radii, count, smallest, largest, spec.seed)
-    mean = 0.5 * (smallest + largest)
-    centres, radii = call(packing.pack, frame, radii, mean, spec.seed, progress)
-    return np.column_stack((centres, radii))
-
-
 def _cells_checksum(cells: Tessellation) -> str:
     """Short hash of the shapes of all cells."""
     parts = (cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices)
     return checksum(np.concatenate(parts).astype(float))
-
-
-def _frame_of(spec: SpecimenSpec) -> packing.Frame:
-    sizes = spec.sizes
-    if spec.kind == "disc":
-        return packing.Frame(radius=0.5 * sizes["diameter"])
-    return packing.Frame(width=sizes["width"], height=sizes["height"])
-
-
-def _outline_of(spec: SpecimenSpec) -> FloatArray | Circle:
-    """Outline of a packing: a rectangle from the origin, or a circle about it."""
-    sizes = spec.sizes
-    if spec.kind == "disc":
-        return Circle(0.0, 0.0, 0.5 * sizes["diameter"])
-    width, height = sizes["width"], sizes["height"]
-    return np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
-
-
-def _tessellated(
-    discs: FloatArray, outline: FloatArray | Circle, short_edge: float, *, drop_hidden: bool
-) -> tuple[FloatArray, Tessellation]:
-    """Discs and their cells; hidden discs, which have no cell, are dropped or refused."""
-    if isinstance(outline, Circle):
-        shape = call(Outline.circle, outline.x, outline.y, outline.radius)
-    else:
-        shape = call(Outline.polygon, outline)
-    while True:
-        length = short_edge * 2.0 * float(np.mean(discs[:, 2])) if len(discs) else 0.0
-        cells = call(tessellate, *columns(discs), shape, length, drop_hidden)
-        if len(cells.hidden_discs) == 0:
-            break
-        discs = np.delete(discs, cells.hidden_discs, axis=0)
-    discs.setflags(write=False)
-    return discs, cells
