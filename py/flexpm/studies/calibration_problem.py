@@ -90,6 +90,19 @@ class Ratio:
 
 
 @dataclass(frozen=True)
+class Runs:
+    """Options and packings of the search or of the verification."""
+
+    options: Table
+    seeds: Sequence[int]
+    disc_seeds: Sequence[int]  #: of the measures that discs alone tell
+
+    def seeds_of(self, target: Target) -> Sequence[int]:
+        """Seeds of the packings that tell a measure."""
+        return self.disc_seeds if MEASURES[target.name] == ("brazilian",) else self.seeds
+
+
+@dataclass(frozen=True)
 class Calibration:
     """A calibration file."""
 
@@ -100,10 +113,8 @@ class Calibration:
     targets: Sequence[Target]
     free: Mapping[str, tuple[float, float]]  #: bounds of each free key
     ratios: Sequence[Ratio]
-    screen: Table  #: options of the runs of the search
-    screen_seeds: Sequence[int]
-    verify: Table  #: options of the runs of the verification
-    verify_seeds: Sequence[int]
+    screen: Runs  #: of the search
+    verify: Runs  #: of the verification
     evaluations: int  #: most sets of strengths tried in a round
     rounds: int
     candidates: int  #: best sets of a round that are verified
@@ -121,17 +132,12 @@ class Calibration:
         targets = [t for t in self.targets if (t.name in ELASTIC_MEASURES) == elastic]
         return targets, [key for key in self.free if (key in ELASTIC_KEYS) == elastic]
 
-    def tests(self, targets: Sequence[Target]) -> list[tuple[str, float]]:
-        """Tests with their confinements [Pa] that the measures of targets need."""
-        needed: dict[tuple[str, float], None] = {}
-        for target in targets:
-            for test in MEASURES[target.name]:
-                if test != "envelope":
-                    needed[(test, 0.0)] = None
-                    continue
-                for confinement in self.confinements:
-                    needed[("biaxial" if confinement else "uniaxial", confinement)] = None
-        return list(needed)
+    def tests(self, target: Target) -> list[tuple[str, float]]:
+        """Tests with their confinements [Pa] that a measure needs."""
+        tests = MEASURES[target.name]
+        if tests == ("envelope",):
+            return [("biaxial" if c else "uniaxial", c) for c in self.confinements]
+        return [(test, 0.0) for test in tests]
 
     def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:
         """A measure of one packing, from its results by (test, confinement); None if missing."""
@@ -142,8 +148,7 @@ class Calibration:
         if target.name == "direct_indirect_ratio":
             both = [found[(test, 0.0)].get("peak_stress") for test in ("tension", "brazilian")]
             return strength.tensile_ratio(*both)
-        tests = [("biaxial" if c else "uniaxial", c) for c in self.confinements]
-        peaks = [found[test].get("peak_stress") for test in tests]
+        peaks = [found[test].get("peak_stress") for test in self.tests(target)]
         known = [peak for peak in peaks if peak is not None]
         if len(known) < len(peaks):
             return None
@@ -176,18 +181,14 @@ def read(path: Path | str) -> Calibration:
     free = {key: _bounds(f"[free] {key}", b) for key, b in _table(content, "free").items()}
     for key in free:
         require_known("calibration [free] key", key, [name for name in UNITS if UNITS[name]])
-    screen, screen_seeds = _runs(content, "screen", (1,))
-    verify, verify_seeds = _runs(content, "verify", (11, 12, 13, 14, 15))
     ratios = require_tables("calibration [[ratio]]", content.get("ratio", []))
     return Calibration(
         base=path.parent,
         targets=targets,
         free=free,
         ratios=[*_ratios(ratios, free)],
-        screen=screen,
-        screen_seeds=screen_seeds,
-        verify=verify,
-        verify_seeds=verify_seeds,
+        screen=_runs(content, "screen", (1,)),
+        verify=_runs(content, "verify", (11, 12, 13, 14, 15)),
         **about,
     )
 
@@ -239,16 +240,22 @@ def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ra
         yield Ratio(entry["of"], entry["to"], _bounds("[[ratio]] bounds", entry.get("bounds")))
 
 
-def _runs(content: Table, name: str, seeds: Sequence[int]) -> tuple[Table, list[int]]:
-    """Options and seeds of the runs of ``[screen]`` or ``[verify]``, over those of ``[common]``."""
+def _runs(content: Table, name: str, seeds: Sequence[int]) -> Runs:
+    """Runs of ``[screen]`` or ``[verify]``, whose options are over those of ``[common]``."""
     label = f"calibration [{name}]"
     common = flat("calibration [common]", content.get("common", {}))
     options = {**common, **flat(label, content.get(name, {}))}
-    chosen = require_list(f"{label} seeds", options.pop("seeds", list(seeds)))
-    _require(f"[{name}] seeds", chosen, bool(chosen), "a list of seeds")
+    chosen = _seeds(f"[{name}] seeds", options.pop("seeds", list(seeds)))
+    discs = _seeds(f"[{name}] disc_seeds", options.pop("disc_seeds", chosen))
     for key in options:
         require_known(f"{label} key", key.replace("-", "_"), _OPTIONS)
-    return options, [require_seed(f"{label} seeds", seed) for seed in chosen]
+    return Runs(options, chosen, discs)
+
+
+def _seeds(label: str, given: object) -> list[int]:
+    seeds = require_list(f"calibration {label}", given)
+    _require(label, seeds, bool(seeds), "a list of seeds")
+    return [require_seed(f"calibration {label}", seed) for seed in seeds]
 
 
 def _bounds(label: str, bounds: object) -> tuple[float, float]:

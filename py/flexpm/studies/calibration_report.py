@@ -29,13 +29,15 @@ _UNITS = {
 
 
 def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
-    """Name and text of each target: result, spread, target, whether it is met."""
+    """Name and text of each target: result, spread, error of the mean, target, met or not."""
     rows = []
     for target in plan.targets:
         factor, unit = _UNITS.get(target.name, (1e-6, "MPa"))
-        mean, spread = outcome.best.mean(target.name), outcome.best.spread(target.name)
+        best = outcome.best
+        mean, spread, error = (of(target.name) for of in (best.mean, best.spread, best.error))
         text = "-" if mean is None else f"{factor * mean:.4g}"
-        text += "" if spread is None else f" +- {factor * spread:.2g}"
+        if spread is not None and error is not None:
+            text += f" +- {factor * spread:.2g}, error of the mean {factor * error:.2g}"
         verdict = "met" if outcome.met[target.name] else "NOT met"
         wanted = f"{factor * target.value:.4g} {unit}".rstrip()
         rows.append((words_of(target.name), f"{text}, target {wanted}: {verdict}"))
@@ -53,11 +55,13 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     if kinds:
         content["mineral"] = [kind | kind.pop("changes") for kind in map(dict, kinds)]
     notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]
-    packings = ", ".join(map(str, plan.verify_seeds))
+    packings = ", ".join(map(str, plan.verify.seeds))
+    discs = ", ".join(map(str, plan.verify.disc_seeds))
     head = [
         "# SPDX-License-Identifier: GPL-3.0-or-later",
         f"# Calibrated for the {plan.model} model. Mean and standard deviation over the packings",
-        f"# with the seeds {packings}:",
+        f"# with the seeds {packings}" + (":" if discs == packings else ""),
+        *([] if discs == packings else [f"# and of discs with the seeds {discs}:"]),
         *notes,
     ]
     write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))

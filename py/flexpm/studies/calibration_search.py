@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,7 +31,7 @@ from ..errors import InputError, SimulationError
 from ..files import Table, output_folder
 from ..progress import Progress
 from . import jobs
-from .calibration_problem import Calibration, Target
+from .calibration_problem import Calibration, Runs, Target
 from .jobs import Job
 from .pool import Pool, PoolOptions
 from .tables import write_table
@@ -70,6 +71,11 @@ class Evaluation:
         found = self._complete(name)
         return None if found is None or len(found) < 2 else float(np.std(found, ddof=1))
 
+    def error(self, name: str) -> float | None:
+        """Standard error of the mean."""
+        spread = self.spread(name)
+        return None if spread is None else spread / math.sqrt(len(self.measures[name]))
+
     def _complete(self, name: str) -> list[float] | None:
         found = [value for value in self.measures[name] if value is not None]
         return found if len(found) == len(self.measures[name]) else None
@@ -107,8 +113,8 @@ def run(
     """
     folder = output_folder(out)
     values = {key: _started(plan, key, start) for key in plan.free}
-    for options, seeds in ((plan.screen, plan.screen_seeds), (plan.verify, plan.verify_seeds)):
-        _jobs(plan, options, seeds, values, plan.targets)  # refuses what no run could do
+    for runs in (plan.screen, plan.verify):
+        _jobs(plan, runs, values, plan.targets)  # refuses what no run could do
     with Pool(folder / "runs", **pool_options) as pool:
         search = _Search(plan, pool, progress or (lambda *_: None))
         try:
@@ -272,11 +278,8 @@ class _Search:
     def _evaluate(self, stage: str, values: Values, targets: Sequence[Target]) -> Evaluation:
         """Run what the targets need with a set of free keys."""
         plan = self._plan
-        full = stage != "screen"
-        options, seeds = (
-            (plan.verify, plan.verify_seeds) if full else (plan.screen, plan.screen_seeds)
-        )
-        measures = self._measures(options, seeds, values, targets)
+        runs = plan.screen if stage == "screen" else plan.verify
+        measures = self._measures(runs, values, targets)
         evaluation = Evaluation(
             self._round, stage, dict(values), measures, {t.name: t.value for t in targets}, 0.0
         )
@@ -285,29 +288,27 @@ class _Search:
         return evaluation
 
     def _measures(
-        self,
-        options: Table,
-        seeds: Sequence[int],
-        values: Values,
-        targets: Sequence[Target],
+        self, runs: Runs, values: Values, targets: Sequence[Target]
     ) -> dict[str, list[float | None]]:
-        plan, tests = self._plan, self._plan.tests(targets)
+        plan = self._plan
         try:
-            wanted = _jobs(plan, options, seeds, values, targets)
+            wanted = _jobs(plan, runs, values, targets)
         except InputError:
             if not self.history:
                 raise  # wrong from the start
-            return {t.name: [None] * len(seeds) for t in targets}  # keys that do not go together
+            # keys that do not go together
+            return {t.name: [None] * len(runs.seeds_of(t)) for t in targets}
         done = len(self.history)
         outcomes = self._pool.run(
-            wanted,
+            [*wanted.values()],
             lambda d, n, text: self._progress(
                 done + d / n, self._expected(), f"round {self._round}"
             ),
         )
-        results = iter(outcomes)
-        found = [{test: next(results)["result"] for test in tests} for _ in seeds]
-        return {t.name: [plan.measure(t, one) for one in found] for t in targets}
+        found: dict[int, dict[tuple[str, float], Table]] = defaultdict(dict)
+        for (seed, test), outcome in zip(wanted, outcomes, strict=True):
+            found[seed][test] = outcome["result"]
+        return {t.name: [plan.measure(t, found[s]) for s in runs.seeds_of(t)] for t in targets}
 
     def _expected(self) -> int:
         return self._plan.rounds * (self._plan.evaluations + self._plan.candidates + 1) + 10
@@ -324,25 +325,25 @@ class _Search:
 
 
 def _jobs(
-    plan: Calibration,
-    options: Table,
-    seeds: Sequence[int],
-    values: Values,
-    targets: Sequence[Target],
-) -> list[Job]:
-    """Runs that the measures of targets need, seed by seed."""
+    plan: Calibration, runs: Runs, values: Values, targets: Sequence[Target]
+) -> dict[tuple[int, tuple[str, float]], Job]:
+    """Runs that the measures of targets need, by seed and test with its confinement [Pa]."""
     material = {} if plan.material is None else {"material": plan.material}
     common = {
-        **options,
+        **runs.options,
         **material,
         "model": plan.model,
         **{f"set.{key}": value for key, value in values.items()},
     }
-    return [
-        jobs.make({**common, "test": test, "confinement": confinement, "seed": seed}, plan.base)
-        for seed in seeds
-        for test, confinement in plan.tests(targets)
-    ]
+    wanted = {
+        (seed, test): None for t in targets for seed in runs.seeds_of(t) for test in plan.tests(t)
+    }
+    return {
+        (seed, (test, confinement)): jobs.make(
+            {**common, "test": test, "confinement": confinement, "seed": seed}, plan.base
+        )
+        for seed, (test, confinement) in wanted
+    }
 
 
 def _optimiser() -> ModuleType:

@@ -18,14 +18,21 @@ from ..errors import InputError
 from ..files import Table, json_text, write_text
 from ..laboratory import run_spec
 from ..laboratory.run_spec import RunSpec
+from ..materials import joint
 from ..materials.keys import UNITS
 from ..materials.material import load as load_material
 from ..require import require_known, require_text
+from ..specimens import joint_lines, specimen_file
+from ..specimens.spec import SIZES, SpecimenSpec
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = (*run_spec.TESTS, run_spec.ELASTIC)
 #: Keys that change the material.
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
+#: Keys that name files: a saved specimen, and lines of joints.
+_FILES = ("specimen", "joints")
+#: Keys of a packing.
+_PACKED = (*SIZES["rectangle"], *SIZES["disc"], *run_spec.PACKING)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
 NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
 #: Exit codes of a job that would end the same way again.
@@ -77,7 +84,7 @@ def make(inputs: Table, base: Path) -> Job:
     Args:
         inputs: ``test`` and options of ``flexpm run`` or ``flexpm elastic`` by name, with ``_`` or
             ``-``; ``set.KEY`` changes the material.
-        base: Folder that the path of a material file is relative to.
+        base: Folder that the paths of files are relative to.
 
     Raises:
         InputError: for a missing test, an unknown key or a value out of range.
@@ -88,17 +95,35 @@ def make(inputs: Table, base: Path) -> Job:
     test = given.pop("test")
     require_known("study test", test, _TESTS)
     used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
+    changes = {key.removeprefix("set."): key for key in used if key.startswith("set.")}
     for key in used:
-        require_known("study key", key, [*run_spec.OPTIONS, "material", *_CHANGES])
-    if "material" in used:
-        require_text("study material", used["material"])
-    if str(used.get("material", "")).endswith(".toml"):
-        used["material"] = str(base / used["material"])
+        if not joint.is_key(key.removeprefix("set.")):
+            require_known("study key", key, [*run_spec.OPTIONS, "material", *_FILES, *_CHANGES])
+    for key in ("material", *_FILES):
+        if key in used:
+            require_text(f"study {key}", used[key])
+            if key in _FILES or used[key].endswith(".toml"):
+                used[key] = str(base / used[key])
     model = used.get("model", RunSpec.model)
-    changes = [f"{key.removeprefix('set.')}={used[key]}" for key in used if key in _CHANGES]
-    material = load_material(used.get("material"), model).with_set(changes, model)
-    spec = RunSpec.from_options(test, used, material)
+    assigned = [f"{name}={used[key]}" for name, key in changes.items()]
+    material = load_material(used.get("material"), model).with_set(assigned, model)
+    spec = RunSpec.from_options(test, used, material, _specimen(test, used))
     return Job({"test": test, **used}, tuple(arguments(test, used)), spec)
+
+
+def _specimen(test: str, used: Table) -> SpecimenSpec:
+    """The specimen that inputs describe: packed or from a file, with its joints."""
+    if "specimen" in used:
+        for key in _PACKED:
+            if key in used:
+                raise InputError(
+                    f"study {key} = {used[key]}, must not be given with specimen, which has its "
+                    "own; leave one out"
+                )
+        found = specimen_file.spec_of(specimen_file.read(Path(used["specimen"])))
+    else:
+        found = RunSpec.packed(test, used)
+    return found.with_joints(joint_lines.read(Path(used["joints"]))) if "joints" in used else found
 
 
 def place_of(model: str, confinement: float, confinements: int) -> str:

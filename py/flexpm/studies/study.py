@@ -125,4 +125,13 @@ def flat(label: str, entries: object) -> Table:
     """A table with the keys of its table ``set`` as ``set.KEY``."""
     plain = require_table(label, entries)
     changes = require_table(f"{label} set", plain.pop("set", {}))
-    return plain | {f"set.{key}": value for key, value in changes.items()}
+    return plain | dict(_dotted("set", changes))
+
+
+def _dotted(prefix: str, entries: Table) -> Iterator[tuple[str, object]]:
+    """Entries of a table and of its tables: keys of joints are joint.NAME.KEY."""
+    for key, value in entries.items():
+        if isinstance(value, dict):
+            yield from _dotted(f"{prefix}.{key}", value)
+        else:
+            yield f"{prefix}.{key}", value

@@ -56,6 +56,7 @@ def plan_of(folder: Path, text: str = GOOD) -> calibration_problem.Calibration:
         ("cohesion = [5e6, 90e6]", "cohesoin = [5e6, 9e7]", "did you mean cohesion?"),
         ("evaluations = 30", "evaluations = 0", ">= 1"),
         ("seeds = [5, 6]", "seeds = 5", "must be a list"),
+        ("seeds = [5, 6]", "disc_seeds = []", "must be a list of seeds"),
     ],
 )
 def test_wrong_files_are_refused(tmp_path, old, new, says):
@@ -73,7 +74,9 @@ def test_the_papers_granite_can_be_calibrated(model):
     for ratio in plan.ratios:
         assert ratio.bounds[0] <= law[ratio.of] / law[ratio.to] <= ratio.bounds[1]
     # the elastic solve, the disc, and each confinement of the envelope
-    assert len(plan.tests(plan.targets)) == 2 + len(plan.confinements)
+    tests = {test for target in plan.targets for test in plan.tests(target)}
+    assert len(tests) == 2 + len(plan.confinements)
+    assert len(plan.verify.disc_seeds) > len(plan.verify.seeds)
 
 
 def test_the_start_must_lie_within_the_bounds(tmp_path):
@@ -86,7 +89,7 @@ def test_the_start_must_lie_within_the_bounds(tmp_path):
 def test_measures_of_an_envelope(tmp_path):
     text = GOOD.replace("direct_tensile_strength = 6e6", "cohesion = 21e6\nfriction_angle = 53")
     plan = plan_of(tmp_path, text)
-    assert plan.tests(plan.targets) == [
+    assert plan.tests(plan.targets[1]) == [
         ("uniaxial", 0.0),
         *[("biaxial", c) for c in plan.confinements[1:]],
     ]
@@ -148,6 +151,29 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     assert all("met" in text for _, text in table_rows(plan, found))
     picture(tmp_path / "known.png", plan, found)
     assert (tmp_path / "known.png").stat().st_size > 10_000
+
+
+def test_discs_may_have_packings_of_their_own(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", MadeUp)
+    text = GOOD.replace("seeds = [5, 6]", "seeds = [5, 6]\ndisc_seeds = [7, 8, 9]")
+    text = text.replace("direct_tensile_strength = 6e6", "indirect_tensile_strength = 300e6")
+    plan = plan_of(tmp_path, text)
+    start = materials.load("augig-table7")
+    best = calibration_search.run(plan, tmp_path, start=start.law()).best
+    counts = {name: len(values) for name, values in best.measures.items()}
+    assert counts == {"compressive_strength": 2, "indirect_tensile_strength": 3}
+    assert best.error("compressive_strength") == best.spread("compressive_strength") / 2**0.5
+
+
+def test_a_preset_says_on_what_it_was_verified(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", MadeUp)
+    plan = plan_of(tmp_path, GOOD.replace("[5, 6]", "[5, 6]\ndisc_seeds = [7, 8, 9]"))
+    start = materials.load("augig-table7")
+    found = calibration_search.run(plan, tmp_path, start=start.law())
+    write_preset(tmp_path / "known.toml", start, plan, found)
+    text = (tmp_path / "known.toml").read_text()
+    assert "# with the seeds 5, 6\n# and of discs with the seeds 7, 8, 9:\n" in text
+    assert ", error of the mean 0" in text  # all packings of the made-up rock are alike
 
 
 def test_ratios_hold_in_the_search(tmp_path, monkeypatch):

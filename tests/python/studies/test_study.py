@@ -19,9 +19,12 @@ from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.image import imread
 
+import flexpm
+from flexpm import materials
 from flexpm.cli import inputs, main
 from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
+from flexpm.specimens import joint_lines
 from flexpm.studies import figures, jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -100,6 +103,11 @@ def test_keys_follow_what_is_computed(tmp_path):
         ('[common]\ntest = "uniaxial"\n[grid]\nseed = 1\n', "must be a list"),
         ('[common]\ntest = "uniaxial"\nset = 3\n', "must be a table"),
         ("common = [\n", "is no valid TOML"),
+        ('[common]\ntest = "uniaxial"\nspecimen = 3\n', "specimen = 3, must be a text"),
+        ('[common]\ntest = "uniaxial"\nspecimen = "none.json"\n', "cannot be read"),
+        ('[common]\ntest = "uniaxial"\nspecimen = "a"\nwidth = 1.0\n', "leave one out"),
+        ('[common]\ntest = "uniaxial"\njoints = "none.csv"\n', "cannot be read"),
+        ('[common]\ntest = "uniaxial"\nset.joint.a.frction = 1\n', "did you mean friction?"),
     ],
 )
 def test_wrong_files_are_refused_before_anything_runs(tmp_path, text, says):
@@ -273,6 +281,38 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
     inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
     inert |= {"seeds", "workers", "report", "specimen_file", "joints_file", "frames", "film"}
     assert names - inert == {*run_spec.OPTIONS, "material"}
+
+
+def test_a_study_takes_joints_and_a_saved_specimen(tmp_path, package_parent):
+    """Both by paths from the study file's folder; laws of joints can be varied."""
+    lines = tmp_path / "cracks.csv"
+    lines.write_text("x1,y1,x2,y2,name\n-0.001,0.005,0.011,0.015,weak\n")
+    law = "set.joint.weak.normal_stiffness = 1e13\nset.joint.weak.shear_stiffness = 5e12\n"
+    law += "set.joint.weak.friction = 0.5\n"
+    laws = ["normal_stiffness=1e13", "shear_stiffness=5e12", "friction=0.5"]
+    sizes = SMALL.replace("\n", " ").replace(" = ", "=").split()
+    size = {name: float(value) for name, value in (one.split("=") for one in sizes)}
+    cut = flexpm.Specimen.rectangle(**size, seed=3).with_joints(joint_lines.read(lines))
+    cut.save(tmp_path / "cut.json")
+    rock = materials.load().with_set([*(f"joint.weak.{one}" for one in laws), "young=30e9"])
+    expected = flexpm.elastic(cut, rock)["youngs_modulus"]
+    grid = "[grid]\nset.young = [30e9, 40e9]\n"
+    packed = f'[[case]]\njoints = "cracks.csv"\nseed = 2\n{SMALL}'
+    packed += packed.replace("seed = 2", "seed = 3")  # that of the file: one run
+    read = '[[case]]\nspecimen = "cut.json"\n'
+    path = file_of(tmp_path, f'[common]\ntest = "elastic"\n{law}{grid}{packed}{read}')
+    done = subprocess.run(
+        command(package_parent, "study", path, "--out", tmp_path / "out", "--quiet"),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    rows = pandas.read_csv(tmp_path / "out" / "table.csv", float_precision="round_trip")
+    found = rows["youngs_modulus"].tolist()
+    assert len(found) == 4
+    assert found[2] == expected < found[3]
+    assert found[0] != expected
 
 
 def made_up(folder: Path, **inputs) -> tuple[jobs.Job, dict]:
