@@ -35,6 +35,7 @@ __all__ = [
     "Loading",
     "Material",
     "Model",
+    "PartRig",
     "Result",
     "SimulationError",
     "Specimen",

@@ -8,6 +8,7 @@ matplotlib, which the classes of the plugin and the command's help do without.
 from . import materials
 from .errors import InputError, SimulationError
 from .laboratory.loading_rate import Loading
+from .laboratory.part_rig import PartRig
 from .laboratory.protocols import run
 from .laboratory.rigs import rig
 from .materials import Material
@@ -25,6 +26,7 @@ __all__ = [
     "Loading",
     "Material",
     "Model",
+    "PartRig",
     "Result",
     "SimulationError",
     "Specimen",

@@ -187,20 +187,41 @@ def combined(*options: Decorator) -> Decorator:
     return decorate
 
 
-def _length(name: str, default: float, help_text: str) -> Decorator:
+def _length(name: str, default: float, help_text: str, *, sizes: bool = True) -> Decorator:
+    """A length; a size is left to the test, whose specimen may have another default."""
     return click.option(
         name,
         type=Quantity("m", POSITIVE),
-        default=default,
+        default=None if sizes else default,
         metavar="M",
-        show_default=True,
-        help=f"{help_text} [m].",
+        help=f"{help_text} [m].  [default: {default:g}]",
     )
 
 
 rectangle_options = combined(
     _length("--width", SIZES["rectangle"]["width"], "Width"),
     _length("--height", SIZES["rectangle"]["height"], "Height"),
+)
+beam_options = combined(
+    click.option(
+        "--length",
+        type=Quantity("m", POSITIVE),
+        metavar="M",
+        help="Length of a beam, whose default height is 0.04, for bending [m].  [default: 0.18]",
+    ),
+    click.option(
+        "--span",
+        type=Quantity("m", POSITIVE),
+        metavar="M",
+        help="Distance of the supports, for bending [m].  [default: 4 times the height, or 8/9 of "
+        "the length]",
+    ),
+    click.option(
+        "--notch",
+        type=Quantity("m", NOT_NEGATIVE),
+        metavar="M",
+        help="Depth of a notch in the middle, for bending [m].  [default: none]",
+    ),
 )
 seed_option = click.option(
     "--seed",
@@ -234,7 +255,7 @@ threads_option = click.option(
     help="Threads of the simulation.",
 )
 packing_options = combined(
-    _length("--thickness", SpecimenSpec.thickness, "Thickness out of plane"),
+    _length("--thickness", SpecimenSpec.thickness, "Thickness out of plane", sizes=False),
     click.option(
         "--diameters",
         type=Range(),
@@ -328,10 +349,9 @@ loading_options = combined(
     click.option(
         "--stop-ratio",
         type=Quantity("", POSITIVE),
-        default=RunSpec.stop_ratio,
         metavar="F",
-        show_default=True,
-        help="The test ends once the stress has fallen to this part of its peak [-].",
+        help="The test ends once the stress has fallen to this part of its peak [-].  "
+        "[default: 0.5; bending: 0.1]",
     ),
     click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
     click.option(

@@ -14,11 +14,20 @@ from dataclasses import dataclass
 from ..errors import InputError
 from ..require import require_one_of
 
+#: Tests that are held by parts, of flexible and rigid grains, and tests of one's own.
+PART_TESTS = ("bending", "own")
+
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
 #: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %.
 RATE_CONSTANT = {
-    "flexible": {"uniaxial": 0.005, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.01},
-    "rigid": {"uniaxial": 0.01, "tension": 0.02, "biaxial": 0.01, "brazilian": 0.01},
+    "flexible": {
+        **{"uniaxial": 0.005, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.01},
+        **{"bending": 0.01, "own": 0.01},
+    },
+    "rigid": {
+        **{"uniaxial": 0.01, "tension": 0.02, "biaxial": 0.01, "brazilian": 0.01},
+        **{"bending": 0.01, "own": 0.01},
+    },
     # halved on small specimens, as those of YADE's models
     "inner": {"uniaxial": 0.01, "tension": 0.01, "biaxial": 0.01, "brazilian": 0.01},
     "jcfpm": {"uniaxial": 0.0025, "tension": 0.01, "biaxial": 0.0025, "brazilian": 0.0025},
@@ -31,16 +40,28 @@ WAITING_CONSTANT = 0.16
 #: Cracks run where damage and friction take more than this share of what a waiting loading would
 #: supply at its fastest [-], by model and test.
 RUNNING_SHARE = {
-    "flexible": {"uniaxial": 0.002, "tension": 0.01, "biaxial": 0.003, "brazilian": 0.01},
-    "rigid": {"uniaxial": 0.005, "tension": 0.02, "biaxial": 0.0075, "brazilian": 0.006},
+    "flexible": {
+        **{"uniaxial": 0.002, "tension": 0.01, "biaxial": 0.003, "brazilian": 0.01},
+        **{"bending": 0.01, "own": 0.01},
+    },
+    "rigid": {
+        **{"uniaxial": 0.005, "tension": 0.02, "biaxial": 0.0075, "brazilian": 0.006},
+        **{"bending": 0.01, "own": 0.01},
+    },
 }
 #: Slowest rate of a loading that waits over its fastest [-].
 SLOWEST_WAIT = 0.01
 #: Wave crossings that a test with a loading that waits takes, about, between half the paper's size
 #: and the whole of it [-].
 _LIKELY_CROSSINGS = {
-    "flexible": {"uniaxial": 110, "tension": 20, "biaxial": 250, "brazilian": 45},
-    "rigid": {"uniaxial": 140, "tension": 60, "biaxial": 160, "brazilian": 105},
+    "flexible": {
+        **{"uniaxial": 110, "tension": 20, "biaxial": 250, "brazilian": 45},
+        **{"bending": 60, "own": 60},
+    },
+    "rigid": {
+        **{"uniaxial": 140, "tension": 60, "biaxial": 160, "brazilian": 105},
+        **{"bending": 60, "own": 60},
+    },
 }
 #: Part of these shares for brittle contacts, of whose cracks only waves tell [-].
 _BRITTLE_PART = 0.05
@@ -50,8 +71,14 @@ _SHARE_AFTER_PEAK = 5.0
 #: A test whose median unbalanced-force ratio up to its peak exceeds this is not quasi-static [-]:
 #: about what the fastest rate gives at which halving still moves the mean peak by less than 2 %.
 QUASISTATIC_RATIO = {
-    "flexible": {"uniaxial": 0.0015, "tension": 0.0045, "biaxial": 0.001, "brazilian": 0.008},
-    "rigid": {"uniaxial": 0.004, "tension": 0.005, "biaxial": 0.003, "brazilian": 0.012},
+    "flexible": {
+        **{"uniaxial": 0.0015, "tension": 0.0045, "biaxial": 0.001, "brazilian": 0.008},
+        **{"bending": 0.01, "own": 0.01},
+    },
+    "rigid": {
+        **{"uniaxial": 0.004, "tension": 0.005, "biaxial": 0.003, "brazilian": 0.012},
+        **{"bending": 0.01, "own": 0.01},
+    },
     "inner": {"uniaxial": 0.005, "tension": 0.005, "biaxial": 0.005, "brazilian": 0.005},
     # a bond that breaks at once leaves its whole force unbalanced, however slow the test is
     "jcfpm": {"uniaxial": 0.02, "tension": 0.02, "biaxial": 0.02, "brazilian": 0.02},
@@ -66,12 +93,14 @@ _WAITING_RATIO = {
         "tension": (0.005, 0.6),
         "biaxial": (0.0017, 0.045),
         "brazilian": (0.033, 0.028),
+        "bending": (0.05, 0.1),
     },
     "rigid": {
         "uniaxial": (0.02, 0.15),
         "tension": (0.017, 0.1),
         "biaxial": (0.022, 0.1),
         "brazilian": (0.09, 0.06),
+        "bending": (0.05, 0.1),
     },
 }
 #: How a loading goes on: ``constant``: the ends move at one velocity; ``adaptive``: faster while
@@ -79,13 +108,16 @@ _WAITING_RATIO = {
 LOADINGS = ("constant", "adaptive", "waiting")
 #: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
 STOP_RATIO = 0.5
+#: The same of tests whose work counts up to the end.
+_OTHER_STOP_RATIOS = {"bending": 0.1}
 #: Largest part that can be asked for [-]: a smaller fall makes no peak (``measures.PEAK_DROP``).
 LARGEST_STOP_RATIO = 0.9
 #: A test ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
 #: slowly, and the interlocking edges of inner particles, carry more than the reference.
 _LARGEST_STRAINS = 8.0
-#: The same for discs: plates press into them, and softening lets them carry more.
-_LARGEST_DISC_STRAINS = 16.0
+#: The same where another one suits: plates press into discs, which softening lets carry more; a
+#: beam is bent until it is broken through.
+_OTHER_LARGEST_STRAINS = {"brazilian": 16.0, "bending": 20.0}
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
 #: Most steps of a test: a day for the smallest specimens, and numbers that a double counts.
@@ -137,6 +169,11 @@ class Schedule:
     steps: int  #: up to the largest strain at the slowest
     likely_steps: int  #: as most tests have
     min_strain: float = -1e300  #: at which the test ends, too [-]
+
+
+def default_stop_ratio(test: str) -> float:
+    """Part of its peak to which the stress falls before a test ends, unless told otherwise [-]."""
+    return _OTHER_STOP_RATIOS.get(test, STOP_RATIO)
 
 
 def rate_constant(test: str, model: str) -> float:
@@ -204,7 +241,7 @@ def schedule(
     reference = (scales.strength + confinement) / scales.modulus
     crossing_time = scales.crossing_steps * dt
     velocity = loading.rate * rate_constant(test, model) * reference / crossing_time * scales.height
-    multiple = _LARGEST_DISC_STRAINS if test == "brazilian" else _LARGEST_STRAINS
+    multiple = _OTHER_LARGEST_STRAINS.get(test, _LARGEST_STRAINS)
     largest = loading.max_strain or multiple * reference
     steps = largest * scales.height / (velocity * dt)
     if not steps <= _MOST_STEPS:

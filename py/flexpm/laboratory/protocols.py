@@ -15,8 +15,9 @@ from ..files import Table, output_folder, refuse_folders
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import is_brittle
-from ..models.grains import build
+from ..models.grains import Model, build
 from ..models.options import SPHERE_MODELS
+from ..models.spheres import SphereModel
 from ..progress import Progress
 from ..report.curves import curve_picture
 from ..report.maps import crack_picture, fragment_picture
@@ -30,11 +31,13 @@ from ..specimens.specimen import Specimen
 from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint
 from .frames import COLLECTION, TABLE, FrameWriter
-from .loading_rate import Loading, quasistatic_ratio
+from .loading_rate import Loading, default_stop_ratio, quasistatic_ratio
 from .output import Output
+from .part_rig import PartRig
+from .part_tests import measure, part_rig, prepared
 from .rig import TestRig
 from .rigs import rig as rig_of
-from .run_spec import RunSpec, described
+from .run_spec import PART_TESTS, RunSpec, described
 from .runner import Foresee, Runner
 
 #: Names of the files of a run.
@@ -68,11 +71,13 @@ def run(
     mesh: str = "refined",
     rate: float = 1.0,
     max_strain: float | None = None,
-    stop_ratio: float = RunSpec.stop_ratio,
+    stop_ratio: float | None = None,
     dynamic: bool = False,
     gravity: float = 0.0,
     start: str | None = None,
     loading: str | None = None,
+    span: float | None = None,
+    notch: float | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -91,7 +96,8 @@ def run(
         test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
             ``brazilian``: a disc between two plates, whose axial stress is 2 P / (pi D t), P the
-            force, D the diameter, t the thickness.
+            force, D the diameter, t the thickness; ``bending``: a beam on two supports, pressed in
+            the middle.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
@@ -105,7 +111,8 @@ def run(
         max_strain: Largest axial strain [-]; None for 8 times that of the reference strength, 16
             times for discs.
         stop_ratio: Part of its peak to which the stress falls before the test ends [-]: above 0, at
-            most 0.9. What comes after a peak takes most of a confined test.
+            most 0.9; None: 0.5, and 0.1 in bending. What comes after a peak takes most of a
+            confined test.
         dynamic: Real masses and time instead of scaled masses and unit steps.
         gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;
@@ -116,6 +123,9 @@ def run(
             rate as damage and friction take the work; ``constant``: at the rate. None: ``waiting``
             for flexible and rigid grains with scaled masses, ``adaptive`` for inner particles
             unless contacts are brittle, else ``constant``.
+        span: Distance of the supports in ``bending`` [m]; None: four times the height, or 8/9
+            of the length.
+        notch: Depth of the notch of ``bending`` [m]; None: no notch.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -144,11 +154,13 @@ def run(
         confinement=confinement,
         rate=rate,
         max_strain=max_strain,
-        stop_ratio=stop_ratio,
+        stop_ratio=default_stop_ratio(test) if stop_ratio is None else stop_ratio,
         dynamic=dynamic,
         gravity=gravity,
         start=start or "",
         loading=loading or "",
+        span=span,
+        notch=notch,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval)
     return carry_out(plan, threads=threads, progress=progress, output=output)
@@ -215,9 +227,10 @@ def carry_out(
     if folder is not None:
         given.save(folder, plan.specimen)
     yade.O.reset()
+    specimen, material = prepared(spec, plan.specimen, plan.material)
     built = build(
-        plan.specimen,
-        plan.material,
+        specimen,
+        material,
         spec.model,
         points=spec.points,
         mesh=spec.mesh,
@@ -232,7 +245,7 @@ def carry_out(
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot(), _about(spec.to_json()))
     runner = Runner(checkpoint, progress, foresee)
-    rig = rig_of(built, tension=spec.test == "tension", runner=runner)
+    rig = _rig_of(built, spec, runner)
     output = output or Output()
     if folder is not None and output.frames:
         resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
@@ -247,6 +260,12 @@ def carry_out(
         write_files(folder, result)
         _write_others(folder, result, output, rig)
     return result
+
+
+def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRig:
+    if spec.test in PART_TESTS and isinstance(built, Model):
+        return part_rig(built, spec, runner)
+    return rig_of(built, tension=spec.test == "tension", runner=runner)
 
 
 def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) -> None:
@@ -288,6 +307,7 @@ TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
     "tension": (_load,),
     "biaxial": (_confine, _load),
     "brazilian": (_load,),
+    "bending": (_load,),
 }
 
 
@@ -317,6 +337,8 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )
+    if isinstance(rig, PartRig):
+        measure(result, rig, spec)
     if rig.disc:  # the slopes of the plates' closure are no constants of the rock
         result.youngs_modulus = result.poissons_ratio = None
     result.contact_width = rig.contact_width

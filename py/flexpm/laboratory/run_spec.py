@@ -24,19 +24,31 @@ from ..require import (
     require_number,
     require_one_of,
 )
+from ..results.toughness import require_span
 from ..specimens.spec import SIZES, SpecimenSpec
-from .loading_rate import LARGEST_STOP_RATIO, LOADINGS, RUNNING_SHARE, STOP_RATIO
+from .loading_rate import (
+    LARGEST_STOP_RATIO,
+    LOADINGS,
+    RUNNING_SHARE,
+    STOP_RATIO,
+    default_stop_ratio,
+)
 
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
 SCHEMA = 1
 #: Tests that are simulated.
-TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+_ENDS_TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
+#: Of these the ones held and loaded by parts: supports, boxes. They are for ``PART_MODELS``.
+PART_TESTS = ("bending",)
+TESTS = (*_ENDS_TESTS, *PART_TESTS)
+#: Models that parts hold.
+PART_MODELS = ("flexible", "rigid")
 #: Numbers of the results by test and model; 1 for those that have never changed. A commit that
 #: changes a hash of a reference command (scripts/checks/reference.py) raises the number of its test
 #: and model; runs of these that were finished before get other keys and are done again.
 RESULTS: dict[tuple[str, str], int] = {
-    **{(test, model): 2 for test in TESTS for model in SPHERE_MODELS},
+    **{(test, model): 2 for test in _ENDS_TESTS for model in SPHERE_MODELS},
     # discs of other places, the same on all machines
     **{("brazilian", model): 2 for model in GRAIN_MODELS},
     **{("brazilian", model): 3 for model in SPHERE_MODELS},
@@ -55,17 +67,28 @@ ELASTIC = "elastic"
 #: where the first contact point is about to leave its elastic branch.
 STARTS = ("rest", "static")
 
-#: Options that a test has no use for.
-UNUSED: dict[str, tuple[str, ...]] = {
+#: Options that only some tests have, which need no default in others.
+_OWN = {"length": ("bending",), "span": ("bending",), "notch": ("bending",)}
+_UNUSED: dict[str, tuple[str, ...]] = {
     "uniaxial": ("diameter", "confinement"),
     "tension": ("diameter", "confinement"),
     "biaxial": ("diameter", "start"),
     "brazilian": ("width", "height", "confinement", "start"),
+    "bending": ("width", "diameter", "confinement", "start"),
     ELASTIC: (
         *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
         *("dynamic", "gravity", "start", "loading"),
     ),
 }
+#: Options that a test has no use for.
+UNUSED: dict[str, tuple[str, ...]] = {
+    test: (*unused, *(name for name, tests in _OWN.items() if test not in tests))
+    for test, unused in _UNUSED.items()
+}
+#: Sizes of a test's specimen that are others than those of its shape [m].
+_OTHER_SIZES: dict[str, dict[str, float]] = {"bending": {"width": 0.18, "height": 0.04}}
+#: Span of a beam over its height, and at most over its length, unless it is given [-].
+_SPAN, _LARGEST_SPAN = 4.0, 8.0 / 9.0
 #: Ranges beyond which sums are no numbers, or no test has a sense.
 _RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 _STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
@@ -74,10 +97,10 @@ _GRAVITY = Bounds(at_least=0.0, at_most=1e12)
 PACKING = ("thickness", "diameters", "porosity", "seed")
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
-    *("dynamic", "gravity", "start", "loading"),
+    *("dynamic", "gravity", "start", "loading", "span", "notch"),
 )
 #: Fields that options of the command set, by their names.
-OPTIONS = (*SIZES["rectangle"], *SIZES["disc"], *PACKING, *_SIMULATION)
+OPTIONS = (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, *_SIMULATION)
 
 
 @dataclass(frozen=True)
@@ -106,6 +129,9 @@ class RunSpec:
         loading: How the loading goes on, one of ``LOADINGS``; empty: ``waiting`` for flexible and
             rigid grains with scaled masses, ``adaptive`` for inner particles unless contacts are
             brittle, else ``constant``.
+        span: Distance of the supports of ``bending`` [m]; None: four times the height, or
+            8/9 of the length if that is less. None for other tests.
+        notch: Depth of the notch in the middle of a beam [m]; 0: none. None for other tests.
     """
 
     test: str
@@ -122,6 +148,8 @@ class RunSpec:
     gravity: float = 0.0
     start: str = ""
     loading: str = ""
+    span: float | None = None
+    notch: float | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
@@ -136,6 +164,7 @@ class RunSpec:
         self._check_start()
         self._check_loading()
         self._check_test()
+        self._check_beam()
         self._set("points", int(self.points))
         self._set("material", dict(self.material))
 
@@ -162,6 +191,7 @@ class RunSpec:
         given = {name: value for name, value in options.items() if value is not None}
         specimen = cls.packed(test, given) if specimen is None else specimen
         others = {name: given[name] for name in _SIMULATION if name in given}
+        others.setdefault("stop_ratio", default_stop_ratio(test))
         model = others.get("model", cls.model)
         return cls(test, specimen, described(material, model), **others)
 
@@ -170,8 +200,10 @@ class RunSpec:
         """The packed specimen that options of the command describe for a test."""
         shape = shape_of(test)
         given = {name: options.get(name) for name in (*SIZES[shape], *PACKING)}
+        if test == "bending":
+            given["width"] = options.get("length")
         named = {name: value for name, value in given.items() if value is not None}
-        return SpecimenSpec(shape, **named)
+        return SpecimenSpec(shape, **_OTHER_SIZES.get(test, {}) | named)
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:
@@ -301,6 +333,8 @@ class RunSpec:
     def _check_test(self) -> None:
         if self.test == ELASTIC:
             require_one_of("run: model", self.model, GRAIN_MODELS)
+        if self.test in PART_TESTS:
+            require_one_of(f"run: model of {self.test}", self.model, PART_MODELS)
         if self.model in SPHERE_MODELS:
             self.specimen.require_discs(self.model)
         if self.model in INNER_MODELS:
@@ -317,6 +351,22 @@ class RunSpec:
                 f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}"
                 f"{'' if shape == 'disc' else '; use biaxial'}"
             )
+
+    def _check_beam(self) -> None:
+        for name in ("span", "notch"):
+            value = getattr(self, name)
+            if self.test != "bending" and value is not None:
+                raise InputError(f"run: {name} = {value} m, must not be given for {self.test}")
+        if self.test != "bending":
+            return
+        width, height = self.specimen.width or 0.0, self.specimen.height or 0.0
+        usual = min(_SPAN * height, _LARGEST_SPAN * width)
+        span = usual if self.span is None else self.span
+        bounds = Bounds(above=0.0, below=width)
+        self._set("span", require_number("run: span", span, bounds, "m"))
+        bounds = Bounds(at_least=0.0, below=height)
+        self._set("notch", require_number("run: notch", self.notch or 0.0, bounds, "m"))
+        require_span(self.span or 0.0, height, self.notch or 0.0)
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -62,7 +62,7 @@ def until_regained(curve: Curve) -> Curve:
     fallen = (stress <= (1.0 - PEAK_DROP) * largest) & (largest >= _SEATED * largest[-1])
     first = int(np.argmax(fallen))
     regained = np.flatnonzero(fallen[first] & (stress[first:] > largest[first]))
-    return Curve.from_array(curve.array[: first + regained[0]]) if len(regained) else curve
+    return curve.until(first + int(regained[0])) if len(regained) else curve
 
 
 def elastic_rows(curve: Curve) -> slice:

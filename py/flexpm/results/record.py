@@ -43,18 +43,24 @@ INTEGERS = ("step", "tensile_cracks", "shear_cracks")
 class Curve:
     """Rows of a running test; amortised constant time to append, columns as numpy views."""
 
-    def __init__(self) -> None:
-        self._data = np.empty((256, len(COLUMNS)))
+    def __init__(self, own: Sequence[str] = ()) -> None:
+        """Begin an empty record.
+
+        Args:
+            own: Names of the columns that this test has beside `COLUMNS`.
+        """
+        self.columns = (*COLUMNS, *own)
+        self._data = np.empty((256, len(self.columns)))
         self._rows = 0
 
     def append(self, **values: float) -> None:
         """Add one row; every column must be named (nan where a quantity is not defined)."""
-        if values.keys() != set(COLUMNS):
-            wrong = sorted(values.keys() ^ set(COLUMNS))
+        if values.keys() != set(self.columns):
+            wrong = sorted(values.keys() ^ set(self.columns))
             raise TypeError(f"Curve.append: columns {wrong} missing or unknown")
         if self._rows == len(self._data):
             self._data = np.concatenate([self._data, np.empty_like(self._data)])
-        self._data[self._rows] = [values[name] for name in COLUMNS]
+        self._data[self._rows] = [values[name] for name in self.columns]
         self._rows += 1
 
     def __len__(self) -> int:
@@ -62,27 +68,37 @@ class Curve:
 
     def __getitem__(self, column: str) -> FloatArray:
         """View of one column; it stays valid, but does not grow with later rows."""
-        return self._data[: self._rows, COLUMNS.index(column)]
+        return self._data[: self._rows, self.columns.index(column)]
 
     @property
     def array(self) -> FloatArray:
-        """All rows, in the order of `COLUMNS`."""
+        """All rows, in the order of `columns`."""
         return self._data[: self._rows]
 
     @classmethod
-    def from_array(cls, array: FloatArray) -> Curve:
-        """Restore a record from `array` (rows, columns in the order of `COLUMNS`)."""
-        array = np.asarray(array, dtype=float).reshape(-1, len(COLUMNS))
-        curve = cls()
+    def from_array(cls, array: FloatArray, own: Sequence[str] = ()) -> Curve:
+        """Restore a record from `array` (rows, columns in the order of `COLUMNS`, then `own`)."""
+        curve = cls(own)
+        array = np.asarray(array, dtype=float).reshape(-1, len(curve.columns))
         curve._rows = len(array)
-        curve._data = np.concatenate([array, np.empty((256, len(COLUMNS)))])
+        curve._data = np.concatenate([array, curve._data])
         return curve
 
     @classmethod
-    def from_columns(cls, names: Sequence[str], rows: FloatArray) -> Curve:
+    def from_columns(cls, names: Sequence[str], rows: FloatArray, own: Sequence[str] = ()) -> Curve:
         """Take the record's columns from `rows` (rows, columns) whose columns have `names`."""
         rows = np.asarray(rows, dtype=float).reshape(-1, len(names))
-        return cls.from_array(rows[:, [list(names).index(column) for column in COLUMNS]])
+        places = [list(names).index(column) for column in (*COLUMNS, *own)]
+        return cls.from_array(rows[:, places], own)
+
+    @property
+    def own(self) -> tuple[str, ...]:
+        """Names of the columns beside `COLUMNS`."""
+        return self.columns[len(COLUMNS) :]
+
+    def until(self, row: int) -> Curve:
+        """The record before a row."""
+        return Curve.from_array(self.array[:row], self.own)
 
     @classmethod
     def read(cls, path: Path) -> Curve:
@@ -96,17 +112,18 @@ class Curve:
             found = np.array(rows, dtype=float).reshape(len(rows), len(names))
         except ValueError as error:
             raise InputError(f"record = {str(path)!r}, holds no numbers: {error}") from None
+        own = [name for name in names if name not in COLUMNS]
         columns = [
             found[:, names.index(name)] if name in names else np.full(len(rows), np.nan)
-            for name in COLUMNS
+            for name in (*COLUMNS, *own)
         ]
-        return cls.from_array(np.column_stack(columns))
+        return cls.from_array(np.column_stack(columns), own)
 
     def csv(self) -> str:
         """The record as CSV text; numbers are written so that they read back unchanged."""
-        whole = [name in INTEGERS for name in COLUMNS]
+        whole = [name in INTEGERS for name in self.columns]
         rows = (
             [int(value) if integer else value for value, integer in zip(row, whole, strict=True)]
             for row in self.array.tolist()
         )
-        return csv_text(COLUMNS, rows)
+        return csv_text(self.columns, rows)

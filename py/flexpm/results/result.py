@@ -67,6 +67,10 @@ class Result(Shown):
     tensile_onset_stress: float | None = None  #: [Pa]
     shear_onset_strain: float | None = None  #: the same of shear cracks [-]
     shear_onset_stress: float | None = None  #: [Pa]
+    peak_load: float | None = None  #: largest load of a test between parts [N]
+    notch: float | None = None  #: depth of the notch as it was cut [m]
+    fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
+    fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
@@ -131,6 +135,19 @@ class Result(Shown):
         of_loading = measures.unbalanced_under_way if waiting else measures.median_unbalanced_ratio
         ratio = of_loading(record)
         self.status = self._status(diverged, peak, ratio is None or ratio > max_unbalanced)
+
+    def measure_fracture(self, ligament: float) -> None:
+        """Fill what a specimen that is broken through measures.
+
+        Args:
+            ligament: Area that is to break [m2].
+        """
+        load, way = self.curve["load"], self.curve["displacement"]
+        if self.peak_stress is None:
+            return
+        self.peak_load = float(np.max(load))
+        means = 0.5 * (load[1:] + load[:-1])  # numpy has renamed its own function
+        self.fracture_energy = float(means @ np.diff(way)) / ligament
 
     def measure_fragments(self, snapshot: Snapshot) -> None:
         """Keep the final state and count what hangs together in it."""

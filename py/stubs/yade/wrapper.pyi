@@ -166,7 +166,20 @@ class LoadingRateController(Engine):
 class CrackWaitController(Engine):
     recorder: AxialRecorder | None
 
+class Gauge(Serializable):
+    name: str
+
 class AxialRecorder(Engine):
+    driven: list[int]
+    holding: list[int]
+    @property
+    def direction(self) -> Vector3: ...
+    @direction.setter
+    def direction(self, value: _Vector) -> None: ...
+    area: float
+    length: float
+    strength: float
+    def addGauge(self, gauge: Gauge) -> None: ...
     loading: LoadingController | None
     stopRatio: float
     leastPeak: float
@@ -212,6 +225,15 @@ class GrainSolver(Engine):
         self, side: int, pieces: int = ..., bonded: bool = ..., friction: float = ...
     ) -> list[int]: ...
     def addTouchingPlate(self, normal: _Vector, friction: float = ...) -> int: ...
+    def addPatchPlate(
+        self,
+        place: _Vector,
+        length: float,
+        normal: _Vector = ...,
+        friction: float = ...,
+        bonded: bool = ...,
+    ) -> int: ...
+    def gaugePoints(self, first: _Vector, second: _Vector) -> tuple[int, int, float]: ...
     def fixTangential(self, plate: int) -> None: ...
     def plates(self) -> list[dict[str, Any]]: ...
     def elasticConstants(self) -> tuple[float, float]: ...

@@ -45,8 +45,19 @@ def test_load_unload_reload(package_parent):
     assert [float(error) < 1e-6 for error in re.findall("energy error (.*)", text)] == [True, True]
 
 
-def test_a_test_of_ones_own_takes_few_lines():
+def test_notched_beam(package_parent):
+    text = printed("notched_beam.py", package_parent)
+    toughness = float(re.search(r"toughness ([\d.]+) MPa", text)[1])
+    assert 0.3 < toughness < 3.0
+    first, last = (float(number) for number in re.findall(r"open by ([\d.]+) um", text))
+    assert last > 1.2 * first
+    left, right = map(float, re.search(r"reactions (\S+) N (\S+) N$", text, re.MULTILINE).groups())
+    assert left == pytest.approx(right, rel=0.1)
+
+
+@pytest.mark.parametrize("name", ["load_unload_reload", "notched_beam"])
+def test_a_test_of_ones_own_takes_few_lines(name):
     """At most 30, without comments and what is printed about it."""
-    text = (TUTORIALS / "load_unload_reload.py").read_text().split('"""')[2]
+    text = (TUTORIALS / f"{name}.py").read_text().split('"""')[2]
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     assert len(lines) <= 30

@@ -16,7 +16,14 @@ from flexpm import materials
 from flexpm.errors import InputError
 from flexpm.laboratory import run_spec
 from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO, LOADINGS
-from flexpm.laboratory.run_spec import ELASTIC, TESTS, RunSpec, described
+from flexpm.laboratory.run_spec import (
+    ELASTIC,
+    PART_MODELS,
+    PART_TESTS,
+    TESTS,
+    RunSpec,
+    described,
+)
 from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
 from flexpm.materials.mixing import is_brittle
 from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
@@ -51,7 +58,8 @@ def specimens(draw, kind: str) -> SpecimenSpec:
 def specs(draw) -> RunSpec:
     """Any run that can be asked for."""
     test = draw(st.sampled_from((*TESTS, ELASTIC)))
-    model = draw(st.sampled_from(GRAIN_MODELS if test == ELASTIC else MODELS))
+    models = {ELASTIC: GRAIN_MODELS, **dict.fromkeys(PART_TESTS, PART_MODELS)}.get(test, MODELS)
+    model = draw(st.sampled_from(models))
     grains = model in GRAIN_MODELS
     dynamic = draw(st.booleans())
     cohesion = draw(st.floats(1e7, 3e7))

@@ -50,19 +50,6 @@ double disc_widening(const Assembly& a)
     return a.grains.displacement[last] - a.grains.displacement[first];
 }
 
-/// The part of an observation that every test has.
-AxialObservation observe_ends(const Assembly& a, const EndForces& ends, Sense sense, double area)
-{
-    AxialObservation o;
-    o.step = a.step;
-    o.axial_stress = axial_stress(ends, sense, area);
-    o.end_mismatch = end_mismatch(ends);
-    o.unbalanced_ratio = unbalanced_ratio(a);
-    o.cracks = count_cracks(a);
-    o.energies = energies(a);
-    return o;
-}
-
 }  // namespace
 
 double axial_stress(const EndForces& ends, Sense sense, double area)
@@ -77,6 +64,18 @@ double end_mismatch(const EndForces& ends)
 {
     const double larger = std::max(std::fabs(ends.top), std::fabs(ends.bottom));
     return larger > 0.0 ? std::fabs(ends.top + ends.bottom) / larger : 0.0;
+}
+
+AxialObservation observe_ends(const Assembly& a, const EndForces& ends, Sense sense, double area)
+{
+    AxialObservation o;
+    o.step = a.step;
+    o.axial_stress = axial_stress(ends, sense, area);
+    o.end_mismatch = end_mismatch(ends);
+    o.unbalanced_ratio = unbalanced_ratio(a);
+    o.cracks = count_cracks(a);
+    o.energies = energies(a);
+    return o;
 }
 
 double splitting_area(double diameter, double thickness) { return 0.5 * pi * diameter * thickness; }

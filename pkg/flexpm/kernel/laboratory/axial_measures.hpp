@@ -50,6 +50,9 @@ struct AxialObservation {
 /// Axial stress above the confinement [Pa]: what the end of a test goes by.
 double differential_stress(const AxialObservation& now);
 
+/// The part of an observation that every test has; strains and confinement are zero.
+AxialObservation observe_ends(const Assembly& a, const EndForces& ends, Sense sense, double area);
+
 AxialGeometry rectangle_of(const Assembly& a, Sense sense);
 
 /// Of the last step, which must have been measured.

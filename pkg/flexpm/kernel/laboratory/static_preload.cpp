@@ -34,6 +34,12 @@ Point relative_velocity(
     return sum;
 }
 
+/// Whether a point is a crack, or has been without strength from the start.
+bool is_cracked(const Contacts& contacts, int contact, int point)
+{
+    return damage_of(contacts, contact, point) >= 1.0;
+}
+
 /// Largest opening or slip that the strengths allow at once: the time until one is reached.
 double time_to_strength(const LawParameters& law, double opening_rate, double slip_rate)
 {
@@ -104,9 +110,99 @@ void add_motion(Grains& grains, int grain, Point velocity, double spin)
     set_motion(grains, grain, v, grains.spin[grains.slot[grain]] + spin, 1.0);
 }
 
+/// Part of its stiffness that a contact keeps which bears nothing. It keeps loose grains in their place.
+constexpr double loose = 1e-6;
+
+/// Damage from which on a point counts as a crack for the motion that the loading gives.
+constexpr double softened = 0.5;
+
+/// Share of its friction that a point that slides bears, at least.
+constexpr double sliding = 0.99;
+
+/// Solutions after which points that open or lift off are not looked for any more.
+constexpr int most_lifts = 5;
+
+/// Opening of a plate's point, or damage of a crack's, that marks it as loosened in a copy of the state.
+constexpr double loosened = std::numeric_limits<double>::max();
+
+/// Whether all of a contact is cracked and its faces slide past each other.
+bool slides(const Contacts& contacts, int contact)
+{
+    const LawParameters& law = contacts.law_of(contact);
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        const PointState s = contacts.point_state(contact, p);
+        const double pressure = -law.normal_stiffness * s.opening;
+        const double limit = sliding * law.friction * pressure;
+        if (damage_of(contacts, contact, p) < softened) return false;
+        if (pressure > 0.0 && std::fabs(s.shear_traction) < limit) return false;
+    }
+    return true;
+}
+
+/// Loosen the points of cracks that a motion opens, and the shear of cracks that slide; returns whether there are any.
+///
+/// @param laws  number of laws before cracks got theirs
+bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
+{
+    Contacts& contacts = a.contacts;
+    bool any = false;
+    for (int c = 0; c < contacts.count; ++c) {
+        if (contacts.erased[c]) continue;
+        const Point n = bonded_normal(a, c);
+        for (int p = 0; p < contacts.points_of(c); ++p) {
+            double& mark = contacts.state(c, p, PointRow::shear_damage);
+            if (damage_of(contacts, c, p) < softened || mark == loosened) continue;
+            if (!(dot(n, relative_velocity(contacts, c, p, velocity)) > 0.0)) continue;
+            contacts.area(c, p) *= loose;
+            mark = loosened;
+            any = true;
+        }
+        if (contacts.law[c] >= laws || !slides(contacts, c)) continue;
+        any = true;
+        LawParameters law = contacts.law_of(c);
+        law.shear_stiffness *= loose;
+        contacts.law[c] = static_cast<int>(contacts.laws.size());
+        contacts.laws.push_back(law);
+    }
+    return any;
+}
+
+/// Loosen the points of plates that do not press and that a motion takes off; returns whether there are any.
+bool loosen_plates(Assembly& a, const Array<double>& velocity)
+{
+    bool any = false;
+    for (Plate& plate : a.plates) {
+        if (plate.bonded) continue;
+        for (int i = 0; i < plate_points(plate); ++i) {
+            const PlatePoint p = plate_point(plate, i);
+            const Point v = vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
+            const bool leaves = dot(plate.normal, v - plate.displacement) > 0.0;
+            if (plate.opening[i] < 0.0 || !leaves || plate.opening[i] == loosened) continue;
+            plate.area[i] *= loose;
+            plate.opening[i] = loosened;
+            any = true;
+        }
+    }
+    return any;
+}
+
+/// Elastic solution in which cracks and plates bear pressure and friction alone.
+Array<double> unilateral_solution(Assembly& a, const std::vector<Prescribed>& prescribed)
+{
+    Array<double> found = solve_static(a, prescribed).displacement;
+    const int laws = static_cast<int>(a.contacts.laws.size());
+    // what one point lets go may take off the next one
+    for (int i = 0; i < most_lifts; ++i) {
+        const bool cracks = loosen_cracks(a, laws, found), plates = loosen_plates(a, found);
+        if (!cracks && !plates) break;
+        found = solve_static(a, prescribed).displacement;
+    }
+    return found;
+}
+
 }  // namespace
 
-Array<double> elastic_velocities(const Assembly& a)
+Array<double> elastic_velocities(const Assembly& a, Held held)
 {
     std::vector<Prescribed> prescribed;
     for_each_component(a.grains, [&](int i) {
@@ -121,14 +217,15 @@ Array<double> elastic_velocities(const Assembly& a)
         moved.plates.push_back(p);
         moved.plates.back().displacement = p.velocity;
     }
+    if (held == Held::by_parts) return unilateral_solution(moved, prescribed);
     // smooth plates leave the specimen free to slide
     prescribed.push_back({ middle_of(a, bottom_side), 0.0 });
     return solve_static(moved, prescribed).displacement;
 }
 
-void start_elastically(Assembly& a, bool undamped)
+void start_elastically(Assembly& a, bool undamped, Held held)
 {
-    const Array<double> velocity = elastic_velocities(a);
+    const Array<double> velocity = elastic_velocities(a, held);
     const double before = kinetic_energy(a);
     for (Plate& p : a.plates) {
         if (!p.loaded) continue;
@@ -154,6 +251,37 @@ void start_elastically(Assembly& a, bool undamped)
         });
     }
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
+}
+
+void renew_loading(Assembly& a)
+{
+    const Array<double> velocity = elastic_velocities(a, Held::by_parts);
+    for (Plate& p : a.plates) {
+        if (p.loaded) p.loading_velocity = velocity_before(a, p, velocity);
+    }
+    Grains& grains = a.grains;
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
+        if (grains.is_rigid(g)) {
+            const Point v = vector_at(velocity, grains.centre(g));
+            set_vector(grains.loading_velocity, grains.centre(g), v);
+            grains.loading_spin[grains.slot[g]] = spin_in(grains, g, velocity);
+            continue;
+        }
+        for_each_component(grains, g, [&](int i) {
+            if (!grains.prescribed[i]) grains.loading_velocity[i] = velocity[i];
+        });
+    }
+}
+
+int count_softened(const Assembly& a)
+{
+    int count = 0;
+    for (int c = 0; c < a.contacts.count; ++c) {
+        for (int p = 0; p < a.contacts.points_of(c); ++p)
+            count += damage_of(a.contacts, c, p) >= softened;
+    }
+    return count;
 }
 
 void change_loading(Assembly& a, double ratio)
@@ -192,6 +320,7 @@ double elastic_time(const Assembly& a, const Array<double>& velocity)
         const Point n = bonded_normal(a, c);
         const LawParameters& law = a.contacts.law_of(c);
         for (int p = 0; p < a.contacts.points_of(c); ++p) {
+            if (is_cracked(a.contacts, c, p)) continue;
             const Point v = relative_velocity(a.contacts, c, p, velocity);
             least = std::min(least, time_to_strength(law, dot(v, n), v.y * n.x - v.x * n.y));
         }

@@ -11,11 +11,17 @@
 
 namespace flexpm {
 
+/// What holds a specimen, for its elastic solution.
+enum class Held {
+    by_ends,  ///< plates along whole ends, which leave it free to slide: it is kept from that
+    by_parts,  ///< supports that hold it by themselves; cracks and joints bear pressure and friction alone
+};
+
 /// Velocities of all nodes at which the bonded assembly deforms in elastic equilibrium with the
 /// velocities of its held nodes and of its plates; plates under a load give way to it [m/s].
 ///
 /// @throws std::runtime_error  as solve_static()
-Array<double> elastic_velocities(const Assembly& a);
+Array<double> elastic_velocities(const Assembly& a, Held held = Held::by_ends);
 
 /// Add these velocities to all nodes that are free, and give them to plates under a load, so that
 /// loading starts without a wave. Held nodes and driven plates have theirs already. The kinetic energy that this gives is
@@ -23,7 +29,15 @@ Array<double> elastic_velocities(const Assembly& a);
 ///
 /// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D30
 /// @throws std::runtime_error  as solve_static()
-void start_elastically(Assembly& a, bool undamped);
+void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
+
+/// Give the velocities that damping does not act on those of the elastic solution of the specimen as it is now, held by
+/// parts: its cracks open and slide freely. A beam that is broken turns as two halves. Deviation D30.
+/// @throws std::runtime_error  as solve_static()
+void renew_loading(Assembly& a);
+
+/// Contact points that count as cracks for that solution: those with a damage of a half or more.
+int count_softened(const Assembly& a);
 
 /// Change the velocities that damping does not act on to `ratio` times what they are, and all velocities with them, so
 /// that a change of the loading's velocity raises no wave. The kinetic energy that this gives is work of the boundary.

@@ -82,6 +82,46 @@ Point unit(Point normal)
     return { normal.x / size, normal.y / size };
 }
 
+/// Least cosine between the normals of a plate and of an edge that faces it.
+constexpr double facing = 0.5;
+
+/// Part of an edge before a patch, between 0 at its start and 1 at its end.
+struct CoveredEdge {
+    double first, last;
+    double gap;  ///< from the patch's place to the middle of the part, along the normal [m]
+};
+
+CoveredEdge covered_part(const Edge& edge, Point normal, const Patch& patch)
+{
+    const Point tangent = { -normal.y, normal.x };
+    const double start = along(tangent, edge.start - patch.place);
+    const double way = along(tangent, edge.end - patch.place) - start;
+    const double half = 0.5 * patch.length;
+    // the edge faces the plate, so it goes on along it
+    const double one = (-half - start) / way, other = (half - start) / way;
+    CoveredEdge part = { std::clamp(std::min(one, other), 0.0, 1.0),
+        std::clamp(std::max(one, other), 0.0, 1.0), 0.0 };
+    const double middle = 0.5 * (part.first + part.last);
+    part.gap = along(normal, edge.start + middle * (edge.end - edge.start) - patch.place);
+    return part;
+}
+
+/// Inward normal of the edge of the outline whose middle is nearest to a place.
+Point normal_near(const Assembly& a, Point place)
+{
+    double nearest = std::numeric_limits<double>::infinity();
+    Point found = { 0.0, 1.0 };
+    for (int e = 0; e < a.edges.count; ++e) {
+        if (a.edges.side[e] < 0 || a.grains.erased[a.edges.grain[e]]) continue;
+        const Edge edge = edge_of(a, e);
+        const double distance = norm(edge.start + 0.5 * (edge.end - edge.start) - place);
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        found = edge.inward();
+    }
+    return found;
+}
+
 /// Make boundary edges of those that grains share, too; they lie on no side.
 void list_inner_edges(Assembly& a)
 {
@@ -161,7 +201,7 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
     for (int e = 0; e < a.edges.count; ++e) {
         const Edge edge = edge_of(a, e);
         const bool outer = a.edges.side[e] >= 0;
-        if (outer && along(p.normal, edge.inward()) > 0.5) p.edges.push_back(e);
+        if (outer && along(p.normal, edge.inward()) > facing) p.edges.push_back(e);
     }
     if (p.edges.empty())
         refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
@@ -177,6 +217,51 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
         }
     }
     lay(a, p);
+    a.plates.push_back(p);
+    return static_cast<int>(a.plates.size()) - 1;
+}
+
+int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact)
+{
+    check_positive("length of a support", patch.length, "m");
+    check_finite("place of a support", patch.place.x + patch.place.y, "m");
+    const bool given = patch.normal.x != 0.0 || patch.normal.y != 0.0;
+    Plate p = plate_of(a, given ? unit(patch.normal) : normal_near(a, patch.place), contact);
+    p.points = 2;  // the ends of edges, those of rigid grains, too
+    std::vector<CoveredEdge> covered;
+    for (int e = 0; e < a.edges.count; ++e) {
+        const Edge edge = edge_of(a, e);
+        const bool outer = a.edges.side[e] >= 0 && !a.grains.erased[a.edges.grain[e]];
+        if (!outer || !(along(p.normal, edge.inward()) > facing)) continue;
+        const CoveredEdge part = covered_part(edge, p.normal, patch);
+        if (part.last > part.first && std::fabs(part.gap) < patch.length) {
+            covered.push_back(part);
+            p.edges.push_back(e);
+        }
+    }
+    if (covered.empty()) {
+        refuse("edges at a support", 0.0, "",
+            "at least 1 must face it; lay it on the outline, its normal turned inwards");
+    }
+    p.position = patch.place;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        const Edge edge = edge_of(a, p.edges[i]);
+        p.width +=
+            (covered[i].last - covered[i].first) * edge.length() * along(p.normal, edge.inward());
+        for (const Point x : { edge.start, edge.end }) {
+            if (along(p.normal, x) < nearest) p.position = x;
+            nearest = std::min(nearest, along(p.normal, x));
+        }
+    }
+    lay(a, p);
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        const double part = covered[i].last - covered[i].first;
+        const double middle = 0.5 * (covered[i].first + covered[i].last);
+        const double area = part * edge_of(a, p.edges[i]).length() * a.thickness;
+        p.area[2 * i] = (1.0 - middle) * area;
+        p.area[2 * i + 1] = middle * area;
+    }
     a.plates.push_back(p);
     return static_cast<int>(a.plates.size()) - 1;
 }

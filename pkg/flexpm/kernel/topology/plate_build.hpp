@@ -25,6 +25,19 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
 /// outermost point; edges that face it may come into contact. Returns its number.
 int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact);
 
+/// A part of the outline, for a plate.
+struct Patch {
+    Point place;          ///< middle of the part, on or near the outline [m]
+    double length = 0.0;  ///< along the plate [m]
+    Point normal;         ///< into the specimen; zero: that of the nearest edge
+};
+
+/// Lay a plate against a part of the outline: a support, a roller, a platen that is narrower than the side. It touches
+/// the outermost point of the part. An edge that lies on the part in part has that part of its area, divided between
+/// its ends so that an even pressure acts at the middle of the part. Returns its number; masses must be scaled again.
+/// @throws std::invalid_argument  if no edge of the outline faces the part, or a value is out of range
+int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact);
+
 /// Keep the first point that the plate touches from sliding along it: the node of a deformable grain, or
 /// the centre of a rigid one. A disc that stands on single points would roll.
 void fix_tangential(Assembly& a, int plate);

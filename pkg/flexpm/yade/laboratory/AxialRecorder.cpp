@@ -52,8 +52,9 @@ namespace {
 	flexpm::AxialObservation observed(const AxialRecorder& recorder, const flexpm::Assembly& assembly)
 	{
 		const auto sense = recorder.tension ? flexpm::Sense::tension : flexpm::Sense::compression;
-		auto       now   = isDisc(recorder) ? flexpm::observe_disc(assembly, recorder.diameter)
-		                                    : flexpm::observe(assembly, flexpm::rectangle_of(assembly, sense));
+		auto       now   = !recorder.driven.empty() ? flexpm::observe_parts(assembly, recorder.parts())
+		                : isDisc(recorder)          ? flexpm::observe_disc(assembly, recorder.diameter)
+		                                            : flexpm::observe(assembly, flexpm::rectangle_of(assembly, sense));
 		if (recorder.loading) now.velocity_factor = recorder.loading->velocityFactor;
 		return now;
 	}
@@ -75,6 +76,12 @@ void AxialRecorder::action()
 	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
+	if (!driven.empty()) {
+		values.push_back(now.axial_stress * area);
+		values.push_back(now.axial_strain * length);
+	}
+	for (const auto& gauge : gauges)
+		values.push_back(gauge->reading(solver->forEngines()));
 	stress       = now.axial_stress;
 	strain       = now.axial_strain;
 	differential = flexpm::differential_stress(now);
@@ -88,17 +95,37 @@ py::list AxialRecorder::names() const
 	py::list all;
 	for (const Column& column : recorded)
 		all.append(column.name);
+	if (!driven.empty()) {
+		all.append("load");
+		all.append("displacement");
+	}
+	for (const auto& gauge : gauges)
+		all.append(gauge->name);
 	return all;
 }
 
-py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, recorded.size(), flexpm_bindings::Access::readOnly); }
+py::object AxialRecorder::rows() const
+{
+	const std::size_t columns = recorded.size() + (driven.empty() ? 0 : 2) + gauges.size();
+	return flexpm_bindings::copied(values, columns, flexpm_bindings::Access::readOnly);
+}
+
+void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)
+{
+	if (!gauge) throw std::invalid_argument("AxialRecorder.addGauge: gauge = None, must be a Gauge");
+	if (!values.empty()) throw std::runtime_error("AxialRecorder.addGauge: the record has rows, must be empty; add gauges before the first step");
+	if (py::extract<bool>(names().contains(gauge->name)))
+		throw std::invalid_argument("AxialRecorder.addGauge: name = " + gauge->name + ", must not be that of another column");
+	gauges.push_back(gauge);
+}
 
 py::dict AxialRecorder::scales() const
 {
-	const auto  world  = Omega::instance().getScene();
-	const auto& a      = GrainSolver::ofScene(*world)->assembly;
-	const auto  sense  = tension || isDisc(*this) ? flexpm::Sense::tension : flexpm::Sense::compression;
-	const auto  inputs = flexpm::scale_inputs(a, sense, world->dt);
+	const auto  world = Omega::instance().getScene();
+	const auto& a     = GrainSolver::ofScene(*world)->assembly;
+	if (!driven.empty()) return flexpm_bindings::scales_dict(flexpm::part_scales(a, parts(), strength, world->dt));
+	const auto sense  = tension || isDisc(*this) ? flexpm::Sense::tension : flexpm::Sense::compression;
+	const auto inputs = flexpm::scale_inputs(a, sense, world->dt);
 	if (diameter > 0) return flexpm_bindings::scales_dict(flexpm::disc_scales(inputs, diameter));
 	const auto size = flexpm::rectangle_of(a, sense);
 	return flexpm_bindings::scales_dict(flexpm::rectangle_scales(inputs, size.width, size.height));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <flexpm/kernel/laboratory/end_rule.hpp>
+#include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/yade/laboratory/Gauge.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
@@ -15,6 +17,9 @@ public:
 	boost::python::list   names() const;
 	boost::python::object rows() const;
 	boost::python::dict   scales() const;
+	void                  addGauge(const shared_ptr<Gauge>& gauge);
+	/// What holds and loads the specimen, if parts do.
+	flexpm::PartGeometry parts() const { return { driven, holding, { direction[0], direction[1] }, area, length }; }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
@@ -22,6 +27,13 @@ public:
 		"as both must look at the same steps) and stops the simulation when the test is over. Place it after the solver.",
 		((Real, diameter, 0.,, "Of a disc between a lower and an upper plate; 0: the specimen is a rectangle [m]."))
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
+		((vector<int>, driven,,, "Plates that load a specimen between parts, as :yref:`GrainSolver` numbers them; empty: it is loaded between its ends [-]."))
+		((vector<int>, holding,,, "Plates that hold it against them [-]."))
+		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven plates load, a unit vector [-]."))
+		((Real, area, 0.,, "Load over the record's stress, between parts [m2]."))
+		((Real, length, 0.,, "Displacement over the record's strain, between parts [m]."))
+		((Real, strength, 0.,, "Stress that a test between parts may reach, roughly [Pa]."))
+		((vector<shared_ptr<Gauge>>, gauges,, Attr::hidden, "Readings that the record has, too."))
 		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
 		((Real, stopRatio, .5,, "The test is over once the stress above the confinement has fallen below this part of its peak [-]."))
 		((Real, leastPeak, 0.,, "No fall counts before the stress above the confinement has reached this [Pa]."))
@@ -38,6 +50,7 @@ public:
 		, /* ctor */
 		, .add_property("names", &AxialRecorder::names, "Names of the record's columns.")
 		.add_property("rows", &AxialRecorder::rows, "The record, (rows, columns); a copy.")
+		.def("addGauge", &AxialRecorder::addGauge, (boost::python::arg("gauge")), "Record what a :yref:`Gauge` reads in a column of its name, before the first row.")
 		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes [-].")
 	);
 	// clang-format on

@@ -25,8 +25,18 @@ void PlateController::action()
 	if (undampedLoading && started && ratio != 1)
 		flexpm::change_loading(assembly, ratio);
 	else if ((elasticStart || undampedLoading) && !started)
-		flexpm::start_elastically(assembly, undampedLoading);
+		flexpm::start_elastically(assembly, undampedLoading, ofParts ? flexpm::Held::by_parts : flexpm::Held::by_ends);
 	started = true;
+	if (undampedLoading && ofParts && !loaded) renewAfterCracks(assembly);
+}
+
+void PlateController::renewAfterCracks(flexpm::Assembly& assembly)
+{
+	if (assembly.step < renewedAt + renewPeriod) return;
+	renewedAt       = assembly.step;
+	const int count = flexpm::count_softened(assembly);
+	if (count != seenSoftened) flexpm::renew_loading(assembly);
+	seenSoftened = count;
 }
 
 } // namespace yade

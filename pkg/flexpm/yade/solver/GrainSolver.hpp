@@ -65,6 +65,8 @@ public:
 	void       resetEnergyBalance();
 	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
 	int        addTouchingPlate(Vector3r normal, Real friction);
+	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
+	py::tuple  gaugePoints(Vector3r first, Vector3r second);
 	void       fixTangential(int plate);
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
@@ -113,11 +115,15 @@ public:
 			"Lay rigid plates on a side of the outline, side by side, and return their numbers. Scale the masses afterwards.")
 		.def("addTouchingPlate", AfterAssembly<&GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
+		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
+			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number. Scale the masses afterwards.")
+		.def("gaugePoints", AfterAssembly<&GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
+			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("fixTangential", AfterAssembly<&GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
 		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
-		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
 		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 namespace yade {
@@ -19,6 +20,17 @@ py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real fric
 int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 {
 	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
+}
+
+int GrainSolver::addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded)
+{
+	return flexpm::add_patch_plate(assembly, { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded });
+}
+
+py::tuple GrainSolver::gaugePoints(Vector3r first, Vector3r second)
+{
+	const auto gauge = flexpm::gauge_points(current(), { first[0], first[1] }, { second[0], second[1] });
+	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(assembly, gauge));
 }
 
 void GrainSolver::fixTangential(int plate) { flexpm::fix_tangential(assembly, plate); }
@@ -38,6 +50,8 @@ py::list GrainSolver::plates()
 		d["side"]          = p.side;
 		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
 		d["width"]         = p.width;
+		d["place"]         = py::make_tuple(p.position.x + p.displacement.x, p.position.y + p.displacement.y);
+		d["work"]          = p.boundary_work;
 		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);
 		d["velocity"]      = py::make_tuple(p.velocity.x, p.velocity.y);
 		d["force"]         = py::make_tuple(p.force.x, p.force.y);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/laboratory/gauge.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/require.hpp>
+
+#include <limits>
+
+namespace flexpm {
+
+namespace {
+
+Point reference_of(const Assembly& a, int node) { return vector_at(a.grains.reference, node); }
+
+/// Node nearest to a place, of the grains whose centres are nearer to it than to another place.
+int nearest_node(const Assembly& a, Point place, Point other)
+{
+    double least = std::numeric_limits<double>::infinity();
+    int nearest = -1;
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (a.grains.erased[g]) continue;
+        const Point centre = reference_of(a, a.grains.centre(g));
+        if (norm(centre - place) > norm(centre - other)) continue;
+        for (int k = 0; k < a.grains.nodes_of(g); ++k) {
+            const int node = a.grains.node(g, k);
+            const double distance = norm(reference_of(a, node) - place);
+            if (!(distance < least)) continue;
+            least = distance;
+            nearest = node;
+        }
+    }
+    if (nearest < 0)
+        refuse("grains near a gauge's point", 0.0, "", "must be at least 1 on its side");
+    return nearest;
+}
+
+}  // namespace
+
+GaugePoints gauge_points(const Assembly& a, Point first, Point second)
+{
+    check_positive("length of a gauge", norm(second - first), "m");
+    return { nearest_node(a, first, second), nearest_node(a, second, first) };
+}
+
+double gauge_length(const Assembly& a, const GaugePoints& gauge)
+{
+    return norm(reference_of(a, gauge.second) - reference_of(a, gauge.first));
+}
+
+double plate_way(const Assembly& a, int plate, Point direction)
+{
+    if (plate < 0 || plate >= static_cast<int>(a.plates.size()))
+        refuse("plate of a gauge", plate, "", "must be the number of a plate; add one first");
+    return dot(a.plates[plate].displacement, direction);
+}
+
+double gauge_opening(const Assembly& a, const GaugePoints& gauge, Point direction)
+{
+    for (int node : { gauge.first, gauge.second }) {
+        const int last = static_cast<int>(a.grains.displacement.size()) - lanes;
+        if (node < 0 || node >= last)
+            refuse("node of a gauge", node, "", "must be one of gauge_points()");
+    }
+    const Point way = vector_at(a.grains.displacement, gauge.second)
+        - vector_at(a.grains.displacement, gauge.first);
+    return dot(way, direction);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Gauges on a specimen: how far two points move apart, and how far a plate moves. SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+namespace flexpm {
+
+/// Two nodes of grains, by their offsets.
+struct GaugePoints {
+    int first = -1, second = -1;
+};
+
+/// Nodes that are nearest to two places. Of two nodes that lie on each other, as on both sides of a notch, each place
+/// takes the one whose grain has its centre nearer to it than to the other place.
+/// @throws std::invalid_argument  if the places are one, or the specimen has no grain near one of them
+GaugePoints gauge_points(const Assembly& a, Point first, Point second);
+
+/// Distance of the points when bonded [m].
+double gauge_length(const Assembly& a, const GaugePoints& gauge);
+
+/// Way of a plate along a unit vector [m].
+/// @throws std::invalid_argument  if there is no such plate
+double plate_way(const Assembly& a, int plate, Point direction);
+
+/// How far the points have moved apart along a unit vector [m].
+/// @throws std::invalid_argument  if one of them is no node of the assembly
+double gauge_opening(const Assembly& a, const GaugePoints& gauge, Point direction);
+
+}  // namespace flexpm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What a test records whose specimen is held and loaded by parts: supports, rollers and boxes, each a plate
+/// against a part of the outline. SI units; load and displacement are positive along the loading.
+#pragma once
+
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/loading_scales.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// The parts of a test, and the sizes that turn load and displacement into its stress and strain.
+struct PartGeometry {
+    std::vector<int> driven;   ///< plates that load, which move alike
+    std::vector<int> holding;  ///< plates that hold against them; none: the load alone counts
+    Point direction;           ///< of the loading, a unit vector
+    double area = 0.0;         ///< stress = load / area [m^2]
+    double length = 0.0;       ///< strain = displacement / length [m]
+};
+
+/// Load [N]: mean of what the driven plates push and the holding ones push back. Deviation D25.
+double part_load(const Assembly& a, const PartGeometry& parts);
+
+/// Way of the driven plates along the loading [m].
+double part_displacement(const Assembly& a, const PartGeometry& parts);
+
+/// Of the last step, which must have been measured. There is no lateral strain and no confinement.
+/// @throws std::invalid_argument  if a plate is not there or a size is not above zero
+AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts);
+
+/// Scales of such a test, from its elastic solution for a unit way of the driven plates: its stiffness gives the
+/// modulus, and the mass that takes part in the motion the steps of a crossing. These are those of a bar of the same
+/// lowest frequency: sqrt(3 m / k) / dt, with the kinetic energy m / 2 and the stored energy k / 2 at a unit velocity
+/// and way. Joints that the loading opens carry nothing.
+///
+/// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first contact point leaves
+///                  its elastic branch
+/// @throws std::runtime_error  if the parts leave the specimen free to move
+TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt);
+
+}  // namespace flexpm

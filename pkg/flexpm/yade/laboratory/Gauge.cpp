@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/yade/laboratory/Gauge.hpp>
+
+#include <flexpm/kernel/laboratory/gauge.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((Gauge));
+
+Gauge::~Gauge() = default;
+
+Real Gauge::reading(const flexpm::Assembly& assembly) const
+{
+	const flexpm::Point along = { direction[0], direction[1] };
+	const Real          way   = plate >= 0 ? flexpm::plate_way(assembly, plate, along) : flexpm::gauge_opening(assembly, { first, second }, along);
+	return length > 0 ? way / length : way;
+}
+
+} // namespace yade

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  A reading of a specimen by its name: how far two points open, a strain, the way of a plate.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/yade/abi/yade_lite.hpp>
+
+namespace yade {
+
+class Gauge : public Serializable {
+public:
+	~Gauge() override;
+	/// @throws std::runtime_error  if it names no node or plate of the assembly
+	Real reading(const flexpm::Assembly& assembly) const;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(Gauge, Serializable,
+		"Reads how far two nodes of grains move apart, as an opening or a strain, or how far a plate moves; :yref:`AxialRecorder` records it under its name. GrainSolver.gaugePoints finds the nodes.",
+		((string, name,,, "Of the column."))
+		((int, first, -1,, "Node at the first place, as GrainSolver.gaugePoints gives it [-]."))
+		((int, second, -1,, "Node at the second place [-]."))
+		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))
+		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or the way, a unit vector [-]."))
+		((Real, length, 0.,, "Length to which a strain refers; 0: the opening itself [m]."))
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Gauge);
+
+} // namespace yade

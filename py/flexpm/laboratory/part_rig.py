@@ -1,0 +1,298 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A rig of parts: supports, rollers, platens and gauges, which a test puts where it wants them. SI.
+
+A part is a rigid plate against a part of the outline, of deformable and of rigid grains alike. It
+does not turn; it presses, pulls too if it is bonded, and resists sliding within its friction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from yade import wrapper
+
+from ..errors import InputError
+from ..files import Table
+from ..models.grains import Model
+from ..require import POSITIVE, require_number
+from ..results import doubts, measures
+from ..results.record import COLUMNS, Curve
+from .grain_rig import GrainRig
+from .loading_rate import Scales
+from .runner import Runner
+
+#: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
+#: turn with a beam, which would rest on the inner end of a long one.
+_SUPPORT = 0.5
+#: Friction of a part that is pinned: it does not slide as long as it presses [-].
+_NO_SLIDING = 1e6
+
+_Place = Sequence[float]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A plate of a rig. What it says is of the last step."""
+
+    solver: wrapper.GrainSolver
+    number: int  #: of the plate
+
+    @property
+    def force(self) -> tuple[float, float]:
+        """On the specimen, x and y [N]."""
+        return _pair(self._now["force"])
+
+    @property
+    def work(self) -> float:
+        """Done on the specimen so far [J]."""
+        return float(self._now["work"])
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Of a point of its face, x and y [m]."""
+        return _pair(self._now["place"])
+
+    @property
+    def displacement(self) -> tuple[float, float]:
+        """Since it was laid, x and y [m]."""
+        return _pair(self._now["displacement"])
+
+    @property
+    def width(self) -> float:
+        """Of the outline before it [m]."""
+        return float(self._now["width"])
+
+    @property
+    def _now(self) -> Table:
+        return self.solver.plates()[self.number]
+
+
+class PartRig(GrainRig):
+    """A specimen of any outline between parts.
+
+    Lay parts with `support` and `platen`, read with `gauge` and `way_of`, say with `drive` which
+    parts load, and then `load` or `strain_to`. In a run that is taken up from a checkpoint the same
+    calls find what they have laid before.
+    """
+
+    def __init__(self, built: Model, *, kind: str = "own", runner: Runner | None = None) -> None:
+        """Take grains that have just been built, or whose scene has been loaded.
+
+        Args:
+            built: The specimen.
+            kind: Name of the test, whose loading rate is taken.
+            runner: Steps, shows progress and saves checkpoints; None for one that only steps.
+        """
+        super().__init__(built, runner=runner)
+        self.disc = False
+        self._kind, self._laid = kind, 0
+        self._scales: Scales | None = None
+        self._there = built.engine(wrapper.AxialRecorder) is not None
+
+    @property
+    def kind(self) -> str:
+        """Name of the test."""
+        return self._kind
+
+    def support(
+        self,
+        place: _Place,
+        length: float | None = None,
+        *,
+        normal: _Place = (0.0, 0.0),
+        pinned: bool = False,
+        friction: float = 0.0,
+        bonded: bool = False,
+    ) -> Part:
+        """Lay a plate against the part of the outline around a place.
+
+        Args:
+            place: x and y, on the outline [m].
+            length: Along the outline [m]; None for half a mean diameter of the grains.
+            normal: x and y, into the specimen; zero: that of the outline there.
+            pinned: It does not slide along the outline as long as it presses; else it is a roller.
+            friction: Coefficient, of one that is neither [-].
+            bonded: It pulls, too.
+
+        Raises:
+            InputError: for a place that is not on the outline, or a length out of range.
+        """
+        length = _SUPPORT * self.built.specimen.mean_diameter if length is None else length
+        length = require_number("support: length", length, POSITIVE, "m")
+        friction = _NO_SLIDING if pinned else friction
+        try:
+            return self._part(
+                lambda: self.built.solver.addPatchPlate(
+                    _vector(place), length, _vector(normal), friction, bonded
+                )
+            )
+        except ValueError as error:
+            raise InputError(f"support: {error}") from None
+
+    def platen(self, side: int, *, friction: float = 0.0, bonded: bool = False) -> Part:
+        """Lay a plate along a whole side of the outline.
+
+        Args:
+            side: Number of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
+            friction: Coefficient [-].
+            bonded: It pulls, too.
+        """
+        try:
+            return self._part(
+                lambda: self.built.solver.addSidePlates(side, bonded=bonded, friction=friction)[0]
+            )
+        except ValueError as error:
+            raise InputError(f"platen: {error}") from None
+
+    def gauge(self, name: str, first: _Place, second: _Place, *, strain: bool = False) -> None:
+        """Record how far two points move apart, in a column of this name.
+
+        Args:
+            name: Of the column.
+            first: x and y of a point; the nearest node of the grains on its side is taken [m].
+            second: The other one.
+            strain: Record the strain between them [-] instead of the opening [m].
+        """
+        if self._has(name):
+            return
+        try:
+            one, other, length = self.built.solver.gaugePoints(_vector(first), _vector(second))
+        except ValueError as error:
+            raise InputError(f"gauge {name}: {error}") from None
+        if strain and not length > 0.0:
+            raise InputError(
+                f"gauge {name}: length = 0 m, must be above 0; take points further off"
+            )
+        way = second[0] - first[0], second[1] - first[1]
+        size = math.hypot(*way)
+        direction = (way[0] / size, way[1] / size, 0.0)
+        base = length if strain else 0.0
+        self._recorder.addGauge(
+            wrapper.Gauge(name=name, first=one, second=other, direction=direction, length=base)
+        )
+
+    def way_of(self, name: str, part: Part, direction: _Place) -> None:
+        """Record how far a part moves along a direction [m], in a column of this name."""
+        if self._has(name):
+            return
+        size = math.hypot(*direction)
+        require_number(f"{name}: length of its direction", size, POSITIVE)
+        unit = direction[0] / size, direction[1] / size, 0.0
+        self._recorder.addGauge(wrapper.Gauge(name=name, plate=part.number, direction=unit))
+
+    def drive(
+        self,
+        parts: Sequence[Part],
+        direction: _Place,
+        *,
+        against: Sequence[Part] = (),
+        area: float = 1.0,
+        length: float = 1.0,
+        strength: float = 0.0,
+    ) -> None:
+        """Say which parts load the specimen, and what its stress and strain are.
+
+        The record has the columns ``load`` and ``displacement`` of these parts. Its stress is the
+        load over `area`, its strain the displacement over `length`: with the defaults they are the
+        load and the displacement themselves.
+
+        Args:
+            parts: They move alike.
+            direction: x and y of the loading.
+            against: Parts that hold the specimen against the load: the load is then the mean of
+                both sides', and their difference is recorded.
+            area: Load over stress [m2].
+            length: Displacement over strain [m].
+            strength: Stress that the specimen will bear, roughly [Pa], which sets the loading rate;
+                0: twice that at which the first contact point softens.
+        """
+        size = math.hypot(*direction)
+        require_number("drive: length of its direction", size, POSITIVE)
+        if self._there:
+            return
+        recorder = self._recorder
+        recorder.driven = [part.number for part in parts]
+        recorder.holding = [part.number for part in against]
+        recorder.direction = (direction[0] / size, direction[1] / size, 0.0)
+        recorder.area, recorder.length, recorder.strength = area, length, strength
+
+    def scales(self) -> Scales:
+        """What the loading rate follows from: of the intact specimen, by its elastic solution."""
+        if self._scales is None:
+            self._scales = Scales(**self._recorder.scales())
+        return self._scales
+
+    @property
+    def record(self) -> Curve:
+        """The record so far, with the columns of the parts and gauges."""
+        own = [name for name in self._recorder.names if name not in (*COLUMNS, "initial_energy")]
+        return Curve.from_columns(self._recorder.names, self._recorder.rows, own)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful: load and reactions that differ, a bad energy balance."""
+        record = self.record
+        error = measures.energy_error(record, self.initial_energy)
+        return doubts.of_result("", error, measures.median_end_mismatch(record), None)
+
+    @property
+    def confinement(self) -> float | None:
+        """None: what presses on a part is no confinement of the record."""
+        return None
+
+    def press(self, part: Part, pressure: float) -> None:
+        """Let a part move along its normal under a pressure [Pa] until the forces balance."""
+        self._pressed = part
+        self.confine(pressure)
+
+    def _part(self, lay: Callable[[], int]) -> Part:
+        """The next plate: laid now, or found in the scene of a checkpoint."""
+        number, self._laid = self._laid, self._laid + 1
+        if number >= len(self.built.solver.plates()):
+            lay()
+            self.built.set_masses()
+        return Part(self.built.solver, number)
+
+    def _has(self, name: str) -> bool:
+        taken = (*COLUMNS, "initial_energy", "load", "displacement")
+        if name in taken or (name in self._recorder.names and not self._there):
+            raise InputError(f"gauge = {name!r}, must not be the name of another column")
+        return self._there
+
+    def _pressing(self) -> wrapper.PlateController | None:
+        plates = self.built.engine(wrapper.PlateController)
+        return plates if plates and plates.loaded else None
+
+    def _press(self, pressure: float, ramp: int) -> None:
+        engine = wrapper.PlateController(
+            plates=[self._pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
+        )
+        self.built.add_engines(before=(engine,))
+
+    def _take_hold(self) -> wrapper.LoadingController:
+        loading = wrapper.PlateController(
+            plates=self._recorder.driven, elasticStart=True, ofParts=True
+        )
+        self.built.add_engines(before=(loading,))
+        return loading
+
+    def _move(self, velocity: float, factor: float) -> None:
+        loading, direction = self._recorder.loading, self._recorder.direction
+        assert isinstance(loading, wrapper.PlateController)
+        speed = -velocity  # a rig that presses gives that of its upper end, upwards
+        loading.velocity = (speed * direction[0], speed * direction[1], 0.0)
+        loading.velocityFactor = factor
+
+    def _loaded_area(self) -> float:
+        return float(self._recorder.area)
+
+
+def _pair(vector: Sequence[float]) -> tuple[float, float]:
+    return float(vector[0]), float(vector[1])
+
+
+def _vector(place: _Place) -> tuple[float, float, float]:
+    x, y = place
+    return float(x), float(y), 0.0

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Supports on parts of the outline, gauges, the scales of a test between parts, and the motion that a loading
+/// gives to a cracked specimen. SI units.
+#include "support/catch.hpp"
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/gauge.hpp>
+#include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/statics/elastic_constants.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/topology/plate_build.hpp>
+
+#include "support/specimens.hpp"
+
+#include <cmath>
+
+using namespace flexpm;
+
+namespace {
+
+constexpr double width = 0.02, height = 0.04;
+
+Assembly grains(bool rigid = false)
+{
+    auto options = specimens::options(specimens::strong_contact());
+    options.rigid = rigid;
+    return specimens::assemble(specimens::random_grains(width, height, 2.8e-3, 3), options);
+}
+
+Patch patch(double x, double y, double length, Point normal = {})
+{
+    return { { x, y }, length, normal };
+}
+
+/// Sum of a plate's areas [m2] and the x of their centre [m].
+struct Covered {
+    double area = 0.0, centre = 0.0;
+};
+
+Covered covered(const Assembly& a, const Plate& plate)
+{
+    Covered sum;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const Point x = vector_on_edge(a.grains.reference, a.edges.nodes(p.edge), p.weight);
+        sum.area += plate.area[i];
+        sum.centre += plate.area[i] * x.x;
+    }
+    sum.centre /= sum.area;
+    return sum;
+}
+
+/// Squeezed between plates along the whole bottom and top; the bottom does not slide.
+PartGeometry squeeze(Assembly& a)
+{
+    const int bottom = add_patch_plate(a, patch(width / 2, 0.0, width), { 0.0, 1e6, false });
+    const int top = add_patch_plate(a, patch(width / 2, height, width), {});
+    scale_masses(a, 0.7);
+    return { { top }, { bottom }, { 0.0, -1.0 }, width * specimens::thickness, height };
+}
+
+}  // namespace
+
+TEST_CASE("A support presses evenly on just its part of the outline, about its middle")
+{
+    Assembly a = grains(GENERATE(false, true));
+    const double x = GENERATE(0.0071, 0.01), length = GENERATE(0.4e-3, 5e-3);
+    const int number = add_patch_plate(a, patch(x, 0.0, length), {});
+    const Plate& plate = a.plates[number];
+    const Covered found = covered(a, plate);
+    CHECK(plate.normal.y == Approx(1.0));
+    CHECK(plate.width == Approx(length));
+    CHECK(found.area == Approx(length * specimens::thickness));
+    CHECK(found.centre == Approx(x).epsilon(1e-9));
+    for (double gap : plate.gap)
+        CHECK(gap == 0.0);
+}
+
+TEST_CASE("A support needs an outline that faces it")
+{
+    Assembly a = grains();
+    CHECK_THROWS_WITH(
+        add_patch_plate(a, patch(0.01, 0.02, 1e-3), {}), Catch::Matchers::Contains("face it"));
+    CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.0, 1e-3, { 0.0, -1.0 }), {}),
+        Catch::Matchers::Contains("face it"));
+    CHECK_THROWS_WITH(
+        add_patch_plate(a, patch(0.01, 0.0, 0.0), {}), Catch::Matchers::Contains("length"));
+    CHECK(a.plates.empty());
+}
+
+TEST_CASE("Gauges read what their nodes and plates move, each on its side of a notch")
+{
+    Assembly a = grains();
+    const GaugePoints gauge = gauge_points(a, { 0.004, 0.0 }, { 0.016, 0.0 });
+    CHECK(gauge_length(a, gauge) == Approx(0.012).margin(2e-3));
+    // two places at one corner of two grains take a node of each grain
+    const int e = 0;
+    const Point corner = vector_at(a.grains.reference, a.contacts.node(e, 0, 0));
+    const Point aside = 1e-4 * bonded_normal(a, e);
+    const GaugePoints notch = gauge_points(a, corner - aside, corner + aside);
+    CHECK(grain_node(a.grains, notch.first).grain != grain_node(a.grains, notch.second).grain);
+    for_each_component(a.grains, [&](int i) {
+        a.grains.displacement[i] = axis_of(i) == 0 ? 1e-3 * a.grains.reference[i] : 0.0;
+    });
+    const double opening = gauge_opening(a, gauge, { 1.0, 0.0 });
+    CHECK(opening == Approx(1e-3 * gauge_length(a, gauge)).epsilon(0.05));
+    CHECK(gauge_opening(a, gauge, { 0.0, 1.0 }) == 0.0);
+    a.plates.resize(1);
+    a.plates[0].displacement = { 2.0, 3.0 };
+    CHECK(plate_way(a, 0, { 0.0, 1.0 }) == 3.0);
+    CHECK_THROWS_WITH(plate_way(a, 1, { 0.0, 1.0 }), Catch::Matchers::Contains("plate"));
+    CHECK_THROWS_WITH(
+        gauge_opening(a, { 0, 1 << 30 }, { 1.0, 0.0 }), Catch::Matchers::Contains("node"));
+    CHECK_THROWS_WITH(
+        gauge_points(a, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Matchers::Contains("length"));
+}
+
+TEST_CASE("The scales of a bar between parts are those of its length and modulus")
+{
+    Assembly a = grains();
+    const double young = elastic_constants(a).youngs_modulus;
+    const PartGeometry parts = squeeze(a);
+    const TestScales scales = part_scales(a, parts, 1e6, 1.0);
+    const double plates = 2.0 / (1.8e14 * height);  // their contacts in series
+    CHECK(scales.modulus == Approx(1.0 / (1.0 / young + plates)).epsilon(0.02));
+    const TestScales bar =
+        rectangle_scales(scale_inputs(a, Sense::compression, 1.0), width, height);
+    CHECK(scales.crossing_steps == Approx(bar.crossing_steps).epsilon(0.1));
+    CHECK(scales.strength == 1e6);
+    CHECK(part_scales(a, parts, 0.0, 1.0).strength > 0.0);
+    CHECK_THROWS_WITH(
+        part_scales(a, { {}, {}, { 0, 1 }, 1, 1 }, 1e6, 1.0), Catch::Matchers::Contains("driven"));
+    CHECK_THROWS_WITH(part_scales(a, { { 7 }, {}, { 0, 1 }, 1, 1 }, 1e6, 1.0),
+        Catch::Matchers::Contains("part = 7"));
+}
+
+TEST_CASE("Load and reaction of parts agree, and their work is the specimen's energy")
+{
+    Assembly a = grains(GENERATE(false, true));
+    PartGeometry parts = squeeze(a);
+    set_velocity(a, parts.driven[0], { 0.0, -1e-9 });
+    start_elastically(a, true, Held::by_parts);
+    StepOptions options;
+    options.measure = true;
+    for (int i = 0; i < 2000; ++i)
+        step(a, options);
+    const AxialObservation now = observe_parts(a, parts);
+    CHECK(part_displacement(a, parts) == Approx(2e-6));
+    CHECK(now.axial_strain == Approx(2e-6 / height));
+    CHECK(now.axial_stress * parts.area == Approx(part_load(a, parts)));
+    CHECK(now.axial_stress
+        == Approx(now.axial_strain * part_scales(a, parts, 1e6, 1.0).modulus).epsilon(0.03));
+    CHECK(now.end_mismatch < 0.01);
+    CHECK(std::isnan(now.lateral_strain));
+    const double work = a.plates[0].boundary_work + a.plates[1].boundary_work;
+    CHECK(work == Approx(now.energies.elastic).epsilon(0.02));
+    parts.holding.clear();  // the load alone counts
+    CHECK(observe_parts(a, parts).end_mismatch == 0.0);
+}
+
+TEST_CASE("A specimen that is cracked through moves as two halves under an undamped loading")
+{
+    Assembly a = grains();
+    add_patch_plate(a, patch(0.0, height / 2, height), { 0.0, 1e6, true });
+    const int right = add_patch_plate(a, patch(width, height / 2, height), { 0.0, 1e6, true });
+    scale_masses(a, 0.7);
+    set_velocity(a, right, { 1.0, 0.0 });
+    start_elastically(a, true, Held::by_parts);
+    CHECK(count_softened(a) == 0);
+    const auto x = [&](int g) { return a.grains.reference[a.grains.centre(g)]; };
+    const auto along = [&](int g) { return a.grains.loading_velocity[a.grains.centre(g)]; };
+    for (int g = 0; g < a.grains.count; ++g)
+        CHECK(along(g) == Approx(x(g) / width).margin(0.15));
+    for (int c = 0; c < a.contacts.count; ++c) {
+        const auto [g, h] = a.contacts.pairs[c];
+        if ((x(g) < width / 2) == (x(h) < width / 2)) continue;
+        for (int p = 0; p < a.contacts.points_of(c); ++p)
+            a.contacts.state(c, p, PointRow::shear_damage) = 1.0;
+    }
+    CHECK(count_softened(a) > 0);
+    renew_loading(a);
+    for (int g = 0; g < a.grains.count; ++g)
+        CHECK(along(g) == Approx(x(g) < width / 2 ? 0.0 : 1.0).margin(0.02));
+}
