@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 #: Units of inputs that have one.
 _UNITS = {
     **dict.fromkeys(("width", "height", "diameter", "thickness", "diameters"), "m"),
+    **dict.fromkeys(("span", "notch"), "m"),
     "confinement": "Pa",
     "gravity": "m/s2",
 }

@@ -58,7 +58,7 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     specimen, box = rig.built.specimen, _box(rig.built.specimen)
     notch, height = notch_depth(specimen), box.top - box.bottom
     result.youngs_modulus = None  # the slope of a beam is no constant of the rock
-    result.notch = notch
+    result.notch_depth = notch
     result.measure_fracture(specimen.thickness * (height - notch))
     if result.peak_load is not None and notch > 0.0 and spec.span is not None:
         result.fracture_toughness = bending_toughness(

@@ -200,8 +200,8 @@ class RunSpec:
         """The packed specimen that options of the command describe for a test."""
         shape = shape_of(test)
         given = {name: options.get(name) for name in (*SIZES[shape], *PACKING)}
-        if test == "bending":
-            given["width"] = options.get("length")
+        if test == "bending" and options.get("length") is not None:
+            given["width"] = options["length"]
         named = {name: value for name, value in given.items() if value is not None}
         return SpecimenSpec(shape, **_OTHER_SIZES.get(test, {}) | named)
 

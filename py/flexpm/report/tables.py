@@ -56,6 +56,13 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
         ("status", result.status),
     ]
+    if result.peak_load is not None:
+        rows[5:5] = [
+            ("peak load", scaled(result.peak_load, 1e-3, "kN")),
+            ("depth of the notch", scaled(result.notch_depth, 1e3, "mm")),
+            ("fracture toughness", scaled(result.fracture_toughness, 1e-6, "MPa m^0.5")),
+            ("fracture energy", scaled(result.fracture_energy, 1.0, "J/m2")),
+        ]
     if result.confinement:
         rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
     return rows
@@ -84,11 +91,13 @@ def size_text(result: Result) -> str:
 
 def stress_text(test: str) -> str:
     """Name of the stress that a test measures; that of a disc by its definition."""
-    return "stress 2 P / (π D t)" if test == "brazilian" else "axial stress"
+    names = {"brazilian": "stress 2 P / (π D t)", "bending": "bending stress"}
+    return names.get(test, "axial stress")
 
 
 def _peak_text(test: str) -> str:
-    return "peak of 2 P / (pi D t)" if test == "brazilian" else "peak stress"
+    names = {"brazilian": "peak of 2 P / (pi D t)", "bending": "peak bending stress"}
+    return names.get(test, "peak stress")
 
 
 def _first_cracks(result: Result) -> str:

@@ -68,7 +68,7 @@ class Result(Shown):
     shear_onset_strain: float | None = None  #: the same of shear cracks [-]
     shear_onset_stress: float | None = None  #: [Pa]
     peak_load: float | None = None  #: largest load of a test between parts [N]
-    notch: float | None = None  #: depth of the notch as it was cut [m]
+    notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
     fragments: int | None = None  #: grains that hang together at the end, counted

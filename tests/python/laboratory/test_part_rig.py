@@ -19,6 +19,7 @@ from flexpm.laboratory.checkpoint import Checkpoint
 from flexpm.laboratory.part_rig import Part, PartRig
 from flexpm.laboratory.part_tests import notch_depth, prepared
 from flexpm.laboratory.run_spec import RunSpec, described
+from flexpm.report import tables
 from flexpm.results import toughness
 
 HEIGHT = 0.012
@@ -143,15 +144,15 @@ def test_bending_measures_toughness_and_fracture_energy(broken, beam):
     curve = result.curve
     assert curve.own == ("load", "displacement", "cmod")
     assert result.peak_load == curve["load"].max()
-    nominal = 1.5 * result.peak_load * SPAN / (0.01 * (HEIGHT - result.notch) ** 2)
+    nominal = 1.5 * result.peak_load * SPAN / (0.01 * (HEIGHT - result.notch_depth) ** 2)
     assert result.peak_stress == pytest.approx(nominal, rel=1e-9)
     assert result.fracture_toughness == pytest.approx(
         toughness.bending_toughness(
-            result.peak_load, span=SPAN, height=HEIGHT, thickness=0.01, notch=result.notch
+            result.peak_load, span=SPAN, height=HEIGHT, thickness=0.01, notch=result.notch_depth
         )
     )
     # the beam's own work ends as energy; what it gives beyond damage is small
-    ligament = 0.01 * (HEIGHT - result.notch)
+    ligament = 0.01 * (HEIGHT - result.notch_depth)
     work = curve["boundary_work"][-1] / ligament
     assert result.fracture_energy == pytest.approx(work, rel=0.15)
     dissipated = (curve["damage_energy"][-1] + curve["friction_energy"][-1]) / ligament
@@ -160,6 +161,8 @@ def test_bending_measures_toughness_and_fracture_energy(broken, beam):
     assert result.energy_error < 1e-3
     assert result.youngs_modulus is None and result.poissons_ratio is None
     assert json.loads((folder / "result.json").read_text())["inputs"]["notch"] == 0.4 * HEIGHT
+    text = tables.result_table(result)
+    assert f"fracture toughness          {result.fracture_toughness / 1e6:.4g}" in text
     again = flexpm.Result.read(folder)
     assert again.curve.own == curve.own
     assert np.array_equal(again.curve.array, curve.array, equal_nan=True)
@@ -231,5 +234,7 @@ def test_bending_is_for_flexible_and_rigid_grains_and_has_its_own_options(beam):
     spec = RunSpec.from_options("bending", {"length": 0.2}, flexpm.materials.load(None))
     assert (spec.specimen.width, spec.specimen.height) == (0.2, 0.04)
     assert (spec.span, spec.notch, spec.stop_ratio) == (0.16, 0.0, 0.1)
+    wide = RunSpec.from_options("bending", {"width": 0.3}, flexpm.materials.load(None))
+    assert wide.specimen.width == 0.3
     assert RunSpec.from_json(spec_of(beam, "rigid", span=SPAN).to_json()).span == SPAN
     assert "bending" in protocols.TESTS

@@ -58,7 +58,7 @@ KEYS = [
     "shear_onset_strain",
     "shear_onset_stress",
     "peak_load",
-    "notch",
+    "notch_depth",
     "fracture_toughness",
     "fracture_energy",
     "fragments",
