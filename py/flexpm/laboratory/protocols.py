@@ -20,10 +20,12 @@ from ..models.options import SPHERE_MODELS
 from ..models.spheres import SphereModel
 from ..progress import Progress
 from ..report.curves import curve_picture
+from ..report.emission import emission_picture
 from ..report.maps import crack_picture, fragment_picture
 from ..report.tables import size_text
 from ..require import require_known
 from ..results.cracks import cracks_from_snapshot
+from ..results.emission import event_rule
 from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..specimens import given
@@ -42,8 +44,9 @@ from .runner import Foresee, Runner
 
 #: Names of the files of a run.
 FILES = (
-    *("result.json", "curve.csv", "cracks.csv", "fragments.csv", "specimen.vtu", "final.vtu"),
-    *("curve.png", "cracks.png", "fragments.png", "checkpoint.json", given.FILE),
+    *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
+    *("specimen.vtu", "final.vtu", "checkpoint.json", given.FILE),
+    *("curve.png", "cracks.png", "events.png", "fragments.png"),
     "report.html",
     *(TABLE, COLLECTION),
 )
@@ -341,6 +344,9 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         measure(result, rig, spec)
     if rig.disc:  # the slopes of the plates' closure are no constants of the rock
         result.youngs_modulus = result.poissons_ratio = None
+    if spec.model not in SPHERE_MODELS:  # whose bonds tell no energy
+        diameter, scales = rig.built.specimen.mean_diameter, rig.scales()
+        result.measure_emission(event_rule(diameter, scales.height, scales.crossing_steps))
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     return result
@@ -356,3 +362,4 @@ def write_files(folder: Path, result: Result) -> None:
         caption = size_text(result)
         crack_picture(folder / "cracks.png", result.snapshot, caption, minerals)
         fragment_picture(folder / "fragments.png", result.snapshot, caption)
+        emission_picture(folder / "events.png", result, caption)

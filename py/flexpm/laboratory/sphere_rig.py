@@ -245,6 +245,7 @@ class SphereRig(TestRig):
             kinetic_energy=utils.kineticEnergy(),
             elastic_energy=self.built.elastic_energy(),
             damage_energy=math.nan,
+            softened_energy=math.nan,
             friction_energy=math.nan,
             damping_energy=dict(yade.O.energy.items()).get("nonviscDamp", 0.0),
             potential_energy=0.0,

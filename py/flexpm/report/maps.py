@@ -119,6 +119,12 @@ def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     return handles
 
 
+def draw_grains(axes: Axes, snapshot: Snapshot) -> None:
+    """Draw the deformed grains and a scale bar below them [mm]."""
+    _draw_rock(axes, snapshot)
+    _draw_scale_bar(axes)
+
+
 def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     """Draw the erased bonds between grains that are there, as cuts; a handle if there are any."""
     if snapshot.erased_ends is None:

@@ -17,6 +17,7 @@ from ..results.result import Result
 from ..results.vtu import read_vtu
 from ..text import words_of
 from .curves import fits_a_picture
+from .emission import emission_table
 from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
 from .page_map import crack_map
 from .style import COLOURS, CYCLE, MODE_NAMES
@@ -95,7 +96,7 @@ def write_page(
         warnings=result.warnings,
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         maps=[] if found is None else [found],
-        tables=[inputs_table(inputs)],
+        tables=[one for one in (emission_table(result), inputs_table(inputs)) if one],
         pictures=[
             Picture(title, folder / name)
             for name, title in _PICTURES.items()

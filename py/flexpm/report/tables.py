@@ -50,6 +50,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
         ("cracked points", counts),
         ("first tensile, shear crack", _first_cracks(result)),
+        ("acoustic events", _events(result)),
         ("fragments", _fragments(result)),
         ("unbalanced-force ratio", scaled(result.unbalanced_ratio, 1.0, "", 2)),
         ("energy error", scaled(result.energy_error, 100.0, "%", 2)),
@@ -103,6 +104,13 @@ def _peak_text(test: str) -> str:
 def _first_cracks(result: Result) -> str:
     stresses = result.first_tensile_crack_stress, result.first_shear_crack_stress
     return "at " + ", ".join(scaled(stress, 1e-6, "MPa") for stress in stresses)
+
+
+def _events(result: Result) -> str:
+    if result.events is None or result.b_value is None:
+        return "-" if result.events is None else str(result.events)
+    b, error = scaled(result.b_value, 1.0, "", 3), scaled(result.b_value_error, 1.0, "", 1)
+    return f"{result.events}, b = {b} +- {error}"
 
 
 def _fragments(result: Result) -> str:

@@ -6,6 +6,7 @@ The table also names the points of bonds that a script has erased, which are no 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -35,19 +36,23 @@ class Crack(NamedTuple):
     mode: int  #: TENSILE if the point was opening, else SHEAR; ERASED if a script erased it
     contact: int  #: number of the contact, as in each snapshot
     point: int  #: index of the point in its contact
+    energy: float = math.nan  #: that damage took until then [J]; nan where that is not known
 
 
 def cracks_csv(cracks: Sequence[Crack]) -> str:
     """Cracks as CSV text in the order given; numbers read back unchanged."""
     rows = (
-        (int(crack.step), *map(float, crack[1:4]), NAMES[crack.mode], crack.contact, crack.point)
-        for crack in cracks
+        (
+            *(int(one.step), *map(float, one[1:4])),
+            *(NAMES[one.mode], one.contact, one.point, float(one.energy)),
+        )
+        for one in cracks
     )
     return csv_text(Crack._fields, rows)
 
 
 def read_cracks(path: Path) -> list[Crack]:
-    """Read what ``cracks_csv`` gave.
+    """Read what ``cracks_csv`` gave; energies that an older flexpm did not write are nan.
 
     Raises:
         InputError: if the file cannot be read or holds no cracks.
@@ -55,11 +60,15 @@ def read_cracks(path: Path) -> list[Crack]:
     names, rows = load_csv(path, "cracks")
     modes = {name: mode for mode, name in NAMES.items()}
     try:
-        if tuple(names) != Crack._fields:
+        if tuple(names) not in (Crack._fields, Crack._fields[:-1]):
             raise ValueError(f"columns {', '.join(names)}")
         return [
-            Crack(int(step), float(strain), float(x), float(y), modes[mode], int(at), int(point))
-            for step, strain, x, y, mode, at, point in rows
+            Crack(
+                *(int(step), float(strain), float(x), float(y)),
+                *(modes[mode], int(at), int(point)),
+                float(energy[0]) if energy else math.nan,
+            )
+            for step, strain, x, y, mode, at, point, *energy in rows
         ]
     except (ValueError, KeyError) as error:
         raise InputError(f"cracks = {str(path)!r}, holds no cracks: {error}") from None
@@ -70,7 +79,7 @@ def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
 
     Those of erased bonds are among them, and what was erased of these.
     """
-    numbers, steps, modes, places = _records(snapshot)
+    numbers, steps, modes, places, energies = _records(snapshot)
     rows, points = np.nonzero(steps >= 0)
     order = np.lexsort((points, numbers[rows], steps[rows, points]))
     rows, points = rows[order], points[order]
@@ -81,26 +90,28 @@ def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
         else np.full(len(steps), np.nan)
     )
     return [
-        Crack(int(step), float(strain), float(x), float(y), int(mode), int(contact), int(point))
-        for step, strain, (x, y), mode, contact, point in zip(
-            steps,
-            strains,
-            places[rows, points],
-            modes[rows, points],
-            numbers[rows],
-            points,
+        Crack(*one)
+        for one in zip(
+            steps.tolist(),
+            strains.tolist(),
+            *places[rows, points].T.tolist(),
+            modes[rows, points].tolist(),
+            numbers[rows].tolist(),
+            points.tolist(),
+            energies[rows, points].tolist(),
             strict=True,
         )
     ]
 
 
-def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
-    """Numbers of all bonds with a record, steps, modes and places of their points."""
+def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArray, FloatArray]:
+    """Numbers of all bonds with a record, steps, modes, places and energies of their points."""
     exist = (
         snapshot.contact,
         snapshot.crack_step,
         snapshot.crack_mode,
         snapshot.crack_position,
+        _energies(snapshot.crack_energy, snapshot.crack_step),
     )
     if (
         snapshot.erased_contact is None
@@ -114,4 +125,11 @@ def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArr
         np.concatenate([exist[1], snapshot.erased_crack_step]),
         np.concatenate([exist[2], snapshot.erased_crack_mode]),
         np.concatenate([exist[3], snapshot.erased_crack_position]),
+        np.concatenate(
+            [exist[4], _energies(snapshot.erased_crack_energy, snapshot.erased_crack_step)]
+        ),
     )
+
+
+def _energies(known: FloatArray | None, steps: IntArray) -> FloatArray:
+    return np.full(steps.shape, np.nan) if known is None else known

@@ -30,6 +30,7 @@ COLUMNS = (
     "kinetic_energy",
     "elastic_energy",
     "damage_energy",
+    "softened_energy",
     "friction_energy",
     "damping_energy",
     "potential_energy",

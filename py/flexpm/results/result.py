@@ -15,6 +15,7 @@ from ..files import Table, json_text, load_json, output_folder, write_text
 from ..notebook import Shown
 from . import doubts, measures
 from .cracks import MODES, Crack, cracks_csv, read_cracks
+from .emission import Event, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
 from .snapshot import Snapshot
 
@@ -73,10 +74,15 @@ class Result(Shown):
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
+    events: int | None = None  #: of acoustic emission
+    completeness_magnitude: float | None = None  #: from which on b_value counts events [-]
+    b_value: float | None = None  #: of the magnitudes of events [-]
+    b_value_error: float | None = None  #: standard error [-]
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
     inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
+    emission: list[Event] | None = field(default=None, repr=False)  #: events, where known
     snapshot: Snapshot | None = field(default=None, repr=False)  #: final state
     resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
 
@@ -156,6 +162,13 @@ class Result(Shown):
         self.fragments = len(found)
         self.largest_fragment = float(found.areas[0] / found.areas.sum()) if len(found) else 0.0
 
+    def measure_emission(self, rule: EventRule) -> None:
+        """Find the events among the cracks, and how many there are of each magnitude."""
+        self.emission = find_events(self.cracks, rule)
+        self.events = len(self.emission)
+        found = frequencies(np.array([one.magnitude for one in self.emission]))
+        self.completeness_magnitude, self.b_value, self.b_value_error = found
+
     def _measure_onset(self) -> None:
         for mode, name in MODES.items():
             steps = [crack.step for crack in self.cracks if crack.mode == mode]
@@ -177,7 +190,7 @@ class Result(Shown):
 
     def as_dict(self) -> Table:
         """The content of result.json; numbers that are not finite become None."""
-        hidden = ("curve", "cracks", "snapshot", "resumed_at")
+        hidden = ("curve", "cracks", "emission", "snapshot", "resumed_at")
         content = {
             name: _plain(getattr(self, name))
             for name in self.__dataclass_fields__
@@ -208,6 +221,8 @@ class Result(Shown):
         result = cls(**given)
         result.curve = Curve.read(folder / "curve.csv")
         result.cracks = read_cracks(folder / "cracks.csv")
+        if result.events is not None:
+            result.emission = read_events(folder / "events.csv")
         return result
 
     def write(self, folder: Path | str) -> None:
@@ -215,6 +230,8 @@ class Result(Shown):
         folder = output_folder(folder)
         write_text(folder / "curve.csv", self.curve.csv())
         write_text(folder / "cracks.csv", cracks_csv(self.cracks))
+        if self.emission is not None:
+            write_text(folder / "events.csv", events_csv(self.emission))
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", self.snapshot.fragments.csv())
         write_text(folder / "result.json", json_text(self.as_dict()))

@@ -43,6 +43,7 @@ class Snapshot:
     crack_mode: IntArray  #: 0 where a point has not cracked, (C, P)
     crack_position: FloatArray  #: (C, P, 2) [m]
     forces: FloatArray | None = None  #: on the nodes, (N, 2) [N]
+    crack_energy: FloatArray | None = None  #: that damage took until the crack, (C, P) [J]
     triangle_particle: IntArray | None = None  #: (M,), where grains have inner particles
     triangle_stress_zz: FloatArray | None = None  #: (M,) [Pa], in plane strain
     grain_mineral: IntArray | None = None  #: of each grain, if there are minerals
@@ -52,6 +53,7 @@ class Snapshot:
     erased_crack_step: IntArray | None = None  #: of the crack or the erasure, (E, P)
     erased_crack_mode: IntArray | None = None  #: (E, P)
     erased_crack_position: FloatArray | None = None  #: (E, P, 2) [m]
+    erased_crack_energy: FloatArray | None = None  #: (E, P) [J]
 
     @cached_property
     def fragments(self) -> Fragments:

@@ -152,6 +152,7 @@ TEST_CASE("A crack is recorded once, with its step, place and tensile mode")
         if (rate < 0.0) {
             CHECK(a.contacts.crack_steps[index] == -1);
             CHECK(a.contacts.crack_modes[index] == flexpm::intact);
+            CHECK(a.contacts.crack_energies[index] == 0.0);
             continue;
         }
         CHECK(a.contacts.crack_steps[index] == static_cast<int>(std::ceil(uc / rate)));
@@ -159,6 +160,8 @@ TEST_CASE("A crack is recorded once, with its step, place and tensile mode")
         CHECK(a.contacts.crack_position(0, p).x == Approx(size).epsilon(1e-12));
         CHECK(a.contacts.crack_position(0, p).y
             == Approx(0.5 * size + points[p].place).margin(1e-12 * size));
+        CHECK(a.contacts.crack_energies[index]
+            == Approx(points[p].area * m.tensile_fracture_energy).epsilon(1e-12));
     }
 }
 

@@ -245,7 +245,7 @@ TEST_CASE("energies of blocks are those of their grains and points")
                 flexpm::stiffness_of(a.grains, g), u(0), u(1), u(2));
         }
     }
-    double stored = 0.0;
+    double stored = 0.0, softened = 0.0;
     flexpm::ContactLoss lost;
     for (int c = 0; c < a.contacts.count; ++c) {
         for (int p = 0; p < a.contacts.points; ++p) {
@@ -253,6 +253,8 @@ TEST_CASE("energies of blocks are those of their grains and points")
             const double area = a.contacts.area(c, p);
             stored += area * flexpm::law::elastic_energy(a.contacts.law_of(c), s);
             lost.damage += area * s.damage_energy;
+            if (a.contacts.crack_steps[a.contacts.point_index(c, p)] < 0)
+                softened += area * s.damage_energy;
             lost.friction += area * s.friction_energy;
         }
     }
@@ -268,6 +270,8 @@ TEST_CASE("energies of blocks are those of their grains and points")
     CHECK(flexpm::contact_energy(a.contacts) == Approx(stored).epsilon(1e-12));
     CHECK(found.damage == Approx(lost.damage).epsilon(1e-12));
     CHECK(found.friction == Approx(lost.friction).epsilon(1e-12));
+    REQUIRE(softened > 0.0);
+    CHECK(flexpm::softened_energy(a.contacts) == Approx(softened).epsilon(1e-12));
 }
 
 TEST_CASE("The power of damping sums to its work, and is none where all move with the loading")

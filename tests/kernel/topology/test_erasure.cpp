@@ -183,6 +183,28 @@ TEST_CASE("The balance keeps what a softened bond stored and what it had lost", 
     CHECK(flexpm::energies(a).erased == 0.0);
 }
 
+TEST_CASE("What damage took is the sum over softened, cracked and erased points", "[erasure]")
+{
+    const bool cracked = GENERATE(false, true);
+    Assembly a = softened_row();
+    const flexpm::Energies before = flexpm::energies(a);
+    REQUIRE(before.damage > 0.0);
+    CHECK(before.softened == before.damage);
+    if (cracked) run(a, 3000);
+    const double damage = flexpm::energies(a).damage;
+    flexpm::erase(a, { {}, { 1 } }, 1.0);
+    const flexpm::Energies after = flexpm::energies(a);
+    CHECK(after.softened == 0.0);
+    double on_record = 0.0;
+    for (double energy : flexpm::take_snapshot(a).erased_crack_energy)
+        on_record += energy;
+    CHECK(after.damage == Approx(damage).epsilon(1e-12));
+    CHECK(on_record == Approx(damage).epsilon(1e-12));
+    flexpm::reset_energy_balance(a);
+    for (double energy : a.contacts.crack_energies)
+        CHECK(energy == 0.0);
+}
+
 TEST_CASE("An erased bond is on record as erased and never cracks", "[erasure]")
 {
     Assembly a = softened_row();

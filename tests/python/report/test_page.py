@@ -23,6 +23,8 @@ from flexpm.laboratory import asked
 from flexpm.laboratory.run_spec import RunSpec
 from flexpm.materials.material import load
 from flexpm.report import page, page_map, page_run
+from flexpm.report.emission import emission_picture
+from flexpm.results.emission import EventRule, find_events
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu
 from flexpm.studies import pages
@@ -178,12 +180,13 @@ def test_each_status_has_its_meaning_and_advice(status):
 
 
 def test_acoustic_emission_is_shown_where_there_is_a_picture_of_it(ended, tmp_path):
-    for name in ("result.json", "curve.csv", "cracks.csv"):
+    for name in ("result.json", "curve.csv", "cracks.csv", "events.csv"):
         (tmp_path / name).write_bytes((ended / name).read_bytes())
-    assert "Acoustic emission" not in pages.write(tmp_path).read_text()
-    (tmp_path / "events.png").write_bytes((ended / "curve.png").read_bytes())
+    assert "<h2>Acoustic emission</h2>" not in pages.write(tmp_path).read_text()
+    (tmp_path / "events.png").write_bytes((ended / "events.png").read_bytes())
     text = pages.write(tmp_path).read_text()
     assert "<h2>Acoustic emission</h2>" in text
+    assert "Acoustic emission: the largest events" in text
     parsed(tmp_path / page.FILE)
 
 
@@ -330,15 +333,22 @@ def test_a_page_of_the_papers_size_has_at_most_two_megabytes(tmp_path):
     specimen = flexpm.Specimen.rectangle(0.08, 0.16, 0.08)
     result = flexpm.run("uniaxial", specimen, max_strain=1e-6, out=tmp_path)
     assert result.grains == 1630
-    contacts = read_vtu(tmp_path / "specimen.vtu").contact
-    # more cracks than a test has had, and a record as long
-    lines = [f"{n},1e-7,0.0,0.0,tensile,{c},{n % 3}" for n, c in enumerate([*contacts] * 3)]
+    state = read_vtu(tmp_path / "specimen.vtu")
+    places = zip(state.contact, state.contact_ends.mean(axis=1), strict=True)
+    # more cracks and events than a test has had, and a record as long
+    lines = [
+        f"{n},1e-7,{x},{y},tensile,{c},{n % 3},1e-3" for n, (c, (x, y)) in enumerate([*places] * 3)
+    ]
     head = (tmp_path / "cracks.csv").read_text()
     (tmp_path / "cracks.csv").write_text(head + "\n".join(lines) + "\n")
     names, *rows = (tmp_path / "curve.csv").read_text().splitlines()
     tail = rows[-1].split(",")[1:]
     steps = [",".join([str(step), *tail]) for step in range(0, 14000, 3)]
     (tmp_path / "curve.csv").write_text("\n".join([names, *steps]) + "\n")
+    found = Result.read(tmp_path)
+    found.snapshot, found.emission = state, find_events(found.cracks, EventRule(3e-3, 0.5))
+    assert len(found.emission) == len(lines)
+    emission_picture(tmp_path / "events.png", found)
     assert pages.write(tmp_path).stat().st_size < 2e6
 
 

@@ -63,6 +63,10 @@ KEYS = [
     "fracture_energy",
     "fragments",
     "largest_fragment",
+    "events",
+    "completeness_magnitude",
+    "b_value",
+    "b_value_error",
     "status",
     "warnings",
     "inputs",
@@ -325,7 +329,7 @@ def test_files_of_a_result(tmp_path):
     assert found["step_time"] is None
     assert found["youngs_modulus"] == result.youngs_modulus
     cracks = list(csv.DictReader((folder / "cracks.csv").read_text().splitlines()))
-    assert list(cracks[0]) == ["step", "strain", "x", "y", "mode", "contact", "point"]
+    assert list(cracks[0]) == list(Crack._fields)
     assert [line["mode"] for line in cracks] == ["tensile", "shear"]
     assert float(cracks[0]["strain"]) == 0.1 / 3
 

@@ -53,6 +53,7 @@ struct Contacts {
     Array<int> crack_steps;              ///< [point]: step of the crack or erasure, -1 while intact
     Array<std::uint8_t> crack_modes;     ///< [point]: CrackMode
     Array<double> crack_positions;       ///< [point][component] where it cracked [m]
+    Array<double> crack_energies;        ///< [point]: dissipated by damage until it cracked [J]
     /// `force_values` of each contact, one contact after the other, as nodes gather them [N]; a force of
     /// zero follows the last block, see no_force().
     Array<double> forces;
@@ -150,6 +151,7 @@ struct Contacts {
         visit(s.crack_steps, s.points, row_index);
         visit(s.crack_modes, s.points, row_index);
         visit(s.crack_positions, s.points * dimension, row_index);
+        visit(s.crack_energies, s.points, row_index);
         visit(s.forces, force_values, record_index);
     }
 
@@ -177,6 +179,7 @@ struct Contacts {
         visit("crack_steps", s.crack_steps);
         visit("crack_modes", s.crack_modes);
         visit("crack_positions", s.crack_positions);
+        visit("crack_energies", s.crack_energies);
         visit("forces", s.forces);
     }
 

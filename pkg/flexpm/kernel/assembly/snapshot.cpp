@@ -63,14 +63,15 @@ void add_place(const Assembly& a, int contact, std::vector<std::int32_t>& number
         push(ends, contact_end(a, contact, end));
 }
 
-/// When, how and where its points have lost their bond.
+/// When, how and where its points have lost their bond, and what their damage took.
 void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
-    std::vector<std::int32_t>& mode, std::vector<double>& position)
+    std::vector<std::int32_t>& mode, std::vector<double>& position, std::vector<double>& energy)
 {
     for (int p = 0; p < a.contacts.points; ++p) {
         const int index = a.contacts.point_index(contact, p);
         step.push_back(a.contacts.crack_steps[index]);
         mode.push_back(a.contacts.crack_modes[index]);
+        energy.push_back(a.contacts.crack_energies[index]);
         push(position,
             { a.contacts.crack_positions[row_index(contact, 2 * p, 2 * a.contacts.points)],
                 a.contacts.crack_positions[row_index(contact, 2 * p + 1, 2 * a.contacts.points)] });
@@ -80,7 +81,7 @@ void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
 void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
     add_place(a, contact, s.contact, s.contact_grains, s.contact_ends);
-    add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position);
+    add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position, s.crack_energy);
     for (int p = 0; p < a.contacts.points; ++p) {
         s.point_opening.push_back(a.contacts.point_state(contact, p).opening);
         s.point_slip.push_back(a.contacts.point_state(contact, p).slip);
@@ -97,7 +98,8 @@ void add_erased(const Assembly& a, int contact, Snapshot& s)
         std::fill(s.erased_ends.end() - 2 * dimension, s.erased_ends.end(),
             std::numeric_limits<double>::quiet_NaN());
     }
-    add_cracks(a, contact, s.erased_crack_step, s.erased_crack_mode, s.erased_crack_position);
+    add_cracks(a, contact, s.erased_crack_step, s.erased_crack_mode, s.erased_crack_position,
+        s.erased_crack_energy);
 }
 
 }  // namespace

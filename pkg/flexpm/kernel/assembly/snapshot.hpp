@@ -33,6 +33,7 @@ struct Snapshot {
     std::vector<std::int32_t> crack_step;      ///< [contact][point], -1 while intact
     std::vector<std::int32_t> crack_mode;      ///< [contact][point] CrackMode
     std::vector<double> crack_position;        ///< [contact][point][x, y] [m]
+    std::vector<double> crack_energy;          ///< [contact][point] damage until it cracked [J]
 
     std::vector<std::int32_t> erased_contact;  ///< [erased bond] lasting number
     std::vector<std::int32_t>
@@ -43,6 +44,7 @@ struct Snapshot {
         erased_crack_step;  ///< [erased bond][point] of the crack or the erasure
     std::vector<std::int32_t> erased_crack_mode;  ///< [erased bond][point] CrackMode
     std::vector<double> erased_crack_position;    ///< [erased bond][point][x, y] [m]
+    std::vector<double> erased_crack_energy;      ///< [erased bond][point] damage until then [J]
 };
 
 Snapshot take_snapshot(const Assembly& a);

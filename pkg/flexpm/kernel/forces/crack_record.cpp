@@ -21,6 +21,12 @@ Point point_position(const Assembly& a, int contact, int point, double dt)
     return sum;
 }
 
+/// What a point that is about to lose its bond has dissipated by damage.
+double point_damage_energy(const Contacts& contacts, int contact, int point)
+{
+    return contacts.area(contact, point) * contacts.state(contact, point, PointRow::damage_energy);
+}
+
 }  // namespace
 
 void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracked)
@@ -35,6 +41,7 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
             contacts.crack_steps[index] = static_cast<int>(a.step + 1);
             contacts.crack_modes[index] = opens ? tensile_crack : shear_crack;
             contacts.set_crack_position(contact, p, point_position(a, contact, p, dt));
+            contacts.crack_energies[index] = point_damage_energy(contacts, contact, p);
         }
     }
 }
@@ -48,6 +55,7 @@ void record_erasure(Assembly& a, int contact)
         contacts.crack_steps[index] = static_cast<int>(a.step);
         contacts.crack_modes[index] = erased_point;
         contacts.set_crack_position(contact, p, point_position(a, contact, p, 0.0));
+        contacts.crack_energies[index] = point_damage_energy(contacts, contact, p);
         contacts.state(contact, p, PointRow::shear_damage) = 1.0;  // nothing is left to crack
     }
 }

@@ -109,6 +109,7 @@ Energies energies(const Assembly& a)
         e.kinetic += k;
     e.elastic = strain_energy(a.grains) + contact_energy(a.contacts);
     e.damage = d.damage;
+    e.softened = softened_energy(a.contacts);
     e.friction = d.friction;
     e.damping = first_of_pairs(a.ledger.damping_work);
     e.potential = potential_energy(a);
@@ -130,6 +131,7 @@ void reset_energy_balance(Assembly& a)
         for (int p = 0; p < contacts.points_of(c); ++p) {
             for (int row : { PointRow::damage_energy, PointRow::friction_energy })
                 contacts.state(c, p, row) = 0.0;
+            contacts.crack_energies[contacts.point_index(c, p)] = 0.0;
         }
     }
     // the halves of the last step's works that fall into the next step stay

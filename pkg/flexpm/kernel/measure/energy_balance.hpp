@@ -15,6 +15,7 @@ struct Energies {
     double kinetic = 0.0;  ///< 1/2 m v(n-1/2) v(n+1/2); of the last measured step
     double elastic = 0.0;  ///< triangles and contact points
     double damage = 0.0;
+    double softened = 0.0;  ///< part of the damage: in points that have not cracked
     double friction = 0.0;
     double damping = 0.0;
     double potential = 0.0;      ///< in the field of gravity, 0 at the reference

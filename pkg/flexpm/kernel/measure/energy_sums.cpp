@@ -9,6 +9,7 @@
 #include <flexpm/kernel/core/simd.hpp>
 
 #include <cmath>
+#include <cstdint>
 
 namespace flexpm {
 
@@ -74,6 +75,21 @@ FLEXPM_INLINE void add_lost(
     friction = of_friction;
 }
 
+FLEXPM_INLINE void add_softened(const double* area, const double* states,
+    const std::uint8_t* crack_modes, int rows, LaneSum& energy)
+{
+    LaneSum sum = energy;
+    for (int r = 0; r < rows; ++r) {
+        const double* a = area + r * lanes;
+        const double* lost = states + (r * PointRow::count + PointRow::damage_energy) * lanes;
+        const std::uint8_t* mode = crack_modes + r * lanes;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l)
+            sum.lane[l] += mode[l] == intact ? a[l] * lost[l] : 0.0;
+    }
+    energy = sum;
+}
+
 /// Of records of contacts, `lanes` at a time.
 FLEXPM_INLINE void add_forces(const double* forces, int contacts, LaneSum& total)
 {
@@ -128,6 +144,18 @@ ContactLoss contact_loss(const Contacts& contacts)
             damage, friction);
     }
     return { damage.total(), friction.total() };
+}
+
+double softened_energy(const Contacts& contacts)
+{
+    LaneSum sum;
+    const auto add = variant_of<add_softened>();
+    for (int block = 0; block < contacts.blocks(); ++block) {
+        const int points = contacts.points_in(block), first = block * lanes * points;
+        add(contacts.areas.data() + first, contacts.states.data() + first * PointRow::count,
+            contacts.crack_modes.data() + first, points, sum);
+    }
+    return sum.total();
 }
 
 double sum_of_forces(const Contacts& contacts)

@@ -21,6 +21,9 @@ struct ContactLoss {
 
 ContactLoss contact_loss(const Contacts& contacts);
 
+/// Dissipated by damage in points that have softened and not cracked [J].
+double softened_energy(const Contacts& contacts);
+
 /// Sum of the magnitudes of all contact forces [N].
 double sum_of_forces(const Contacts& contacts);
 

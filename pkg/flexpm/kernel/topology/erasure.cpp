@@ -110,8 +110,8 @@ void erase(Assembly& a, const Erasure& what, double dt)
     std::vector<int> touches;
     for (int contact : contacts_that_go(a, what)) {
         power += power_of(a, contact);
-        remove_contact(a.contacts, contact);
         if (!keep_record(a, contact)) touches.push_back(contact);
+        remove_contact(a.contacts, contact);
     }
     const Holding after = holding_of(a);
     a.ledger.removed_damage += before.loss.damage - after.loss.damage;

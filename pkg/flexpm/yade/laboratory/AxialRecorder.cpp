@@ -20,7 +20,7 @@ namespace {
 		Real (*value)(const flexpm::AxialObservation&);
 	};
 
-	constexpr std::array<Column, 18> recorded { {
+	constexpr std::array<Column, 19> recorded { {
 		{ "step", [](const auto& o) { return Real(o.step); } },
 		{ "axial_strain", [](const auto& o) { return o.axial_strain; } },
 		{ "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
@@ -34,6 +34,7 @@ namespace {
 		{ "kinetic_energy", [](const auto& o) { return o.energies.kinetic; } },
 		{ "elastic_energy", [](const auto& o) { return o.energies.elastic; } },
 		{ "damage_energy", [](const auto& o) { return o.energies.damage; } },
+		{ "softened_energy", [](const auto& o) { return o.energies.softened; } },
 		{ "friction_energy", [](const auto& o) { return o.energies.friction; } },
 		{ "damping_energy", [](const auto& o) { return o.energies.damping; } },
 		{ "potential_energy", [](const auto& o) { return o.energies.potential; } },

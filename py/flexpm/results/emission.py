@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Acoustic emission: points that crack close in time and space are one event. SI units.
+
+Deviation D60: what belongs to one event. Deviation D61: its magnitude, from the energy that damage
+took, by Gutenberg and Richter: log10 E = 1.5 M + 4.8.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
+from scipy.spatial import cKDTree
+
+from ..arrays import FloatArray, IntArray
+from ..errors import InputError
+from ..files import csv_text, load_csv
+from .cracks import MODES, SHEAR, TENSILE, Crack
+
+#: Speed at which a fracture runs over that of a compressional wave [-].
+_RUPTURE_SPEED = 0.5
+#: Magnitudes are counted in bins of this width [-].
+BIN = 0.1
+#: Fewest events from the magnitude of completeness on that give a b value.
+FEWEST = 50
+
+
+class EventRule(NamedTuple):
+    """What joins two cracked points: both limits hold."""
+
+    distance: float  #: between their places [m]
+    steps: float  #: between their times
+
+
+class Event(NamedTuple):
+    """Points that have cracked together."""
+
+    step: int  #: of its first crack
+    strain: float  #: axial strain then [-]
+    x: float  #: centre, weighted by energy [m]
+    y: float  #: [m]
+    points: int  #: that have cracked
+    mode: int  #: TENSILE or SHEAR: that which took more energy
+    energy: float  #: that damage took [J]
+    magnitude: float  #: nan without energy [-]
+
+
+class Frequencies(NamedTuple):
+    """How many events there are of each magnitude; None without enough events."""
+
+    completeness: float | None  #: magnitude from which on they are counted: the most frequent [-]
+    b_value: float | None  #: decades of number for one of magnitude [-]
+    b_error: float | None  #: standard error [-]
+
+
+def event_rule(mean_diameter: float, height: float, crossing_steps: float) -> EventRule:
+    """Limits of an event: one mean grain, and the time that a fracture needs to cross it.
+
+    Args:
+        mean_diameter: Of the grains [m].
+        height: Of the specimen [m].
+        crossing_steps: Steps in which a wave crosses the height.
+    """
+    steps = mean_diameter / height * crossing_steps / _RUPTURE_SPEED
+    return EventRule(mean_diameter, steps)
+
+
+def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
+    """Events of cracked points, in the order of their first cracks.
+
+    A point belongs to an event if it has cracked close to any of its points. What scripts have
+    erased has not cracked.
+    """
+    kept = [one for one in cracks if one.mode in MODES and math.isfinite(one.x + one.y)]
+    if not kept:
+        return []
+    table = np.array(kept, dtype=float)
+    steps, strains, modes, energies = table[:, 0], table[:, 1], table[:, 4], table[:, 7]
+    places = table[:, 2:4]
+    pairs = cKDTree(places).query_pairs(rule.distance, output_type="ndarray")
+    apart = np.abs(steps[pairs[:, 0]] - steps[pairs[:, 1]])
+    pairs = pairs[apart <= rule.steps]
+    graph = sparse.coo_matrix(
+        (np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(kept), len(kept))
+    )
+    count, labels = csgraph.connected_components(graph, directed=False)
+    first = np.full(count, len(kept))
+    np.minimum.at(first, labels, np.arange(len(kept)))
+    points = np.bincount(labels)
+    energy = np.bincount(labels, energies).astype(float, copy=False)
+    by_shear = np.bincount(labels, np.where(modes == SHEAR, energies, 0.0))
+    weights = np.where(energy[labels] > 0.0, energies, 1.0)
+    centres = [
+        np.bincount(labels, weights * values) / np.bincount(labels, weights) for values in places.T
+    ]
+    order = np.argsort(first)
+    return [
+        Event(int(steps[first[k]]), float(strains[first[k]]), x, y, n, mode, taken, magnitude)
+        for k, x, y, n, mode, taken, magnitude in zip(
+            order.tolist(),
+            *(values[order].tolist() for values in (*centres, points)),
+            np.where(by_shear > 0.5 * energy, SHEAR, TENSILE)[order].tolist(),
+            energy[order].tolist(),
+            magnitudes_of(energy[order]).tolist(),
+            strict=True,
+        )
+    ]
+
+
+def magnitudes_of(energies: FloatArray) -> FloatArray:
+    """Magnitudes [-] of energies [J]; nan where there is none."""
+    known = np.where(energies > 0.0, energies, np.nan)
+    found: FloatArray = (np.log10(known) - 4.8) / 1.5
+    return found
+
+
+def frequencies(magnitudes: FloatArray) -> Frequencies:
+    """Magnitude of completeness and b value of events.
+
+    Completeness by maximum curvature: the bin with most events. b by maximum likelihood for
+    magnitudes in bins (Bender 1983), which is Aki's with Utsu's correction for narrow bins; its
+    error by Shi and Bolt (1982).
+    """
+    bins = binned(magnitudes)
+    if len(bins) == 0:
+        return Frequencies(None, None, None)
+    least = int(bins.min()) + int(np.argmax(np.bincount(bins - bins.min())))
+    above = BIN * (bins[bins >= least] - least)
+    completeness, number, mean = BIN * least, len(above), float(above.mean())
+    if number < FEWEST or mean == 0.0:
+        return Frequencies(completeness, None, None)
+    b = math.log10(1.0 + BIN / mean) / BIN
+    variance = float(np.sum((above - mean) ** 2)) / (number * (number - 1))
+    return Frequencies(completeness, b, math.log(10.0) * b * b * math.sqrt(variance))
+
+
+def binned(magnitudes: FloatArray) -> IntArray:
+    """Bin of each magnitude that is known, as a multiple of `BIN`."""
+    known = magnitudes[np.isfinite(magnitudes)]
+    found: IntArray = np.rint(known / BIN).astype(int)
+    return found
+
+
+def events_csv(events: Sequence[Event]) -> str:
+    """Events as CSV text in the order given; numbers read back unchanged."""
+    rows = ((*one[:5], MODES[one.mode], *one[6:]) for one in events)
+    return csv_text(Event._fields, rows)
+
+
+def read_events(path: Path) -> list[Event]:
+    """Read what ``events_csv`` gave.
+
+    Raises:
+        InputError: if the file cannot be read or holds no events.
+    """
+    names, rows = load_csv(path, "events")
+    modes = {name: mode for mode, name in MODES.items()}
+    try:
+        if tuple(names) != Event._fields:
+            raise ValueError(f"columns {', '.join(names)}")
+        return [
+            Event(
+                *(int(step), float(strain), float(x), float(y)),
+                *(int(points), modes[mode], float(energy), float(magnitude)),
+            )
+            for step, strain, x, y, points, mode, energy, magnitude in rows
+        ]
+    except (ValueError, KeyError) as error:
+        raise InputError(f"events = {str(path)!r}, holds no events: {error}") from None
