@@ -131,6 +131,34 @@ def test_the_window_draws_deformed_grains(package_parent: Path, tmp_path: Path) 
     assert ink(stretched) > 2.0 * ink(plain)
 
 
+@pytest.mark.long
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run (package xvfb)")
+@pytest.mark.parametrize("shown", ["stress_yy", "forces"])
+def test_the_window_shows_values_with_their_scale_cracks_and_forces(
+    package_parent: Path, tmp_path: Path, shown: str
+) -> None:
+    script = str(ROOT / "scripts" / "tutorials" / "window.py")
+    command = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24", "yade", "-x", script]
+    done = run([*command, shown, "shot-"], package_parent, tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    image = imread(max(tmp_path.glob("shot-*.png")))[:, :, :3]
+    image = image[int(0.15 * len(image)) :]  # below the axes, which have these colours, too
+
+    def seen(*colour: float) -> int:
+        return int(np.count_nonzero(np.abs(image - colour).max(axis=2) < 0.05))
+
+    assert seen(0.0, 0.447, 0.698) > 100, "tensile cracks"
+    assert seen(0.835, 0.369, 0.0) > 50, "shear cracks"
+    if shown == "forces":
+        assert seen(0.0, 0.0, 0.0) > 5 * seen(0.85, 0.1, 0.1) > 0
+        return
+    low, high = map(float, done.stdout.partition("range ")[2].split(" to "))
+    assert low < -1e8 < high
+    scale = image[:, -150:].reshape(-1, 3)  # all colours from the dark end to the bright one
+    assert len(np.unique(scale.round(2), axis=0)) > 50
+    assert seen(0.993, 0.906, 0.144) > 100
+
+
 @pytest.mark.parametrize(("wrong", "code"), [(None, 0), (", specimen)", 1)])
 def test_yades_list_of_checks_runs_that_of_flexpm(
     package_parent: Path, tmp_path: Path, wrong: str | None, code: int

@@ -52,6 +52,7 @@ namespace {
 		FLEXPM_VISIT(IPhysFunctor);
 		FLEXPM_VISIT(LawFunctor);
 		FLEXPM_VISIT(GlShapeFunctor);
+		FLEXPM_VISIT(GlIPhysFunctor);
 		FLEXPM_VISIT(BoundDispatcher);
 		FLEXPM_VISIT(IGeomDispatcher);
 		FLEXPM_VISIT(IPhysDispatcher);

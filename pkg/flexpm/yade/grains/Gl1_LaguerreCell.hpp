@@ -13,9 +13,14 @@ public:
 	RENDERS(LaguerreCell);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_STATICATTRS(Gl1_LaguerreCell, GlShapeFunctor,
-		"Draws a :yref:`LaguerreCell`: its triangles filled in the colour of the shape, its outline, and its mesh if asked.",
+		"Draws a :yref:`LaguerreCell`: its triangles filled, its outline, and its mesh if asked. A scale beside the specimen says what the colours stand for.",
 		((bool, mesh, false,, "Draw the triangles' edges."))
 		((Real, scale, 1.,, "Displacements are drawn this many times larger [-]."))
+		((string, colour, "shape",, "What colours a grain: ``shape``, the colour of its shape; ``stress_xx``, ``stress_yy`` or ``stress_xy``, its mean stress (tension positive); "
+			"``displacement`` of its centre; ``damage``, the mean over the points of its bonds; ``mineral``; ``fragment``, the largest pale. Any other word is ``shape``."))
+		((bool, autoRange, true,, "Set :yref:`Gl1_LaguerreCell.range` to the least and the largest value of each picture."))
+		((Vector2r, range, Vector2r::Zero(),, "Values of both ends of the scale [Pa], [m] or [-]; beside the specimen they stand in MPa and mm."))
+		((Vector3r, textColor, Vector3r::Ones(),, "Colour of the scale's numbers: red, green and blue, 0 to 1."))
 	);
 	// clang-format on
 };

@@ -6,6 +6,7 @@
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>
+#include <mutex>
 
 namespace yade {
 
@@ -63,7 +64,9 @@ void GrainSolver::removeErased()
 	listed          = false;
 	const auto what = findErased();
 	if (what.empty()) return;
-	flexpm::erase(assembly, what, Omega::instance().getScene()->dt);
+	const auto                        world = Omega::instance().getScene();
+	const std::lock_guard<std::mutex> lock(world->interactions->drawloopmutex); // a window may be drawing contacts
+	flexpm::erase(assembly, what, world->dt);
 	nearPairs.forget(); // what was erased may touch again
 }
 
@@ -90,7 +93,10 @@ void GrainSolver::changeContacts()
 	for (int c : ended)
 		scene->interactions->requestErase(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
 	const int firstId = assembly.contacts.next_id;
-	flexpm::change_contacts(assembly, ended, touching, massDamping, scaled ? scene->dt : 0.);
+	{
+		const std::lock_guard<std::mutex> lock(scene->interactions->drawloopmutex); // a window may be drawing contacts
+		flexpm::change_contacts(assembly, ended, touching, massDamping, scaled ? scene->dt : 0.);
+	}
 	if (!touching.empty()) limitStep();
 	insertTouches(firstId);
 	nearPairs.forget();

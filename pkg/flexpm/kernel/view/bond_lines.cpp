@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/view/bond_lines.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/view/grain_values.hpp>
+
+#include <algorithm>
+
+namespace flexpm {
+
+namespace {
+
+/// Where the parts of one, two and three points end along the edge: Lobatto's weights, Table 2 of Sec. 2.4.
+constexpr double parts[3][4] = { { 0.0, 1.0, 1.0, 1.0 }, { 0.0, 0.5, 1.0, 1.0 },
+    { 0.0, 1.0 / 6.0, 5.0 / 6.0, 1.0 } };
+
+/// End of a contact's edge, in the middle between both grains.
+Point drawn_end(const Assembly& a, int contact, int end, double factor)
+{
+    const Point one = drawn_position(a.grains, a.contacts.node(contact, 0, end), factor);
+    const Point other = drawn_position(a.grains, a.contacts.node(contact, 1, end), factor);
+    return 0.5 * (one + other);
+}
+
+}  // namespace
+
+Line point_line(const Assembly& a, int contact, int point, double factor)
+{
+    const Point start = drawn_end(a, contact, 0, factor);
+    const Point along = drawn_end(a, contact, 1, factor) - start;
+    const double* ends = parts[a.contacts.points_of(contact) - 1];
+    return { start + ends[point] * along, start + ends[point + 1] * along };
+}
+
+Line branch_line(const Assembly& a, int contact, double factor)
+{
+    const auto centre = [&](int side) {
+        const int grain = a.contacts.pairs[contact][side];
+        return drawn_position(a.grains, a.grains.centre(grain), factor);
+    };
+    return { centre(0), centre(1) };
+}
+
+double normal_force(const Assembly& a, int contact)
+{
+    // the force on the second grain points back to the first in tension
+    return -dot(contact_force(a.contacts, contact), a.contacts.normal(contact));
+}
+
+double largest_contact_force(const Assembly& a)
+{
+    double largest = 0.0;
+    for (int c = 0; c < a.contacts.count; ++c)
+        largest = std::max(largest, norm(contact_force(a.contacts, c)));
+    return largest;
+}
+
+}  // namespace flexpm

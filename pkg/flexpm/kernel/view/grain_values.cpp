@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/view/grain_values.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/triangle.hpp>
+#include <flexpm/kernel/geometry/polygon.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
+namespace flexpm {
+
+namespace {
+
+struct Description {
+    GrainValue what;
+    const char* name;
+    const char* title;
+    double factor;
+};
+
+constexpr std::array<Description, 7> descriptions { {
+    { GrainValue::stress_xx, "stress_xx", "stress xx [MPa]", 1e-6 },
+    { GrainValue::stress_yy, "stress_yy", "stress yy [MPa]", 1e-6 },
+    { GrainValue::stress_xy, "stress_xy", "stress xy [MPa]", 1e-6 },
+    { GrainValue::displacement, "displacement", "displacement [mm]", 1e3 },
+    { GrainValue::damage, "damage", "damage [-]", 1.0 },
+    { GrainValue::mineral, "mineral", "mineral", 1.0 },
+    { GrainValue::fragment, "fragment", "fragment", 1.0 },
+} };
+
+const Description& description_of(GrainValue what)
+{
+    return *std::find_if(descriptions.begin(), descriptions.end(),
+        [&](const Description& one) { return one.what == what; });
+}
+
+double area_of(const Grains& grains, int grain)
+{
+    std::vector<Point> corners;
+    for (int n = 0; n < grains.vertices_of(grain); ++n)
+        corners.push_back(vector_at(grains.reference, grains.node(grain, n)));
+    return polygon_shape(corners).area;
+}
+
+/// Of a grain in balance: the sum of place times force, over its volume.
+Tensor stress_by_forces(const Assembly& a, int grain)
+{
+    const Point centre = a.grains.position(a.grains.centre(grain));
+    const double volume = area_of(a.grains, grain) * a.thickness;
+    Tensor sum {};
+    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
+        const int node = a.grains.node(grain, n);
+        const Point r = a.grains.position(node) - centre, f = vector_at(a.grains.force, node);
+        sum.xx += r.x * f.x / volume;
+        sum.yy += r.y * f.y / volume;
+        sum.xy += 0.5 * (r.x * f.y + r.y * f.x) / volume;
+    }
+    return sum;
+}
+
+Tensor stress_of_triangles(const Grains& grains, int grain)
+{
+    const PlaneStiffness c = stiffness_of(grains, grain);
+    Tensor sum {};
+    double volume = 0.0;
+    for (int t = 0; t < triangles_of(grains, grain); ++t) {
+        const TriangleShape shape = shape_of(grains, grain, t);
+        const auto n = triangle_nodes(grains, grain, t);
+        const auto u = [&](int k) {
+            return vector_at(grains.displacement, grains.node(grain, n[k]));
+        };
+        const Tensor one = cauchy_stress(shape, c, u(0), u(1), u(2));
+        sum.xx += shape.volume * one.xx;
+        sum.yy += shape.volume * one.yy;
+        sum.xy += shape.volume * one.xy;
+        volume += shape.volume;
+    }
+    return { sum.xx / volume, sum.yy / volume, sum.xy / volume };
+}
+
+double stress_of(const Assembly& a, int grain, GrainValue what)
+{
+    const Tensor stress = a.grains.is_rigid(grain) ? stress_by_forces(a, grain)
+                                                   : stress_of_triangles(a.grains, grain);
+    if (what == GrainValue::stress_xx) return stress.xx;
+    return what == GrainValue::stress_yy ? stress.yy : stress.xy;
+}
+
+/// Calls visit(contact) for all bonds that are there.
+template <class Visit> void for_each_bond(const Contacts& contacts, Visit visit)
+{
+    for (int c = 0; c < contacts.count; ++c) {
+        if (contacts.bonded[c] && !contacts.erased[c]) visit(c);
+    }
+}
+
+std::vector<double> damages(const Assembly& a)
+{
+    std::vector<double> sums(a.grains.count), points(a.grains.count);
+    for_each_bond(a.contacts, [&](int c) {
+        for (int grain : a.contacts.pairs[c]) {
+            for (int p = 0; p < a.contacts.points_of(c); ++p)
+                sums[grain] += damage_of(a.contacts, c, p);
+            points[grain] += a.contacts.points_of(c);
+        }
+    });
+    for (int g = 0; g < a.grains.count; ++g)
+        sums[g] /= std::max(points[g], 1.0);
+    return sums;
+}
+
+/// The first grain of those with which each hangs together.
+std::vector<int> first_of_fragments(const Assembly& a)
+{
+    std::vector<int> first(a.grains.count);
+    std::iota(first.begin(), first.end(), 0);
+    const auto root = [&](int grain) {
+        while (first[grain] != grain)
+            grain = first[grain] = first[first[grain]];
+        return grain;
+    };
+    for_each_bond(a.contacts, [&](int c) {
+        bool holds = false;
+        for (int p = 0; p < a.contacts.points_of(c); ++p)
+            holds = holds || damage_of(a.contacts, c, p) < 1.0;
+        if (!holds) return;
+        const int one = root(a.contacts.pairs[c][0]), other = root(a.contacts.pairs[c][1]);
+        first[std::max(one, other)] = std::min(one, other);
+    });
+    for (int g = 0; g < a.grains.count; ++g)
+        first[g] = root(g);
+    return first;
+}
+
+std::vector<double> fragments(const Assembly& a)
+{
+    const std::vector<int> first = first_of_fragments(a);
+    std::vector<double> area(a.grains.count);
+    std::vector<int> order;
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (a.grains.erased[g]) continue;
+        area[first[g]] += area_of(a.grains, g);
+        if (first[g] == g) order.push_back(g);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return area[i] > area[j]; });
+    std::vector<double> rank(a.grains.count), found(a.grains.count);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        rank[order[i]] = static_cast<double>(i);
+    for (int g = 0; g < a.grains.count; ++g)
+        found[g] = rank[first[g]];
+    return found;
+}
+
+double single_value(const Assembly& a, int grain, GrainValue what)
+{
+    if (what == GrainValue::mineral) return a.grains.material[grain];
+    if (what == GrainValue::displacement)
+        return norm(vector_at(a.grains.displacement, a.grains.centre(grain)));
+    return stress_of(a, grain, what);
+}
+
+}  // namespace
+
+std::optional<GrainValue> grain_value(const std::string& name)
+{
+    for (const Description& one : descriptions) {
+        if (one.name == name) return one.what;
+    }
+    return {};
+}
+
+bool is_kind(GrainValue what)
+{
+    return what == GrainValue::mineral || what == GrainValue::fragment;
+}
+
+std::string scale_title(GrainValue what) { return description_of(what).title; }
+
+double scale_factor(GrainValue what) { return description_of(what).factor; }
+
+std::vector<double> grain_values(const Assembly& a, GrainValue what)
+{
+    std::vector<double> values(a.grains.count);
+    if (what == GrainValue::damage) {
+        values = damages(a);
+    } else if (what == GrainValue::fragment) {
+        values = fragments(a);
+    } else {
+        for (int g = 0; g < a.grains.count; ++g)
+            values[g] = single_value(a, g, what);
+    }
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (a.grains.erased[g]) values[g] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return values;
+}
+
+Extent extent_of(const Grains& grains)
+{
+    constexpr double far = std::numeric_limits<double>::max();
+    Extent found { { far, far }, { -far, -far } };
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
+        for (int n = 0; n < grains.vertices_of(g); ++n) {
+            const Point p = grains.position(grains.node(g, n));
+            found.low = { std::min(found.low.x, p.x), std::min(found.low.y, p.y) };
+            found.high = { std::max(found.high.x, p.x), std::max(found.high.y, p.y) };
+        }
+    }
+    return found;
+}
+
+Point drawn_position(const Grains& grains, int node, double factor)
+{
+    return vector_at(grains.reference, node) + factor * vector_at(grains.displacement, node);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One value of each grain, by which a window colours it. Stresses are positive in tension, SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flexpm {
+
+/// What a value says of a grain.
+enum class GrainValue {
+    stress_xx,
+    stress_yy,
+    stress_xy,     ///< means over the grain [Pa]; of a rigid one by the forces on it
+    displacement,  ///< of its centre since it was bonded [m]
+    damage,        ///< mean over the points of its bonds [-]
+    mineral,       ///< number in the material
+    fragment,      ///< number by area, 0 the largest; grains hang together as in fragments.csv
+};
+
+/// The value with a name, as it stands above; none of any other name.
+std::optional<GrainValue> grain_value(const std::string& name);
+
+/// Whether values are numbers of kinds, not quantities.
+bool is_kind(GrainValue what);
+
+/// What stands beside a scale, with the unit in which scale_factor() gives the values.
+std::string scale_title(GrainValue what);
+
+/// Values in the unit of scale_title() over those in SI units.
+double scale_factor(GrainValue what);
+
+/// One value for each grain; nan for one that is erased.
+std::vector<double> grain_values(const Assembly& a, GrainValue what);
+
+/// Lower left and upper right corner of all grains that are there [m].
+struct Extent {
+    Point low;
+    Point high;
+};
+Extent extent_of(const Grains& grains);
+
+/// Where a node is drawn if displacements are drawn `factor` times larger [m].
+Point drawn_position(const Grains& grains, int node, double factor);
+
+}  // namespace flexpm
