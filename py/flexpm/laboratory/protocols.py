@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import yade
+from yade import wrapper
 
 from .._version import __version__
 from ..errors import InputError
@@ -25,7 +28,7 @@ from ..report.maps import crack_picture, fragment_picture
 from ..report.tables import size_text
 from ..require import require_known
 from ..results.cracks import cracks_from_snapshot
-from ..results.emission import event_rule
+from ..results.emission import EventRule, event_rule
 from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..specimens import given
@@ -345,11 +348,17 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     if rig.disc:  # the slopes of the plates' closure are no constants of the rock
         result.youngs_modulus = result.poissons_ratio = None
     if spec.model not in SPHERE_MODELS:  # whose bonds tell no energy
-        diameter, scales = rig.built.specimen.mean_diameter, rig.scales()
-        result.measure_emission(event_rule(diameter, scales.height, scales.crossing_steps))
+        result.measure_emission(_event_rule(rig.built.specimen))
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     return result
+
+
+def _event_rule(specimen: Specimen) -> EventRule:
+    """What makes an event, by the speed of a wave through a disc of the specimen's area."""
+    diameter = math.sqrt(4.0 / math.pi * float(np.sum(specimen.tessellation.cell_areas)))
+    scales = wrapper.AxialRecorder(diameter=diameter).scales()
+    return event_rule(specimen.mean_diameter, diameter, scales["crossing_steps"])
 
 
 def write_files(folder: Path, result: Result) -> None:
