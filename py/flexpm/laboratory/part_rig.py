@@ -230,6 +230,13 @@ class PartRig(GrainRig):
         own = [name for name in self._recorder.names if name not in (*COLUMNS, "initial_energy")]
         return Curve.from_columns(self._recorder.names, self._recorder.rows, own)
 
+    def to_yade_plot(self) -> None:
+        """Give ``yade.plot`` the record so far, each column under its name; call it again later."""
+        from yade import plot  # takes long to load
+
+        record = self.record
+        plot.data.update({name: record[name].tolist() for name in record.columns})
+
     @property
     def warnings(self) -> list[str]:
         """What makes the record doubtful: load and reactions that differ, a bad energy balance."""

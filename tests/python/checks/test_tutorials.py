@@ -55,9 +55,20 @@ def test_notched_beam(package_parent):
     assert left == pytest.approx(right, rel=0.1)
 
 
-@pytest.mark.parametrize("name", ["load_unload_reload", "notched_beam"])
-def test_a_test_of_ones_own_takes_few_lines(name):
-    """At most 30, without comments and what is printed about it."""
+def test_cyclic_loading(package_parent):
+    text = printed("cyclic_loading.py", package_parent)
+    found = re.findall(r"cycle \d: ([\d.]+) MPa, ([\d.]+) mJ", text)
+    stresses, losses = zip(*((float(stress), float(lost)) for stress, lost in found), strict=True)
+    assert stresses == tuple(sorted(stresses))
+    assert len(losses) == 3
+    assert losses[0] < losses[2]
+
+
+@pytest.mark.parametrize(
+    ("name", "most"), [("load_unload_reload", 30), ("notched_beam", 30), ("cyclic_loading", 15)]
+)
+def test_a_test_of_ones_own_takes_few_lines(name, most):
+    """Without comments and blank lines."""
     text = (TUTORIALS / f"{name}.py").read_text().split('"""')[2]
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    assert len(lines) <= 30
+    assert len(lines) <= most

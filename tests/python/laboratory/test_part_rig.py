@@ -109,6 +109,18 @@ def test_a_loading_finds_its_own_rate_and_ends_after_the_peak(beam):
     assert 1.0 < stress / rig.built.material.law("rigid")["tensile_strength"] < 4.0
 
 
+def test_yade_plots_the_columns_by_their_names(beam):
+    from yade import plot
+
+    rig, _ = bent(beam, "rigid")
+    rig.strain_to(2e-6, rate=5e-4)
+    rig.to_yade_plot()
+    assert plot.data["under"] == rig.record["under"].tolist()
+    assert set(rig.record.columns) <= set(plot.data)
+    assert len(plot.data["load"]) == len(rig.record) > 1
+    plot.reset()
+
+
 def test_what_a_rig_cannot_do_is_refused_in_one_line(beam):
     rig, _ = bent(beam, "rigid")
     for wrong, message in (
