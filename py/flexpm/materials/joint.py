@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -33,6 +34,8 @@ class Joint:
     tensile_strength: float = 0.0  #: [Pa]
     tensile_fracture_energy: float | None = None  #: [N/m]; None: brittle
     shear_fracture_energy: float | None = None  #: [N/m]; None: brittle
+    dilation_angle: float = 0.0  #: opening per plastic slip, at most the friction angle [degrees]
+    dilation_slip: float | None = None  #: plastic slip at which the dilation ends [m]
     open: bool = False  #: a notch: what is not given is that of the rock
 
     def __post_init__(self) -> None:
@@ -97,6 +100,7 @@ class Joint:
                 )
             if given is None and elastic > 0.0:
                 found[energy] = elastic
+        self._check_dilation(float(found["friction"]))
         return found
 
     def _values(self) -> Table:
@@ -111,6 +115,22 @@ class Joint:
             return None
         label = f"material [joint.{self.name}] {key}"
         return require_number(label, value, JOINT_BOUNDS[key], JOINT_UNITS[key] or "")
+
+    def _check_dilation(self, friction: float) -> None:
+        """Refuse a dilation that would give more energy than friction takes, or that never ends."""
+        if self.dilation_angle == 0.0:
+            return
+        label = f"material [joint.{self.name}]"
+        largest = math.degrees(math.atan(friction))
+        if self.dilation_angle > largest:
+            raise InputError(
+                f"{label} dilation_angle = {self.dilation_angle!r} degrees, must not exceed the "
+                f"friction angle of {largest:.4g} degrees"
+            )
+        if self.dilation_slip is None:
+            raise InputError(
+                f"{label} dilation_slip is missing; give the slip at which the dilation ends [m]"
+            )
 
     def _refuse_strengths(self) -> None:
         for key in ("tensile_strength", "cohesion"):

@@ -64,6 +64,8 @@ JOINT_UNITS: dict[str, str | None] = {
     "tensile_strength": "Pa",
     "tensile_fracture_energy": "N/m",
     "shear_fracture_energy": "N/m",
+    "dilation_angle": "degrees",
+    "dilation_slip": "m",
     "open": None,
 }
 _STRENGTH = Bounds(at_least=0.0, at_most=1e19)
@@ -75,6 +77,8 @@ JOINT_BOUNDS = {
     "tensile_strength": _STRENGTH,
     "tensile_fracture_energy": _ENERGY,
     "shear_fracture_energy": _ENERGY,
+    "dilation_angle": Bounds(at_least=0.0, below=90.0),
+    "dilation_slip": Bounds(at_least=0.0, at_most=1e6),
 }
 
 

@@ -7,6 +7,7 @@ per step, and only slow loading means anything.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -355,6 +356,8 @@ def _joint_material(law: Table) -> wrapper.GrainMat:
         friction=law["friction"],
         tensileFractureEnergy=law["tensile_fracture_energy"] or 0.0,
         shearFractureEnergy=law["shear_fracture_energy"] or 0.0,
+        dilation=math.tan(math.radians(law["dilation_angle"])),
+        dilationSlip=law["dilation_slip"] or 0.0,
     )
 
 

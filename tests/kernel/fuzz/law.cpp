@@ -27,6 +27,10 @@ ContactMaterial draw_material(Bytes& bytes)
     m.friction = bytes.wild(0.4);
     m.tensile_fracture_energy = bytes.wild(20.0);
     m.shear_fracture_energy = bytes.wild(800.0);
+    if (bytes.flag()) {
+        m.dilation = bytes.wild(0.1);
+        m.dilation_slip = bytes.wild(1e-5);
+    }
     if (!bytes.flag()) return m;
     m.tensile_fracture_energy = 0.5 * m.tensile_strength * m.tensile_strength / m.normal_stiffness;
     m.shear_fracture_energy = 0.5 * m.cohesion * m.cohesion / (m.shear_ratio * m.normal_stiffness);
@@ -43,6 +47,7 @@ bool is_usual(const LawParameters& p)
     for (double stiffness : { p.normal_stiffness, p.shear_stiffness }) {
         if (!(stiffness > 1e-30 && stiffness < 1e30)) return false;
     }
+    if (p.dilation_compliance > 0.0) return false;  // friction may give back what lifts
     return p.friction == 0.0 || (p.friction > 1e-30 && p.friction < 1e6);
 }
 

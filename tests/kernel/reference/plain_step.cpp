@@ -86,7 +86,7 @@ void update_contact(Specimen& s, Contact& c, double dt)
         }
         if (!t.cracks) continue;
         p.crack_step = static_cast<int>(s.step + 1);
-        p.crack_mode = p.state.opening > 0.0 ? 1 : 2;
+        p.crack_mode = t.gap > 0.0 ? 1 : 2;
         p.crack_place = {};
         for (int side = 0; side < 2; ++side) {
             p.crack_place = p.crack_place

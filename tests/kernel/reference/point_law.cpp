@@ -101,6 +101,15 @@ ShearReturn return_shear(
     return result;
 }
 
+/// Opening by dilation, tan psi times the plastic slip up to its end [m].
+double dilated(const LawParameters& law, double slip, double shear_traction)
+{
+    if (law.dilation_compliance == 0.0) return 0.0;
+    const double tangent = law.dilation_compliance * law.shear_stiffness;
+    const double plastic = std::fabs(slip - shear_traction / law.shear_stiffness);
+    return tangent * std::min(plastic, law.dilation_limit / law.shear_stiffness);
+}
+
 /// Distance of a damage from 1, where a crack is recorded.
 double doubt_of_crack(const LawParameters& law, double opened, double shear_damage)
 {
@@ -118,7 +127,8 @@ PointTraction advance(
         std::min(opening_damage(law, old.max_opening) + old.shear_damage, 1.0);
 
     // normal, with the damage of the opening
-    const double opening = old.opening + opening_step;
+    const double apart = old.opening + opening_step;
+    const double opening = apart - dilated(law, old.slip, old.shear_traction);
     const double largest = std::max(old.max_opening, opening);
     const double by_opening = opening_damage(law, largest);
     const double opened = std::min(by_opening + old.shear_damage, 1.0);
@@ -133,6 +143,12 @@ PointTraction advance(
     const double damage = std::min(by_opening + shear.shear_damage, 1.0);
     const double normal = normal_traction(law, opening, largest, damage);
 
+    // dilation by the slip of this step; what it stores in the normal spring comes from friction
+    const double shear_after = trial < 0.0 ? -shear.traction : shear.traction;
+    const double lifted = apart - dilated(law, old.slip + slip_step, shear_after);
+    const double lifted_normal = normal_traction(law, lifted, largest, damage);
+    const double lifting = 0.5 * lifted * lifted_normal - 0.5 * opening * normal;
+
     // losses: growth of the opening, then of the shear damage, which takes stiffness from the secant; a slip does the
     // work of the mean traction, of which friction takes its share and damage the rest
     const double lost_by_opening = loss_of_opening(law, largest, old.shear_damage)
@@ -143,20 +159,20 @@ PointTraction advance(
     const double rubbed = std::max(-law.friction * first_normal, 0.0) * shear.slip;
     const double friction = damage_before >= 1.0 ? slip_work : std::min(rubbed, slip_work);
 
-    point.state.opening = opening;
+    point.state.opening = apart;
     point.state.max_opening = largest;
-    point.state.shear_traction = trial < 0.0 ? -shear.traction : shear.traction;
+    point.state.shear_traction = shear_after;
     point.state.slip = old.slip + slip_step;
     point.state.shear_damage = shear.shear_damage;
     point.state.damage_energy =
         old.damage_energy + lost_by_opening + lost_by_secant + (slip_work - friction);
-    point.state.friction_energy = old.friction_energy + friction;
+    point.state.friction_energy = old.friction_energy + friction - lifting;
     point.doubt = std::min(shear.doubt, doubt_of_crack(law, by_opening, shear.shear_damage));
     if (opens_brittle(law) && old.max_opening <= law.elastic_opening) {
         const double reached = std::fabs(largest - law.elastic_opening) / law.elastic_opening;
         point.doubt = std::min(point.doubt, reached);
     }
-    return { normal, point.state.shear_traction, damage_before < 1.0 && damage >= 1.0 };
+    return { lifted_normal, shear_after, lifted, damage_before < 1.0 && damage >= 1.0 };
 }
 
 }  // namespace plain

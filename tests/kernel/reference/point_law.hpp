@@ -10,6 +10,7 @@ namespace plain {
 struct PointTraction {
     double normal = 0.0;
     double shear = 0.0;
+    double gap = 0.0;  ///< opening less dilation [m]
     bool cracks = false;
 };
 

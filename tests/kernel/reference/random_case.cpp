@@ -108,6 +108,16 @@ flexpm::ElasticMaterial draw_elastic(Random& random)
     return m;
 }
 
+/// Some laws dilate.
+flexpm::ContactMaterial draw_law(Random& random)
+{
+    flexpm::ContactMaterial m = law_path::random_material(random);
+    if (!chance(random, 0.3)) return m;
+    m.dilation = m.friction * random.next();
+    m.dilation_slip = 2.0 * law_path::critical_slip(m) * random.next();
+    return m;
+}
+
 /// One to three minerals, and a law for each pair of them.
 void draw_minerals(Random& random, int cells, AssemblyOptions& o)
 {
@@ -118,7 +128,7 @@ void draw_minerals(Random& random, int cells, AssemblyOptions& o)
     o.laws.assign(kinds * kinds, {});
     for (int i = 0; i < kinds; ++i) {
         for (int j = i; j < kinds; ++j)
-            o.laws[i * kinds + j] = o.laws[j * kinds + i] = law_path::random_material(random);
+            o.laws[i * kinds + j] = o.laws[j * kinds + i] = draw_law(random);
     }
     for (int c = 0; c < cells; ++c)
         o.grain_material.push_back(below(random, kinds));

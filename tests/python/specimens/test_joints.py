@@ -231,6 +231,12 @@ def test_joints_that_cannot_be(rectangle, joints, message):
             {"cohesion": 1e7, "shear_fracture_energy": 1e-3},
             r"\[joint.a\] shear_fracture_energy = 0.001 N/m, must not be below",
         ),
+        (
+            {"dilation_angle": 30.0, "dilation_slip": 1e-3},
+            r"dilation_angle = 30.0 degrees, must not exceed the friction angle of 26.57 degrees",
+        ),
+        ({"dilation_angle": 5.0}, r"\[joint.a\] dilation_slip is missing; give the slip"),
+        ({"dilation_angle": 95.0}, r"dilation_angle = 95.0 degrees, must be < 90"),
     ],
 )
 def test_laws_that_cannot_be(values, message):

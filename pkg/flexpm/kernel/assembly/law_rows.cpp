@@ -15,8 +15,12 @@ void LawRows::fill(const Contacts& contacts, int block)
         std::all_of(kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
     if (one && kinds[last] == filled) return;
     filled = one ? kinds[last] : none;
-    for (int l = 0; l < lanes; ++l)
-        store_law(contacts.laws[kinds[std::min(first + l, last)]], values, l);
+    dilating = false;
+    for (int l = 0; l < lanes; ++l) {
+        const LawParameters& law = contacts.laws[kinds[std::min(first + l, last)]];
+        store_law(law, values, l);
+        dilating = dilating || law.dilation_compliance > 0.0;
+    }
 }
 
 }  // namespace flexpm

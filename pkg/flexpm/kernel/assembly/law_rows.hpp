@@ -10,7 +10,8 @@ namespace flexpm {
 /// blocks of the same law.
 struct LawRows {
     static constexpr int none = -1;
-    int filled = none;  ///< index of the law in all lanes
+    int filled = none;      ///< index of the law in all lanes
+    bool dilating = false;  ///< whether a law in a lane dilates
     alignas(64) double values[LawRow::count * lanes];
 
     void fill(const Contacts& contacts, int block);

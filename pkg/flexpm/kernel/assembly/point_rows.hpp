@@ -36,6 +36,8 @@ struct LawRow {
         critical_slip,
         inverse_softening_length,
         slip_compliance,
+        dilation_compliance,
+        dilation_limit,
         count
     };
 };
@@ -69,7 +71,8 @@ FLEXPM_INLINE LawParameters load_law(const double* rows, int lane)
     return { at(LawRow::normal_stiffness), at(LawRow::shear_stiffness),
         at(LawRow::tensile_strength), at(LawRow::cohesion), at(LawRow::friction),
         at(LawRow::elastic_opening), at(LawRow::critical_opening), at(LawRow::critical_slip),
-        at(LawRow::inverse_softening_length), at(LawRow::slip_compliance) };
+        at(LawRow::inverse_softening_length), at(LawRow::slip_compliance),
+        at(LawRow::dilation_compliance), at(LawRow::dilation_limit) };
 }
 
 inline void store_law(const LawParameters& p, double* rows, int lane)
@@ -85,6 +88,8 @@ inline void store_law(const LawParameters& p, double* rows, int lane)
     r[LawRow::critical_slip * lanes] = p.critical_slip;
     r[LawRow::inverse_softening_length * lanes] = p.inverse_softening_length;
     r[LawRow::slip_compliance * lanes] = p.slip_compliance;
+    r[LawRow::dilation_compliance * lanes] = p.dilation_compliance;
+    r[LawRow::dilation_limit * lanes] = p.dilation_limit;
 }
 
 }  // namespace flexpm

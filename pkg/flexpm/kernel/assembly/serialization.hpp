@@ -29,6 +29,8 @@ template <class Part, class Visitor> void visit_members(Part& part, Visitor&& vi
         visit("critical_slip", part.critical_slip);
         visit("inverse_softening_length", part.inverse_softening_length);
         visit("slip_compliance", part.slip_compliance);
+        visit("dilation_compliance", part.dilation_compliance);
+        visit("dilation_limit", part.dilation_limit);
     } else {
         Plain::visit_members(part, visit);
     }

@@ -110,7 +110,7 @@ Point point_traction(const Assembly& a, int contact, int point)
     const PointState s = a.contacts.point_state(contact, point);
     const LawParameters& law = a.contacts.law_of(contact);
     return { law::normal_traction(
-                 law, s.opening, s.max_opening, damage_of(a.contacts, contact, point)),
+                 law, law::gap(law, s), s.max_opening, damage_of(a.contacts, contact, point)),
         s.shear_traction };
 }
 

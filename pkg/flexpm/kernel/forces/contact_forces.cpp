@@ -43,6 +43,7 @@ struct TractionRows {
 
 /// Slides the points that leave their branch, which shear has used up: `next` holds what an elastic
 /// step would have made of all.
+template <bool Dilating>
 FLEXPM_INLINE void slide_lanes(
     const ContactLanes& b, int p, const std::int64_t* leaves, double* next, TractionRows traction)
 {
@@ -50,9 +51,14 @@ FLEXPM_INLINE void slide_lanes(
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const PointState s = load_state(state, l);
-        const Sliding slide = slide_used_up(load_law(b.law, l), traction.normal[l],
-            next[PointRow::shear_traction * lanes + l], s.shear_traction);
+        PointState trial = s;
+        trial.opening = next[PointRow::opening * lanes + l];
+        trial.shear_traction = next[PointRow::shear_traction * lanes + l];
+        trial.slip = next[PointRow::slip * lanes + l];
+        const Sliding slide =
+            slide_used_up<Dilating>(load_law(b.law, l), traction.normal[l], s, trial);
         const bool slides = leaves[l] != 0;
+        traction.normal[l] = slides ? slide.normal : traction.normal[l];
         traction.shear[l] = slides ? slide.shear : traction.shear[l];
         next[PointRow::shear_traction * lanes + l] = traction.shear[l];
         state[PointRow::friction_energy * lanes + l] =
@@ -62,7 +68,7 @@ FLEXPM_INLINE void slide_lanes(
 
 /// Advances a point of each contact if all stay on their branches or only friction holds them;
 /// otherwise changes no state.
-template <bool Intact>
+template <bool Intact, bool Dilating>
 FLEXPM_INLINE bool advance_elastic_lanes(
     const ContactLanes& b, const PointMotion& motion, int p, TractionRows traction)
 {
@@ -74,7 +80,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
         PointState s;
         Traction t;
         const PointState old = load_state(state, l);
-        const bool elastic = advance_elastic<Intact>(load_law(b.law, l),
+        const bool elastic = advance_elastic<Intact, Dilating>(load_law(b.law, l),
             motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
         next[PointRow::opening * lanes + l] = s.opening;
         next[PointRow::max_opening * lanes + l] = s.max_opening;
@@ -87,7 +93,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
     }
     if (any_of(leaves)) {
         if (Intact || any_of(needs_law)) return false;
-        slide_lanes(b, p, leaves, next, traction);
+        slide_lanes<Dilating>(b, p, leaves, next, traction);
     }
     for (int i = 0; i < elastic_rows * lanes; ++i)
         state[i] = next[i];
@@ -95,6 +101,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
 }
 
 /// Advances a point of each contact. Returns the lanes that cracked in this step.
+template <bool Dilating>
 FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion, int p,
     TractionRows traction, std::uint8_t* cracked)
 {
@@ -103,7 +110,7 @@ FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s = load_state(state, l);
-        const Traction t = advance_point(
+        const Traction t = advance_point<Dilating>(
             load_law(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
         store_state(s, state, l);
         traction.normal[l] = t.normal;
@@ -119,7 +126,7 @@ FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion
 }
 
 /// Returns the lanes, summed over points, that cracked in this step; `cracked` holds zeros before.
-template <int Points, bool Intact>
+template <int Points, bool Intact, bool Dilating>
 FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motion, double* normal,
     double* shear, std::uint8_t* cracked)
 {
@@ -130,8 +137,8 @@ FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motio
             const int row = (b.prefetch_distance * Points + p) * PointRow::count;
             prefetch_rows(b.state + row * lanes, PointRow::count);
         }
-        if (advance_elastic_lanes<Intact>(b, motion, p, traction)) continue;
-        cracks += advance_lanes(b, motion, p, traction, cracked + p * lanes);
+        if (advance_elastic_lanes<Intact, Dilating>(b, motion, p, traction)) continue;
+        cracks += advance_lanes<Dilating>(b, motion, p, traction, cracked + p * lanes);
     }
     return cracks;
 }
@@ -147,9 +154,11 @@ FLEXPM_INLINE int update_lanes(const ContactLanes& b, double dt, std::uint8_t* c
         move_points<Points, false, Whole, Wide>(b, dt, motion);
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
-    const int cracks = is_intact<Points>(b)
-        ? advance_points<Points, true>(b, motion, normal, shear, cracked)
-        : advance_points<Points, false>(b, motion, normal, shear, cracked);
+    const bool intact = is_intact<Points>(b);
+    const int cracks = b.dilating
+        ? advance_points<Points, false, true>(b, motion, normal, shear, cracked)
+        : intact ? advance_points<Points, true, false>(b, motion, normal, shear, cracked)
+                 : advance_points<Points, false, false>(b, motion, normal, shear, cracked);
     if (!Whole) prefetch_ahead(b, b.weight, 2 * Points);
     prefetch_ahead(b, b.area, Points, Whole ? 2 : Points);
     prefetch_ahead(b, b.force, Contacts::force_values);
@@ -182,7 +191,7 @@ ContactLanes rows_from(Assembly& a, int block, const LawRows& law)
         contacts.inverse_edge_lengths.data() + contact * 2,
         contacts.normals.data() + contact * dimension,
         contacts.states.data() + contact * points * PointRow::count,
-        contacts.forces.data() + contact * Contacts::force_values, law.values, false,
+        contacts.forces.data() + contact * Contacts::force_values, law.values, false, false,
         a.plan.prefetch.needed ? block_distance : 0 };
 }
 
@@ -215,6 +224,7 @@ void update_contact_blocks(Assembly& a, int first, int end, double dt)
         if (a.plan.prefetch.needed && block + node_distance < a.contacts.blocks()) {
             prefetch_nodes(a, block + node_distance);
         }
+        rows.dilating = law.dilating;
         rows.whole_edges = a.plan.whole_edges[block] != 0;
         std::uint8_t cracked[most_points * lanes] = {};
         if (update(rows, dt, cracked) > 0) record_cracks(a, block, dt, cracked);

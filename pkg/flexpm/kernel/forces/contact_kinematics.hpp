@@ -30,6 +30,7 @@ struct ContactLanes {
     double* state;
     double* force;
     const double* law;      ///< LawRows
+    bool dilating;          ///< whether any of these laws dilates
     bool whole_edges;       ///< see StepPlan::whole_edges
     int prefetch_distance;  ///< blocks to the one to ask for; 0: the caches hold all
 };

@@ -37,7 +37,8 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
             const int contact = block * lanes + l;
             if (!cracked[p * lanes + l] || contact >= contacts.count) continue;
             const int index = contacts.point_index(contact, p);
-            const bool opens = contacts.state(contact, p, PointRow::opening) > 0.0;
+            const bool opens =
+                law::gap(contacts.law_of(contact), contacts.point_state(contact, p)) > 0.0;
             contacts.crack_steps[index] = static_cast<int>(a.step + 1);
             contacts.crack_modes[index] = opens ? tensile_crack : shear_crack;
             contacts.set_crack_position(contact, p, point_position(a, contact, p, dt));

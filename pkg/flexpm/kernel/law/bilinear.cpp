@@ -11,6 +11,9 @@ namespace {
 // relative tolerance on "fracture energy = elastic energy", the brittle limit
 constexpr double brittle_tolerance = 1e-12;
 
+// relative: both may be tangents of the same angle
+constexpr double angle_tolerance = 1e-12;
+
 /// 1 / (critical - elastic), or `brittle_limit` where the two agree.
 double inverse_difference(double critical, double elastic)
 {
@@ -28,6 +31,15 @@ void check_energy(const std::string& quantity, double value, double least)
         "below the elastic energy at the strength; give at least " + number(accepted) + " N/m");
 }
 
+/// Refuse a dilation that would give more energy than friction takes.
+void check_dilation(const ContactMaterial& m)
+{
+    check_not_negative("dilation", m.dilation, "");
+    check_not_negative("dilation_slip", m.dilation_slip, "m");
+    if (m.dilation <= m.friction * (1.0 + angle_tolerance)) return;
+    refuse("dilation", m.dilation, "", "must not exceed the friction " + number(m.friction));
+}
+
 }  // namespace
 
 LawParameters make_law(const ContactMaterial& m)
@@ -39,6 +51,7 @@ LawParameters make_law(const ContactMaterial& m)
     check_not_negative("friction", m.friction, "");
     check_positive("tensile_fracture_energy", m.tensile_fracture_energy, "N/m");
     check_positive("shear_fracture_energy", m.shear_fracture_energy, "N/m");
+    check_dilation(m);
 
     LawParameters p;
     p.normal_stiffness = m.normal_stiffness;
@@ -62,6 +75,8 @@ LawParameters make_law(const ContactMaterial& m)
     p.slip_compliance = inverse_length < brittle_limit
         ? inverse_length * p.critical_slip / p.shear_stiffness
         : brittle_limit;
+    p.dilation_compliance = m.dilation / p.shear_stiffness;
+    p.dilation_limit = m.dilation_slip * p.shear_stiffness;
     return p;
 }
 

@@ -4,6 +4,7 @@
 /// Deviation D1: Eqs. 26-27 print D; D = 1 means cracked, so strengths are multiplied by (1 - D).
 /// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
 /// Deviation D3: unloading in tension goes along the secant.
+/// Deviation D70: plastic slip opens a joint that dilates, and slip back closes it.
 #pragma once
 
 #include <flexpm/kernel/core/compiler.hpp>
@@ -22,6 +23,8 @@ struct ContactMaterial {
     double friction = 0.0;          ///< mu_c   [-],    >= 0
     double tensile_fracture_energy = 0.0;  ///< G_fn   [N/m],  >= sigma_nt^2 / (2 K_n)
     double shear_fracture_energy = 0.0;    ///< G_fs   [N/m],  >= tau^2 / (2 eta K_n)
+    double dilation = 0.0;       ///< tan psi [-], >= 0 and <= friction: opening per plastic slip
+    double dilation_slip = 0.0;  ///< plastic slip at which dilation ends [m], >= 0
 };
 
 /// Properties of a contact in the form that the law needs at every step.
@@ -38,6 +41,8 @@ struct LawParameters {
         0.0;  ///< 1 / (u_c - u_e) [1/m]; `brittle_limit` in the brittle limit
     double slip_compliance =
         0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_limit` in the limit
+    double dilation_compliance = 0.0;  ///< tan psi / (eta K_n) [m/Pa]
+    double dilation_limit = 0.0;       ///< eta K_n times the slip at which dilation ends [Pa]
 };
 
 /// Stand-in for infinity: any excess over the strength uses up all damage at once, and an
@@ -68,7 +73,7 @@ ContactMaterial unbreakable(const ContactMaterial& material);
 /// State of a point, which is all that it needs to continue. All zero means bonded and unloaded.
 struct PointState {
     double opening = 0.0;          ///< u [m], relative to the bonded state; compression < 0
-    double max_opening = 0.0;      ///< largest opening so far [m], >= 0
+    double max_opening = 0.0;      ///< largest law::gap() so far [m], >= 0
     double shear_traction = 0.0;   ///< along the tangent [Pa]
     double slip = 0.0;             ///< along the tangent, relative to the bonded state [m]
     double shear_damage = 0.0;     ///< D_s [-]: plastic slip / s_c, at most 1
@@ -77,6 +82,19 @@ struct PointState {
 };
 
 namespace law {
+
+/// Opening that plastic slip has made, s_p = s - tau / (eta K_n): tan psi min(|s_p|, dilation_slip) [m].
+inline double dilated(const LawParameters& p, double slip, double shear_traction)
+{
+    const double plastic = std::fabs(p.shear_stiffness * slip - shear_traction);
+    return p.dilation_compliance * std::min(plastic, p.dilation_limit);
+}
+
+/// Opening less what dilation has made of it [m]: what the normal traction follows.
+inline double gap(const LawParameters& p, const PointState& s)
+{
+    return s.opening - dilated(p, s.slip, s.shear_traction);
+}
 
 /// D_n [-] of a point whose largest opening is `max_opening`.
 inline double normal_damage(const LawParameters& p, double max_opening)
@@ -127,7 +145,8 @@ inline double opening_dissipation(const LawParameters& p, double max_opening, do
 inline double elastic_energy(const LawParameters& p, const PointState& s)
 {
     const double d = damage(p, s.max_opening, s.shear_damage);
-    return 0.5 * s.opening * normal_traction(p, s.opening, s.max_opening, d)
+    const double opening = gap(p, s);
+    return 0.5 * opening * normal_traction(p, opening, s.max_opening, d)
         + 0.5 * s.shear_traction * s.shear_traction / p.shear_stiffness;
 }
 
@@ -141,16 +160,29 @@ struct Traction {
     double damage;
 };
 
+namespace law {
+
+/// dilated() of a point, or 0 where no law at hand dilates.
+template <bool Dilating>
+FLEXPM_INLINE double dilated_if(const LawParameters& p, double slip, double shear_traction)
+{
+    return Dilating ? dilated(p, slip, shear_traction) : 0.0;
+}
+
+}  // namespace law
+
 /// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and
 /// changes nothing, if it would not.
 ///
 /// @tparam Intact  true: the point has no damage, which need not be worked out
-template <bool Intact = false>
+/// @tparam Dilating  false: the law does not dilate
+template <bool Intact = false, bool Dilating = true>
 FLEXPM_INLINE bool advance_elastic(const LawParameters& p, double opening_step, double slip_step,
     const PointState& s, PointState& next, Traction& traction)
 {
     const double d = Intact ? 0.0 : law::damage(p, s.max_opening, s.shear_damage);
-    const double opening = s.opening + opening_step;
+    const double apart = s.opening + opening_step;
+    const double opening = apart - law::dilated_if<Dilating>(p, s.slip, s.shear_traction);
     const double largest = std::max(s.max_opening, opening);
     const double slope = Intact ? p.normal_stiffness : law::secant(p, s.max_opening, d);
     const double normal = opening * (opening > 0.0 ? slope : p.normal_stiffness);
@@ -160,7 +192,7 @@ FLEXPM_INLINE bool advance_elastic(const LawParameters& p, double opening_step, 
     const bool same_secant = (largest == s.max_opening)
         | (p.normal_stiffness * largest <= (1.0 - d) * p.tensile_strength);
     next = s;
-    next.opening = opening;
+    next.opening = apart;
     next.max_opening = largest;
     next.shear_traction = shear;
     next.slip = s.slip + slip_step;
@@ -168,34 +200,53 @@ FLEXPM_INLINE bool advance_elastic(const LawParameters& p, double opening_step, 
     return same_secant & (std::fabs(shear) <= limit);
 }
 
-/// Shear traction [Pa] that friction leaves and energy [J/m^2] that it takes in a step.
+/// Energy [J/m^2] that goes from friction into the gap when dilation changes it at one damage.
+inline double lifting_work(double gap_before, double normal_before, double gap, double normal)
+{
+    return 0.5 * (gap * normal - gap_before * normal_before);
+}
+
+/// Tractions [Pa] that friction leaves and energy [J/m^2] that it takes in a step.
 struct Sliding {
     double shear;
+    double normal;
     double loss;
 };
 
 /// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be damaged
-/// further. Together with advance_elastic() this is the whole step of such a point. `trial` is the
-/// traction that it would have without friction, `before` that of the last step.
+/// further. Together with advance_elastic() this is the whole step of such a point. `trial` is what
+/// that has made of `before`, with the tractions that the point would have without friction.
+template <bool Dilating = true>
 FLEXPM_INLINE Sliding slide_used_up(
-    const LawParameters& p, double normal, double trial, double before)
+    const LawParameters& p, double normal, const PointState& before, const PointState& trial)
 {
-    const double size = std::fabs(trial);
+    const double size = std::fabs(trial.shear_traction);
     const double limit = std::max(-p.friction * normal, 0.0);
     const double shear = std::min(size, limit);
     const double slip = (size - shear) / p.shear_stiffness;
-    const double along = std::copysign(1.0, trial) * before;
-    return { std::copysign(shear, trial), 0.5 * std::max(along + shear, 0.0) * slip };
+    const double along = std::copysign(1.0, trial.shear_traction) * before.shear_traction;
+    const double held = std::copysign(shear, trial.shear_traction);
+    const double loss = 0.5 * std::max(along + shear, 0.0) * slip;
+    if (!Dilating) return { held, normal, loss };
+    const double first = trial.opening - law::dilated(p, before.slip, before.shear_traction);
+    const double opening = trial.opening - law::dilated(p, trial.slip, held);
+    const double lifted = p.normal_stiffness * std::min(opening, 0.0);
+    return { held, lifted, loss - lifting_work(first, normal, opening, lifted) };
 }
 
 /// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
-/// return with its damage in closed form, and the normal traction once more with the new damage.
+/// return with its damage in closed form, and the normal traction once more with the new damage and
+/// dilation.
 /// The function has no branches, so that eight points advance at once.
+///
+/// @tparam Dilating  false: the law does not dilate
+template <bool Dilating = true>
 FLEXPM_INLINE Traction advance_point(
     const LawParameters& p, double opening_step, double slip_step, PointState& s)
 {
     const double before = law::damage(p, s.max_opening, s.shear_damage);
-    const double opening = s.opening + opening_step;
+    const double apart = s.opening + opening_step;
+    const double opening = apart - law::dilated_if<Dilating>(p, s.slip, s.shear_traction);
     const double largest = std::max(s.max_opening, opening);
     const double normal_part = law::normal_damage(p, largest);
     const double opened = std::min(normal_part + s.shear_damage, 1.0);
@@ -217,6 +268,11 @@ FLEXPM_INLINE Traction advance_point(
         excess > 0.0 ? (used_up ? 1.0 : s.shear_damage + slip / p.critical_slip) : s.shear_damage;
     const double after = std::min(normal_part + shear_damage, 1.0);
     const double normal = law::normal_traction(p, opening, largest, after);
+    const double shear = std::copysign(shear_size, trial), slipped = s.slip + slip_step;
+    const double lifted =
+        Dilating && excess > 0.0 ? apart - law::dilated(p, slipped, shear) : opening;
+    const double lifted_normal =
+        Dilating ? law::normal_traction(p, lifted, largest, after) : normal;
 
     // normal: growth of the largest opening at the old shear damage, then the loss of secant slope
     const double opening_loss = law::opening_dissipation(p, largest, s.shear_damage)
@@ -229,14 +285,16 @@ FLEXPM_INLINE Traction advance_point(
     const double resisted = std::max(-p.friction * first_normal, 0.0) * slip;
     const double friction_loss = before >= 1.0 ? shear_loss : std::min(resisted, shear_loss);
 
-    s.opening = opening;
+    s.opening = apart;
     s.max_opening = largest;
-    s.shear_traction = std::copysign(shear_size, trial);
-    s.slip += slip_step;
+    s.shear_traction = shear;
+    s.slip = slipped;
     s.shear_damage = shear_damage;
     s.damage_energy += opening_loss + secant_loss + (shear_loss - friction_loss);
-    s.friction_energy += friction_loss;
-    return { normal, s.shear_traction, before, after };
+    s.friction_energy += Dilating
+        ? friction_loss - lifting_work(opening, normal, lifted, lifted_normal)
+        : friction_loss;
+    return { lifted_normal, shear, before, after };
 }
 
 }  // namespace flexpm

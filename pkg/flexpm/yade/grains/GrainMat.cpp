@@ -20,7 +20,7 @@ namespace {
 		Real (*value)(const GrainMat&);
 	};
 
-	constexpr std::array<Property, 11> properties { {
+	constexpr std::array<Property, 13> properties { {
 		{ "young", " Pa", [](const auto& m) { return m.young; } },
 		{ "poisson", "", [](const auto& m) { return m.poisson; } },
 		{ "density", " kg/m^3", [](const auto& m) { return m.density; } },
@@ -31,6 +31,8 @@ namespace {
 		{ "friction", "", [](const auto& m) { return m.friction; } },
 		{ "tensileFractureEnergy", " N/m", [](const auto& m) { return m.tensileFractureEnergy; } },
 		{ "shearFractureEnergy", " N/m", [](const auto& m) { return m.shearFractureEnergy; } },
+		{ "dilation", "", [](const auto& m) { return m.dilation; } },
+		{ "dilationSlip", " m", [](const auto& m) { return m.dilationSlip; } },
 		{ "planeStrain", "", [](const auto& m) { return Real(m.planeStrain); } },
 	} };
 

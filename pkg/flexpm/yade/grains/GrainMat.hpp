@@ -20,6 +20,8 @@ public:
 		((Real, friction, 0.4,, "Coefficient of friction mu_c, Eq. 25; it stays after cracking [-]."))
 		((Real, tensileFractureEnergy, 20.,, "Area under the tensile softening curve, Fig. 3a [N/m]."))
 		((Real, shearFractureEnergy, 800.,, "Area under the shear softening curve, Fig. 3b [N/m]."))
+		((Real, dilation, 0.,, "Tangent of the dilation angle of a joint, at most its friction: opening per plastic slip [-]."))
+		((Real, dilationSlip, 0.,, "Plastic slip at which the dilation ends [m]."))
 		((bool, planeStrain, false,, "Plane strain instead of plane stress."))
 		, createIndex(); density = 2650;
 	);

@@ -23,7 +23,17 @@ namespace {
 
 	flexpm::ContactMaterial contactOf(const GrainMat& m)
 	{
-		return { m.normalStiffness, m.shearRatio, m.tensileStrength, m.cohesion, m.friction, m.tensileFractureEnergy, m.shearFractureEnergy };
+		flexpm::ContactMaterial c;
+		c.normal_stiffness        = m.normalStiffness;
+		c.shear_ratio             = m.shearRatio;
+		c.tensile_strength        = m.tensileStrength;
+		c.cohesion                = m.cohesion;
+		c.friction                = m.friction;
+		c.tensile_fracture_energy = m.tensileFractureEnergy;
+		c.shear_fracture_energy   = m.shearFractureEnergy;
+		c.dilation                = m.dilation;
+		c.dilation_slip           = m.dilationSlip;
+		return c;
 	}
 
 	vector<shared_ptr<Material>> materialsOf(const py::list& list)
