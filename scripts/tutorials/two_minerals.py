@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial: a rock of two minerals, what each does to stiffness and strength.
+"""Tutorial 4: a rock of two minerals, what each does to stiffness and strength.
 
 Takes the rock of two_minerals.toml, finds its Young's modulus between the bounds of Reuss and
 Voigt, compresses it beside the rock without quartz on the same packing, and says where it cracked.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The documentation names what exists: functions, tests, files' columns and arrays, deviations."""
 
+import inspect
 import re
 import shlex
 import shutil
@@ -11,6 +12,8 @@ from pathlib import Path
 import pytest
 from sample_snapshot import wall
 
+import flexpm
+import flexpm._api
 from flexpm import __version__, _flexpm
 from flexpm._plugin import load
 from flexpm.cli import main
@@ -135,3 +138,26 @@ def test_the_first_page_shows_what_runs():
     exec(textwrap.dedent(example), scope)
     assert 0.0 < scope["rig"].stress < 3e7
     assert scope["rig"].record["axial_stress"].max() > 1.5 * scope["rig"].stress
+
+
+def public_names():
+    """Public names of the package, of its modules and of their classes, each with what it is."""
+    for name in sorted({*flexpm._api.__all__}):
+        one = getattr(flexpm, name)
+        yield name, one
+        own = inspect.ismodule(one) or inspect.isclass(one)
+        for part, value in vars(one).items() if own else ():
+            home = getattr(value, "__module__", getattr(one, "__name__", ""))
+            called = callable(value) or isinstance(value, (property, classmethod, staticmethod))
+            elsewhere = inspect.ismodule(one) and home != one.__name__
+            if called and not part.startswith("_") and not elsewhere:
+                yield f"{name}.{part}", value
+
+
+def test_every_public_name_has_its_docstring_and_its_place_in_the_reference():
+    names = dict(public_names())
+    assert len(names) > 50
+    assert [name for name, one in names.items() if not inspect.getdoc(one)] == []
+    reference = (DOC / "reference" / "python.rst").read_text()
+    missing = [name for name in names if "." not in name and name not in reference]
+    assert missing == []

@@ -15,7 +15,12 @@ TUTORIALS = Path(__file__).resolve().parents[3] / "scripts" / "tutorials"
 def printed(name, package_parent, *arguments):
     return subprocess.run(
         [sys.executable, str(TUTORIALS / name), *arguments],
-        env={**os.environ, "PYTHONPATH": str(package_parent), "OMP_NUM_THREADS": "1"},
+        env={
+            **os.environ,
+            "PYTHONPATH": str(package_parent),
+            "OMP_NUM_THREADS": "1",
+            "MPLBACKEND": "Agg",
+        },
         capture_output=True,
         text=True,
         check=True,
@@ -35,8 +40,62 @@ def test_two_minerals(package_parent, tmp_path):
 
 
 @pytest.mark.long
-def test_load_unload_reload(package_parent):
-    text = printed("load_unload_reload.py", package_parent)
+def test_first_test(package_parent, tmp_path):
+    text = printed("first_test.py", package_parent, str(tmp_path))
+    solved, tested = map(float, re.findall(r"E = ([\d.]+) GPa", text))
+    assert tested == pytest.approx(solved, rel=0.02)
+    assert "status ok" in text
+    assert (tmp_path / "report.html").is_file()
+
+
+@pytest.mark.long
+def test_envelope(package_parent, tmp_path):
+    text = printed("envelope.py", package_parent, str(tmp_path))
+    peaks = [float(peak) for peak in re.findall(r"peak +([\d.]+) MPa", text)]
+    assert len(peaks) == 3
+    assert peaks == sorted(peaks)
+    assert 20.0 < float(re.search(r"phi = (\d+) degrees", text)[1]) < 70.0
+    assert (tmp_path / "envelope.png").stat().st_size > 5000
+
+
+@pytest.mark.long
+def test_brazilian(package_parent, tmp_path):
+    text = printed("brazilian.py", package_parent, str(tmp_path))
+    direct, split = (float(peak) for peak in re.findall(r"([\d.]+) MPa", text))
+    ratio = float(re.search(r"over indirect ([\d.]+)", text)[1])
+    assert ratio == pytest.approx(direct / split, abs=0.01)
+    assert float(re.search(r"(\d+) % of its cracked points", text)[1]) > 70.0
+
+
+@pytest.mark.long
+def test_own_discs(package_parent, tmp_path):
+    text = printed("own_discs.py", package_parent, str(tmp_path))
+    below, above = map(int, re.search(r"(\d+) grains below the middle, (\d+)", text).groups())
+    assert below > 1.5 * above
+    assert (tmp_path / "cracks.png").stat().st_size > 10000
+
+
+@pytest.mark.long
+def test_joints(package_parent, tmp_path):
+    text = printed("joints.py", package_parent, str(tmp_path))
+    found = re.findall(r"strength +([\d.]+) MPa, of the plane +([\d.]+) MPa", text)
+    assert len(found) == 3
+    for strength, plane in found:
+        assert float(strength) == pytest.approx(float(plane), rel=0.06)
+
+
+@pytest.mark.long
+def test_calibration(package_parent, tmp_path):
+    text = printed("calibration.py", package_parent, str(tmp_path / "rock"))
+    assert text.count(": met") == 3
+    assert float(re.search(r"E = ([\d.]+) GPa", text)[1]) == pytest.approx(30.0, rel=0.1)
+    assert (tmp_path / "rock" / "my-rock.toml").is_file()
+
+
+@pytest.mark.long
+def test_load_unload_reload(package_parent, tmp_path):
+    text = printed("load_unload_reload.py", package_parent, str(tmp_path))
+    assert (tmp_path / "curves.png").stat().st_size > 5000
     for model in ("flexible", "rigid", "jcfpm"):
         slopes = re.findall(rf"^{model} +\w+ +E = +([\d.]+) GPa", text, re.MULTILINE)
         load, unload, reload = map(float, slopes)

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tutorial 8: calibration of a rock of one's own, then a test with the material that was found.
+
+The rock and the keys that may change stand in calibration.toml. The command does all runs, and none
+of them twice: started again it goes on where it was.
+
+    PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/calibration.py [FOLDER]
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import flexpm
+
+folder = Path(sys.argv[1] if len(sys.argv) > 1 else "my-rock")
+rock = Path(__file__).with_name("calibration.toml")
+
+# 1. The same as: flexpm calibrate calibration.toml --out my-rock
+command = [sys.executable, "-P", "-m", "flexpm", "calibrate", str(rock), "--out", str(folder)]
+subprocess.run([*command, "--quiet"], check=True)
+
+# 2. The material is a file like any other. A packing that the calibration has not seen tells its
+#    worth.
+material = flexpm.materials.load(folder / "my-rock.toml")
+specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=3)
+result = flexpm.run("uniaxial", specimen, material, "rigid", stop_ratio=0.9)
+print(f"E = {result.youngs_modulus / 1e9:.1f} GPa, strength {result.peak_stress / 1e6:.0f} MPa")
