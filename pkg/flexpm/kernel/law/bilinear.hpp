@@ -4,7 +4,7 @@
 /// Deviation D1: Eqs. 26-27 print D; D = 1 means cracked, so strengths are multiplied by (1 - D).
 /// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
 /// Deviation D3: unloading in tension goes along the secant.
-/// Deviation D70: plastic slip opens a joint that dilates, and slip back closes it.
+/// Deviation D43: plastic slip opens a joint that dilates, and slip back closes it.
 #pragma once
 
 #include <flexpm/kernel/core/compiler.hpp>
