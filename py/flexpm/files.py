@@ -17,7 +17,7 @@ import secrets
 import tempfile
 import tomllib
 import weakref
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -203,6 +203,8 @@ class FolderLock:
     """
 
     _held: weakref.WeakValueDictionary[Path, FolderLock] = weakref.WeakValueDictionary()
+    _place: Path
+    _finalizer: Callable[[], object] | None
 
     def __new__(cls, folder: Path) -> FolderLock:
         """Lock `folder`, which exists, or take the lock that this process has.
@@ -215,14 +217,23 @@ class FolderLock:
         if held is not None:
             return held
         made = super().__new__(cls)
+        made._place = place
         handle = _locked(place / _LOCK, folder)
+        made._finalizer = None
         if handle is not None:
-            weakref.finalize(made, _unlock, place / _LOCK, handle, os.getpid())
+            finalizer = weakref.finalize(made, _unlock, place / _LOCK, handle, os.getpid())
+            made._finalizer = finalizer
         for left in place.glob(f"{_TEMPORARY}*"):
             with contextlib.suppress(OSError):
                 left.unlink()
         cls._held[place] = made
         return made
+
+    def release(self) -> None:
+        """Let other processes in, whatever still refers to the lock in this one."""
+        self._held.pop(self._place, None)
+        if self._finalizer is not None:
+            self._finalizer()
 
 
 def _locked(file: Path, folder: Path) -> int | None:

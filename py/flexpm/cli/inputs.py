@@ -45,7 +45,8 @@ def locked_folder(path: Path) -> Path:
     What killed processes have left there half written is removed.
     """
     folder = output_folder(path)
-    click.get_current_context().meta.setdefault("flexpm.locks", []).append(FolderLock(folder))
+    # at the end of the command, not when nothing refers to it: frames of a picture may, for a while
+    click.get_current_context().find_root().call_on_close(FolderLock(folder).release)
     return folder
 
 

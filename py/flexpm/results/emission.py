@@ -24,6 +24,8 @@ from .cracks import MODES, SHEAR, TENSILE, Crack
 
 #: Speed at which a fracture runs over that of a compressional wave [-].
 _RUPTURE_SPEED = 0.5
+#: Places further off, of what a diverged run has flung away, have no squares [m].
+_FAR = 1e100
 #: Magnitudes are counted in bins of this width [-].
 BIN = 0.1
 #: Fewest events from the magnitude of completeness on that give a b value.
@@ -82,7 +84,8 @@ def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
     table = np.array(kept, dtype=float)
     steps, strains, modes, energies = table[:, 0], table[:, 1], table[:, 4], table[:, 7]
     places = table[:, 2:4]
-    pairs = cKDTree(places).query_pairs(rule.distance, output_type="ndarray")
+    near = np.clip(places, -_FAR, _FAR)
+    pairs = cKDTree(near).query_pairs(rule.distance, output_type="ndarray")
     apart = np.abs(steps[pairs[:, 0]] - steps[pairs[:, 1]])
     pairs = pairs[apart <= rule.steps]
     graph = sparse.coo_matrix(
