@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 @cli_options.material_options
 @cli_options.rectangle_options
 @cli_options.disc_options
-@cli_options.beam_options
+@cli_options.part_options
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option

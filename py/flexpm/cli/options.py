@@ -202,7 +202,7 @@ rectangle_options = combined(
     _length("--width", SIZES["rectangle"]["width"], "Width"),
     _length("--height", SIZES["rectangle"]["height"], "Height"),
 )
-beam_options = combined(
+part_options = combined(
     click.option(
         "--length",
         type=Quantity("m", POSITIVE),
@@ -221,6 +221,19 @@ beam_options = combined(
         type=Quantity("m", NOT_NEGATIVE),
         metavar="M",
         help="Depth of a notch in the middle, for bending [m].  [default: none]",
+    ),
+    click.option(
+        "--normal-stress",
+        type=Quantity("Pa", POSITIVE),
+        metavar="PA",
+        help="On the upper half, for shear [Pa].  [default: 1e6]",
+    ),
+    click.option(
+        "--max-displacement",
+        type=Quantity("m", POSITIVE),
+        metavar="M",
+        help="Displacement at which a shear test ends [m].  [default: 8 times that of the "
+        "reference strength]",
     ),
 )
 seed_option = click.option(

@@ -39,7 +39,7 @@ _discard_option = click.option(
 @cli_options.model_options
 @cli_options.rectangle_options
 @cli_options.disc_options
-@cli_options.beam_options
+@cli_options.part_options
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option
@@ -65,6 +65,8 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
     compression of a disc of the given diameter, whose axial stress is 2 P / (pi D t) under the
     force P. bending presses on the middle of a beam that lies on two supports.
+    shear pushes the lower half of a rectangle along below the upper one, to the largest
+    displacement.
     """
     require_known("test", test, TESTS)
     chosen = inputs.material(options)

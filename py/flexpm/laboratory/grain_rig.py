@@ -120,6 +120,7 @@ class GrainRig(TestRig):
             runningShare=before,
             shareAfterPeak=after,
             crossingSteps=crossing,
+            ofFriction=self.kind != "shear",
         )
 
     def _loaded_area(self) -> float:
@@ -132,7 +133,7 @@ class GrainRig(TestRig):
         solver = self.built.solver
         self._set_row_period()
         solver.mirrorPeriod = solver.checkPeriod  # nothing in a test reads the bodies
-        self._recorder.fromNow = self.confinement is not None
+        self._recorder.fromNow = self._pressing() is not None
         self.built.add_engines(after=(self._recorder,))
 
     def _set_row_period(self) -> None:

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
+import numpy as np
 from yade import wrapper
 
-from ..errors import InputError
+from ..errors import InputError, SimulationError
 from ..files import Table
 from ..models.grains import Model
 from ..require import POSITIVE, require_number
@@ -89,6 +90,9 @@ class PartRig(GrainRig):
         self.disc = False
         self._kind, self._laid = kind, 0
         self._scales: Scales | None = None
+        self._same: dict[str, str] = {}
+        #: What ``confine`` presses on.
+        self.pressed: Part | None = None
         self._there = built.engine(wrapper.AxialRecorder) is not None
 
     @property
@@ -146,13 +150,23 @@ class PartRig(GrainRig):
         except ValueError as error:
             raise InputError(f"platen: {error}") from None
 
-    def gauge(self, name: str, first: _Place, second: _Place, *, strain: bool = False) -> None:
+    def gauge(
+        self,
+        name: str,
+        first: _Place,
+        second: _Place,
+        *,
+        along: _Place | None = None,
+        strain: bool = False,
+    ) -> None:
         """Record how far two points move apart, in a column of this name.
 
         Args:
             name: Of the column.
             first: x and y of a point; the nearest node of the grains on its side is taken [m].
             second: The other one.
+            along: x and y of the direction in which the second one moves away from the first one;
+                None for that from the first to the second place.
             strain: Record the strain between them [-] instead of the opening [m].
         """
         if self._has(name):
@@ -165,9 +179,7 @@ class PartRig(GrainRig):
             raise InputError(
                 f"gauge {name}: length = 0 m, must be above 0; take points further off"
             )
-        way = second[0] - first[0], second[1] - first[1]
-        size = math.hypot(*way)
-        direction = (way[0] / size, way[1] / size, 0.0)
+        direction = _unit(f"gauge {name}", along or (second[0] - first[0], second[1] - first[1]))
         base = length if strain else 0.0
         self._recorder.addGauge(
             wrapper.Gauge(name=name, first=one, second=other, direction=direction, length=base)
@@ -177,10 +189,14 @@ class PartRig(GrainRig):
         """Record how far a part moves along a direction [m], in a column of this name."""
         if self._has(name):
             return
-        size = math.hypot(*direction)
-        require_number(f"{name}: length of its direction", size, POSITIVE)
-        unit = direction[0] / size, direction[1] / size, 0.0
+        unit = _unit(name, direction)
         self._recorder.addGauge(wrapper.Gauge(name=name, plate=part.number, direction=unit))
+
+    def also(self, name: str, column: str) -> None:
+        """Give a column of the record a second name, which the test is known by."""
+        if name in (*COLUMNS, *self._recorder.names, *self._same):
+            raise InputError(f"also = {name!r}, must not be the name of another column")
+        self._same[name] = column
 
     def drive(
         self,
@@ -208,27 +224,34 @@ class PartRig(GrainRig):
             strength: Stress that the specimen will bear, roughly [Pa], which sets the loading rate;
                 0: twice that at which the first contact point softens.
         """
-        size = math.hypot(*direction)
-        require_number("drive: length of its direction", size, POSITIVE)
+        unit = _unit("drive", direction)
         if self._there:
             return
         recorder = self._recorder
         recorder.driven = [part.number for part in parts]
         recorder.holding = [part.number for part in against]
-        recorder.direction = (direction[0] / size, direction[1] / size, 0.0)
+        recorder.direction = unit
         recorder.area, recorder.length, recorder.strength = area, length, strength
 
     def scales(self) -> Scales:
-        """What the loading rate follows from: of the intact specimen, by its elastic solution."""
+        """What the loading rate follows from: the elastic solution of the specimen before it.
+
+        They are those that the first loading has found, whatever has broken since.
+        """
         if self._scales is None:
-            self._scales = Scales(**self._recorder.scales())
+            kept = self._recorder.loadingScales
+            self._scales = Scales(*kept) if kept else Scales(**self._recorder.scales())
         return self._scales
 
     @property
     def record(self) -> Curve:
         """The record so far, with the columns of the parts and gauges."""
-        own = [name for name in self._recorder.names if name not in (*COLUMNS, "initial_energy")]
-        return Curve.from_columns(self._recorder.names, self._recorder.rows, own)
+        names, rows = list(self._recorder.names), self._recorder.rows
+        for name, column in self._same.items():
+            rows = np.column_stack([rows, rows[:, names.index(column)]])
+            names.append(name)
+        own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
+        return Curve.from_columns(names, rows, own)
 
     def to_yade_plot(self) -> None:
         """Give ``yade.plot`` the record so far, each column under its name; call it again later."""
@@ -250,9 +273,24 @@ class PartRig(GrainRig):
         return None
 
     def press(self, part: Part, pressure: float) -> None:
-        """Let a part move along its normal under a pressure [Pa] until the forces balance."""
-        self._pressed = part
+        """Let a part move along its normal under a pressure [Pa] until the forces balance.
+
+        It goes on to press. Displacements and gauges count from there on.
+        """
+        self.pressed = part
         self.confine(pressure)
+
+    def confine(self, pressure: float) -> None:
+        """Press on the part ``pressed`` until the forces balance, see `press`.
+
+        Args:
+            pressure: On the width of the part [Pa].
+
+        Raises:
+            SimulationError: if no part is named, or if the forces do not come to balance.
+        """
+        super().confine(pressure)
+        self._scales = None  # joints that are closed now bear what they did not bear before
 
     def _part(self, lay: Callable[[], int]) -> Part:
         """The next plate: laid now, or found in the scene of a checkpoint."""
@@ -273,15 +311,28 @@ class PartRig(GrainRig):
         return plates if plates and plates.loaded else None
 
     def _press(self, pressure: float, ramp: int) -> None:
+        if self.pressed is None:
+            raise SimulationError("confine: part = None, must be one of the rig; call press")
         engine = wrapper.PlateController(
-            plates=[self._pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
+            plates=[self.pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
         )
         self.built.add_engines(before=(engine,))
+
+    def _crossing_steps(self) -> float:
+        """Of a disc of the specimen's area: what is open before it is pressed has no scales."""
+        of_disc = wrapper.AxialRecorder(diameter=self.built.specimen.equal_diameter)
+        return float(of_disc.scales()["crossing_steps"])
+
+    def _begin_record(self) -> None:
+        super()._begin_record()
+        self._recorder.loadingScales = astuple(self.scales())
 
     def _take_hold(self) -> wrapper.LoadingController:
         loading = wrapper.PlateController(
             plates=self._recorder.driven, elasticStart=True, ofParts=True
         )
+        if self.kind == "shear":  # what slides lets go within the time of a wave
+            loading.renewPeriod = math.ceil(self.scales().crossing_steps)
         self.built.add_engines(before=(loading,))
         return loading
 
@@ -298,6 +349,12 @@ class PartRig(GrainRig):
 
 def _pair(vector: Sequence[float]) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
+
+
+def _unit(what: str, direction: _Place) -> tuple[float, float, float]:
+    size = math.hypot(*direction)
+    require_number(f"{what}: length of its direction", size, POSITIVE)
+    return direction[0] / size, direction[1] / size, 0.0
 
 
 def _vector(place: _Place) -> tuple[float, float, float]:

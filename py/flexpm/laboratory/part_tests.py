@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import SimulationError
-from ..materials.material import Material
+from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results.result import Result
 from ..results.toughness import bending_toughness
 from ..specimens.specimen import Specimen
-from .part_rig import PartRig
+from .part_rig import Part, PartRig
+from .rig import BOTTOM, TOP
 from .run_spec import RunSpec
 from .runner import Runner
 
@@ -49,15 +51,18 @@ def prepared(spec: RunSpec, specimen: Specimen, material: Material) -> tuple[Spe
 def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
     """A built specimen between the parts of its test."""
     rig = PartRig(built, kind=spec.test, runner=runner)
-    _bend(rig, spec)
+    _LAYOUTS[spec.test](rig, spec)
     return rig
 
 
 def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     """Fill what the test measures beside its peak."""
+    result.youngs_modulus = None  # the slope of a beam or a box is no constant of the rock
+    if spec.test == "shear":
+        result.measure_residual()
+        return
     specimen, box = rig.built.specimen, _box(rig.built.specimen)
     notch, height = notch_depth(specimen), box.top - box.bottom
-    result.youngs_modulus = None  # the slope of a beam is no constant of the rock
     result.notch_depth = notch
     result.measure_fracture(specimen.thickness * (height - notch))
     if result.peak_load is not None and notch > 0.0 and spec.span is not None:
@@ -98,14 +103,56 @@ def _bend(rig: PartRig, spec: RunSpec) -> None:
         against=supports,
         area=2.0 * built.specimen.thickness * ligament**2 / (3.0 * spec.span),
         length=spec.span**2 / (6.0 * height),
-        strength=_tensile_strength(built),
+        strength=_mean(built, lambda law: law["tensile_strength"]),
     )
 
 
-def _tensile_strength(built: Model) -> float:
-    """Mean over the minerals [Pa]."""
+def _shear(rig: PartRig, spec: RunSpec) -> None:
+    """Put the halves of a rectangle into two boxes, the lower one driven. Deviation D46."""
+    built, box = rig.built, _box(rig.built.specimen)
+    width, height = box.right - box.left, box.top - box.bottom
+    gap = built.specimen.mean_diameter
+    length, middle = 0.5 * (height - gap), 0.5 * (box.bottom + box.top)
+
+    def ends(place: float) -> list[Part]:
+        return [
+            rig.support((x, place), length, normal=(inwards, 0.0), bonded=True)
+            for x, inwards in ((box.left, 1.0), (box.right, -1.0))
+        ]
+
+    lower, upper = ends(box.bottom + 0.5 * length), ends(box.top - 0.5 * length)
+    rig.platen(BOTTOM, bonded=True)
+    rig.pressed = lid = rig.platen(TOP)
+    rig.drive(
+        lower,
+        (1.0, 0.0),
+        against=upper,
+        area=width * built.specimen.thickness,
+        length=height,
+        strength=_shear_strength(built, spec.normal_stress or 0.0),
+    )
+    above, below = ((box.middle, middle + side * 0.5 * gap) for side in (1.0, -1.0))
+    rig.also("shear_stress", "axial_stress")
+    rig.gauge("shear_displacement", above, below, along=(1.0, 0.0))
+    rig.way_of("dilation", lid, (0.0, 1.0))
+
+
+def _shear_strength(built: Model, pressure: float) -> float:
+    """The least c + mu sigma_n [Pa] of the rock and of the specimen's joints."""
+    rock = _mean(built, lambda law: law["cohesion"] + law["friction"] * pressure)
+    there = built.specimen.spec.joint_names or ()
+    laws = built.material.joint_laws(built.name)
+    weak = [law["cohesion"] + law["friction"] * pressure for law in laws if law["name"] in there]
+    return float(min([rock, *weak]))
+
+
+def _mean(built: Model, value: Callable[[Law], float]) -> float:
+    """Mean over the minerals of a value of their laws."""
     kinds = mineral_materials(built.material)
-    return float(np.mean([kind.law(built.name)["tensile_strength"] for kind in kinds]))
+    return float(np.mean([value(kind.law(built.name)) for kind in kinds]))
+
+
+_LAYOUTS: dict[str, Callable[[PartRig, RunSpec], None]] = {"bending": _bend, "shear": _shear}
 
 
 def _box(specimen: Specimen) -> _Box:

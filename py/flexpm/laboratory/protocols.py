@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 import yade
 from yade import wrapper
 
@@ -84,6 +82,8 @@ def run(
     loading: str | None = None,
     span: float | None = None,
     notch: float | None = None,
+    normal_stress: float | None = None,
+    max_displacement: float | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -103,7 +103,7 @@ def run(
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
             ``brazilian``: a disc between two plates, whose axial stress is 2 P / (pi D t), P the
             force, D the diameter, t the thickness; ``bending``: a beam on two supports, pressed in
-            the middle.
+            the middle; ``shear``: the lower half of a rectangle is pushed along below the upper.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
@@ -132,6 +132,8 @@ def run(
         span: Distance of the supports in ``bending`` [m]; None: four times the height, or 8/9
             of the length.
         notch: Depth of the notch of ``bending`` [m]; None: no notch.
+        normal_stress: On the upper half in ``shear`` [Pa]; None: 1 MPa.
+        max_displacement: At which ``shear`` ends [m]; None: a multiple of that of its strength.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -167,6 +169,8 @@ def run(
         loading=loading or "",
         span=span,
         notch=notch,
+        normal_stress=normal_stress,
+        max_displacement=max_displacement,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval)
     return carry_out(plan, threads=threads, progress=progress, output=output)
@@ -307,6 +311,18 @@ def _load(rig: TestRig, spec: RunSpec) -> None:
     rig.load(Loading(spec.rate, spec.loading, static, spec.max_strain, spec.stop_ratio))
 
 
+def _press(rig: TestRig, spec: RunSpec) -> None:
+    assert spec.normal_stress is not None
+    rig.confine(spec.normal_stress)
+
+
+def _slide(rig: TestRig, spec: RunSpec) -> None:
+    """Go on to the largest displacement, whatever the stress does."""
+    way = spec.max_displacement
+    strain = None if way is None else way / rig.scales().height
+    rig.load(Loading(spec.rate, spec.loading, max_strain=strain, stop_ratio=0.0))
+
+
 #: Stages of each test, the same for all models.
 TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
     "uniaxial": (_load,),
@@ -314,6 +330,7 @@ TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
     "biaxial": (_confine, _load),
     "brazilian": (_load,),
     "bending": (_load,),
+    "shear": (_press, _slide),
 }
 
 
@@ -356,7 +373,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
 
 def _event_rule(specimen: Specimen) -> EventRule:
     """What makes an event, by the speed of a wave through a disc of the specimen's area."""
-    diameter = math.sqrt(4.0 / math.pi * float(np.sum(specimen.tessellation.cell_areas)))
+    diameter = specimen.equal_diameter
     scales = wrapper.AxialRecorder(diameter=diameter).scales()
     return event_rule(specimen.mean_diameter, diameter, scales["crossing_steps"])
 

@@ -212,6 +212,10 @@ class TestRig(ABC):
     def _drive(self, plan: Schedule) -> None:
         """Drive the ends by a plan from now on; the first time, take hold and begin the record."""
 
+    def _crossing_steps(self) -> float:
+        """Steps in which a wave crosses the specimen, before it is loaded."""
+        return self.scales().crossing_steps
+
     def _preload(self, steps: int) -> None:
         """Let so many steps go along the elastic solution, close to the first crack."""
         self._refuse_preload()
@@ -255,7 +259,7 @@ class TestRig(ABC):
         return True
 
     def _begin_confinement(self, pressure: float) -> Span:
-        crossing = math.ceil(self.scales().crossing_steps)
+        crossing = math.ceil(self._crossing_steps())
         self._press(pressure, _RAMP_CROSSINGS * crossing)
         return Span((_RAMP_CROSSINGS + _REST_CROSSINGS) * crossing, 2 * _RAMP_CROSSINGS * crossing)
 

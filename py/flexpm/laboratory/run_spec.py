@@ -40,7 +40,7 @@ SCHEMA = 1
 #: Tests that are simulated.
 _ENDS_TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
 #: Of these the ones held and loaded by parts: supports, boxes. They are for ``PART_MODELS``.
-PART_TESTS = ("bending",)
+PART_TESTS = ("bending", "shear")
 TESTS = (*_ENDS_TESTS, *PART_TESTS)
 #: Models that parts hold.
 PART_MODELS = ("flexible", "rigid")
@@ -68,13 +68,17 @@ ELASTIC = "elastic"
 STARTS = ("rest", "static")
 
 #: Options that only some tests have, which need no default in others.
-_OWN = {"length": ("bending",), "span": ("bending",), "notch": ("bending",)}
+_OWN = {
+    **dict.fromkeys(("length", "span", "notch"), ("bending",)),
+    **dict.fromkeys(("normal_stress", "max_displacement"), ("shear",)),
+}
 _UNUSED: dict[str, tuple[str, ...]] = {
     "uniaxial": ("diameter", "confinement"),
     "tension": ("diameter", "confinement"),
     "biaxial": ("diameter", "start"),
     "brazilian": ("width", "height", "confinement", "start"),
     "bending": ("width", "diameter", "confinement", "start"),
+    "shear": ("diameter", "confinement", "start", "stop_ratio", "max_strain"),
     ELASTIC: (
         *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
         *("dynamic", "gravity", "start", "loading"),
@@ -86,9 +90,14 @@ UNUSED: dict[str, tuple[str, ...]] = {
     for test, unused in _UNUSED.items()
 }
 #: Sizes of a test's specimen that are others than those of its shape [m].
-_OTHER_SIZES: dict[str, dict[str, float]] = {"bending": {"width": 0.18, "height": 0.04}}
+_OTHER_SIZES: dict[str, dict[str, float]] = {
+    "bending": {"width": 0.18, "height": 0.04},
+    "shear": {"width": 0.08, "height": 0.04},
+}
 #: Span of a beam over its height, and at most over its length, unless it is given [-].
 _SPAN, _LARGEST_SPAN = 4.0, 8.0 / 9.0
+#: On the upper half in direct shear, unless it is given [Pa].
+NORMAL_STRESS = 1e6
 #: Ranges beyond which sums are no numbers, or no test has a sense.
 _RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 _STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
@@ -98,6 +107,7 @@ PACKING = ("thickness", "diameters", "porosity", "seed")
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
     *("dynamic", "gravity", "start", "loading", "span", "notch"),
+    *("normal_stress", "max_displacement"),
 )
 #: Fields that options of the command set, by their names.
 OPTIONS = (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, *_SIMULATION)
@@ -132,6 +142,9 @@ class RunSpec:
         span: Distance of the supports of ``bending`` [m]; None: four times the height, or
             8/9 of the length if that is less. None for other tests.
         notch: Depth of the notch in the middle of a beam [m]; 0: none. None for other tests.
+        normal_stress: On the upper half of a ``shear`` test [Pa]; None: 1 MPa, and none for others.
+        max_displacement: Of the lower half of a ``shear`` test, at which it ends [m]; None for a
+            multiple of that at its reference strength, and for other tests.
     """
 
     test: str
@@ -150,6 +163,8 @@ class RunSpec:
     loading: str = ""
     span: float | None = None
     notch: float | None = None
+    normal_stress: float | None = None
+    max_displacement: float | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
@@ -165,6 +180,7 @@ class RunSpec:
         self._check_loading()
         self._check_test()
         self._check_beam()
+        self._check_shear()
         self._set("points", int(self.points))
         self._set("material", dict(self.material))
 
@@ -367,6 +383,21 @@ class RunSpec:
         bounds = Bounds(at_least=0.0, below=height)
         self._set("notch", require_number("run: notch", self.notch or 0.0, bounds, "m"))
         require_span(self.span or 0.0, height, self.notch or 0.0)
+
+    def _check_shear(self) -> None:
+        for name, unit in (("normal_stress", "Pa"), ("max_displacement", "m")):
+            value = getattr(self, name)
+            if self.test != "shear" and value is not None:
+                raise InputError(f"run: {name} = {value} {unit}, must not be given for {self.test}")
+        if self.test != "shear":
+            return
+        stress = NORMAL_STRESS if self.normal_stress is None else self.normal_stress
+        bounds = Bounds(above=0.0, at_most=1e15)
+        self._set("normal_stress", require_number("run: normal_stress", stress, bounds, "Pa"))
+        if self.max_displacement is not None:
+            bounds = Bounds(above=0.0, below=self.specimen.width)
+            largest = require_number("run: max_displacement", self.max_displacement, bounds, "m")
+            self._set("max_displacement", largest)
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -149,7 +149,8 @@ class Runner:
         while number < end and time.perf_counter() - begin < _LOOK_UP and not over():
             step()
             number += 1
-        self._spans.append((time.perf_counter() - begin) / (number - first))
+        if number > first:  # else the machine has stood still meanwhile
+            self._spans.append((time.perf_counter() - begin) / (number - first))
 
     def _tell_expected(self) -> None:
         """Tell where the stage will probably end and when, by the steps that were last."""

@@ -64,6 +64,8 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
             ("fracture toughness", scaled(result.fracture_toughness, 1e-6, "MPa m^0.5")),
             ("fracture energy", scaled(result.fracture_energy, 1.0, "J/m2")),
         ]
+    if result.residual_strength is not None:
+        rows.insert(5, ("residual strength", scaled(result.residual_strength, 1e-6, "MPa")))
     if result.confinement:
         rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
     return rows
@@ -92,12 +94,17 @@ def size_text(result: Result) -> str:
 
 def stress_text(test: str) -> str:
     """Name of the stress that a test measures; that of a disc by its definition."""
-    names = {"brazilian": "stress 2 P / (π D t)", "bending": "bending stress"}
+    names = {
+        "brazilian": "stress 2 P / (π D t)",
+        "bending": "bending stress",
+        "shear": "shear stress",
+    }
     return names.get(test, "axial stress")
 
 
 def _peak_text(test: str) -> str:
     names = {"brazilian": "peak of 2 P / (pi D t)", "bending": "peak bending stress"}
+    names["shear"] = "peak shear stress"
     return names.get(test, "peak stress")
 
 

@@ -21,6 +21,8 @@ from .snapshot import Snapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
+#: Tests that end at their largest displacement, whether or not they have passed a peak.
+_WITHOUT_PEAK = ("shear",)
 #: Models whose damage energy is that of the contacts between grains alone, and exactly 0 before.
 _SOFTENING = ("flexible", "rigid")
 
@@ -71,6 +73,7 @@ class Result(Shown):
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
+    residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
@@ -89,6 +92,8 @@ class Result(Shown):
     @property
     def failed(self) -> bool:
         """Whether the simulation failed: it diverged or passed no peak."""
+        if self.test in _WITHOUT_PEAK:
+            return self.status == "diverged"
         return self.status in FAILED or (self.status != "ok" and self.peak_stress is None)
 
     @property
@@ -155,6 +160,12 @@ class Result(Shown):
         means = 0.5 * (load[1:] + load[:-1])  # numpy has renamed its own function
         self.fracture_energy = float(means @ np.diff(way)) / ligament
 
+    def measure_residual(self) -> None:
+        """Fill what is left of the strength: the mean over the last tenth of the displacement."""
+        way, stress = self.curve["displacement"], self.curve["axial_stress"]
+        if len(way) and np.isfinite(stress[-1]):
+            self.residual_strength = float(np.mean(stress[way >= 0.9 * way[-1]]))
+
     def measure_fragments(self, snapshot: Snapshot) -> None:
         """Keep the final state and count what hangs together in it."""
         found = snapshot.fragments
@@ -184,7 +195,7 @@ class Result(Shown):
             return "diverged"
         if self.energy_error is not None and self.energy_error > doubts.LARGEST_ENERGY_ERROR:
             return "not_quasistatic"
-        if peak is None:
+        if peak is None and self.test not in _WITHOUT_PEAK:
             return "no_peak"
         return "not_quasistatic" if fast else "ok"
 

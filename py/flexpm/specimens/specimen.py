@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -515,6 +516,11 @@ class Specimen(Shown):
     def mean_diameter(self) -> float:
         """Mean diameter of the discs [m]."""
         return 2.0 * float(np.mean(self.discs[:, 2]))
+
+    @property
+    def equal_diameter(self) -> float:
+        """Diameter of a disc of the specimen's area [m]."""
+        return math.sqrt(4.0 / math.pi * float(np.sum(self.tessellation.cell_areas)))
 
     def meshes(self, mesh: str = "refined") -> GrainMeshes:
         """Mesh the grains.

@@ -186,3 +186,86 @@ TEST_CASE("A specimen that is cracked through moves as two halves under an undam
     for (int g = 0; g < a.grains.count; ++g)
         CHECK(along(g) == Approx(x(g) < width / 2 ? 0.0 : 1.0).margin(0.02));
 }
+
+namespace {
+
+/// A block upon another one, held at the bottom, a joint without strength between them; the plate on top is driven.
+struct Blocks {
+    Assembly a;
+    int joint = 0, top = 0;
+};
+
+Blocks blocks_with_joint(Point velocity)
+{
+    constexpr double size = 3e-3;
+    auto options = specimens::options();
+    ContactMaterial law = specimens::granite_contact();
+    law.cohesion = law.tensile_strength = 0.0;
+    law.tensile_fracture_energy = law.shear_fracture_energy = 0.0;
+    options.joints = { law };
+    options.edge_joint = { 0 };
+    Blocks b;
+    b.a = specimens::assemble(specimens::grid(1, 2, size), options);
+    add_patch_plate(b.a, patch(size / 2, 0.0, size), { 0.0, 1e6, true });
+    b.top = add_patch_plate(b.a, patch(size / 2, 2.0 * size, size), { 0.0, 1e6, true });
+    scale_masses(b.a, 0.7);
+    set_velocity(b.a, b.top, velocity);
+    return b;
+}
+
+/// Press the faces together and let them bear a share of their friction [-].
+void press_faces(Blocks& b, double share)
+{
+    const LawParameters& law = b.a.contacts.law_of(b.joint);
+    for (int p = 0; p < b.a.contacts.points_of(b.joint); ++p) {
+        b.a.contacts.state(b.joint, p, PointRow::opening) = -1e-7;
+        b.a.contacts.state(b.joint, p, PointRow::shear_traction) =
+            share * law.friction * law.normal_stiffness * 1e-7;
+    }
+}
+
+/// Part of the plate's motion that the centre of the lower block has in the elastic solution [-].
+double lower_motion(const Blocks& b, int axis)
+{
+    return elastic_velocities(b.a, Held::by_parts)[component(b.a.grains.centre(0), axis)];
+}
+
+}  // namespace
+
+TEST_CASE("A crack that is pressed stays closed in the elastic solution, one that is not opens")
+{
+    Blocks b = blocks_with_joint({ 0.0, 1.0 });
+    CHECK(lower_motion(b, 1) == Approx(0.0).margin(1e-3));
+    press_faces(b, 0.0);
+    CHECK(lower_motion(b, 1) > 0.1);
+}
+
+TEST_CASE("A joint slides once it is at its friction, and lets go of what it drove")
+{
+    Blocks b = blocks_with_joint({ 1.0, 0.0 });
+    CHECK(count_sliding_joints(b.a) == 0);
+    press_faces(b, 0.9);
+    CHECK(count_sliding_joints(b.a) == 0);
+    CHECK(lower_motion(b, 0) > 0.1);
+    press_faces(b, 1.0);
+    CHECK(count_sliding_joints(b.a) == 1);
+    CHECK(lower_motion(b, 0) == Approx(0.0).margin(1e-3));
+    b.a.contacts.erased[b.joint] = 1;
+    CHECK(count_sliding_joints(b.a) == 0);
+    b.a.contacts.erased[b.joint] = 0;
+    b.a.contacts.joint[b.joint] = -1;  // a crack of the rock counts as softened
+    CHECK(count_sliding_joints(b.a) == 0);
+}
+
+TEST_CASE("Where a grain has come loose the motion of the loading stays what it was")
+{
+    Blocks b = blocks_with_joint({ 0.0, -1.0 });
+    start_elastically(b.a, true, Held::by_parts);
+    CHECK(renew_loading(b.a));
+    const Array<double> before = b.a.grains.loading_velocity;
+    b.a.plates.pop_back();
+    for (int p = 0; p < b.a.contacts.points_of(b.joint); ++p)
+        b.a.contacts.area(b.joint, p) = 0.0;  // nothing holds the upper block
+    CHECK_FALSE(renew_loading(b.a));
+    CHECK(b.a.grains.loading_velocity == before);
+}

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tutorials run as they stand and show what they say."""
 
+import ast
+import math
 import os
 import re
 import subprocess
@@ -121,6 +123,19 @@ def test_cyclic_loading(package_parent):
     assert stresses == tuple(sorted(stresses))
     assert len(losses) == 3
     assert losses[0] < losses[2]
+
+
+def test_direct_shear(package_parent, tmp_path):
+    text = printed("direct_shear.py", package_parent, str(tmp_path))
+    peak, most, residual, least = map(float, re.findall(r"([\d.]+) MPa", text))
+    assert 0.9 * most < peak <= most
+    assert residual == pytest.approx(least, rel=0.01)
+    opened = float(re.search(r"opened by ([\d.]+) um$", text, re.MULTILINE)[1])
+    assert opened == pytest.approx(60.0 * math.tan(math.radians(15.0)), rel=0.01)
+    assert (tmp_path / "direct_shear.png").stat().st_size > 10000
+    tree = ast.parse((TUTORIALS / "direct_shear.py").read_text())
+    statements = [node for node in ast.walk(tree) if isinstance(node, ast.stmt)]
+    assert len(statements) <= 1 + 25  # the text at its head
 
 
 @pytest.mark.parametrize(

@@ -265,7 +265,7 @@ def test_the_key_of_a_run_is_that_of_its_loading_and_those_of_earlier_defaults_a
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"test": "shear"}, "test = 'shear', must be one of uniaxial, "),
+        ({"test": "torsion"}, "test = 'torsion', must be one of uniaxial, "),
         ({"model": "soft"}, "model = 'soft', must be one of"),
         ({"test": ELASTIC, "model": "jcfpm"}, "model = 'jcfpm', must be one of flexible"),
         ({"points": 4}, "points = 4, must be one of 1, 2, 3"),

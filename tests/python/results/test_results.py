@@ -60,6 +60,7 @@ KEYS = [
     "peak_load",
     "notch_depth",
     "fracture_toughness",
+    "residual_strength",
     "fracture_energy",
     "fragments",
     "largest_fragment",

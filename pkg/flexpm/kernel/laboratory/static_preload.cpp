@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace flexpm {
 
@@ -125,13 +126,20 @@ constexpr int most_lifts = 5;
 /// Opening of a plate's point, or damage of a crack's, that marks it as loosened in a copy of the state.
 constexpr double loosened = std::numeric_limits<double>::max();
 
+/// Pressure between the faces of a point [Pa]; below 0: they are apart, and it would be there had they stuck.
+double pressure_of(const Contacts& contacts, int contact, int point)
+{
+    const LawParameters& law = contacts.law_of(contact);
+    return -law.normal_stiffness * law::gap(law, contacts.point_state(contact, point));
+}
+
 /// Whether all of a contact is cracked and its faces slide past each other.
 bool slides(const Contacts& contacts, int contact)
 {
     const LawParameters& law = contacts.law_of(contact);
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const PointState s = contacts.point_state(contact, p);
-        const double pressure = -law.normal_stiffness * s.opening;
+        const double pressure = pressure_of(contacts, contact, p);
         const double limit = sliding * law.friction * pressure;
         if (damage_of(contacts, contact, p) < softened) return false;
         if (pressure > 0.0 && std::fabs(s.shear_traction) < limit) return false;
@@ -139,7 +147,16 @@ bool slides(const Contacts& contacts, int contact)
     return true;
 }
 
-/// Loosen the points of cracks that a motion opens, and the shear of cracks that slide; returns whether there are any.
+/// Whether the faces of a contact bear on each other anywhere.
+bool is_pressed(const Contacts& contacts, int contact)
+{
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        if (pressure_of(contacts, contact, p) > 0.0) return true;
+    }
+    return false;
+}
+
+/// Loosen the points of cracks that a motion opens and that nothing presses together now (deviation D45), and the shear of cracks that slide; returns whether there are any.
 ///
 /// @param laws  number of laws before cracks got theirs
 bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
@@ -152,6 +169,7 @@ bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
         for (int p = 0; p < contacts.points_of(c); ++p) {
             double& mark = contacts.state(c, p, PointRow::shear_damage);
             if (damage_of(contacts, c, p) < softened || mark == loosened) continue;
+            if (pressure_of(contacts, c, p) > 0.0) continue;
             if (!(dot(n, relative_velocity(contacts, c, p, velocity)) > 0.0)) continue;
             contacts.area(c, p) *= loose;
             mark = loosened;
@@ -253,9 +271,14 @@ void start_elastically(Assembly& a, bool undamped, Held held)
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
 }
 
-void renew_loading(Assembly& a)
+bool renew_loading(Assembly& a)
 {
-    const Array<double> velocity = elastic_velocities(a, Held::by_parts);
+    Array<double> velocity;
+    try {
+        velocity = elastic_velocities(a, Held::by_parts);
+    } catch (const std::runtime_error&) {
+        return false;  // grains have come loose, which nothing holds
+    }
     for (Plate& p : a.plates) {
         if (p.loaded) p.loading_velocity = velocity_before(a, p, velocity);
     }
@@ -272,6 +295,7 @@ void renew_loading(Assembly& a)
             if (!grains.prescribed[i]) grains.loading_velocity[i] = velocity[i];
         });
     }
+    return true;
 }
 
 int count_softened(const Assembly& a)
@@ -280,6 +304,16 @@ int count_softened(const Assembly& a)
     for (int c = 0; c < a.contacts.count; ++c) {
         for (int p = 0; p < a.contacts.points_of(c); ++p)
             count += damage_of(a.contacts, c, p) >= softened;
+    }
+    return count;
+}
+
+int count_sliding_joints(const Assembly& a)
+{
+    int count = 0;
+    for (int c = 0; c < a.contacts.count; ++c) {
+        if (a.contacts.joint[c] < 0 || a.contacts.erased[c]) continue;
+        count += is_pressed(a.contacts, c) && slides(a.contacts, c);
     }
     return count;
 }

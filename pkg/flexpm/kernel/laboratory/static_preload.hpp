@@ -32,12 +32,17 @@ Array<double> elastic_velocities(const Assembly& a, Held held = Held::by_ends);
 void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
 
 /// Give the velocities that damping does not act on those of the elastic solution of the specimen as it is now, held by
-/// parts: its cracks open and slide freely. A beam that is broken turns as two halves. Deviation D30.
-/// @throws std::runtime_error  as solve_static()
-void renew_loading(Assembly& a);
+/// parts: its cracks open and slide freely. A beam that is broken turns as two halves. Where grains have come loose there is no such
+/// solution; the velocities then stay as they are. Deviation D40.
+/// @returns  whether there is a solution
+bool renew_loading(Assembly& a);
 
 /// Contact points that count as cracks for that solution: those with a damage of a half or more.
 int count_softened(const Assembly& a);
+
+/// Contacts of joints that are cracked, pressed, and whose faces slide past each other: a joint without strength slides without a
+/// point that softens.
+int count_sliding_joints(const Assembly& a);
 
 /// Change the velocities that damping does not act on to `ratio` times what they are, and all velocities with them, so
 /// that a change of the loading's velocity raises no wave. The kinetic energy that this gives is work of the boundary.

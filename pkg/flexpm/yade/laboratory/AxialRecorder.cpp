@@ -70,7 +70,7 @@ void AxialRecorder::action()
 	const bool measured = solver->measured();
 	if (!measured && !fromNow) return;
 	auto now = observed(*this, solver->forEngines());
-	if (fromNow) zero = Vector2r(now.axial_strain, now.lateral_strain);
+	if (fromNow) setZero(now, solver->forEngines());
 	fromNow = false;
 	if (!measured) return;
 	now.axial_strain -= zero[0];
@@ -89,6 +89,13 @@ void AxialRecorder::action()
 	peak         = std::max(peak, differential);
 	state        = flexpm::test_state(differential, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
 	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
+}
+
+void AxialRecorder::setZero(const flexpm::AxialObservation& now, const flexpm::Assembly& assembly)
+{
+	zero = Vector2r(now.axial_strain, now.lateral_strain);
+	for (const auto& gauge : gauges)
+		gauge->setZero(assembly);
 }
 
 py::list AxialRecorder::names() const

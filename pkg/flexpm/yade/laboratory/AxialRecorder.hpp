@@ -21,6 +21,11 @@ public:
 	/// What holds and loads the specimen, if parts do.
 	flexpm::PartGeometry parts() const { return { driven, holding, { direction[0], direction[1] }, area, length }; }
 
+private:
+	/// Count strains and gauges from here on.
+	void setZero(const flexpm::AxialObservation& now, const flexpm::Assembly& assembly);
+
+public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
@@ -33,13 +38,14 @@ public:
 		((Real, area, 0.,, "Load over the record's stress, between parts [m2]."))
 		((Real, length, 0.,, "Displacement over the record's strain, between parts [m]."))
 		((Real, strength, 0.,, "Stress that a test between parts may reach, roughly [Pa]."))
+		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen between parts, in the order of scales(); empty before it. Those of a broken one would be others."))
 		((vector<shared_ptr<Gauge>>, gauges,, Attr::hidden, "Readings that the record has, too."))
 		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
 		((Real, stopRatio, .5,, "The test is over once the stress above the confinement has fallen below this part of its peak [-]."))
 		((Real, leastPeak, 0.,, "No fall counts before the stress above the confinement has reached this [Pa]."))
 		((Real, minStrain, -1e300,, "The test is over at this axial strain or below [-]."))
 		((Real, maxStrain, 1e300,, "The test is over at this axial strain or above [-]."))
-		((bool, fromNow, false,, "Count strains from the next step on instead of from the bonded state; false after that step."))
+		((bool, fromNow, false,, "Count strains, and what gauges read, from the next step on instead of from the bonded state; false after that step."))
 		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-] |yupdate|."))
 		((Real, stress, 0., Attr::readonly, "Axial stress of the last row [Pa] |yupdate|."))
 		((Real, differential, 0., Attr::readonly, "The same above the confinement [Pa] |yupdate|."))

@@ -20,7 +20,7 @@ void CrackWaitController::action()
 		throw std::runtime_error("CrackWaitController.recorder = None or without loading, must be the recorder of the test");
 	flexpm::check_positive("CrackWaitController.sweep", sweep, "m3/s");
 	const flexpm::Dissipation   sum = flexpm::dissipation(solver->assembly);
-	const Real                  now = sum.damage + sum.friction, steps = solver->measurePeriod, time = steps * scene->dt;
+	const Real                  now = sum.damage + (ofFriction ? sum.friction : 0), steps = solver->measurePeriod, time = steps * scene->dt;
 	const Real                  lost   = (seen < 0 ? 0 : now - seen) + time * flexpm::damping_power(solver->assembly, solver->damping);
 	const flexpm::CrackWatch    watch  = { lost, flexpm::swept_work(recorder->stress, sweep, time), recorder->differential, recorder->peak, steps };
 	const flexpm::CrackWaitRule rule   = { fastest, slowest, runningShare, shareAfterPeak, crossingSteps };

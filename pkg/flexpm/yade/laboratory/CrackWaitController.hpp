@@ -21,8 +21,9 @@ public:
 		((Real, sweep, 0.,, "Volume that the loaded area sweeps at this factor: area times velocity [m3/s, or m3 per step with scaled masses]."))
 		((Real, runningShare, .002,, "Cracks run where damage, friction and damping take more than this share of what the loading would supply at its fastest [-]."))
 		((Real, shareAfterPeak, .01,, "The same once the stress has fallen from its peak [-]."))
+		((bool, ofFriction, true,, "Friction is taken for a sign of cracks that run; not where faces are to slide."))
 		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
-		((Real, seen, -1., Attr::hidden, "Damage and friction energy at the last look, negative before the first [J]."))
+		((Real, seen, -1., Attr::hidden, "Damage energy, with that of friction if it counts, at the last look, negative before the first [J]."))
 	);
 	// clang-format on
 };

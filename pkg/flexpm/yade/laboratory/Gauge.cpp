@@ -9,10 +9,17 @@ YADE_PLUGIN((Gauge));
 
 Gauge::~Gauge() = default;
 
-Real Gauge::reading(const flexpm::Assembly& assembly) const
+Real Gauge::moved(const flexpm::Assembly& assembly) const
 {
 	const flexpm::Point along = { direction[0], direction[1] };
-	const Real          way   = plate >= 0 ? flexpm::plate_way(assembly, plate, along) : flexpm::gauge_opening(assembly, { first, second }, along);
+	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : flexpm::gauge_opening(assembly, { first, second }, along);
+}
+
+void Gauge::setZero(const flexpm::Assembly& assembly) { zero = moved(assembly); }
+
+Real Gauge::reading(const flexpm::Assembly& assembly) const
+{
+	const Real way = moved(assembly) - zero;
 	return length > 0 ? way / length : way;
 }
 

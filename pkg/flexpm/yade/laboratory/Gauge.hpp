@@ -11,8 +11,16 @@ class Gauge : public Serializable {
 public:
 	~Gauge() override;
 	/// @throws std::runtime_error  if it names no node or plate of the assembly
+	/// Count from here on.
+	/// @throws std::runtime_error  as reading()
+	void setZero(const flexpm::Assembly& assembly);
+	/// Opening or way, less that at its zero [m], or a strain [-].
 	Real reading(const flexpm::Assembly& assembly) const;
 
+private:
+	Real moved(const flexpm::Assembly& assembly) const;
+
+public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Gauge, Serializable,
 		"Reads how far two nodes of grains move apart, as an opening or a strain, or how far a plate moves; :yref:`AxialRecorder` records it under its name. GrainSolver.gaugePoints finds the nodes.",
@@ -21,6 +29,7 @@ public:
 		((int, second, -1,, "Node at the second place [-]."))
 		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))
 		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or the way, a unit vector [-]."))
+		((Real, zero, 0.,, "What it has opened, or the plate has moved, when it began to count [m]."))
 		((Real, length, 0.,, "Length to which a strain refers; 0: the opening itself [m]."))
 	);
 	// clang-format on

@@ -33,10 +33,11 @@ void PlateController::action()
 void PlateController::renewAfterCracks(flexpm::Assembly& assembly)
 {
 	if (assembly.step < renewedAt + renewPeriod) return;
-	renewedAt       = assembly.step;
-	const int count = flexpm::count_softened(assembly);
-	if (count != seenSoftened) flexpm::renew_loading(assembly);
-	seenSoftened = count;
+	renewedAt          = assembly.step;
+	const int softened = flexpm::count_softened(assembly), sliding = flexpm::count_sliding_joints(assembly);
+	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly);
+	seenSoftened = softened;
+	seenSliding  = sliding;
 }
 
 } // namespace yade

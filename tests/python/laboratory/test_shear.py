@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Direct shear of joints and of rock, and what of it is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.cli.main import main
+from flexpm.errors import InputError
+from flexpm.laboratory import runner
+from flexpm.laboratory.checkpoint import Checkpoint
+from flexpm.laboratory.part_rig import PartRig
+from flexpm.laboratory.run_spec import RunSpec
+from flexpm.report import tables
+
+WIDTH, HEIGHT = 0.024, 0.016
+PRESSURE = 2e6
+FRICTION = 0.5
+LAW = {"normal_stiffness": 1.8e13, "shear_stiffness": 5e12, "friction": FRICTION}
+MIDDLE = {"plane": [(0.0, HEIGHT / 2), (WIDTH, HEIGHT / 2)]}
+
+
+@pytest.fixture(scope="module")
+def whole() -> flexpm.Specimen:
+    return flexpm.Specimen.rectangle(WIDTH, HEIGHT, thickness=0.01, seed=1)
+
+
+def rock(**law: float) -> flexpm.Material:
+    values = {f"joint.plane.{key}": value for key, value in (LAW | law).items()}
+    return flexpm.materials.load("augig-table7").with_set(values)
+
+
+def sheared(whole, model: str, material: flexpm.Material | None = None, **options) -> flexpm.Result:
+    cut = whole.with_joints(MIDDLE)
+    options = {"normal_stress": PRESSURE} | options
+    return flexpm.run("shear", cut, material or rock(), model, **options)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_joint_without_cohesion_carries_its_friction(whole, model):
+    """Within 1 %, and half the rate halves what it carries too much as it begins to slide."""
+    results = {rate: sheared(whole, model, rate=rate) for rate in (4.0, 2.0, 1.0)}
+    errors = {}
+    for rate, result in results.items():
+        assert result.status == "ok"
+        assert not result.failed
+        assert result.peak_stress is None
+        stress = result.curve["shear_stress"] / (FRICTION * PRESSURE)
+        errors[rate] = stress.max() - 1.0
+        # once it slides
+        assert np.abs(stress[len(stress) // 2 :] - 1.0).max() < 1e-3
+        assert result.residual_strength == pytest.approx(FRICTION * PRESSURE, rel=1e-3)
+        assert result.energy_error < 1e-3
+        assert result.tensile_cracks == result.shear_cracks == 0
+    assert 0.0 < errors[1.0] < 0.01
+    assert errors[2.0] < 0.6 * errors[4.0]
+    assert errors[1.0] < 0.6 * errors[2.0]
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_joint_with_teeth_opens_by_the_tangent_of_their_angle(whole, model):
+    law = {"dilation_angle": 10.0, "dilation_slip": 10e-6}
+    curve = sheared(whole, model, rock(**law), max_displacement=20e-6).curve
+    assert curve.own == ("load", "displacement", "shear_displacement", "dilation", "shear_stress")
+    assert np.array_equal(curve["shear_stress"], curve["axial_stress"])
+    opened = math.tan(math.radians(10.0))
+    slip, dilation = curve["shear_displacement"], curve["dilation"]
+    ramp = (slip > 3e-6) & (slip < 8e-6)
+    assert np.polyfit(slip[ramp], dilation[ramp], 1)[0] == pytest.approx(opened, rel=0.01)
+    assert dilation[-1] == pytest.approx(opened * 10e-6, rel=0.01)
+    # nothing is opened before it slides, and teeth alone add nothing to the friction
+    assert np.abs(dilation[: len(dilation) // 20]).max() < 0.05 * dilation[-1]
+    assert curve["shear_stress"][-1] == pytest.approx(FRICTION * PRESSURE, rel=0.01)
+
+
+def test_a_bonded_joint_softens_to_its_friction(whole, tmp_path):
+    law = {"cohesion": 2e6, "tensile_strength": 1e6, "shear_fracture_energy": 20.0}
+    result = sheared(whole, "rigid", rock(**law), max_displacement=60e-6, out=tmp_path)
+    strength = 2e6 + FRICTION * PRESSURE
+    assert 0.9 * strength < result.peak_stress <= 1.01 * strength
+    assert result.residual_strength == pytest.approx(FRICTION * PRESSURE, rel=0.01)
+    assert result.curve["displacement"][-1] == pytest.approx(60e-6, rel=0.01)
+    edges = 3 * len([c for c in result.cracks if c.point == 1])
+    assert result.shear_cracks == len(result.cracks) == edges
+    area = WIDTH * 0.01
+    assert result.curve["damage_energy"][-1] == pytest.approx(20.0 * area, rel=0.02)
+    assert result.youngs_modulus is None
+    read = json.loads((tmp_path / "result.json").read_text())
+    assert read["residual_strength"] == result.residual_strength
+    assert (read["inputs"]["normal_stress"], read["inputs"]["max_displacement"]) == (2e6, 60e-6)
+    text = tables.result_table(result)
+    assert "peak shear stress" in text
+    assert f"residual strength           {result.residual_strength / 1e6:.4g}" in text
+
+
+def test_rock_without_a_joint_shears_beyond_its_cohesion(whole):
+    result = flexpm.run("shear", whole, model="rigid", normal_stress=PRESSURE)
+    law = result.material
+    least = 0.25 * (law["cohesion"] + law["friction"] * PRESSURE)
+    assert least < result.curve["shear_stress"].max() < 8.0 * least
+    assert result.status in ("ok", "not_quasistatic")
+    assert not result.failed
+
+
+@pytest.mark.parametrize("stage", [1, 2])
+def test_a_shear_test_that_was_interrupted_has_the_same_bits(whole, tmp_path, monkeypatch, stage):
+    once = sheared(whole, "rigid")
+    saves = []
+    save = Checkpoint.save
+
+    def interrupt(self):
+        save(self)
+        saves.append(yade.O.iter)
+        if len(saves) == 1:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(runner, "_LOOK_UP", 1e-4)  # on a fast machine, too
+    late = 0 if stage == 1 else once.steps // 2
+    monkeypatch.setattr(Checkpoint, "save", interrupt)
+    monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > late + 100))
+    with pytest.raises(KeyboardInterrupt):
+        sheared(whole, "rigid", out=tmp_path, report=False)
+    monkeypatch.undo()
+    resumed = sheared(whole, "rigid", out=tmp_path, report=False)
+    assert 0 < resumed.resumed_at < once.steps
+    assert np.array_equal(resumed.curve.array, once.curve.array, equal_nan=True)
+    again = sheared(whole, "rigid", out=tmp_path, report=False)
+    assert again.steps == once.steps
+
+
+def test_the_scales_of_a_loading_are_those_that_it_began_with(whole):
+    """Not those of what is broken by then, also in a scene that is taken up again."""
+    yade.O.reset()
+    beam = flexpm.Specimen.rectangle(0.056, 0.012, thickness=0.01, seed=1)
+
+    def rig() -> PartRig:
+        rig = PartRig(built, kind="bending")
+        rollers = [rig.support((x, 0.0)) for x in (0.004, 0.052)]
+        head = rig.support((0.028, 0.012), pinned=True)
+        rig.drive([head], (0.0, -1.0), against=rollers)
+        return rig
+
+    built = flexpm.build(beam, model="rigid")
+    first = rig()
+    first.load(flexpm.Loading(kind="waiting", stop_ratio=0.1))
+    saved = first.scales()
+    built.rebind()
+    assert rig().scales() == saved
+    # what has broken has none
+    with pytest.raises(ValueError, match="stiffness that the driven parts feel"):
+        built.engine(type(first._recorder)).scales()
+
+
+def test_the_command_shears_and_ends_well(tmp_path, capsys):
+    lines = tmp_path / "plane.csv"
+    middle = HEIGHT / 2
+    lines.write_text(f"x1,y1,x2,y2,name\n0,{middle},{WIDTH},{middle},plane\n")
+    law = [word for key, value in LAW.items() for word in ("--set", f"joint.plane.{key}={value}")]
+    size = ["--width", str(WIDTH), "--height", str(HEIGHT), "--joints", str(lines)]
+    ask = ["--normal-stress", "3e6", "--model", "rigid", "--out", str(tmp_path / "out")]
+    assert main(["run", "shear", *size, *law, *ask, "--no-report"]) == 0
+    assert "peak shear stress           -" in capsys.readouterr().out
+    content = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert (content["status"], content["peak_stress"]) == ("ok", None)
+    assert content["residual_strength"] == pytest.approx(1.5e6, rel=1e-3)
+    both = ["--models", "flexible,rigid", "--out", str(tmp_path / "both"), "--no-report"]
+    assert main(["compare", "shear", *size, *law, *both]) == 0
+    assert Path(tmp_path / "both" / "compare.csv").is_file()
+
+
+@pytest.mark.parametrize(
+    ("test", "options", "message"),
+    [
+        ("shear", {"normal_stress": 0.0}, "run: normal_stress = 0.0 Pa, must be > 0"),
+        ("shear", {"max_displacement": WIDTH}, "run: max_displacement = 0.024 m"),
+        ("shear", {"confinement": 1e6}, "run: confinement = 1000000.0 Pa, must be 0 for shear"),
+        ("shear", {"model": "inner"}, "run: model of shear = 'inner'"),
+        (
+            "uniaxial",
+            {"normal_stress": 1e6},
+            "run: normal_stress = 1000000.0 Pa, must not be given",
+        ),
+        ("uniaxial", {"max_displacement": 1e-3}, "run: max_displacement = 0.001 m, must not be"),
+    ],
+)
+def test_shear_out_of_range_is_refused_in_one_line(test, options, message):
+    size = {"width": WIDTH, "height": HEIGHT}
+    with pytest.raises(InputError) as refused:
+        RunSpec.from_options(test, size | options, flexpm.materials.load(None))
+    assert str(refused.value).startswith(message)
+    assert "\n" not in str(refused.value)
+
+
+def test_shear_has_its_own_size_and_pressure():
+    spec = RunSpec.from_options("shear", {}, flexpm.materials.load(None))
+    assert (spec.specimen.width, spec.specimen.height) == (0.08, 0.04)
+    assert spec.normal_stress == 1e6
+    assert RunSpec.from_json(spec.to_json()) == spec
+
+
+def test_a_rig_presses_on_what_it_is_told(whole):
+    yade.O.reset()
+    rig = PartRig(flexpm.build(whole, model="rigid"))
+    floor, lid = rig.platen(0), rig.platen(2)
+    with pytest.raises(flexpm.errors.SimulationError, match="confine: part = None"):
+        rig.confine(1e6)
+    rig.drive([floor], (0.0, 1.0))
+    rig.also("stress", "axial_stress")
+    with pytest.raises(InputError, match="also = 'stress'"):
+        rig.also("stress", "load")
+    with pytest.raises(InputError, match="gauge side: length of its direction = 0"):
+        rig.gauge("side", (0.0, 0.0), (0.01, 0.0), along=(0.0, 0.0))
+    rig.press(lid, 1e6)
+    assert lid.force[1] == pytest.approx(-1e6 * WIDTH * 0.01, rel=0.02)
+    assert floor.force[1] == pytest.approx(1e6 * WIDTH * 0.01, rel=0.02)
