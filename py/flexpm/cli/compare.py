@@ -58,6 +58,7 @@ if TYPE_CHECKING:
 @cli_options.threads_option
 @cli_options.out_option
 @cli_options.report_option
+@cli_options.frames_options
 @cli_options.quiet_option
 def compare(
     test: str,
@@ -107,6 +108,8 @@ def compare(
             progress=progress,
             threads=options["threads"],
             report=options["report"],
+            frames=options["frames"],
+            film=options["film"],
             points=specs[0].points,
             **{name: options[name] for name in _SHARED},
         )

@@ -12,6 +12,7 @@ import click
 from ..errors import InputError, SimulationError
 from ..files import Table
 from ..laboratory import run_spec
+from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..results import doubts
 from . import inputs, terminal
@@ -26,8 +27,6 @@ def asked(options: Table) -> Sequence[int]:
         raise InputError(
             f"threads = {options['threads']}, must be 1 with seeds; packings run side by side"
         )
-    if seeds and (options.get("frames") or options.get("film")):
-        raise InputError("frames must not be given with seeds; run the packing that is wanted")
     if options["workers"] and not seeds:
         raise InputError(f"workers = {options['workers']}, must be given with seeds only")
     return seeds
@@ -52,8 +51,11 @@ def carry_out(
     from ..studies import packings
 
     given = _given(options)
+    output = Output(False, options["frames"], options["film"])
     wanted = [
-        job for place, spec in placed.items() for job in packings.plan(spec, given, seeds, place)
+        job
+        for place, spec in placed.items()
+        for job in packings.plan(spec, given, seeds, output, place)
     ]
     if not options.get("discard_checkpoint"):
         packings.refuse_others(wanted, folder)

@@ -181,14 +181,13 @@ def _simulate(
     if options["discard_checkpoint"] and (why := checkpoint.discard_unusable(folder, spec)):
         terminal.say(f"starts again: {why}")
     with terminal.Progress(options["quiet"]) as progress:
-        plan = protocols.plan_run(spec, make(progress), chosen, folder)
+        plan = protocols.plan_run(spec, make(progress), chosen, folder, output=output)
         foresee = None if options["quiet"] else progress.foresee
         result = protocols.carry_out(
             plan,
             threads=options["threads"],
             progress=progress,
             foresee=foresee,
-            output=output,
         )
     terminal.say(tables.result_table(result))
     inputs.tell_warnings(result)

@@ -23,7 +23,7 @@ from ..results.vtu import write_vtu
 from .rig import TestRig
 
 #: Files of a run with frames, and the folder of the frames.
-TABLE, COLLECTION, FOLDER = "frames.csv", "frames.pvd", "frames"
+TABLE, COLLECTION, STATE, FOLDER = "frames.csv", "frames.pvd", "frames.pvsm", "frames"
 #: A state is kept as that of the peak until the stress exceeds its own by this factor [-].
 _GROWTH = 1.01
 #: Parts of the peak at which the falling stress gives a frame [-].

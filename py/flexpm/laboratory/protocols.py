@@ -33,7 +33,7 @@ from ..specimens import given
 from ..specimens.specimen import Specimen
 from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint
-from .frames import COLLECTION, TABLE, FrameWriter
+from .frames import COLLECTION, STATE, TABLE, FrameWriter
 from .loading_rate import Loading, default_stop_ratio, quasistatic_ratio
 from .output import Output
 from .part_rig import PartRig
@@ -49,7 +49,7 @@ FILES = (
     *("specimen.vtu", "final.vtu", "checkpoint.json", given.FILE),
     *("curve.png", "cracks.png", "events.png", "fragments.png"),
     "report.html",
-    *(TABLE, COLLECTION),
+    *(TABLE, COLLECTION, STATE),
 )
 
 
@@ -62,6 +62,7 @@ class Plan:
     material: Material
     folder: Path | None
     checkpoint: Checkpoint | None  #: in the folder, with what an earlier start has left
+    output: Output  #: what is written beside the results
 
 
 def run(
@@ -149,8 +150,6 @@ def run(
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
     output = Output(report, frames, film)
-    if out is None and output.frames:
-        raise InputError(f"run: frames = {output.frames}, must be 0 without out; give a folder")
     chosen = load_material(material, model)
     spec = RunSpec(
         test,
@@ -172,8 +171,8 @@ def run(
         normal_stress=normal_stress,
         max_displacement=max_displacement,
     )
-    plan = plan_run(spec, specimen, chosen, out, checkpoint_interval)
-    return carry_out(plan, threads=threads, progress=progress, output=output)
+    plan = plan_run(spec, specimen, chosen, out, checkpoint_interval, output)
+    return carry_out(plan, threads=threads, progress=progress)
 
 
 def plan_run(
@@ -182,6 +181,7 @@ def plan_run(
     material: Material,
     out: Path | str | None = None,
     checkpoint_interval: float = INTERVAL,
+    output: Output | None = None,
 ) -> Plan:
     """Refuse what a run could not do, before YADE's scene is touched.
 
@@ -191,18 +191,33 @@ def plan_run(
         material: The material that `spec` describes.
         out: Folder for the files of the result; None writes nothing.
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
+        output: What is written beside the results; None for the default.
 
     Raises:
-        InputError: for a test that is no simulation, grains that have no contact and need one, or
-            a checkpoint of other inputs in `out`.
+        InputError: for a test that is no simulation, grains that have no contact and need one, a
+            checkpoint of other inputs in `out`, or frames of a run that is complete there.
     """
+    output = output or Output()
+    if out is None and output.frames:
+        raise InputError(f"run: frames = {output.frames}, must be 0 without out; give a folder")
     require_known("run: test", spec.test, list(TESTS))
     _require_contacts(spec, specimen)
     folder = None if out is None else output_folder(out)
     if folder is not None:
         refuse_folders(folder, FILES)
     checkpoint = None if folder is None else Checkpoint(folder, spec, checkpoint_interval)
-    return Plan(spec, specimen, material, folder, checkpoint)
+    if folder is not None and checkpoint is not None and checkpoint.found:
+        _require_frames(folder, output)
+    return Plan(spec, specimen, material, folder, checkpoint, output)
+
+
+def _require_frames(folder: Path, output: Output) -> None:
+    """Refuse frames of a run that is complete and has none: they are taken while it goes on."""
+    if output.frames and (folder / "result.json").is_file() and not (folder / TABLE).is_file():
+        raise InputError(
+            f"run: frames = {output.frames}, must be 0 in {folder}, where the run is complete "
+            f"without; repeat it: flexpm rerun {folder} --frames {output.frames} --out FOLDER"
+        )
 
 
 def _require_contacts(spec: RunSpec, specimen: Specimen) -> None:
@@ -221,7 +236,6 @@ def carry_out(
     threads: int = 1,
     progress: Progress | None = None,
     foresee: Foresee | None = None,
-    output: Output | None = None,
 ) -> Result:
     """Do a run; arguments and outcome as for ``run``.
 
@@ -231,7 +245,6 @@ def carry_out(
         progress: Called with (steps done, steps expected, text).
         foresee: Called once, as soon as steps of the loading have been timed, with the steps that
             the run will probably have and the wall time of those that are left [s].
-        output: What is written beside the results; None for the default.
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     if folder is not None:
@@ -256,7 +269,7 @@ def carry_out(
         write_vtu(folder / "specimen.vtu", built.snapshot(), _about(spec.to_json()))
     runner = Runner(checkpoint, progress, foresee)
     rig = _rig_of(built, spec, runner)
-    output = output or Output()
+    output = plan.output
     if folder is not None and output.frames:
         resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
         rig.watch = FrameWriter(folder, output.frames, _about(spec.to_json()), resumed_at)
@@ -284,13 +297,16 @@ def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) ->
         write_report(folder, result)
     if isinstance(rig.watch, FrameWriter):
         rig.watch.finish(rig)
-        if output.film:
-            from ..report.film import write_film  # takes long to load
+        from ..report import film, paraview  # take long to load
 
-            frames = [
-                (folder / one.file, one.axial_strain, one.axial_stress) for one in rig.watch.frames
-            ]
-            write_film(folder / f"film.{output.film}", result, frames)
+        frames = rig.watch.frames
+        files = [folder / one.file for one in frames]
+        steps, stresses = [one.step for one in frames], [one.axial_stress for one in frames]
+        paraview.write_state(folder / STATE, result, [*zip(files, steps, stresses, strict=True)])
+        if output.film:
+            strains = [one.axial_strain for one in frames]
+            shown = [*zip(files, strains, stresses, strict=True)]
+            film.write_film(folder / f"film.{output.film}", result, shown)
 
 
 def _about(inputs: Table | None) -> Table:

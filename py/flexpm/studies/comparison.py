@@ -137,6 +137,7 @@ def compare(
     folder = None if out is None else output_folder(out)
     threads, interval = options.pop("threads", 1), options.pop("checkpoint_interval", INTERVAL)
     report = options.pop("report", True)
+    output = Output(False, options.pop("frames", 0), options.pop("film", None))
     shared = {name: value for name, value in options.items() if value is not None}
     cases = [
         Case(
@@ -156,14 +157,13 @@ def compare(
     if folder is not None:
         _give_folders(cases, folder)
     plans = [
-        protocols.plan_run(case.spec, specimen, case.material, case.folder, interval)
+        protocols.plan_run(case.spec, specimen, case.material, case.folder, interval, output)
         for case in cases
     ]
-    own = Output(report=False)
     for number, (case, plan) in enumerate(zip(cases, plans, strict=True), 1):
         show = _named(progress, f"{number}/{len(cases)} {case.name}")
         try:
-            case.result = protocols.carry_out(plan, threads=threads, progress=show, output=own)
+            case.result = protocols.carry_out(plan, threads=threads, progress=show)
         except SimulationError as error:
             case.error = str(error)
     found = Comparison(test, cases, _envelopes(cases))

@@ -10,13 +10,15 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from subprocess import CompletedProcess
 
 from ..errors import InputError
 from ..files import Table, json_text, write_text
 from ..laboratory import run_spec
+from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..materials import joint
 from ..materials.keys import UNITS
@@ -31,6 +33,8 @@ _TESTS = (*run_spec.TESTS, run_spec.ELASTIC)
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Keys that name files: a saved specimen, and lines of joints.
 _FILES = ("specimen", "joints")
+#: Keys of what a run writes beside its results; they are no inputs of it.
+_OUTPUTS = ("frames", "film")
 #: Keys of a packing.
 _PACKED = (*SIZES["rectangle"], *SIZES["disc"], *run_spec.PACKING)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
@@ -49,12 +53,14 @@ class Job:
         arguments: Of the command, without the folder.
         spec: All that determines the outcome.
         place: Folder of the run below that of all; empty for the key.
+        output: What the run writes beside its results.
     """
 
     inputs: Table
     arguments: tuple[str, ...]
     spec: RunSpec
     place: str = ""
+    output: Output = field(default_factory=partial(Output, report=False))
 
     @property
     def key(self) -> str:
@@ -74,7 +80,10 @@ class Job:
         return [
             *("env", "OMP_NUM_THREADS=1", "FLEXPM_DEFER=1", f"PYTHONPATH={worker_path}"),
             *("setpriv", "--pdeathsig", "TERM"),
-            *(sys.executable, "-P", "-m", "flexpm", *self.arguments, "--out", str(folder)),
+            *(sys.executable, "-P", "-m", "flexpm", *self.arguments),
+            *(("--frames", str(self.output.frames)) if self.output.frames else ()),
+            *(("--film", self.output.film) if self.output.film else ()),
+            *("--out", str(folder)),
         ]
 
 
@@ -83,7 +92,7 @@ def make(inputs: Table, base: Path) -> Job:
 
     Args:
         inputs: ``test`` and options of ``flexpm run`` or ``flexpm elastic`` by name, with ``_`` or
-            ``-``; ``set.KEY`` changes the material.
+            ``-``; ``set.KEY`` changes the material; ``frames`` and ``film`` change no result.
         base: Folder that the paths of files are relative to.
 
     Raises:
@@ -94,6 +103,7 @@ def make(inputs: Table, base: Path) -> Job:
         raise InputError(f"study test is missing; give one of {', '.join(_TESTS)}")
     test = given.pop("test")
     require_known("study test", test, _TESTS)
+    output = Output(False, **{key: given.pop(key) for key in _OUTPUTS if key in given})
     used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
     changes = {key.removeprefix("set."): key for key in used if key.startswith("set.")}
     for key in used:
@@ -108,7 +118,9 @@ def make(inputs: Table, base: Path) -> Job:
     assigned = [f"{name}={used[key]}" for name, key in changes.items()]
     material = load_material(used.get("material"), model).with_set(assigned, model)
     spec = RunSpec.from_options(test, used, material, _specimen(test, used))
-    return Job({"test": test, **used}, tuple(arguments(test, used)), spec)
+    if test == run_spec.ELASTIC:
+        output = Output(report=False)  # nothing moves
+    return Job({"test": test, **used}, tuple(arguments(test, used)), spec, output=output)
 
 
 def _specimen(test: str, used: Table) -> SpecimenSpec:
@@ -153,6 +165,14 @@ def known(folder: Path, key: str | None = None) -> Table | None:
         return None
 
 
+def finished(job: Job, folder: Path) -> Table | None:
+    """The outcome of a job that has ended below `folder` with all that it writes, or None."""
+    outcome = known(folder / job.folder, job.key)
+    if outcome is None or job.output.frames > outcome.get("frames", 0):
+        return None
+    return outcome if job.output.film in (None, outcome.get("film")) else None
+
+
 def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
     """Name, in one line, the runs that are finished with results of an older number.
 
@@ -181,6 +201,8 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
     outcome = {
         "key": job.key,
         "inputs": dict(job.inputs),
+        "frames": job.output.frames,
+        "film": job.output.film,
         "exit_code": done.returncode,
         # a table must not depend on where its runs lie
         "message": _message(done).replace(str(folder), job.folder),

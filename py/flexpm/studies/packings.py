@@ -16,6 +16,7 @@ import pandas
 
 from ..errors import InputError
 from ..files import Table, output_folder
+from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..materials.references import reference_of
 from ..progress import Progress
@@ -45,13 +46,16 @@ _BY = ["model", "confinement"]
 _SAID = {"": "mean", "_deviation": "standard deviation", "_error": "standard error"}
 
 
-def plan(spec: RunSpec, given: Table, seeds: Sequence[int], place: str = "") -> list[Job]:
+def plan(
+    spec: RunSpec, given: Table, seeds: Sequence[int], output: Output, place: str = ""
+) -> list[Job]:
     """Runs of a test on the packings of several seeds.
 
     Args:
         spec: The run, of any of the seeds.
         given: Options by name that make this run, with ``set.KEY`` for the material.
         seeds: Of the packings.
+        output: What each run writes beside its results.
         place: Folder of these runs below that of all.
     """
     about = {"test": spec.test, "model": spec.model, "confinement": spec.confinement}
@@ -63,7 +67,8 @@ def plan(spec: RunSpec, given: Table, seeds: Sequence[int], place: str = "") -> 
             del options["confinement"]
         packed = replace(spec, specimen=replace(spec.specimen, seed=seed))
         folder = str(Path(place) / f"seed-{seed}")
-        found.append(Job(inputs, tuple(jobs.arguments(spec.test, options)), packed, folder))
+        arguments = tuple(jobs.arguments(spec.test, options))
+        found.append(Job(inputs, arguments, packed, folder, output))
     return found
 
 

@@ -63,7 +63,7 @@ class Pool:
 
     def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[Table]:
         """Outcomes of jobs in their order; those that have ended before are not run again."""
-        known = {job.key: jobs.known(self._folder / job.folder, job.key) for job in wanted}
+        known = {job.key: jobs.finished(job, self._folder) for job in wanted}
         outcomes = {key: outcome for key, outcome in known.items() if outcome is not None}
         waiting = [job for job in wanted if job.key not in outcomes]
         self._tell_outdated(waiting)

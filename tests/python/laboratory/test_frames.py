@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -19,7 +21,7 @@ from flexpm.laboratory.output import FILM_FRAMES, Output
 from flexpm.report import film
 from flexpm.results import measures
 from flexpm.results.result import Result
-from flexpm.results.vtu import read_vtu
+from flexpm.results.vtu import cell_arrays, read_vtu
 
 WANTED = 6
 
@@ -91,6 +93,44 @@ def test_the_list_for_paraview_names_the_frames(filmed):
     assert all((filmed / one.get("file")).is_file() for one in sets)
 
 
+def test_the_state_for_paraview_shows_arrays_and_frames_that_are_there(filmed):
+    root = ElementTree.parse(filmed / frames.STATE).getroot()
+    proxies = {one.get("id"): one for one in root.iter("Proxy") if one.get("type")}
+    assert len(proxies) > 10
+    named = {one.get("value") for one in root.iter("Proxy") if one.get("value")}
+    assert named <= proxies.keys()
+    assert {one.get("id") for one in root.iterfind(".//ProxyCollection/Item")} == proxies.keys()
+    # a view that is in no tab is not shown
+    (shown,) = root.iterfind(".//Layout/Item")
+    assert proxies[shown.get("view")].get("type") == "RenderView"
+
+    def values(name):
+        found = root.iterfind(f".//Property[@name='{name}']")
+        return [[value.get("value") for value in one] for one in found]
+
+    assert values("FileName") == [[str(filmed / frames.COLLECTION)]]
+    found = frames.read(filmed)
+    assert values("TimestepValues") == [[str(one.step) for one in found]]
+    assert values("ViewTime") == [[str(found[-1].step)]]
+    state = read_vtu(filmed / found[-1].file)
+    cells = cell_arrays(state)
+    used = [one[-1] for one in values("ColorArrayName") + values("SelectInputScalars")]
+    assert used == ["principal_stress_2", "crack_mode", "kind", "crack_mode"]
+    assert set(used) <= cells.keys()
+    # the colours hold the compression at the peak
+    low, high = (float(values("RGBPoints")[0][index]) for index in (0, -4))
+    assert (-1.5 * max(one.axial_stress for one in found)) < low < -1e7
+    assert high == 0.0
+    assert np.allclose([float(one) for one in values("CameraFocalPoint")[0]], (0.006, 0.012, 0.0))
+
+
+def test_the_state_of_a_pulled_specimen_shows_tension(specimen, tmp_path):
+    flexpm.run("tension", specimen, out=tmp_path, frames=2, max_strain=2e-5)
+    text = (tmp_path / frames.STATE).read_text()
+    assert "principal_stress_1" in text
+    assert "principal_stress_2" not in text
+
+
 def test_a_frame_says_what_it_is_of_and_in_which_units(filmed):
     one = frames.read(filmed)[3]
     reader = vtkXMLUnstructuredGridReader()
@@ -123,6 +163,19 @@ def test_a_film_has_the_frames(filmed):
         assert 2 < shown.n_frames <= len(frames.read(filmed))
         shown.seek(shown.n_frames - 1)
         assert len(shown.convert("RGB").getcolors(2**20)) > 20
+
+
+@pytest.mark.skipif(not film.has_ffmpeg(), reason="needs ffmpeg")
+def test_a_film_of_kind_mp4_has_the_frames(specimen, tmp_path):
+    options = {"max_strain": 2e-4, "rate": 4.0}
+    flexpm.run("tension", specimen, out=tmp_path, frames=3, film="mp4", **options)
+    ask = "ffprobe -v error -count_frames -show_streams -of json".split()
+    done = subprocess.run([*ask, tmp_path / "film.mp4"], check=True, capture_output=True)
+    (stream,) = json.loads(done.stdout)["streams"]
+    assert stream["codec_name"] == "h264"
+    assert stream["pix_fmt"] == "yuv420p"  # what browsers and presentations play
+    assert int(stream["nb_read_frames"]) == len(frames.read(tmp_path))
+    assert min(stream["width"], stream["height"]) > 400
 
 
 class _Interrupt:
@@ -178,6 +231,46 @@ def test_what_cannot_be_filmed_is_refused(specimen, tmp_path, options, message):
     assert not list(tmp_path.iterdir())
 
 
+def test_frames_of_a_complete_run_need_the_run_again(specimen, tmp_path):
+    """They would be the last one alone."""
+    short = {"max_strain": 2e-5, "out": tmp_path / "run"}
+    flexpm.run("tension", specimen, **short)
+    with pytest.raises(InputError, match="frames = 2, must be 0 in .*rerun .*run --frames 2"):
+        flexpm.run("tension", specimen, frames=2, **short)
+    assert not (tmp_path / "run" / frames.TABLE).exists()
+    rerun = ["rerun", str(tmp_path / "run"), "--frames", "2", "--out", str(tmp_path / "again")]
+    assert cli.main([*rerun, "--quiet"]) == 3  # a test without a peak
+    before = frames.read(tmp_path / "again")
+    assert len(before) > 1
+    # a film of frames that are there needs no run
+    assert cli.main([*rerun, "--quiet", "--film", "gif"]) == 3
+    assert frames.read(tmp_path / "again") == before
+    assert (tmp_path / "again" / "film.gif").exists()
+
+
+def test_each_run_of_a_comparison_has_its_frames(tmp_path):
+    size = ["--width", "0.012", "--height", "0.024", "--rate", "6", "--quiet"]
+    command = ["compare", "uniaxial", *size, "--frames", "2", "--out", str(tmp_path)]
+    assert cli.main(command) == 0
+    for model in ("flexible", "rigid"):
+        assert len(frames.read(tmp_path / model)) >= 4
+        assert (tmp_path / model / frames.STATE).exists()
+
+
+def test_each_run_of_several_packings_has_its_frames_also_afterwards(tmp_path):
+    size = ["--width", "0.012", "--height", "0.024", "--max-strain", "2e-5", "--quiet"]
+    command = ["run", "tension", *size, "--seeds", "1-2", "--out", str(tmp_path)]
+    assert cli.main(command) == 3
+    curves = [(tmp_path / f"seed-{seed}" / "curve.csv").read_bytes() for seed in (1, 2)]
+    assert cli.main([*command, "--frames", "2"]) == 3
+    for seed in (1, 2):
+        assert len(frames.read(tmp_path / f"seed-{seed}")) > 1
+        assert (tmp_path / f"seed-{seed}" / "curve.csv").read_bytes() == curves[seed - 1]
+    before = (tmp_path / "seed-1" / frames.TABLE).stat().st_mtime_ns
+    assert cli.main([*command, "--frames", "1"]) == 3  # fewer than there are: nothing to do
+    assert (tmp_path / "seed-1" / frames.TABLE).stat().st_mtime_ns == before
+
+
 def test_frames_need_a_folder(specimen):
     with pytest.raises(InputError, match="frames = 40, must be 0 without out"):
         flexpm.run("tension", specimen, film="gif")
@@ -198,4 +291,3 @@ def test_the_command_takes_frames(tmp_path):
     assert cli.main(command) == 3
     assert len(frames.read(tmp_path)) >= 2
     assert cli.main([*command[:-1], str(tmp_path / "x"), "--frames", "-3"]) == 2
-    assert cli.main([*command[:-1], str(tmp_path / "x"), "--seeds", "1,2"]) == 2

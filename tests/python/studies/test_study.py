@@ -283,6 +283,29 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
     assert names - inert == {*run_spec.OPTIONS, "material"}
 
 
+def test_frames_are_no_inputs_and_need_the_run_again(tmp_path):
+    plain = jobs.make({"test": "tension"}, tmp_path)
+    shown = jobs.make({"test": "tension", "frames": 5, "film": "gif"}, tmp_path)
+    assert (shown.key, shown.inputs) == (plain.key, plain.inputs)
+    command = shown.command(tmp_path, tmp_path)
+    assert command[command.index("--frames") + 1] == "5"
+    assert command[command.index("--film") + 1] == "gif"
+    assert "--frames" not in plain.command(tmp_path, tmp_path)
+    done = subprocess.CompletedProcess([], 0, "", "")
+    jobs.conclude(plain, tmp_path / plain.folder, done)
+    assert jobs.finished(plain, tmp_path) is not None
+    assert jobs.finished(shown, tmp_path) is None
+    jobs.conclude(shown, tmp_path / shown.folder, done)
+    assert jobs.finished(shown, tmp_path) is not None
+    assert jobs.finished(plain, tmp_path) is not None
+    assert "--frames" not in jobs.make({"test": "elastic", "frames": 5}, tmp_path).command(
+        tmp_path, tmp_path
+    )
+    for wrong in ({"frames": -1}, {"frames": "many"}, {"film": 3}):
+        with pytest.raises(InputError, match="frames|film"):
+            jobs.make({"test": "tension", **wrong}, tmp_path)
+
+
 def test_a_study_takes_joints_and_a_saved_specimen(tmp_path, package_parent):
     """Both by paths from the study file's folder; laws of joints can be varied."""
     lines = tmp_path / "cracks.csv"
