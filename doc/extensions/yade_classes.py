@@ -16,7 +16,9 @@ from docutils.statemachine import StringList
 from sphinx.util.docutils import SphinxDirective
 
 _MARK = re.compile(r"\s*:y(default|attrtype|attrflags):`([^`]*)`")
-_STATIC = re.compile(r"\.\. ystaticattr:: \w+\.(\w+)\(=([^)]*)\)\s*(.*)")
+_STATIC = re.compile(r"\.\. ystaticattr:: \w+\.(\w+)\(=(.*)\)\s*\n\s*(\S.*)")
+#: Defaults that are calls in C++.
+_VECTOR = re.compile(r"Vector(\d)r::(Zero|Ones)\(\)")
 _ARGUMENT = re.compile(r"\((\w+)\)(\w+)(?:=([^\s,\]]+))?")
 #: Of YADE's flags: the attribute is read only from Python.
 _READ_ONLY = 2
@@ -50,6 +52,9 @@ def _class(made: type) -> Iterator[str]:
     yield from _indented(f"{_plain(about).strip()} Derived from {owner}``{base.__name__}``.")
     for text in static:
         name, default, words = _STATIC.match(text).groups()
+        if vector := _VECTOR.fullmatch(default):
+            entry = {"Zero": "0", "Ones": "1"}[vector[2]]
+            default = f"({', '.join([entry] * int(vector[1]))})"
         about = f"{words} Common to all. Default: ``{default}``."
         yield from map("   {}".format, [f".. py:attribute:: {name}", "", *_indented(about)])
     for name in sorted(set(vars(made)) - set(dir(base))):

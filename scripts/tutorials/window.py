@@ -4,7 +4,8 @@
     xvfb-run -a -s "-screen 0 1024x768x24" env PYTHONPATH=build/python \\
         yade -x scripts/tutorials/window.py stress_yy PICTURE
 
-Without the second argument, and without xvfb-run, the window stays open.
+YADE writes PICTURE00000.png and PICTURE00001.png; the last line that is printed names the one to
+look at. Without the second argument, and without xvfb-run, the window stays open.
 """
 
 import sys

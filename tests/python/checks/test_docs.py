@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The documentation names what exists: functions, tests, files' columns and arrays, deviations."""
 
+import html
 import inspect
 import re
 import shlex
@@ -93,6 +94,15 @@ def test_the_documentation_builds_without_warnings(tmp_path):
     assert (tmp_path / "theory.html").stat().st_size > 5000
     presets = (tmp_path / "materials.html").read_text()
     assert presets.count("normal_stiffness") >= len(preset_names())
+    reference = html.unescape((tmp_path / "reference" / "yade.html").read_text())
+    described = re.findall(r"<dt class=.*?</dt>\s*<dd>(.*?)</dd>", reference, re.DOTALL)
+    texts = [re.sub(r"<[^>]+>", "", text).strip() for text in described]
+    assert len(texts) > 100
+    assert all(texts)
+    assert [
+        text for text in texts if text.startswith((")", "Common", "Default", "Read only"))
+    ] == []
+    assert "Values of both ends of the scale [Pa]" in reference
 
 
 def test_the_version_is_the_same_everywhere():
