@@ -54,7 +54,9 @@ def results(
     """
     plan = study.read(HERE / f"{name}.toml")
     table, folder = RESULTS / f"{name}.csv", chosen.out / name
-    known = pandas.read_csv(table) if table.exists() else pandas.DataFrame({"key": []})
+    known = pandas.DataFrame({"key": []})
+    if table.exists():  # pandas' own reader of numbers would change last digits at each writing
+        known = pandas.read_csv(table, float_precision="round_trip")
     done = set(known["key"])
     missing = [job for job in plan.jobs if job.key not in done]
     print(f"{name}: {len(plan.jobs)} runs, {len(missing)} of them not in {table.name}")
