@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -21,7 +20,6 @@ import flexpm
 from flexpm.cli.terminal import Progress
 from flexpm.errors import InputError
 from flexpm.report import comparison
-from flexpm.results.record import Curve
 from flexpm.results.result import Result
 from flexpm.results.strength import Envelope
 from flexpm.studies import figures, jobs, study
@@ -177,9 +175,7 @@ def curves_of(rows: pandas.DataFrame, folder: Path) -> list[tuple[str, Result]]:
         run = folder / "runs" / row["key"]
         if not (run / "curve.csv").exists():
             continue
-        result = Result(**json.loads((run / "result.json").read_text(encoding="utf-8")))
-        record = pandas.read_csv(run / "curve.csv")
-        result.curve = Curve.from_columns(list(record.columns), record.to_numpy(dtype=float))
+        result = Result.read(run)
         pressure = f", {1e-6 * result.confinement:g} MPa" if result.confinement else ""
         found.append((f"{result.model}{pressure}", result))
     return found

@@ -34,7 +34,7 @@ FLEXPM_INLINE Gradient displacement_gradient(const TriangleShape& s, Point u0, P
         ay * s.g1y + by * s.g2y };
 }
 
-/// Green-Lagrange strain [-], deviation D57.
+/// Green-Lagrange strain [-], deviation D47.
 FLEXPM_INLINE Tensor green_strain(const Gradient& h)
 {
     return { h.xx + 0.5 * (h.xx * h.xx + h.yx * h.yx), h.yy + 0.5 * (h.xy * h.xy + h.yy * h.yy),
