@@ -22,7 +22,10 @@ from . import options as cli_options
 from .options import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
-_SHARED = (*("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "loading"),)
+_SHARED = (
+    *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "loading"),
+    *("span", "notch", "normal_stress", "max_displacement", "wave"),
+)
 
 if TYPE_CHECKING:
     from ..studies.comparison import Case

@@ -15,7 +15,7 @@ import click
 from ..errors import InputError
 from ..laboratory.loading_rate import LOADINGS
 from ..laboratory.output import FILMS, MOST_FRAMES
-from ..laboratory.run_spec import STARTS, RunSpec
+from ..laboratory.run_spec import STARTS, WAVES, RunSpec
 from ..models.options import MESHES, MODELS, POINTS
 from ..require import (
     ANY,
@@ -234,6 +234,12 @@ part_options = combined(
         metavar="M",
         help="Displacement at which a shear test ends [m].  [default: 8 times that of the "
         "reference strength]",
+    ),
+    click.option(
+        "--wave",
+        type=Name(*WAVES),
+        metavar="p|s",
+        help="Pressure or shear wave, for sonic.  [default: p]",
     ),
 )
 seed_option = click.option(

@@ -12,7 +12,7 @@ import click
 from .._version import __version__
 from ..errors import SimulationError
 from ..files import Table, json_text, load_json, write_text
-from ..laboratory import rerun as reruns
+from ..laboratory.asked import differences, read_inputs
 from ..laboratory.output import Output
 from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
 from ..materials.material import Material
@@ -67,6 +67,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     force P. bending presses on the middle of a beam that lies on two supports.
     shear pushes the lower half of a rectangle along below the upper one, to the largest
     displacement.
+    sonic sends a pulse through a rectangle, from its bottom to its top, and measures its speed.
     """
     require_known("test", test, TESTS)
     chosen = inputs.material(options)
@@ -104,7 +105,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
     grains.json beside it. At the end the numbers are compared with those of FILE.
     """
     file = file / "result.json" if file.is_dir() else file
-    spec, chosen = reruns.read_inputs(file)
+    spec, chosen = read_inputs(file)
     before = load_json(file, "result")
     folder = inputs.locked_folder(out)
 
@@ -150,7 +151,7 @@ def _tell_differences(file: Path, before: Table, folder: Path) -> None:
     again = folder / "result.json"
     if not again.exists():
         return
-    found = reruns.differences(before, load_json(again, "result"))
+    found = differences(before, load_json(again, "result"))
     told = f"other than in {file}: {', '.join(found)}" if found else f"the same as in {file}"
     terminal.say(f"  numbers                 {told}")
 

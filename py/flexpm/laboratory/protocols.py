@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from ..files import Table, output_folder, refuse_folders
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import is_brittle
-from ..models.grains import Model, build
+from ..models.grains import DAMPING, Model, build
 from ..models.options import SPHERE_MODELS
 from ..models.spheres import SphereModel
 from ..progress import Progress
@@ -24,6 +25,7 @@ from ..report.curves import curve_picture
 from ..report.emission import emission_picture
 from ..report.maps import crack_picture, fragment_picture
 from ..report.tables import size_text
+from ..report.waves import wave_picture
 from ..require import require_known
 from ..results.cracks import cracks_from_snapshot
 from ..results.emission import EventRule, event_rule
@@ -40,8 +42,9 @@ from .part_rig import PartRig
 from .part_tests import measure, part_rig, prepared
 from .rig import TestRig
 from .rigs import rig as rig_of
-from .run_spec import PART_TESTS, RunSpec, described
+from .run_spec import PART_TESTS, SONIC, RunSpec, described, require_pulse
 from .runner import Foresee, Runner
+from .wave_rig import WaveRig
 
 #: Names of the files of a run.
 FILES = (
@@ -85,6 +88,7 @@ def run(
     notch: float | None = None,
     normal_stress: float | None = None,
     max_displacement: float | None = None,
+    wave: str | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -104,7 +108,9 @@ def run(
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
             ``brazilian``: a disc between two plates, whose axial stress is 2 P / (pi D t), P the
             force, D the diameter, t the thickness; ``bending``: a beam on two supports, pressed in
-            the middle; ``shear``: the lower half of a rectangle is pushed along below the upper.
+            the middle; ``shear``: the lower half of a rectangle is pushed along below the upper;
+            ``sonic``: a plane pulse through a rectangle, with real masses and without damping, for
+            the speed of its `wave`.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
@@ -135,6 +141,7 @@ def run(
         notch: Depth of the notch of ``bending`` [m]; None: no notch.
         normal_stress: On the upper half in ``shear`` [Pa]; None: 1 MPa.
         max_displacement: At which ``shear`` ends [m]; None: a multiple of that of its strength.
+        wave: ``p`` or ``s`` for ``sonic``; None: ``p``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -170,6 +177,7 @@ def run(
         notch=notch,
         normal_stress=normal_stress,
         max_displacement=max_displacement,
+        wave=wave,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval, output)
     return carry_out(plan, threads=threads, progress=progress)
@@ -200,8 +208,12 @@ def plan_run(
     output = output or Output()
     if out is None and output.frames:
         raise InputError(f"run: frames = {output.frames}, must be 0 without out; give a folder")
+    if output.frames and spec.test == SONIC:
+        raise InputError(f"run: frames = {output.frames}, must be 0 for {SONIC}; leave them out")
     require_known("run: test", spec.test, list(TESTS))
     _require_contacts(spec, specimen)
+    if spec.test == SONIC:
+        require_pulse(specimen.dimensions["height"], specimen.mean_diameter)
     folder = None if out is None else output_folder(out)
     if folder is not None:
         refuse_folders(folder, FILES)
@@ -247,6 +259,7 @@ def carry_out(
             the run will probably have and the wall time of those that are left [s].
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
+    output = plan.output
     if folder is not None:
         given.save(folder, plan.specimen)
     yade.O.reset()
@@ -257,6 +270,7 @@ def carry_out(
         spec.model,
         points=spec.points,
         mesh=spec.mesh,
+        damping=0.0 if spec.test == SONIC else DAMPING,
         dynamic=spec.dynamic,
         gravity=spec.gravity,
         threads=threads,
@@ -269,7 +283,6 @@ def carry_out(
         write_vtu(folder / "specimen.vtu", built.snapshot(), _about(spec.to_json()))
     runner = Runner(checkpoint, progress, foresee)
     rig = _rig_of(built, spec, runner)
-    output = plan.output
     if folder is not None and output.frames:
         resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
         rig.watch = FrameWriter(folder, output.frames, _about(spec.to_json()), resumed_at)
@@ -288,6 +301,8 @@ def carry_out(
 def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRig:
     if spec.test in PART_TESTS and isinstance(built, Model):
         return part_rig(built, spec, runner)
+    if spec.test == SONIC and isinstance(built, Model):
+        return WaveRig(built, spec.wave or "", runner=runner)
     return rig_of(built, tension=spec.test == "tension", runner=runner)
 
 
@@ -339,6 +354,11 @@ def _slide(rig: TestRig, spec: RunSpec) -> None:
     rig.load(Loading(spec.rate, spec.loading, max_strain=strain, stop_ratio=0.0))
 
 
+def _send(rig: TestRig, _: RunSpec) -> None:
+    assert isinstance(rig, WaveRig)
+    rig.send()
+
+
 #: Stages of each test, the same for all models.
 TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
     "uniaxial": (_load,),
@@ -347,6 +367,7 @@ TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
     "brazilian": (_load,),
     "bending": (_load,),
     "shear": (_press, _slide),
+    SONIC: (_send,),
 }
 
 
@@ -369,15 +390,16 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.inputs = spec.to_json()
     result.curve = rig.record
     result.cracks = cracks_from_snapshot(snapshot, result.curve)
-    waiting, brittle = spec.loading == "waiting", is_brittle(spec.material)
     result.measure(
-        quasistatic_ratio(spec.test, spec.model, waiting=waiting, brittle=brittle),
-        waiting=waiting,
+        _largest_unbalanced(spec),
+        waiting=spec.loading == "waiting",
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )
     if isinstance(rig, PartRig):
         measure(result, rig, spec)
+    if isinstance(rig, WaveRig):
+        result.measure_wave(spec.wave or "", rig.distance)
     if rig.disc:  # the slopes of the plates' closure are no constants of the rock
         result.youngs_modulus = result.poissons_ratio = None
     if spec.model not in SPHERE_MODELS:  # whose bonds tell no energy
@@ -385,6 +407,14 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     return result
+
+
+def _largest_unbalanced(spec: RunSpec) -> float:
+    """Largest unbalanced-force ratio of a test that is to be quasi-static [-]."""
+    if spec.test == SONIC:
+        return math.inf
+    waiting, brittle = spec.loading == "waiting", is_brittle(spec.material)
+    return quasistatic_ratio(spec.test, spec.model, waiting=waiting, brittle=brittle)
 
 
 def _event_rule(specimen: Specimen) -> EventRule:
@@ -397,7 +427,8 @@ def _event_rule(specimen: Specimen) -> EventRule:
 def write_files(folder: Path, result: Result) -> None:
     """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
     result.write(folder)
-    curve_picture(folder / "curve.png", result)
+    draw = wave_picture if result.test == SONIC else curve_picture
+    draw(folder / "curve.png", result)
     if result.snapshot is not None:
         write_vtu(folder / "final.vtu", result.snapshot, _about(result.inputs))
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]

@@ -16,7 +16,13 @@ from ..files import Table
 from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
-from ..models.options import GRAIN_MODELS, INNER_MODELS, SPHERE_MODELS, check_options
+from ..models.options import (
+    GRAIN_MODELS,
+    INNER_MODELS,
+    MODELS,
+    SPHERE_MODELS,
+    check_options,
+)
 from ..require import (
     Bounds,
     require_flag,
@@ -41,7 +47,11 @@ SCHEMA = 1
 _ENDS_TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
 #: Of these the ones held and loaded by parts: supports, boxes. They are for ``PART_MODELS``.
 PART_TESTS = ("bending", "shear")
-TESTS = (*_ENDS_TESTS, *PART_TESTS)
+#: A pulse through a rectangle, with real masses and without damping; for ``PART_MODELS``.
+SONIC = "sonic"
+TESTS = (*_ENDS_TESTS, *PART_TESTS, SONIC)
+#: Waves of ``sonic``: along the height, and across it.
+WAVES = ("p", "s")
 #: Models that parts hold.
 PART_MODELS = ("flexible", "rigid")
 #: Numbers of the results by test and model; 1 for those that have never changed. A commit that
@@ -71,6 +81,7 @@ STARTS = ("rest", "static")
 _OWN = {
     **dict.fromkeys(("length", "span", "notch"), ("bending",)),
     **dict.fromkeys(("normal_stress", "max_displacement"), ("shear",)),
+    "wave": (SONIC,),
 }
 _UNUSED: dict[str, tuple[str, ...]] = {
     "uniaxial": ("diameter", "confinement"),
@@ -79,6 +90,10 @@ _UNUSED: dict[str, tuple[str, ...]] = {
     "brazilian": ("width", "height", "confinement", "start"),
     "bending": ("width", "diameter", "confinement", "start"),
     "shear": ("diameter", "confinement", "start", "stop_ratio", "max_strain"),
+    SONIC: (
+        *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
+        *("dynamic", "gravity", "start", "loading"),
+    ),
     ELASTIC: (
         *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
         *("dynamic", "gravity", "start", "loading"),
@@ -98,6 +113,10 @@ _OTHER_SIZES: dict[str, dict[str, float]] = {
 _SPAN, _LARGEST_SPAN = 4.0, 8.0 / 9.0
 #: On the upper half in direct shear, unless it is given [Pa].
 NORMAL_STRESS = 1e6
+#: Length of a pulse over the height that it goes through [-], deviation D48.
+PULSE = 0.4
+#: Least length of a pulse in mean diameters of the grains [-].
+_FEWEST_GRAINS = 20.0
 #: Ranges beyond which sums are no numbers, or no test has a sense.
 _RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 _STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
@@ -108,6 +127,7 @@ _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
     *("dynamic", "gravity", "start", "loading", "span", "notch"),
     *("normal_stress", "max_displacement"),
+    "wave",
 )
 #: Fields that options of the command set, by their names.
 OPTIONS = (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, *_SIMULATION)
@@ -145,6 +165,7 @@ class RunSpec:
         normal_stress: On the upper half of a ``shear`` test [Pa]; None: 1 MPa, and none for others.
         max_displacement: Of the lower half of a ``shear`` test, at which it ends [m]; None for a
             multiple of that at its reference strength, and for other tests.
+        wave: Of ``sonic``, one of ``WAVES``; empty: ``p``. None for other tests.
     """
 
     test: str
@@ -165,9 +186,11 @@ class RunSpec:
     notch: float | None = None
     normal_stress: float | None = None
     max_displacement: float | None = None
+    wave: str | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
+        self._check_wave()
         self._check_numbers()
         check_options(
             self.model,
@@ -349,8 +372,8 @@ class RunSpec:
     def _check_test(self) -> None:
         if self.test == ELASTIC:
             require_one_of("run: model", self.model, GRAIN_MODELS)
-        if self.test in PART_TESTS:
-            require_one_of(f"run: model of {self.test}", self.model, PART_MODELS)
+        if self.test in (*PART_TESTS, SONIC):
+            require_one_of(f"run: model of {self.test}", self.model, models_of(self.test))
         if self.model in SPHERE_MODELS:
             self.specimen.require_discs(self.model)
         if self.model in INNER_MODELS:
@@ -399,13 +422,51 @@ class RunSpec:
             largest = require_number("run: max_displacement", self.max_displacement, bounds, "m")
             self._set("max_displacement", largest)
 
+    def _check_wave(self) -> None:
+        if self.test != SONIC:
+            if self.wave is not None:
+                raise InputError(f"run: wave = {self.wave}, must not be given for {self.test}")
+            return
+        self._set("wave", self.wave or WAVES[0])
+        require_one_of("run: wave", self.wave, WAVES)
+        for name in ("rate", "max_strain", "gravity"):
+            value, usual = getattr(self, name), getattr(RunSpec, name)
+            if value != usual:
+                raise InputError(f"run: {name} = {value}, must not be given for {SONIC}")
+        self._set("dynamic", True)  # a wave in scaled masses has another speed
+        if self.specimen.diameters is not None:
+            require_pulse(self.specimen.height or 0.0, float(sum(self.specimen.diameters)) / 2.0)
+
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
+
+
+def require_pulse(height: float, diameter: float) -> None:
+    """Refuse a specimen in which the pulse of ``sonic`` would be shorter than 20 grains.
+
+    Args:
+        height: Of the specimen [m].
+        diameter: Mean of the grains [m].
+    """
+    grains = PULSE * height / diameter
+    if not grains >= _FEWEST_GRAINS:
+        raise InputError(
+            f"run: wavelength = {grains:.3g} mean diameters of the grains, must be >= "
+            f"{_FEWEST_GRAINS:g}: it is {PULSE:g} heights; take a height of "
+            f"{_FEWEST_GRAINS / PULSE:g} diameters, or smaller grains"
+        )
 
 
 def results_number(test: str, model: str) -> int:
     """Number that tells results of a test and model from those before they changed."""
     return RESULTS.get((test, model), 1)
+
+
+def models_of(test: str) -> tuple[str, ...]:
+    """Models that a test is for."""
+    if test == ELASTIC:
+        return GRAIN_MODELS
+    return PART_MODELS if test in (*PART_TESTS, SONIC) else MODELS
 
 
 def shape_of(test: str) -> str:

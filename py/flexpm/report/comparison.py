@@ -20,10 +20,10 @@ from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
 from ..results.strength import Envelope, MohrCoulomb
 from ..text import label_of
-from .curves import fits_a_picture
+from .curves import fits_a_picture, peak_place
 from .maps import draw_cracks
 from .style import CYCLE, MODE_NAMES, STYLE, can_be_drawn, save
-from .tables import stress_text
+from .words import words_of_test
 
 Runs = Sequence[tuple[str, Result]]
 
@@ -47,19 +47,19 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
         figure = Figure(figsize=(6.2, 6.0), layout="constrained")
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1.0))
         for (label, result), (colour, dash) in zip(runs, _styles(runs), strict=True):
-            strain = 100.0 * result.curve["axial_strain"]
-            stress = 1e-6 * result.curve["axial_stress"]
-            upper.plot(strain, stress, color=colour, ls=dash, lw=1.4, label=label)
-            if result.peak_stress is not None and result.peak_strain is not None:
-                place = 100.0 * result.peak_strain, 1e-6 * result.peak_stress
+            names = words_of_test(result.test)
+            over = names.x.of(result.curve)
+            upper.plot(over, names.y.of(result.curve), color=colour, ls=dash, lw=1.4, label=label)
+            if (place := peak_place(result)) is not None:
                 upper.plot(*place, "o", ms=4.0, mfc="white", mec=colour, mew=1.1)
             cracks = result.curve["tensile_cracks"] + result.curve["shear_cracks"]
-            lower.plot(strain, cracks, color=colour, ls=dash, lw=1.4)
-        upper.set_ylabel(f"{stress_text(runs[0][1].test)} [MPa]")
+            lower.plot(over, cracks, color=colour, ls=dash, lw=1.4)
+        names = words_of_test(runs[0][1].test)
+        upper.set_ylabel(names.y.label)
         upper.legend(frameon=False, loc="best")
         upper.set_title(_caption(runs), fontsize=9.5, loc="left")
         lower.set_ylabel("cracked contact points [-]")
-        lower.set_xlabel("axial strain [%]")
+        lower.set_xlabel(names.x.label)
         for axes in (upper, lower):
             axes.set_xlim(left=0.0)
             axes.set_ylim(bottom=0.0)

@@ -17,7 +17,8 @@ from ..results.record import Curve
 from ..results.result import Result
 from ..text import label_of
 from .style import COLOURS, MODE_NAMES, STYLE, save
-from .tables import size_text, stress_text
+from .tables import size_text
+from .words import words_of_test
 
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
@@ -27,6 +28,23 @@ def fits_a_picture(record: Curve) -> bool:
     """Whether there is no number that a picture has no room for; nan leaves a gap."""
     drawn = np.abs([record["axial_strain"], record["axial_stress"]])
     return not np.any(drawn > _LARGEST)
+
+
+def peak_place(result: Result) -> tuple[float, float] | None:
+    """Where the peak lies in a picture of the record, in the units of its axes."""
+    if result.peak_stress is None or not len(result.curve):
+        return None
+    row = np.argmin(np.abs(result.curve["axial_stress"] - result.peak_stress))
+    names = words_of_test(result.test)
+    return float(names.x.of(result.curve)[row]), float(names.y.of(result.curve)[row])
+
+
+def places_of(result: Result, strain: float | FloatArray) -> FloatArray:
+    """Where axial strains of a record lie along the axis x of a picture, in its unit."""
+    axis = words_of_test(result.test).x
+    if axis.column == "axial_strain":
+        return axis.factor * np.asarray(strain)
+    return np.interp(strain, result.curve["axial_strain"], axis.of(result.curve))
 
 
 def curve_picture(path: Path | str, result: Result) -> None:
@@ -40,18 +58,17 @@ def curve_picture(path: Path | str, result: Result) -> None:
     with rc_context(STYLE):
         figure = Figure(figsize=(5.6, 3.9), layout="constrained")
         axes = figure.add_subplot()
-        record = result.curve
-        strain = 100.0 * record["axial_strain"]
+        record, names = result.curve, words_of_test(result.test)
         counts = axes.twinx()
-        _draw_counts(counts, strain, record)
+        _draw_counts(counts, names.x.of(record), record)
         axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
         axes.patch.set_visible(False)
-        (line,) = axes.plot(strain, 1e-6 * record["axial_stress"], color="black", lw=1.6)
-        line.set_label(stress_text(result.test))
+        (line,) = axes.plot(names.x.of(record), names.y.of(record), color="black", lw=1.6)
+        line.set_label(names.y.name)
         _draw_modulus(axes, result)
         _draw_peak(axes, result)
-        axes.set_xlabel("axial strain [%]")
-        axes.set_ylabel(f"{stress_text(result.test)} [MPa]")
+        axes.set_xlabel(names.x.label)
+        axes.set_ylabel(names.y.label)
         axes.set_xlim(left=0.0)
         axes.set_ylim(bottom=0.0, top=1.18 * axes.get_ylim()[1])  # room for the peak's label
         handles = [*axes.get_legend_handles_labels()[0], *counts.get_legend_handles_labels()[0]]
@@ -83,9 +100,9 @@ def _draw_modulus(axes: Axes, result: Result) -> None:
 
 
 def _draw_peak(axes: Axes, result: Result) -> None:
-    if result.peak_stress is None or result.peak_strain is None:
+    place = peak_place(result)
+    if place is None:
         return
-    place = 100.0 * result.peak_strain, 1e-6 * result.peak_stress
     axes.plot(*place, "o", ms=5.0, mfc="white", mec="black", mew=1.2)
     axes.annotate(f"{place[1]:.1f} MPa", place, (0, 7), textcoords="offset points", ha="center")
 

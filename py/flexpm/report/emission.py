@@ -17,11 +17,12 @@ from ..results.emission import BIN, Event, binned
 from ..results.result import Result
 from ..results.snapshot import Snapshot
 from ..text import label_of
-from .curves import fits_a_picture
+from .curves import fits_a_picture, places_of
 from .maps import draw_grains
 from .page import Rows
 from .style import COLOURS, STYLE, can_be_drawn, save
-from .tables import scaled, stress_text
+from .tables import scaled
+from .words import words_of_test
 
 #: Area of an event of the largest magnitude [point2]; one magnitude less has a tenth of it.
 _LARGEST = 350.0
@@ -90,19 +91,18 @@ def _label(mode: int, events: list[Event]) -> str:
 
 
 def _draw_growth(axes: Axes, result: Result, events: list[Event]) -> None:
-    record, strains = result.curve, np.sort([one.strain for one in events])
+    record, names = result.curve, words_of_test(result.test)
+    places = places_of(result, np.sort([one.strain for one in events]))
     counts = axes.twinx()
-    counts.step(
-        100.0 * strains, np.arange(1, len(strains) + 1), where="post", color=COLOURS[TENSILE]
-    )
+    counts.step(places, np.arange(1, len(places) + 1), where="post", color=COLOURS[TENSILE])
     counts.set_ylabel("events so far [-]", color=COLOURS[TENSILE])
     counts.set_ylim(bottom=0.0)
     counts.spines["right"].set_visible(True)
     axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
     axes.patch.set_visible(False)
-    axes.plot(100.0 * record["axial_strain"], 1e-6 * record["axial_stress"], color="black", lw=1.2)
-    axes.set_xlabel("axial strain [%]")
-    axes.set_ylabel(f"{stress_text(result.test)} [MPa]")
+    axes.plot(names.x.of(record), names.y.of(record), color="black", lw=1.2)
+    axes.set_xlabel(names.x.label)
+    axes.set_ylabel(names.y.label)
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
 

@@ -12,10 +12,11 @@ from matplotlib.figure import Figure
 from ..files import whole_file
 from ..results.result import Result
 from ..results.vtu import read_vtu
-from .curves import fits_a_picture
+from .curves import fits_a_picture, places_of
 from .maps import draw_cracks
 from .style import STYLE, can_be_drawn
-from .tables import size_text, stress_text, test_text
+from .tables import size_text, test_text
+from .words import words_of_test
 
 #: Frames a second.
 _PACE = 8
@@ -50,11 +51,9 @@ def write_film(path: Path, result: Result, frames: Sequence[tuple[Path, float, f
         figure = Figure(figsize=(4.6 * width / height + 4.6, 5.2), layout="constrained")
         rock, curve = figure.subplots(1, 2, width_ratios=(width / height, 1.0))
         figure.suptitle(f"{test_text(result)}\n{size_text(result)}", fontsize=9.5)
-        strain = 100.0 * result.curve["axial_strain"]
-        curve.plot(strain, 1e-6 * result.curve["axial_stress"], color="black", lw=1.4)
-        curve.set(
-            xlabel="axial strain [%]", ylabel=f"{stress_text(result.test)} [MPa]", xlim=(0, None)
-        )
+        names = words_of_test(result.test)
+        curve.plot(names.x.of(result.curve), names.y.of(result.curve), color="black", lw=1.4)
+        curve.set(xlabel=names.x.label, ylabel=names.y.label, xlim=(0, None))
         curve.set_ylim(bottom=0.0)
         (now,) = curve.plot([], [], "o", ms=7.0, color="#d55e00")
         writer = _writer(path.suffix)
@@ -65,7 +64,7 @@ def write_film(path: Path, result: Result, frames: Sequence[tuple[Path, float, f
                 rock.set(aspect="equal", xlim=(low[0] - room[0], high[0] + room[0]))
                 rock.set_ylim(low[1] - room[1], high[1] + room[1])
                 draw_cracks(rock, snapshot)
-                now.set_data([100.0 * at], [1e-6 * stress])
+                now.set_data([places_of(result, at)], [names.y.factor * stress])
                 writer.grab_frame()
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .style import CYCLE, Axes, drawing
-from .tables import stress_text
+from .words import words_of_test
 
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
@@ -24,7 +24,8 @@ class Group:
 
     Attributes:
         label: Model and confinement.
-        curves: Axial strain [-], axial stress [Pa], and whether the run counts in the means.
+        curves: What the test draws over what, as axial stress [Pa] over axial strain [-], x first,
+            and whether the run counts in the means.
         peak: Mean strain [-] and stress [Pa] of the peaks, nan without any.
         scatter: Their standard deviations, nan for fewer than two peaks.
         count: How many of the runs count, in words.
@@ -38,7 +39,7 @@ class Group:
 
 
 def packings_picture(path: Path | str, test: str, groups: Sequence[Group]) -> None:
-    """Draw stress over strain of all packings and the mean peaks with their standard deviations.
+    """Draw the records of all packings and the mean peaks with their standard deviations.
 
     Runs that failed are dotted; those with numbers beyond any picture are left out.
 
@@ -47,20 +48,27 @@ def packings_picture(path: Path | str, test: str, groups: Sequence[Group]) -> No
         test: For the caption.
         groups: One colour each.
     """
+    names = words_of_test(test)
     with drawing(path, (6.2, 4.4)) as axes:
         for number, group in enumerate(groups):
             colour = CYCLE[number % len(CYCLE)]
             for strain, stress, counts in group.curves:
                 if not np.any(np.abs([strain, stress]) > _LARGEST):
                     style = "-" if counts else ":"
-                    places = 100.0 * strain, 1e-6 * stress
+                    places = names.x.factor * strain, names.y.factor * stress
                     axes.plot(*places, color=colour, lw=0.8, alpha=0.55, ls=style)
-            _draw_mean(axes, group, colour)
-        axes.set_xlabel("axial strain [%]")
-        axes.set_ylabel(f"{stress_text(test)} [MPa]")
+            if "peak_stress" in names.measures:
+                _draw_mean(axes, group, colour)
+            else:
+                axes.plot([], [], color=colour, label=f"{group.label} ({group.count} runs)")
+        axes.set_xlabel(names.x.label)
+        axes.set_ylabel(names.y.label)
         axes.set_xlim(left=0.0)
         axes.set_ylim(bottom=0.0)
-        axes.legend(frameon=False, title="mean and standard deviation of the peaks")
+        peaks = (
+            "mean and standard deviation of the peaks" if "peak_stress" in names.measures else None
+        )
+        axes.legend(frameon=False, title=peaks)
         axes.set_title(f"{test}, several packings", fontsize=9.5, loc="left")
 
 

@@ -20,6 +20,7 @@ from ..results.result import Result
 from ..results.snapshot import POINT_SHARES, Snapshot
 from .maps import MINERALS
 from .page import Map, rows_to_draw
+from .words import words_of_test
 
 #: Length of the longer side in a map's own units, of 0.02 mm in the paper's specimen.
 _LENGTH = 8000
@@ -48,9 +49,10 @@ def crack_map(
         chart: Name of that chart.
     """
     record, cracks = result.curve, result.cracks
+    names = words_of_test(result.test)
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
     known = np.arange(len(record)) if rows is None else rows
-    places = np.column_stack([record["axial_strain"], record["axial_stress"], _counts(record)])
+    places = np.column_stack([record[names.x.column], record[names.y.column], _counts(record)])
     chosen = rows_to_draw(places[known], _POSITIONS)
     positions = known[chosen]
     scale, corner = _frame(drawing.positions)
@@ -68,7 +70,7 @@ def crack_map(
         grains=outlines,
         cracks=_crack_paths(drawing, cracks, at, scale, corner),
         fragments=[_letters(one) for one in found],
-        texts=[_text(record, row, len(one)) for row, one in zip(positions, found, strict=True)],
+        texts=[_text(result, row, len(one)) for row, one in zip(positions, found, strict=True)],
         rows=[int(row) for row in chosen],
         chart=chart,
     )
@@ -78,12 +80,16 @@ def _counts(record: Curve) -> FloatArray:
     return record["tensile_cracks"] + record["shear_cracks"]
 
 
-def _text(record: Curve, row: int, fragments: int) -> str:
-    strain, stress = 100.0 * record["axial_strain"][row], 1e-6 * record["axial_stress"][row]
+def _text(result: Result, row: int, fragments: int) -> str:
+    record, names = result.curve, words_of_test(result.test)
+    strain, stress = (
+        f"{axis.name} {axis.factor * record[axis.column][row]:.4g} {axis.unit}"
+        for axis in (names.x, names.y)
+    )
     tensile, shear = (int(record[f"{mode}_cracks"][row]) for mode in ("tensile", "shear"))
     return (
-        f"step {int(record['step'][row])}: axial strain {strain:.4g} %, axial stress {stress:.4g} "
-        f"MPa, {tensile} points cracked in tension and {shear} in shear; fragments: {fragments}"
+        f"step {int(record['step'][row])}: {strain}, {stress}, {tensile} points cracked in "
+        f"tension and {shear} in shear; fragments: {fragments}"
     )
 
 

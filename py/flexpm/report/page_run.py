@@ -21,7 +21,8 @@ from .emission import emission_table
 from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
 from .page_map import crack_map
 from .style import COLOURS, CYCLE, MODE_NAMES
-from .tables import result_rows, size_text, stress_text, test_text
+from .tables import result_rows, size_text, test_text
+from .words import words_of_test
 
 #: Points of a curve.
 _POINTS = 700
@@ -125,23 +126,24 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
     record = result.curve
     if not fits_a_picture(record):
         record = type(record)()
-    strain, stress = record["axial_strain"], record["axial_stress"]
+    names = words_of_test(result.test)
+    strain, stress = record[names.x.column], record[names.y.column]
     cracks = record["tensile_cracks"] + record["shear_cracks"]
     loading = measures.until_regained(record) if result.test == "brazilian" else record
     peak = measures.peak_row(loading) if len(record) else None
     kept = [] if peak is None else [peak]
     rows = rows_to_draw(np.column_stack([strain, stress, cracks]), _POINTS, kept)
-    x = numbers(strain[rows], 100.0)
+    x = numbers(strain[rows], names.x.factor)
     marks = [int(np.searchsorted(rows, row)) for row in kept]
-    label = f"{stress_text(result.test)} [MPa]"
-    lines = [Line(label, x, numbers(stress[rows], 1e-6), "#1c1c1c", marks=marks)]
+    label = names.y.label
+    lines = [Line(label, x, numbers(stress[rows], names.y.factor), "#1c1c1c", marks=marks)]
     for mode, column in ((TENSILE, "tensile_cracks"), (SHEAR, "shear_cracks")):
         counts = numbers(record[column][rows])
         lines.append(Line(MODE_NAMES[mode], x, counts, COLOURS[mode], "y2"))
     chart = Chart(
         "stress",
-        "Stress and cracks over strain",
-        "axial strain [%]",
+        names.title(" and cracks"),
+        names.x.label,
         label,
         lines,
         "cracked contact points [-]",
@@ -177,12 +179,14 @@ def _energy_chart(result: Result) -> Chart:
     columns = {f"{name} energy": record[f"{name}_energy"] for name in _ENERGIES}
     shown = {name: values for name, values in columns.items() if np.any(values != 0.0)}
     work = record["boundary_work"]
-    rows = rows_to_draw(np.column_stack([record["axial_strain"], work, *shown.values()]), _POINTS)
-    x = numbers(record["axial_strain"][rows], 100.0)
+    words = words_of_test(result.test)
+    over = words.x
+    rows = rows_to_draw(np.column_stack([record[over.column], work, *shown.values()]), _POINTS)
+    x = numbers(record[over.column][rows], over.factor)
     lines = [Line("boundary work", x, numbers(work[rows]), "#1c1c1c", dashed=True)]
     for number, (name, values) in enumerate(shown.items()):
         lines.append(Line(name, x, numbers(values[rows]), CYCLE[number % len(CYCLE)]))
-    return Chart("energies", "Energies over strain", "axial strain [%]", "energy [J]", lines)
+    return Chart("energies", f"Energies over {words.over}", over.label, "energy [J]", lines)
 
 
 def with_unit(value: object, unit: str) -> str:

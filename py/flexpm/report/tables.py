@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..materials.references import Reference
 from ..text import name_of, words_of
+from .words import words_of_test
 
 if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
@@ -45,7 +46,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
         ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
         ("Poisson's ratio", scaled(result.poissons_ratio, 1.0, "", 3)),
-        (_peak_text(result.test), scaled(result.peak_stress, 1e-6, "MPa")),
+        (words_of_test(result.test).peak, scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
         ("cracked points", counts),
@@ -57,6 +58,15 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
         ("status", result.status),
     ]
+    if result.test == "sonic":
+        kept = ("grains, contacts", "energy error", "steps", "status")
+        rows = [row for row in rows if row[0] in kept]
+        speeds = {"pressure": result.vp, "shear": result.vs}
+        rows[1:1] = [
+            (f"speed of the {name} wave", scaled(value, 1.0, "m/s", 5))
+            for name, value in speeds.items()
+            if value is not None
+        ]
     if result.peak_load is not None:
         rows[5:5] = [
             ("peak load", scaled(result.peak_load, 1e-3, "kN")),
@@ -90,22 +100,6 @@ def size_text(result: Result) -> str:
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
-
-
-def stress_text(test: str) -> str:
-    """Name of the stress that a test measures; that of a disc by its definition."""
-    names = {
-        "brazilian": "stress 2 P / (π D t)",
-        "bending": "bending stress",
-        "shear": "shear stress",
-    }
-    return names.get(test, "axial stress")
-
-
-def _peak_text(test: str) -> str:
-    names = {"brazilian": "peak of 2 P / (pi D t)", "bending": "peak bending stress"}
-    names["shear"] = "peak shear stress"
-    return names.get(test, "peak stress")
 
 
 def _first_cracks(result: Result) -> str:

@@ -28,6 +28,11 @@ _USUAL: dict[str, tuple[float, float, str]] = {
 LARGEST_MISMATCH = 0.05
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
+#: Of a pulse that has not passed both sections in one piece.
+NO_PULSE = (
+    "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
+    "which has no speed"
+)
 
 
 def of_inputs(inputs: Table) -> list[str]:

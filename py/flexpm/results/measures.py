@@ -160,6 +160,8 @@ def crack_onset(
 def energy_error(curve: Curve, initial: float | None = None) -> float | None:
     """Largest |work + initial energy - sum of the energies| over the largest |work| [-].
 
+    Without work, as of a pulse that goes through a specimen, over the initial energy.
+
     Args:
         curve: The record.
         initial: Energy when the work began to count [J]; if None, as the first row has it.
@@ -168,7 +170,7 @@ def energy_error(curve: Curve, initial: float | None = None) -> float | None:
     total = np.sum([curve[name] for name in ENERGIES], axis=0)
     if len(work) == 0 or not np.all(np.isfinite(total + work)):
         return None
-    largest = np.max(np.abs(work))
+    largest = np.max(np.abs(work)) or abs(initial or 0.0)
     if not largest > 0.0:
         return None
     if initial is None:

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import InputError
 from ..files import Table, json_text, load_json, output_folder, write_text
 from ..notebook import Shown
-from . import doubts, measures
+from . import doubts, measures, waves
 from .cracks import MODES, Crack, cracks_csv, read_cracks
 from .emission import Event, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
@@ -21,8 +21,8 @@ from .snapshot import Snapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
-#: Tests that end at their largest displacement, whether or not they have passed a peak.
-_WITHOUT_PEAK = ("shear",)
+#: Tests that end by their nature, whether or not they have passed a peak.
+_WITHOUT_PEAK = ("shear", "sonic")
 #: Models whose damage energy is that of the contacts between grains alone, and exactly 0 before.
 _SOFTENING = ("flexible", "rigid")
 
@@ -75,6 +75,8 @@ class Result(Shown):
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
+    vp: float | None = None  #: speed of a plane pressure wave [m/s]
+    vs: float | None = None  #: speed of a plane shear wave [m/s]
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
     events: int | None = None  #: of acoustic emission
@@ -103,6 +105,8 @@ class Result(Shown):
         mismatch = measures.median_end_mismatch(record)
         rate = None if self.inputs is None else self.inputs["rate"]
         found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
+        if self.test == "sonic" and self.vp is None and self.vs is None:
+            found.append(doubts.NO_PULSE)
         return found + doubts.of_result(self.status, self.energy_error, mismatch, rate)
 
     def measure(
@@ -117,7 +121,7 @@ class Result(Shown):
 
         Args:
             max_unbalanced: Largest unbalanced-force ratio taken as quasi-static [-]: the median, or
-                that under way.
+                that under way; infinite for a test that is to be none.
             waiting: The loading waited for cracks: the ratio is that under way.
             initial_energy: Energy when the work began to count [J]; if None, from the first row.
             diverged: The simulation met a number that is not finite.
@@ -145,7 +149,9 @@ class Result(Shown):
             self.peak_strain = float(record["axial_strain"][peak])
         of_loading = measures.unbalanced_under_way if waiting else measures.median_unbalanced_ratio
         ratio = of_loading(record)
-        self.status = self._status(diverged, peak, ratio is None or ratio > max_unbalanced)
+        unknown = ratio is None and math.isfinite(max_unbalanced)
+        fast = unknown or (ratio is not None and ratio > max_unbalanced)
+        self.status = self._status(diverged, peak, fast)
 
     def measure_fracture(self, ligament: float) -> None:
         """Fill what a specimen that is broken through measures.
@@ -165,6 +171,15 @@ class Result(Shown):
         way, stress = self.curve["displacement"], self.curve["axial_stress"]
         if len(way) and np.isfinite(stress[-1]):
             self.residual_strength = float(np.mean(stress[way >= 0.9 * way[-1]]))
+
+    def measure_wave(self, wave: str, distance: float) -> None:
+        """Fill the speed of a pulse.
+
+        Args:
+            wave: ``p`` or ``s``.
+            distance: Of the sections between which it is taken [m].
+        """
+        setattr(self, waves.name_of(wave), waves.speed(self.curve, distance))
 
     def measure_fragments(self, snapshot: Snapshot) -> None:
         """Keep the final state and count what hangs together in it."""

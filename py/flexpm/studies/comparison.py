@@ -16,6 +16,7 @@ from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
+from ..laboratory.loading_rate import default_stop_ratio
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec, described
 from ..materials.material import COMPARED, Material
@@ -24,6 +25,7 @@ from ..materials.references import Reference, reference_of
 from ..progress import Progress
 from ..report.comparison import cracks_picture, curves_picture, envelope_picture
 from ..report.tables import columns, scaled
+from ..report.words import Shown, words_of_test
 from ..results.result import Result
 from ..results.strength import Envelope
 from ..specimens.specimen import Specimen
@@ -139,6 +141,7 @@ def compare(
     report = options.pop("report", True)
     output = Output(False, options.pop("frames", 0), options.pop("film", None))
     shared = {name: value for name, value in options.items() if value is not None}
+    shared.setdefault("stop_ratio", default_stop_ratio(test))
     cases = [
         Case(
             RunSpec(
@@ -178,29 +181,26 @@ def compare(
 
 def table(cases: Sequence[Case]) -> str:
     """One line for each run of a comparison."""
-    header = ("run", "E [GPa]", "nu", "peak [MPa]", "strain [%]", "tensile", "shear", "fragments")
+    shown = words_of_test(cases[0].spec.test).shown
+    header = ("run", *(one.heading for one in shown.values()), "fragments")
     rows: list[tuple[str, ...]] = []
     for case in cases:
         found = case.result
         if found is None:
             rows.append((case.name, *["-"] * (len(header) - 1), "failed"))
             continue
-        numbers = (
-            scaled(found.youngs_modulus, 1e-9, ""),
-            scaled(found.poissons_ratio, 1.0, "", 3),
-            scaled(found.peak_stress, 1e-6, ""),
-            scaled(found.peak_strain, 100.0, "", 3),
-            str(found.tensile_cracks),
-            str(found.shear_cracks),
-            str(found.fragments),
-        )
-        rows.append((case.name, *numbers, found.status))
+        numbers = (_cell(getattr(found, name), one) for name, one in shown.items())
+        rows.append((case.name, *numbers, str(found.fragments), found.status))
     drawn = columns((*header, "status"), rows)
     used = {case.model: name_of(case.material.name) for case in cases}
     if len(set(used.values())) == 1:
         return f"{drawn}\n  material of all: {next(iter(used.values()))}"
     each = ", ".join(f"{model} {name}" for model, name in used.items())
     return f"{drawn}\n  materials differ: {each}"
+
+
+def _cell(value: float | None, one: Shown) -> str:
+    return str(value) if isinstance(value, int) else scaled(value, one.factor, "", one.digits)
 
 
 def _materials(

@@ -23,6 +23,7 @@ from ..progress import Progress
 from ..report.comparison import envelope_picture
 from ..report.packings import Group, packings_picture
 from ..report.tables import columns, envelope_table, scaled
+from ..report.words import Words, words_of_test
 from ..results.strength import Envelope
 from ..text import name_of
 from . import jobs
@@ -30,16 +31,6 @@ from .jobs import Job
 from .pool import Pool
 from .tables import table, write_table
 
-#: Measures of which means are taken, with the factor, heading and digits of the printed table.
-SHOWN: dict[str, tuple[float, str, int]] = {
-    "youngs_modulus": (1e-9, "E [GPa]", 4),
-    "poissons_ratio": (1.0, "nu", 3),
-    "peak_stress": (1e-6, "peak [MPa]", 4),
-    "peak_strain": (100.0, "strain [%]", 3),
-    "tensile_cracks": (1.0, "tensile", 4),
-    "shear_cracks": (1.0, "shear", 4),
-}
-MEASURES = tuple(SHOWN)
 #: Inputs by which runs are told apart beside the packing.
 _BY = ["model", "confinement"]
 #: What is said of the runs of a group, by the ending of the column in means.csv.
@@ -109,7 +100,7 @@ def run(
         outcomes = pool.run(wanted, progress)
     rows = table(wanted, outcomes)
     rows.insert(1, "folder", [job.folder for job in wanted])
-    rows = rows.reindex(columns=[*dict.fromkeys([*rows.columns, *MEASURES, "status"])])
+    rows = rows.reindex(columns=[*dict.fromkeys([*rows.columns, *_measures(rows), "status"])])
     write_table(rows, folder / "table")
     write_table(means(rows), folder / "means")
     _draw(wanted, rows, folder)
@@ -132,7 +123,7 @@ def means(rows: pandas.DataFrame) -> pandas.DataFrame:
         good = group[_counted(group)]
         row: Table = {name: group[name].iloc[0] for name in ("test", *_BY)}
         row |= {"runs": len(group), "failed": len(group) - len(good)}
-        for name in MEASURES:
+        for name in _measures(rows):
             values = good[name].dropna().astype(float)
             deviation = values.std() if len(values) > 1 else math.nan
             row[name] = values.mean()
@@ -159,7 +150,7 @@ def text_table(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
     With several models or confinements only the last three, for each of them.
     """
     groups = means(rows)
-    header = [shown[1] for shown in SHOWN.values()]
+    header = [shown.heading for shown in words_of_test(wanted[0].spec.test).shown.values()]
     lines = []
     if len(groups) == 1:
         for _, row in rows.iterrows():
@@ -198,9 +189,14 @@ def _counted(rows: pandas.DataFrame) -> pandas.Series:
     return rows["exit_code"].eq(0).fillna(False).astype(bool)
 
 
+def _measures(rows: pandas.DataFrame) -> tuple[str, ...]:
+    """Measures of which means are taken."""
+    return words_of_test(rows["test"].iloc[0]).measures
+
+
 def _cells(row: pandas.Series, ending: str) -> list[str]:
     cells = []
-    for name, (factor, _, digits) in SHOWN.items():
+    for name, (factor, _, digits) in words_of_test(row["test"]).shown.items():
         value = row[f"{name}{ending}"]
         if pandas.isna(value):
             cells.append("-")
@@ -217,19 +213,16 @@ def _label(row: pandas.Series) -> str:
 
 
 def _draw(wanted: Sequence[Job], rows: pandas.DataFrame, folder: Path) -> None:
-    groups = []
+    groups, names = [], words_of_test(wanted[0].spec.test)
     for (_, mean), (_, runs) in zip(
         means(rows).iterrows(), rows.groupby(_BY, sort=False), strict=True
     ):
         curves = [
-            (one["axial_strain"].to_numpy(), one["axial_stress"].to_numpy(), counts)
+            (one[names.x.column].to_numpy(), one[names.y.column].to_numpy(), counts)
             for place, counts in zip(runs["folder"], _counted(runs), strict=True)
-            if (one := _curve(folder / place / "curve.csv")) is not None
+            if (one := _curve(folder / place / "curve.csv", names)) is not None
         ]
-        peak, scatter = (
-            (float(mean[f"peak_strain{ending}"]), float(mean[f"peak_stress{ending}"]))
-            for ending in ("", "_deviation")
-        )
+        peak, scatter = _peak(mean, ""), _peak(mean, "_deviation")
         count = f"{mean['runs'] - mean['failed']} of {mean['runs']}"
         groups.append(Group(_label(mean), curves, peak, scatter, count))
     packings_picture(folder / "curves.png", wanted[0].spec.test, groups)
@@ -240,9 +233,15 @@ def _draw(wanted: Sequence[Job], rows: pandas.DataFrame, folder: Path) -> None:
         envelope_picture(folder / "envelope.png", found, rock)
 
 
-def _curve(path: Path) -> pandas.DataFrame | None:
+def _peak(mean: pandas.Series, ending: str) -> tuple[float, float]:
+    """Strain and stress of the mean peak or their scatter; nan for a test without them."""
+    strain, stress = (mean.get(f"peak_{one}{ending}", math.nan) for one in ("strain", "stress"))
+    return float(strain), float(stress)
+
+
+def _curve(path: Path, names: Words) -> pandas.DataFrame | None:
     try:
-        return pandas.read_csv(path, usecols=["axial_strain", "axial_stress"])
+        return pandas.read_csv(path, usecols=[names.x.column, names.y.column])
     except (OSError, ValueError):  # a run that failed before its first row
         return None
 

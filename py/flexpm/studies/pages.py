@@ -20,11 +20,11 @@ from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_
 from ..report.page import write as write_page
 from ..report.page_run import STATUS, cite, inputs_table, run_map, versions
 from ..report.style import CYCLE
-from ..report.tables import scaled, size_text, stress_text
+from ..report.tables import scaled, size_text
+from ..report.words import words_of_test
 from ..results.result import Result
 from ..text import name_of, words_of
 from .jobs import place_of
-from .packings import SHOWN
 
 #: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
 _MOST_MAPS = 6
@@ -194,12 +194,13 @@ def _runs(
     inputs: Sequence[str] = (),
 ) -> Rows:
     """One line a run: what was asked, what came out."""
-    header = ["run", *map(words_of, inputs), *(shown[1] for shown in SHOWN.values()), *_MORE]
+    shown = {key: value for row in rows for key, value in words_of_test(row["test"]).shown.items()}
+    header = ["run", *map(words_of, inputs), *(one.heading for one in shown.values()), *_MORE]
     lines = [
         [
             name,
             *(_plain(row.get(key, "")) for key in inputs),
-            *(_cell(row.get(key, ""), *SHOWN[key]) for key in SHOWN),
+            *(_cell(row.get(key, ""), *shown[key]) for key in shown),
             *(row.get(key, "") or "-" for key in _MORE),
         ]
         for name, row in zip(names, rows, strict=True)
@@ -210,11 +211,12 @@ def _runs(
 
 def _means(means: Sequence[Mapping[str, str]]) -> Rows:
     """Means over the packings with their standard deviations."""
-    header = ["model", "confinement [MPa]", "runs", *(shown[1] for shown in SHOWN.values())]
+    shown = words_of_test(means[0]["test"]).shown
+    header = ["model", "confinement [MPa]", "runs", *(one.heading for one in shown.values())]
     lines = []
     for row in means:
         cells = []
-        for key, (factor, _, digits) in SHOWN.items():
+        for key, (factor, _, digits) in shown.items():
             mean = _cell(row[key], factor, "", digits)
             scatter = _cell(row[f"{key}_deviation"], factor, "", 2)
             cells.append(f"{mean} ± {scatter}")
@@ -243,18 +245,20 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
     """Stress over strain of all runs in one chart."""
     lines = []
     for number, (name, one) in enumerate([*found.items()][:_MOST_CURVES]):
-        strain, stress = one.curve["axial_strain"], one.curve["axial_stress"]
-        kept = [] if one.peak_stress is None else [int(np.argmax(stress == one.peak_stress))]
+        words = words_of_test(one.test)
+        strain, stress = one.curve[words.x.column], one.curve[words.y.column]
+        at_peak = one.curve["axial_stress"] == one.peak_stress
+        kept = [] if one.peak_stress is None else [int(np.argmax(at_peak))]
         rows = rows_to_draw(np.column_stack([strain, stress]), _POINTS, kept)
         marks = [int(np.searchsorted(rows, row)) for row in kept]
-        x, y = numbers(strain[rows], 100.0), numbers(stress[rows], 1e-6)
+        x, y = numbers(strain[rows], words.x.factor), numbers(stress[rows], words.y.factor)
         colour, dashed = CYCLE[number % len(CYCLE)], number // len(CYCLE) % 2 == 1
         lines.append(Line(name, x, y, colour, dashed=dashed, marks=marks))
     if not lines:
         return []
-    test = next(iter(found.values())).test
-    title, y_title = "Stress over strain", f"{stress_text(test)} [MPa]"
-    return [Chart("stress", title, "axial strain [%]", y_title, lines, shared=False)]
+    names = words_of_test(next(iter(found.values())).test)
+    axes = names.x.label, names.y.label
+    return [Chart("stress", names.title(), *axes, lines, shared=False)]
 
 
 def _about(found: Mapping[str, Result]) -> list[Rows]:

@@ -119,6 +119,32 @@ TEST_CASE("Gauges read what their nodes and plates move, each on its side of a n
         gauge_points(a, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Matchers::Contains("length"));
 }
 
+TEST_CASE("A section reads the mean way of the nodes in its band")
+{
+    Assembly a = grains(GENERATE(false, true));
+    const Point up = { 0.0, 1.0 };
+    const Section found = section_at(a, 0.01, up, 0.002);
+    REQUIRE(found.nodes.size() > 10);
+    CHECK(found.place == Approx(0.01).margin(5e-4));
+    for (int n : found.nodes)
+        CHECK(std::fabs(a.grains.reference[component(n, 1)] - 0.01) <= 0.002);
+    // a strain of 1e-3 along y moves the nodes by that of their mean place
+    for_each_component(a.grains, [&](int i) {
+        a.grains.displacement[i] = axis_of(i) == 1 ? 1e-3 * a.grains.reference[i] : 0.0;
+    });
+    CHECK(mean_way(a, found.nodes, up) == Approx(1e-3 * found.place).epsilon(1e-12));
+    CHECK(mean_way(a, found.nodes, { 1.0, 0.0 }) == 0.0);
+    // a grain that has been erased has no nodes any more
+    const int gone = grain_node(a.grains, found.nodes.front()).grain;
+    a.grains.erased[gone] = 1;
+    for (int n : section_at(a, 0.01, up, 0.002).nodes)
+        CHECK(grain_node(a.grains, n).grain != gone);
+    CHECK_THROWS_WITH(section_at(a, 5.0, up, 0.001), Catch::Matchers::Contains("section"));
+    CHECK_THROWS_WITH(mean_way(a, {}, up), Catch::Matchers::Contains("at least 1"));
+    CHECK_THROWS_WITH(mean_way(a, { -1 }, up), Catch::Matchers::Contains("node"));
+    CHECK_THROWS_WITH(mean_way(a, { 1 << 30 }, up), Catch::Matchers::Contains("node"));
+}
+
 TEST_CASE("The scales of a bar between parts are those of its length and modulus")
 {
     Assembly a = grains();

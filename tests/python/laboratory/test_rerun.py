@@ -12,7 +12,7 @@ import pytest
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.laboratory import rerun
+from flexpm.laboratory.asked import read_inputs
 from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials.material import load, preset_names
 from flexpm.materials.mixing import from_description
@@ -160,7 +160,7 @@ def test_a_material_that_cannot_be_read_is_refused(tmp_path, key, value):
     file = tmp_path / "result.json"
     file.write_text(json.dumps({"inputs": spec}))
     with pytest.raises(InputError, match=r"result.json"):
-        rerun.read_inputs(file)
+        read_inputs(file)
 
 
 def test_a_result_is_read_with_its_record_cracks_and_inputs(tmp_path):

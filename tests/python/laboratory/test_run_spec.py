@@ -18,11 +18,12 @@ from flexpm.laboratory import run_spec
 from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO, LOADINGS
 from flexpm.laboratory.run_spec import (
     ELASTIC,
-    PART_MODELS,
-    PART_TESTS,
+    SONIC,
     TESTS,
     RunSpec,
     described,
+    models_of,
+    shape_of,
 )
 from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
 from flexpm.materials.mixing import is_brittle
@@ -58,10 +59,10 @@ def specimens(draw, kind: str) -> SpecimenSpec:
 def specs(draw) -> RunSpec:
     """Any run that can be asked for."""
     test = draw(st.sampled_from((*TESTS, ELASTIC)))
-    models = {ELASTIC: GRAIN_MODELS, **dict.fromkeys(PART_TESTS, PART_MODELS)}.get(test, MODELS)
-    model = draw(st.sampled_from(models))
+    model = draw(st.sampled_from(models_of(test)))
     grains = model in GRAIN_MODELS
-    dynamic = draw(st.booleans())
+    loaded = test != SONIC
+    dynamic = not loaded or draw(st.booleans())
     cohesion = draw(st.floats(1e7, 3e7))
     material = materials.load(None, model).with_set([f"cohesion={cohesion!r}"], model)
     starts = ["", "rest"]
@@ -70,19 +71,22 @@ def specs(draw) -> RunSpec:
     adapts = grains and not dynamic and test != ELASTIC
     waits = adapts and not model.startswith("inner") and not is_brittle(described(material, model))
     loadings = [name for name in LOADINGS if waits or name != "waiting"] if adapts else ["constant"]
+    specimen = draw(specimens(shape_of(test)))
+    if test == SONIC:  # of 50 grains at least
+        specimen = dataclasses.replace(specimen, height=draw(st.floats(0.2, 1.0)))
     return RunSpec(
         test,
-        draw(specimens("disc" if test == "brazilian" else "rectangle")),
+        specimen,
         described(material, model),
         model,
         points=draw(st.sampled_from(POINTS)) if grains else 3,
         mesh=draw(st.sampled_from(MESHES)) if grains else "refined",
         confinement=draw(st.floats(0.0, 1e9)) if test == "biaxial" else 0.0,
-        rate=draw(POSITIVE),
-        max_strain=draw(st.none() | POSITIVE),
+        rate=draw(POSITIVE) if loaded else 1.0,
+        max_strain=draw(st.none() | POSITIVE) if loaded else None,
         stop_ratio=draw(st.floats(0.01, LARGEST_STOP_RATIO)),
         dynamic=dynamic,
-        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic else 0.0,
+        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded else 0.0,
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
     )

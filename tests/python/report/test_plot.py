@@ -133,3 +133,37 @@ def test_pictures_need_neither_a_display_nor_pyplot():
         env={**os.environ, "PYTHONPATH": package},
     )
     assert found.stdout.strip() == "True"
+
+
+@pytest.mark.parametrize(
+    ("test", "strain"),
+    [("uniaxial", "axial strain [%]"), ("bending", "strain of the outer fibre [%]")],
+)
+def test_axes_are_named_in_the_words_of_the_test(test, strain, tmp_path, monkeypatch):
+    labels = []
+    monkeypatch.setattr(
+        curves, "save", lambda figure, _: labels.extend(a.get_xlabel() for a in figure.axes)
+    )
+    result = dataclasses.replace(result_with_peak([0.0, 1e6, 2e6, 1e6]), test=test)
+    curves.curve_picture(tmp_path / "curve.png", result)
+    assert strain in labels
+
+
+def test_a_shear_test_is_drawn_over_its_displacement(tmp_path, monkeypatch):
+    """Its line, its peak and places of its strains, which are a hundred times as large in µm."""
+    drawn = []
+    monkeypatch.setattr(curves, "save", lambda figure, _: drawn.extend(figure.axes))
+    record = Curve(("displacement",))
+    for step, stress in enumerate([0.0, 1e6, 3e6, 1e6]):
+        strain = 1e-5 * step
+        values = {"step": step, "axial_strain": strain, "axial_stress": stress}
+        record.append(**dict.fromkeys(COLUMNS, 0.0) | values, displacement=0.04 * strain)
+    result = dataclasses.replace(
+        result_with_peak([0.0]), test="shear", curve=record, peak_stress=3e6, peak_strain=2e-5
+    )
+    curves.curve_picture(tmp_path / "curve.png", result)
+    line, peak = drawn[0].lines
+    assert line.get_xdata() == pytest.approx([0.0, 0.4, 0.8, 1.2])
+    assert (*peak.get_xdata(), *peak.get_ydata()) == pytest.approx((0.8, 3.0))
+    assert curves.places_of(result, 1.5e-5) == pytest.approx(0.6)
+    assert drawn[0].get_xlabel() == "displacement [µm]"

@@ -9,15 +9,13 @@ import pytest
 
 from flexpm.cli import main as cli
 from flexpm.laboratory.run_spec import (
-    PART_MODELS,
-    PART_TESTS,
     TESTS,
     RunSpec,
     described,
+    models_of,
     shape_of,
 )
 from flexpm.materials import material as materials
-from flexpm.models.options import MODELS
 from flexpm.results import doubts
 from flexpm.specimens.spec import SpecimenSpec
 
@@ -27,7 +25,7 @@ TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
 @pytest.mark.parametrize("preset", [None, *materials.preset_names()])
 @pytest.mark.parametrize("test", TESTS)
 def test_no_preset_and_no_default_is_doubtful(test, preset):
-    for model in PART_MODELS if test in PART_TESTS else MODELS:
+    for model in models_of(test):
         chosen = materials.load(preset, model)
         if materials.elastic_set_name(model) in chosen.elastic:
             specimen = SpecimenSpec(shape_of(test))

@@ -62,6 +62,8 @@ KEYS = [
     "fracture_toughness",
     "residual_strength",
     "fracture_energy",
+    "vp",
+    "vs",
     "fragments",
     "largest_fragment",
     "events",
@@ -448,3 +450,12 @@ def test_a_folder_that_cannot_be_written_to_is_refused_in_one_line(tmp_path, nam
     with pytest.raises(InputError, match="must be a folder that can be written to") as caught:
         output_folder(tmp_path / name)
     assert "\n" not in str(caught.value)
+
+
+def test_without_work_the_energy_error_is_the_share_of_the_initial_energy():
+    record = Curve()
+    for step, kinetic in enumerate((4.0, 3.0, 3.9)):
+        record.append(**row(step=step, kinetic_energy=kinetic, elastic_energy=4.0 - kinetic))
+    assert measures.energy_error(record, initial=4.0) == 0.0
+    assert measures.energy_error(record, initial=4.4) == pytest.approx(0.4 / 4.4)
+    assert measures.energy_error(record) is None

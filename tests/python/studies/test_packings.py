@@ -13,6 +13,7 @@ from matplotlib.image import imread
 from flexpm.cli import main as cli
 from flexpm.cli.options import Seeds
 from flexpm.errors import InputError
+from flexpm.report.words import words_of_test
 from flexpm.studies import packings
 
 SMALL = ["--width", "0.01", "--height", "0.02", "--thickness", "0.01", "--rate", "4", "--quiet"]
@@ -75,7 +76,7 @@ def test_means_leave_out_failed_and_lost_runs():
             "confinement": [1e6] * 5,
             "exit_code": [0, 0, 3, None, 0],
             "peak_stress": [1.0, 4.0, 100.0, 100.0, 7.0],
-            **dict.fromkeys(set(packings.MEASURES) - {"peak_stress"}, 2.0),
+            **dict.fromkeys(set(words_of_test("uniaxial").measures) - {"peak_stress"}, 2.0),
         }
     ).convert_dtypes()
     flexible, rigid = packings.means(rows).to_dict("records")
@@ -93,7 +94,7 @@ def test_a_run_that_failed_is_named_and_in_no_mean(short, capsys):
     (row,) = rows_of(folder / "means.csv")
     good = result_of(folder / "seed-2")
     assert (row["runs"], row["failed"]) == ("2", "1")
-    for name in packings.MEASURES:
+    for name in words_of_test("uniaxial").measures:
         assert float(row[name]) == good[name]
     assert imread(folder / "curves.png").shape[0] > 300
     # the second start only reads what is there, and says the same

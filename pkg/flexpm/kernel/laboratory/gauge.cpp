@@ -4,6 +4,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace flexpm {
@@ -34,6 +35,13 @@ int nearest_node(const Assembly& a, Point place, Point other)
     return nearest;
 }
 
+void need_node(const Assembly& a, int node)
+{
+    const int last = static_cast<int>(a.grains.displacement.size()) - lanes;
+    if (node < 0 || node >= last)
+        refuse("node of a gauge", node, "", "must be one of gauge_points() or section_at()");
+}
+
 }  // namespace
 
 GaugePoints gauge_points(const Assembly& a, Point first, Point second)
@@ -56,14 +64,40 @@ double plate_way(const Assembly& a, int plate, Point direction)
 
 double gauge_opening(const Assembly& a, const GaugePoints& gauge, Point direction)
 {
-    for (int node : { gauge.first, gauge.second }) {
-        const int last = static_cast<int>(a.grains.displacement.size()) - lanes;
-        if (node < 0 || node >= last)
-            refuse("node of a gauge", node, "", "must be one of gauge_points()");
-    }
+    for (int node : { gauge.first, gauge.second })
+        need_node(a, node);
     const Point way = vector_at(a.grains.displacement, gauge.second)
         - vector_at(a.grains.displacement, gauge.first);
     return dot(way, direction);
+}
+
+Section section_at(const Assembly& a, double place, Point direction, double half_width)
+{
+    Section found;
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (a.grains.erased[g]) continue;
+        for (int k = 0; k < a.grains.nodes_of(g); ++k) {
+            const int node = a.grains.node(g, k);
+            const double along = dot(reference_of(a, node), direction);
+            if (!(std::fabs(along - place) <= half_width)) continue;
+            found.nodes.push_back(node);
+            found.place += along;
+        }
+    }
+    if (found.nodes.empty()) refuse("nodes in a section", 0.0, "", "must be at least 1");
+    found.place /= static_cast<double>(found.nodes.size());
+    return found;
+}
+
+double mean_way(const Assembly& a, const std::vector<int>& nodes, Point direction)
+{
+    if (nodes.empty()) refuse("nodes of a gauge", 0.0, "", "must be at least 1");
+    double sum = 0.0;
+    for (int node : nodes) {
+        need_node(a, node);
+        sum += dot(vector_at(a.grains.displacement, node), direction);
+    }
+    return sum / static_cast<double>(nodes.size());
 }
 
 }  // namespace flexpm

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Gauges on a specimen: how far two points move apart, and how far a plate moves. SI units.
+/// @file  Gauges on a specimen: how far two points move apart, how far a plate moves, or a section. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <vector>
 
 namespace flexpm {
 
@@ -26,5 +28,20 @@ double plate_way(const Assembly& a, int plate, Point direction);
 /// How far the points have moved apart along a unit vector [m].
 /// @throws std::invalid_argument  if one of them is no node of the assembly
 double gauge_opening(const Assembly& a, const GaugePoints& gauge, Point direction);
+
+/// A section through a specimen: the nodes in a band, and where they lie.
+struct Section {
+    std::vector<int> nodes;
+    double place =
+        0.0;  ///< mean of the bonded nodes along the direction that the band lies across [m]
+};
+
+/// Nodes of grains, bonded, that are no further than half a width from a place along a unit vector.
+/// @throws std::invalid_argument  if there are none
+Section section_at(const Assembly& a, double place, Point direction, double half_width);
+
+/// Mean way of nodes along a unit vector [m].
+/// @throws std::invalid_argument  if there are none, or one of them is no node of the assembly
+double mean_way(const Assembly& a, const std::vector<int>& nodes, Point direction);
 
 }  // namespace flexpm

@@ -12,6 +12,7 @@ Gauge::~Gauge() = default;
 Real Gauge::moved(const flexpm::Assembly& assembly) const
 {
 	const flexpm::Point along = { direction[0], direction[1] };
+	if (!nodes.empty()) return flexpm::mean_way(assembly, nodes, along);
 	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : flexpm::gauge_opening(assembly, { first, second }, along);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A reading of a specimen by its name: how far two points open, a strain, the way of a plate.
+/// @file  A reading of a specimen by its name: how far two points open, a strain, the way of a plate or a section.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -23,11 +23,12 @@ private:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Gauge, Serializable,
-		"Reads how far two nodes of grains move apart, as an opening or a strain, or how far a plate moves; :yref:`AxialRecorder` records it under its name. GrainSolver.gaugePoints finds the nodes.",
+		"Reads how far two nodes of grains move apart, as an opening or a strain, how far a plate moves, or the mean way of nodes; :yref:`AxialRecorder` records it under its name. GrainSolver.gaugePoints and GrainSolver.sectionNodes find the nodes.",
 		((string, name,,, "Of the column."))
 		((int, first, -1,, "Node at the first place, as GrainSolver.gaugePoints gives it [-]."))
 		((int, second, -1,, "Node at the second place [-]."))
 		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))
+		((vector<int>, nodes,,, "Nodes whose mean way is read instead, as GrainSolver.sectionNodes gives them [-]."))
 		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or the way, a unit vector [-]."))
 		((Real, zero, 0.,, "What it has opened, or the plate has moved, when it began to count [m]."))
 		((Real, length, 0.,, "Length to which a strain refers; 0: the opening itself [m]."))

@@ -67,6 +67,7 @@ public:
 	int        addTouchingPlate(Vector3r normal, Real friction);
 	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
 	py::tuple  gaugePoints(Vector3r first, Vector3r second);
+	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
 	void       fixTangential(int plate);
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
@@ -119,6 +120,8 @@ public:
 			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number. Scale the masses afterwards.")
 		.def("gaugePoints", AfterAssembly<&GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
+		.def("sectionNodes", AfterAssembly<&GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
+			"The nodes in a band of a width [m] around a place along a direction, a unit vector, and their mean place along it [m], for :yref:`Gauge`.")
 		.def("fixTangential", AfterAssembly<&GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
 		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")

@@ -33,6 +33,15 @@ py::tuple GrainSolver::gaugePoints(Vector3r first, Vector3r second)
 	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(assembly, gauge));
 }
 
+py::tuple GrainSolver::sectionNodes(Real place, Vector3r direction, Real width)
+{
+	const auto section = flexpm::section_at(current(), place, { direction[0], direction[1] }, width / 2);
+	py::list   nodes;
+	for (int node : section.nodes)
+		nodes.append(node);
+	return py::make_tuple(nodes, section.place);
+}
+
 void GrainSolver::fixTangential(int plate) { flexpm::fix_tangential(assembly, plate); }
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A plane pulse through a rectangle of grains, and how fast it goes: the test ``sonic``. SI units.
+
+Deviations D48 and D49.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NoReturn
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from ..arrays import FloatArray
+from ..errors import SimulationError
+from ..materials.mixing import mineral_materials
+from ..models.grains import Model
+from ..results import waves
+from ..results.record import Curve
+from ..specimens import mineral_map
+from .grain_rig import GrainRig
+from .rig import LEFT, RIGHT
+from .run_spec import PULSE
+from .runner import Runner, Span
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+#: Heights of the two sections over that of the specimen [-].
+_SECTIONS = (0.25, 0.75)
+#: Width of the band of nodes that a section is, in mean diameters of the grains [-].
+_BAND = 2.0
+#: Strain of the pulse [-]: far below that at which a contact softens.
+_STRAIN = 1e-7
+#: Rows of the record, about.
+_ROWS = 500
+#: Components of the motion.
+_ACROSS, _ALONG = 0, 1
+
+
+@dataclass(frozen=True)
+class _Edge:
+    """The edge of a rigid grain on a side, which must not move along it.
+
+    Held by its centre alone, a grain would carry the half of its mass that lies outwards without
+    the shear stress that moves it: a shear wave would be slower by a quarter of the grain over the
+    width, 2.4 % at 27 grains.
+    """
+
+    shape: wrapper.LaguerreCell
+    arms: FloatArray  #: of its nodes from the centre, (n, 2) [m]
+    arm: float  #: of the edge from the centre, along x [m]
+    mass: float  #: [kg]
+    inertia: float  #: about the centre [kg m2]
+
+    def hold(self) -> None:
+        """Push on the edge so that it stands still."""
+        velocity = self.shape.velocities
+        x, y = velocity[-1]
+        turned = np.column_stack((-self.arms[:, 1], self.arms[:, 0]))
+        spin = float(np.sum(turned * (velocity - velocity[-1])) / np.sum(self.arms**2))
+        push = -(y + spin * self.arm) / (1.0 / self.mass + self.arm**2 / self.inertia)
+        motion = (float(x), float(y + push / self.mass), 0.0)
+        self.shape.setMotion(motion, spin + self.arm * push / self.inertia)
+
+
+class WaveRig(GrainRig):
+    """A rectangle between sides that are held across the motion of a wave; its ends are free."""
+
+    def __init__(self, built: Model, wave: str, *, runner: Runner | None = None) -> None:
+        """Take grains that have just been built, or whose scene has been loaded.
+
+        Args:
+            built: A rectangle with real masses and without damping.
+            wave: ``p``: grains move along the height; ``s``: across it.
+            runner: Steps, shows progress and saves checkpoints; None for one that only steps.
+        """
+        super().__init__(built, runner=runner)
+        self._moved = _ALONG if wave == "p" else _ACROSS
+        box = built.specimen.dimensions
+        self._height = box["height"]
+        low = np.asarray(built.specimen.outline).min(axis=0)
+        self._bottom = float(low[1])
+        self._edges = list(self._held_edges())
+        width = _BAND * built.specimen.mean_diameter
+        self._sections = [
+            built.solver.sectionNodes(self._bottom + part * self._height, (0.0, 1.0, 0.0), width)
+            for part in _SECTIONS
+        ]
+
+    @property
+    def kind(self) -> str:
+        """Name of the test."""
+        return "sonic"
+
+    @property
+    def distance(self) -> float:
+        """Of the two sections [m]."""
+        near, far = (place for _, place in self._sections)
+        return far - near
+
+    @property
+    def record(self) -> Curve:
+        """The record so far; its strain is that between the sections, and its ends bear nothing."""
+        names, rows = self._recorder.names, self._recorder.rows
+        curve = Curve.from_columns(names, rows, waves.DISPLACEMENTS)
+        near, far = (curve[name] for name in waves.DISPLACEMENTS)
+        curve["axial_strain"][:] = (near - far) / self.distance
+        curve["axial_stress"][:] = 0.0
+        curve["lateral_strain"][:] = curve["end_mismatch"][:] = np.nan
+        time = curve["step"] * yade.O.dt
+        table = np.column_stack([curve.array, time])
+        return Curve.from_array(table, (*waves.DISPLACEMENTS, waves.TIME))
+
+    def send(self) -> None:
+        """Let a pulse go from the bottom until it has passed the upper section."""
+        self._stage(self._begin_wave, lambda: self.diverged)
+
+    def expected_speed(self) -> float:
+        """Of the wave in a continuum with the elastic constants of the specimen [m/s]."""
+        young, poisson = self.built.solver.elasticConstants()
+        modulus = waves.modulus("p" if self._moved == _ALONG else "s", young, poisson)
+        return math.sqrt(modulus / self._density())
+
+    def _begin_wave(self) -> Span:
+        crossing = self._height / self.expected_speed()
+        self._hold_sides()
+        self._move_bottom()
+        solver = self.built.solver
+        solver.resetEnergyBalance()
+        steps = math.ceil(crossing / yade.O.dt)
+        period = max(1, steps // _ROWS)
+        solver.measurePeriod, solver.mirrorPeriod = period, solver.checkPeriod
+        recorder = self._recorder
+        recorder.leastPeak = 1e300  # nothing ends the test but its time
+        direction = (0.0, 1.0, 0.0) if self._moved == _ALONG else (1.0, 0.0, 0.0)
+        for name, (nodes, _) in zip(waves.DISPLACEMENTS, self._sections, strict=True):
+            recorder.addGauge(wrapper.Gauge(name=name, nodes=nodes, direction=direction))
+        self.built.add_engines(after=(recorder,))
+        rows = -(-steps // period)
+        return Span(rows * period, rows * period)
+
+    def _step(self) -> None:
+        super()._step()
+        for edge in self._edges:
+            edge.hold()
+
+    def _hold_sides(self) -> None:
+        """Keep the sides from moving across the wave's motion, so that the wave is plane."""
+        held = 1 - self._moved
+        for grain, node in self._side_nodes():
+            shape = self._shape(grain)
+            if not shape.rigid:
+                shape.held[node, held] = 1
+            elif held == _ACROSS:
+                shape.held[-1, held] = 1  # nodes of a rigid grain follow its centre, the last
+
+    def _held_edges(self) -> Iterator[_Edge]:
+        """Edges of rigid grains on the sides, where a shear wave is held."""
+        if self._moved == _ALONG:
+            return
+        nodes: dict[int, list[int]] = {}
+        for grain, node in self._side_nodes():
+            nodes.setdefault(grain, []).append(node)
+        for grain, on_side in nodes.items():
+            shape = self._shape(grain)
+            if shape.rigid:
+                state = yade.O.bodies[self.built.solver.bodyIds[grain]].state
+                places = shape.positions - shape.displacements
+                arms = places - places[-1]
+                arm = float(np.mean(arms[on_side, 0]))
+                yield _Edge(shape, arms, arm, state.mass, state.inertia[2])
+
+    def _side_nodes(self) -> Iterator[tuple[int, int]]:
+        """Grain and node of all nodes on both sides."""
+        for side in (LEFT, RIGHT):
+            for grain, node in self.built.solver.sideNodes(side):
+                yield int(grain), int(node)
+
+    def _move_bottom(self) -> None:
+        """Give the lower end the velocities of a pulse. Deviation D48.
+
+        By the free end's mirror half of them goes up as a pulse of twice their length.
+        """
+        reach = 0.5 * PULSE * self._height
+        largest = 2.0 * _STRAIN * self.expected_speed()
+        for grain in range(len(self.built.solver.bodyIds)):
+            shape = self._shape(grain)
+            places = shape.positions[:, 1] - self._bottom
+            velocity = largest * _pulse(places / reach)
+            if shape.rigid:
+                speed = float(velocity[-1])
+                shape.setMotion((0.0, speed, 0.0) if self._moved else (speed, 0.0, 0.0), 0.0)
+            else:
+                shape.velocities[:, self._moved] = velocity
+
+    def _pressing(self) -> None:
+        return None
+
+    def _press(self, pressure: float, ramp: int) -> NoReturn:
+        self._refuse("confine")
+
+    def _take_hold(self) -> NoReturn:
+        self._refuse("load")
+
+    def _move(self, velocity: float, factor: float) -> NoReturn:
+        self._refuse("load")
+
+    def _refuse(self, stage: str) -> NoReturn:
+        raise SimulationError(f"{stage}: test = sonic, must be one that loads; call send")
+
+    def _shape(self, grain: int) -> wrapper.LaguerreCell:
+        shape = yade.O.bodies[self.built.solver.bodyIds[grain]].shape
+        assert isinstance(shape, wrapper.LaguerreCell)
+        return shape
+
+    def _density(self) -> float:
+        """Mean over the minerals by their areas [kg/m3]."""
+        kinds = mineral_materials(self.built.material)
+        density = np.array([kind.law(self.built.name)["density"] for kind in kinds])
+        if self.built.minerals is None:
+            return float(density[0])
+        areas = mineral_map.area_fractions(self.built.specimen, self.built.minerals, len(kinds))
+        return float(density @ areas)
+
+    def _standing(self) -> str:
+        return f"{1e6 * yade.O.iter * yade.O.dt:.1f} us"
+
+
+def _pulse(place: FloatArray) -> FloatArray:
+    """Half a pulse, from 1 at a place of 0 down to 0 at 1 and beyond [-]."""
+    found: FloatArray = np.where(place < 1.0, 0.5 * (1.0 + np.cos(math.pi * place)), 0.0)
+    return found

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Speed of a plane pulse between two sections of a specimen: deviation D49. SI units."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import FloatArray
+from .record import Curve
+
+#: Columns of the mean displacement of the lower and of the upper section [m], and of the time [s].
+DISPLACEMENTS = ("near_displacement", "far_displacement")
+TIME = "time"
+#: Share of the largest velocity of a section that may be left once a pulse has passed it [-]: else
+#: what it has gone through has scattered it.
+_LARGEST_REST = 0.05
+
+
+def modulus(wave: str, young: float, poisson: float) -> float:
+    """Stress over strain in a plane wave whose sides are held across its motion [Pa].
+
+    Args:
+        wave: ``p`` or ``s``.
+        young: Young's modulus in the plane [Pa].
+        poisson: Poisson's ratio in the plane [-].
+    """
+    if wave == "p":
+        return young / (1.0 - poisson**2)
+    return young / (2.0 * (1.0 + poisson))
+
+
+def velocities(curve: Curve) -> tuple[FloatArray, FloatArray]:
+    """Mean velocities of the lower and of the upper section [m/s]."""
+    time = curve[TIME]
+    near, far = (np.gradient(curve[name], time) for name in DISPLACEMENTS)
+    return near, far
+
+
+def centre(time: FloatArray, displacement: FloatArray) -> float:
+    """Mean time of a pulse, each moment weighted by the velocity in it [s].
+
+    It is the time at which its longest waves pass, whatever the grains do with the shorter ones.
+    By parts it needs no velocity: T - integral of u / u(T) from 0 to T.
+    """
+    t, u = (np.concatenate([[0.0], column]) for column in (time, displacement))
+    area = float(0.5 * (u[1:] + u[:-1]) @ np.diff(t))
+    return float(t[-1]) - area / float(u[-1])
+
+
+def speed(curve: Curve, distance: float) -> float | None:
+    """Speed by the travel time of the pulse's centre from one section to the other [m/s].
+
+    None if a section still moves at the end of the record: the pulse has not passed as one.
+
+    Args:
+        curve: With the columns of the displacements and of the time.
+        distance: Of the sections [m].
+    """
+    if len(curve) < 3 or not np.all(np.isfinite(curve[DISPLACEMENTS[1]])):
+        return None
+    if not all(_has_passed(one) for one in velocities(curve)):
+        return None
+    near, far = (centre(curve[TIME], curve[name]) for name in DISPLACEMENTS)
+    return distance / (far - near) if far > near else None
+
+
+def _has_passed(velocity: FloatArray) -> bool:
+    largest = float(np.max(np.abs(velocity)))
+    return largest > 0.0 and abs(float(velocity[-1])) <= _LARGEST_REST * largest
+
+
+def name_of(wave: str) -> str:
+    """Name of the speed of a wave in result.json."""
+    return {"p": "vp", "s": "vs"}[wave]
