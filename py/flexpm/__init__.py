@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         Loading,
         Material,
         Model,
+        PartRig,
         Result,
         SimulationError,
         Specimen,
@@ -42,6 +43,7 @@ __all__ = [
     "build",
     "compare",
     "elastic",
+    "load",
     "rig",
     "run",
 ]
@@ -79,8 +81,9 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """Names to be completed: also those that are imported later."""
-    return sorted({*globals(), *__all__, *_MODULES})
+    """Names to be completed: public ones only, also those that are imported later."""
+    special = {name for name in globals() if name.startswith("__")}
+    return sorted({*special, *__all__, *_MODULES})
 
 
 # removed, so that programs started from here load the classes at once

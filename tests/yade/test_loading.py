@@ -121,6 +121,7 @@ def test_public_names_can_be_completed(package_parent: Path, tmp_path: Path) -> 
     code = (
         f"import flexpm\nnames = {names.split()}\n"
         "assert set(names) <= set(dir(flexpm))\n"
+        "assert {'os', 'annotations', 'Any', 'TYPE_CHECKING'}.isdisjoint(dir(flexpm))\n"
         "for name in names: getattr(flexpm, name)\n"
     )
     done = run([PYTHON, "-c", code], package_parent, tmp_path)

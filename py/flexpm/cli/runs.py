@@ -177,7 +177,7 @@ def _simulate(
     """
     output = Output(options["report"], options["frames"], options["film"])
     inputs.load_yade()
-    from ..laboratory import checkpoint, protocols
+    from ..laboratory import checkpoint, frames, protocols
 
     if options["discard_checkpoint"] and (why := checkpoint.discard_unusable(folder, spec)):
         terminal.say(f"starts again: {why}")
@@ -193,6 +193,9 @@ def _simulate(
     terminal.say(tables.result_table(result))
     inputs.tell_warnings(result)
     terminal.say(f"  files                   {folder}/")
+    if output.frames:
+        number = len(frames.read(folder))
+        terminal.say(f"  frames                  {number} in {folder / frames.COLLECTION}")
     if result.resumed_at is not None:
         again = "was complete" if result.resumed_at >= result.steps else "was taken up"
         terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")

@@ -11,6 +11,7 @@ from sample_snapshot import read_vtu
 
 import flexpm
 from flexpm.cli import main as cli
+from flexpm.laboratory import frames
 from flexpm.results import measures
 from flexpm.results.record import COLUMNS, Curve
 from flexpm.studies import jobs
@@ -135,3 +136,16 @@ def test_a_run_with_all_defaults_warns_of_nothing(capsys, tmp_path, test, model)
     said = capsys.readouterr()
     assert "warning" not in said.out + said.err
     assert json.loads((tmp_path / "result.json").read_text())["warnings"] == []
+
+
+@pytest.mark.long
+def test_a_complete_run_says_which_frames_it_has(tmp_path, capsys):
+    """Another number of frames changes nothing, so the command says how many there are."""
+    command = ["run", "tension", *SMALL, "--out", str(tmp_path), "--frames"]
+    assert cli.main([*command, "3"]) == 0
+    number = len(frames.read(tmp_path))
+    told = f"frames                  {number} in {tmp_path / frames.COLLECTION}"
+    assert told in capsys.readouterr().out
+    assert cli.main([*command, "40"]) == 0
+    out = capsys.readouterr().out
+    assert told in out and "was complete" in out
