@@ -3,12 +3,14 @@
 
 The relative difference of two models, or of the ends of a sweep, has a mean and a standard error
 over the seeds at each point of a study. It holds where the mean is above the error and is against
-where it is below minus the error; a statement is reproduced if it holds at all points. All judges
+where it is below minus the error; a statement is reproduced if it holds at all points. Where it
+is neither, the number of packings is told that would bring the error down to the mean. All judges
 take a table with a row for each point and seed, and give a verdict with its numbers.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -17,6 +19,8 @@ import pandas
 NOT_RUN = "not run"
 #: Largest relative change that is called negligible, and largest bend of a straight line [-].
 LITTLE, STRAIGHT = 0.05, 0.10
+#: Numbers of packings beyond which it is not told how many would decide.
+MOST = 1000
 #: Factor and unit in which a measure is shown.
 SHOWN = {
     **dict.fromkeys(("compressive_strength", "cohesion", "direct", "indirect"), (1e-6, "MPa")),
@@ -32,6 +36,7 @@ class Points(NamedTuple):
 
     mean: pandas.Series
     error: pandas.Series
+    packings: pandas.Series
 
     @classmethod
     def of(cls, differences: pandas.Series) -> Points:
@@ -39,7 +44,15 @@ class Points(NamedTuple):
         levels = [name for name in differences.index.names if name != "seed"]
         groups = differences.groupby(level=levels) if levels else differences.groupby(lambda _: 0)
         several = groups.count() > 1
-        return cls(groups.mean()[several], groups.sem()[several])
+        return cls(groups.mean()[several], groups.sem()[several], groups.count()[several])
+
+    def would_decide(self, what: str = "") -> str:
+        """How many packings would bring the error down to the mean at each point left open."""
+        left = self.mean.abs() <= self.error
+        if not left.any():
+            return ""
+        needed = (self.packings * (self.error / self.mean) ** 2)[left].max()
+        return f", {_about(needed)} packings would decide{what}"
 
     def verdict(self) -> str:
         """Whether the differences are positive."""
@@ -53,8 +66,9 @@ class Points(NamedTuple):
         if against == count:
             return "not reproduced"
         if holds == against == 0:
-            return "within scatter"
-        return f"in part: holds at {holds} and is against at {against} of {count} points"
+            return f"within scatter{self.would_decide()}"
+        part = f"in part: holds at {holds} and is against at {against} of {count} points"
+        return part + self.would_decide(" the rest")
 
     def __str__(self) -> str:
         if self.mean.empty:
@@ -65,6 +79,14 @@ class Points(NamedTuple):
         if len(self.mean) == 1:
             return f"{low:+.1f} ± {error:.1f} %"
         return f"{low:+.0f} to {high:+.0f} % at {len(self.mean)} points, ± {error:.1f} %"
+
+
+def _about(count: float) -> str:
+    """A number rounded up to one digit."""
+    if not count < MOST:
+        return f"more than {MOST}"
+    step = 10 ** max(0, math.floor(math.log10(count)))
+    return f"about {step * math.ceil(count / step)}"
 
 
 def values(table: pandas.DataFrame, measure: str, where: Where, at: Sequence[str]) -> pandas.Series:

@@ -413,11 +413,17 @@ def table_of(study: str) -> pandas.DataFrame | None:
     return macroscopic(rows, TABLE_KEYS[study]) if study in TABLE_KEYS else rows
 
 
+def packings(table: pandas.DataFrame | None) -> str:
+    """How many packings a study is of; step times are of one."""
+    return "1" if table is None or "seed" not in table else str(table["seed"].nunique())
+
+
 tables = {study: table_of(study) for study in {statement.study for statement in STATEMENTS}}
 found = pandas.DataFrame(
     {
         "Section": statement.section,
         "The paper says": statement.says,
+        "Packings": packings(tables[statement.study]),
         "Here": judge.NOT_RUN
         if tables[statement.study] is None
         else statement.judge(tables[statement.study]),

@@ -49,8 +49,16 @@ def test_models_are_compared_packing_by_packing(judge):
 
 def test_a_difference_below_its_error_is_scatter(judge):
     found = table(lambda model, x, seed: 1.0 + (0.1 * (seed - 2) if model == "a" else 0.0))
-    assert judge.above(found, "strength", A, B, ["x"]).startswith("within scatter; ")
+    told = judge.above(found, "strength", A, B, ["x"])
+    assert told.startswith("within scatter, more than 1000 packings would decide; ")
     assert judge.alike(found, "strength", A, B, {"x": 1.0}).startswith("reproduced; ")
+
+
+def test_the_number_of_packings_that_would_decide_brings_the_error_down_to_the_mean(judge):
+    """Mean 0.04 and standard error 0.1 / sqrt(3) of three packings: 3 (0.1 / 0.04)^2 / 3 = 6.25."""
+    found = table(lambda model, x, seed: 1.0 + (0.04 + 0.1 * (seed - 2) if model == "a" else 0.0))
+    told = judge.above(found, "strength", A, B, ["x"])
+    assert told.startswith("within scatter, about 7 packings would decide; ")
 
 
 def test_a_single_packing_tells_nothing(judge):
@@ -76,7 +84,7 @@ def test_a_sweep_is_judged_by_its_ends(judge):
     )
     assert judge.falls(found, "strength", "x", [], A).startswith("not reproduced; +300.0")
     assert judge.negligible(found, "strength", "x", [], A).startswith("not reproduced; ")
-    assert judge.stronger(found, "strength", "x", A, B, []).startswith("within scatter; ")
+    assert judge.stronger(found, "strength", "x", A, B, []).startswith("within scatter, ")
     steep = table(lambda model, x, seed: x ** (2.0 if model == "a" else 1.0) + 0.01 * seed)
     assert judge.stronger(steep, "strength", "x", A, B, []).startswith("reproduced; ")
 
