@@ -213,14 +213,15 @@ part_options = combined(
         "--span",
         type=Quantity("m", POSITIVE),
         metavar="M",
-        help="Distance of the supports, for bending [m].  [default: 4 times the height, or 8/9 of "
-        "the length]",
+        help="Distance of the supports, for bending and scb [m].  [default: 4 times the height, or "
+        "8/9 of the length; scb: 0.6 of the diameter]",
     ),
     click.option(
         "--notch",
         type=Quantity("m", NOT_NEGATIVE),
         metavar="M",
-        help="Depth of a notch in the middle, for bending [m].  [default: none]",
+        help="Depth of a notch in the middle, for bending and scb [m].  [default: none; scb: half "
+        "of the radius]",
     ),
     click.option(
         "--normal-stress",
@@ -306,7 +307,9 @@ joints_option = click.option(
     metavar="FILE",
     help="Cut the specimen along the segments of a CSV file x1,y1,x2,y2,name [m].",
 )
-disc_options = _length("--diameter", SIZES["disc"]["diameter"], "Diameter of the disc")
+disc_options = _length(
+    "--diameter", SIZES["disc"]["diameter"], "Diameter of the disc, or of half of one"
+)
 material_options = combined(
     click.option(
         "--material",
@@ -370,7 +373,7 @@ loading_options = combined(
         type=Quantity("", POSITIVE),
         metavar="F",
         help="The test ends once the stress has fallen to this part of its peak [-].  "
-        "[default: 0.5; bending: 0.1]",
+        "[default: 0.5; bending, scb: 0.1]",
     ),
     click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
     click.option(

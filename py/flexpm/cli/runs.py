@@ -64,7 +64,8 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 
     TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
     compression of a disc of the given diameter, whose axial stress is 2 P / (pi D t) under the
-    force P. bending presses on the middle of a beam that lies on two supports.
+    force P. bending presses on the middle of a beam that lies on two supports, scb on the top of
+    half a disc that has a notch.
     shear pushes the lower half of a rectangle along below the upper one, to the largest
     displacement.
     sonic sends a pulse through a rectangle, from its bottom to its top, and measures its speed.

@@ -128,6 +128,8 @@ _LEAST_PEAK = 0.2
 _MOST_STEPS = 10**10
 #: Models that are driven like another one.
 _LIKE = {"inner-un": "inner"}
+#: Tests that are driven like another one.
+_TEST_LIKE = {"scb": "bending"}
 
 
 @dataclass(frozen=True)
@@ -177,12 +179,16 @@ class Schedule:
 
 def default_stop_ratio(test: str) -> float:
     """Part of its peak to which the stress falls before a test ends, unless told otherwise [-]."""
-    return _OTHER_STOP_RATIOS.get(test, STOP_RATIO)
+    return _OTHER_STOP_RATIOS.get(_driven_like(test), STOP_RATIO)
+
+
+def _driven_like(test: str) -> str:
+    return _TEST_LIKE.get(test, test)
 
 
 def rate_constant(test: str, model: str) -> float:
     """The constant k of a test on a model [-]."""
-    return RATE_CONSTANT[_LIKE.get(model, model)][test]
+    return RATE_CONSTANT[_LIKE.get(model, model)][_driven_like(test)]
 
 
 def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:
@@ -200,7 +206,7 @@ def _waiting(test: str, model: str, damage_share: float) -> tuple[float, tuple[f
             f"Loading: kind = waiting, must be another for model {model}; waiting is for "
             f"{' and '.join(RUNNING_SHARE)} grains"
         )
-    share = max(damage_share, _BRITTLE_PART) * RUNNING_SHARE[model][test]
+    share = max(damage_share, _BRITTLE_PART) * RUNNING_SHARE[model][_driven_like(test)]
     fastest = _OTHER_WAITING_CONSTANTS.get(test, WAITING_CONSTANT) / rate_constant(test, model)
     return fastest, (share, _SHARE_AFTER_PEAK * share)
 
@@ -213,8 +219,8 @@ def quasistatic_ratio(
     The median, or that under way of a loading that waits for cracks.
     """
     if waiting:
-        return _WAITING_RATIO[model][test][brittle]
-    return QUASISTATIC_RATIO[_LIKE.get(model, model)][test]
+        return _WAITING_RATIO[model][_driven_like(test)][brittle]
+    return QUASISTATIC_RATIO[_LIKE.get(model, model)][_driven_like(test)]
 
 
 def schedule(
@@ -242,6 +248,7 @@ def schedule(
     Raises:
         InputError: for a test that would never end.
     """
+    test = _driven_like(test)
     # each pascal of confinement adds at least one to the strength of a frictional contact
     reference = (scales.strength + confinement) / scales.modulus
     crossing_time = scales.crossing_steps * dt

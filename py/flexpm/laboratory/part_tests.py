@@ -13,7 +13,7 @@ from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results.result import Result
-from ..results.toughness import bending_toughness
+from ..results.toughness import bending_toughness, half_disc_toughness
 from ..specimens.specimen import Specimen
 from .part_rig import Part, PartRig
 from .rig import BOTTOM, TOP
@@ -65,14 +65,14 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     notch, height = notch_depth(specimen), box.top - box.bottom
     result.notch_depth = notch
     result.measure_fracture(specimen.thickness * (height - notch))
-    if result.peak_load is not None and notch > 0.0 and spec.span is not None:
-        result.fracture_toughness = bending_toughness(
-            result.peak_load,
-            span=spec.span,
-            height=height,
-            thickness=specimen.thickness,
-            notch=notch,
-        )
+    if result.peak_load is None or not notch > 0.0 or spec.span is None:
+        return
+    shape = {"span": spec.span, "thickness": specimen.thickness, "notch": notch}
+    if spec.test == "scb":
+        radius = 0.5 * (box.right - box.left)
+        result.fracture_toughness = half_disc_toughness(result.peak_load, radius=radius, **shape)
+    else:
+        result.fracture_toughness = bending_toughness(result.peak_load, height=height, **shape)
 
 
 def notch_depth(specimen: Specimen) -> float:
@@ -85,7 +85,10 @@ def notch_depth(specimen: Specimen) -> float:
 
 
 def _bend(rig: PartRig, spec: RunSpec) -> None:
-    """Lay a beam on two rollers and press on its middle. Deviation D39."""
+    """Lay a beam, or half a disc, on two rollers and press on its middle.
+
+    Deviations D39 and D50.
+    """
     built, box = rig.built, _box(rig.built.specimen)
     assert spec.span is not None
     height = box.top - box.bottom
@@ -152,7 +155,10 @@ def _mean(built: Model, value: Callable[[Law], float]) -> float:
     return float(np.mean([value(kind.law(built.name)) for kind in kinds]))
 
 
-_LAYOUTS: dict[str, Callable[[PartRig, RunSpec], None]] = {"bending": _bend, "shear": _shear}
+_LAYOUTS: dict[str, Callable[[PartRig, RunSpec], None]] = {
+    **dict.fromkeys(("bending", "scb"), _bend),
+    "shear": _shear,
+}
 
 
 def _box(specimen: Specimen) -> _Box:

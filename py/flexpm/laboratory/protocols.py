@@ -108,7 +108,8 @@ def run(
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
             ``brazilian``: a disc between two plates, whose axial stress is 2 P / (pi D t), P the
             force, D the diameter, t the thickness; ``bending``: a beam on two supports, pressed in
-            the middle; ``shear``: the lower half of a rectangle is pushed along below the upper;
+            the middle; ``scb``: half a disc with a notch on two supports, pressed on top;
+            ``shear``: the lower half of a rectangle is pushed along below the upper;
             ``sonic``: a plane pulse through a rectangle, with real masses and without damping, for
             the speed of its `wave`.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
@@ -137,8 +138,9 @@ def run(
             for flexible and rigid grains with scaled masses, ``adaptive`` for inner particles
             unless contacts are brittle, else ``constant``.
         span: Distance of the supports in ``bending`` [m]; None: four times the height, or 8/9
-            of the length.
-        notch: Depth of the notch of ``bending`` [m]; None: no notch.
+            of the length; in ``scb``; None: 0.6 of the diameter.
+        notch: Depth of the notch of ``bending`` [m]; None: no notch; of ``scb``; None: half of the
+            radius.
         normal_stress: On the upper half in ``shear`` [Pa]; None: 1 MPa.
         max_displacement: At which ``shear`` ends [m]; None: a multiple of that of its strength.
         wave: ``p`` or ``s`` for ``sonic``; None: ``p``.
@@ -366,6 +368,7 @@ TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
     "biaxial": (_confine, _load),
     "brazilian": (_load,),
     "bending": (_load,),
+    "scb": (_load,),
     "shear": (_press, _slide),
     SONIC: (_send,),
 }

@@ -30,7 +30,7 @@ from ..require import (
     require_number,
     require_one_of,
 )
-from ..results.toughness import require_span
+from ..results.toughness import require_half_disc, require_span
 from ..specimens.spec import SIZES, SpecimenSpec
 from .loading_rate import (
     LARGEST_STOP_RATIO,
@@ -46,12 +46,14 @@ SCHEMA = 1
 #: Tests that are simulated.
 _ENDS_TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
 #: Of these the ones held and loaded by parts: supports, boxes. They are for ``PART_MODELS``.
-PART_TESTS = ("bending", "shear")
+PART_TESTS = ("bending", "scb", "shear")
 #: A pulse through a rectangle, with real masses and without damping; for ``PART_MODELS``.
 SONIC = "sonic"
 TESTS = (*_ENDS_TESTS, *PART_TESTS, SONIC)
 #: Waves of ``sonic``: along the height, and across it.
 WAVES = ("p", "s")
+#: Of these the ones between supports, with a notch.
+_NOTCHED = ("bending", "scb")
 #: Models that parts hold.
 PART_MODELS = ("flexible", "rigid")
 #: Numbers of the results by test and model; 1 for those that have never changed. A commit that
@@ -79,7 +81,8 @@ STARTS = ("rest", "static")
 
 #: Options that only some tests have, which need no default in others.
 _OWN = {
-    **dict.fromkeys(("length", "span", "notch"), ("bending",)),
+    "length": ("bending",),
+    **dict.fromkeys(("span", "notch"), _NOTCHED),
     **dict.fromkeys(("normal_stress", "max_displacement"), ("shear",)),
     "wave": (SONIC,),
 }
@@ -90,6 +93,7 @@ _UNUSED: dict[str, tuple[str, ...]] = {
     "brazilian": ("width", "height", "confinement", "start"),
     "bending": ("width", "diameter", "confinement", "start"),
     "shear": ("diameter", "confinement", "start", "stop_ratio", "max_strain"),
+    "scb": ("width", "height", "confinement", "start"),
     SONIC: (
         *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
         *("dynamic", "gravity", "start", "loading"),
@@ -111,6 +115,8 @@ _OTHER_SIZES: dict[str, dict[str, float]] = {
 }
 #: Span of a beam over its height, and at most over its length, unless it is given [-].
 _SPAN, _LARGEST_SPAN = 4.0, 8.0 / 9.0
+#: The same of half a disc over its diameter, and its notch over its radius [-].
+_SCB_SPAN, _SCB_NOTCH = 0.6, 0.5
 #: On the upper half in direct shear, unless it is given [Pa].
 NORMAL_STRESS = 1e6
 #: Length of a pulse over the height that it goes through [-], deviation D48.
@@ -159,9 +165,11 @@ class RunSpec:
         loading: How the loading goes on, one of ``LOADINGS``; empty: ``waiting`` for flexible and
             rigid grains with scaled masses, ``adaptive`` for inner particles unless contacts are
             brittle, else ``constant``.
-        span: Distance of the supports of ``bending`` [m]; None: four times the height, or
-            8/9 of the length if that is less. None for other tests.
-        notch: Depth of the notch in the middle of a beam [m]; 0: none. None for other tests.
+        span: Distance of the supports [m] of ``bending``; None: four times the height, or
+            8/9 of the length if that is less; and of ``scb``; None: 0.6 of the diameter. None for
+            other tests.
+        notch: Depth of the notch in the middle [m] of a beam; 0: none; and of ``scb``; None: half
+            of the radius. None for other tests.
         normal_stress: On the upper half of a ``shear`` test [Pa]; None: 1 MPa, and none for others.
         max_displacement: Of the lower half of a ``shear`` test, at which it ends [m]; None for a
             multiple of that at its reference strength, and for other tests.
@@ -388,14 +396,16 @@ class RunSpec:
         if self.test != "biaxial" and self.confinement != 0.0:
             raise InputError(
                 f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}"
-                f"{'' if shape == 'disc' else '; use biaxial'}"
+                f"{'; use biaxial' if shape == 'rectangle' else ''}"
             )
 
     def _check_beam(self) -> None:
         for name in ("span", "notch"):
             value = getattr(self, name)
-            if self.test != "bending" and value is not None:
+            if self.test not in _NOTCHED and value is not None:
                 raise InputError(f"run: {name} = {value} m, must not be given for {self.test}")
+        if self.test == "scb":
+            self._check_half_disc()
         if self.test != "bending":
             return
         width, height = self.specimen.width or 0.0, self.specimen.height or 0.0
@@ -406,6 +416,16 @@ class RunSpec:
         bounds = Bounds(at_least=0.0, below=height)
         self._set("notch", require_number("run: notch", self.notch or 0.0, bounds, "m"))
         require_span(self.span or 0.0, height, self.notch or 0.0)
+
+    def _check_half_disc(self) -> None:
+        diameter = self.specimen.diameter or 0.0
+        span = _SCB_SPAN * diameter if self.span is None else self.span
+        bounds = Bounds(above=0.0, below=diameter)
+        self._set("span", require_number("run: span", span, bounds, "m"))
+        notch = 0.5 * _SCB_NOTCH * diameter if self.notch is None else self.notch
+        bounds = Bounds(at_least=0.0, below=0.5 * diameter)
+        self._set("notch", require_number("run: notch", notch, bounds, "m"))
+        require_half_disc(self.span or 0.0, 0.5 * diameter, self.notch or 0.0)
 
     def _check_shear(self) -> None:
         for name, unit in (("normal_stress", "Pa"), ("max_displacement", "m")):
@@ -471,7 +491,7 @@ def models_of(test: str) -> tuple[str, ...]:
 
 def shape_of(test: str) -> str:
     """Shape of the specimen that a test needs."""
-    return "disc" if test == "brazilian" else "rectangle"
+    return {"brazilian": "disc", "scb": "half-disc"}.get(test, "rectangle")
 
 
 def described(material: Material, model: str) -> Table:

@@ -26,7 +26,7 @@ from .style import COLOURS, MODE_NAMES, can_be_drawn
 from .tables import size_text, test_text
 
 #: Tests in which cracks follow the larger principal stress, tension, all over the specimen.
-_PULLED = ("tension", "brazilian", "bending")
+_PULLED = ("tension", "brazilian", "bending", "scb")
 #: Percentile of the largest stress of all, where the colours end that begin at zero [%].
 _END = 98.0
 #: Stops of the colours, and half the height of the window over the longer side [-].

@@ -96,7 +96,8 @@ def size_text(result: Result) -> str:
     if specimen.get("width") and specimen.get("height"):
         parts.append(f"{1e3 * specimen['width']:g} x {1e3 * specimen['height']:g} mm")
     elif specimen.get("diameter"):
-        parts.append(f"disc of {1e3 * specimen['diameter']:g} mm")
+        half = "half a " if specimen.get("kind") == "half-disc" else ""
+        parts.append(f"{half}disc of {1e3 * specimen['diameter']:g} mm")
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)

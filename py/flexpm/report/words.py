@@ -107,6 +107,7 @@ _OTHERS = {
         "peak of 2 P / (pi D t)",
     ),
     "bending": _BEAM,
+    "scb": _BEAM,
     "shear": Words(
         Drawn("displacement", "displacement", 1e6, "µm"),
         _stress("shear stress"),

@@ -12,6 +12,11 @@ from ..errors import InputError
 
 #: Least span of a beam over its height for which its function holds [-].
 LEAST_SPAN = 2.5
+#: Ranges of the notch over the radius and of the span over the diameter of half a disc in which its
+#: function holds [-].
+HALF_DISC_NOTCHES, HALF_DISC_SPANS = (0.4, 0.6), (0.5, 0.8)
+#: By how much a ratio of two lengths may miss a range, as its last digits do [-].
+_DIGITS = 1e-9
 
 
 def require_span(span: float, height: float, notch: float) -> None:
@@ -26,6 +31,68 @@ def require_span(span: float, height: float, notch: float) -> None:
             f"height {height:g} m: {LEAST_SPAN:g} times the height; the function of its toughness "
             "holds from there on"
         )
+
+
+def require_half_disc(span: float, radius: float, notch: float) -> None:
+    """Refuse a span or a notch for which no function gives the toughness of half a disc.
+
+    Raises:
+        InputError: for a span or a notch out of the range of the function.
+    """
+    for name, value, whole, size, (low, high) in (
+        ("span", span, "diameters", 2.0 * radius, HALF_DISC_SPANS),
+        ("notch", notch, "radii", radius, HALF_DISC_NOTCHES),
+    ):
+        if not _is_within(value / size, (low, high)):
+            raise InputError(
+                f"run: {name} = {value:g} m, must be {low * size:g} to {high * size:g} m: {low:g} "
+                f"to {high:g} {whole} of the disc; the function of its toughness holds there"
+            )
+
+
+def half_disc_function(ratio: float, slenderness: float) -> float:
+    """Stress intensity of half a disc in three-point bending over its stress and sqrt(pi notch).
+
+    M. D. Kuruppu, Y. Obara, M. R. Ayatollahi, K. P. Chong, T. Funatsu: ISRM-suggested method for
+    determining the mode I static fracture toughness using semi-circular bend specimen. Rock
+    Mechanics and Rock Engineering 47 (2014) 267-274.
+
+    Args:
+        ratio: Notch over radius, 0.4 to 0.6 [-].
+        slenderness: Span over diameter, 0.5 to 0.8 [-].
+
+    Returns:
+        Y' = K_I / (sigma sqrt(pi notch)), with sigma = P / (2 radius thickness) [-].
+    """
+    constant = -1.297 + 9.516 * slenderness
+    linear = 0.47 + 16.457 * slenderness
+    square = 1.071 + 34.401 * slenderness
+    return constant - linear * ratio + square * ratio**2
+
+
+def half_disc_toughness(
+    load: float, *, span: float, radius: float, thickness: float, notch: float
+) -> float | None:
+    """Stress intensity K_I of half a disc with a notch under a load on top [Pa m^0.5].
+
+    None for a notch or a span out of the range of its function.
+
+    Args:
+        load: [N].
+        span: Distance of the supports [m].
+        radius: Of the disc [m].
+        thickness: Of the disc [m].
+        notch: Depth from the middle of the flat side [m].
+    """
+    ratio, slenderness = notch / radius, 0.5 * span / radius
+    if not (_is_within(ratio, HALF_DISC_NOTCHES) and _is_within(slenderness, HALF_DISC_SPANS)):
+        return None
+    stress = 0.5 * load / (radius * thickness)
+    return stress * math.sqrt(math.pi * notch) * half_disc_function(ratio, slenderness)
+
+
+def _is_within(value: float, bounds: tuple[float, float]) -> bool:
+    return bounds[0] - _DIGITS <= value <= bounds[1] + _DIGITS
 
 
 def bending_function(ratio: float, slenderness: float) -> float:

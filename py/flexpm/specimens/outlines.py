@@ -43,6 +43,23 @@ def box_of(corners: FloatArray) -> FloatArray:
     return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
 
 
+def half_disc_corners(diameter: float, grain: float) -> FloatArray:
+    """Corners of the upper half of a disc that lies on its diameter, from the lower left one [m].
+
+    The arc has a chord for each grain along it, one of them on top.
+
+    Args:
+        diameter: Of the disc [m].
+        grain: Mean diameter of the grains [m].
+    """
+    radius = 0.5 * diameter
+    chords = 2 * round(0.25 * np.pi * diameter / grain) + 1
+    angles = np.linspace(0.0, np.pi, chords + 1)
+    arc = radius * np.column_stack((1.0 + np.cos(angles), np.sin(angles)))
+    arc[-1] = 0.0  # its sine is not quite 0
+    return np.vstack((arc[-1:], arc[:-1]))
+
+
 def kind_of(outline: FloatArray | Circle) -> tuple[str, dict[str, float]]:
     """Shape and sizes; a rectangle starts at its lower left corner, with sides along x and y."""
     if isinstance(outline, Circle):

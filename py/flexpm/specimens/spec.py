@@ -25,6 +25,7 @@ SIZES: dict[str, dict[str, float]] = {
     "rectangle": {"width": 0.08, "height": 0.16},
     "disc": {"diameter": 0.08},
     "polygon": {},
+    "half-disc": {"diameter": 0.08},
 }
 #: File beside the results of a run on a specimen that no packing gives again.
 GRAINS_FILE = "grains.json"
@@ -36,10 +37,10 @@ class SpecimenSpec:
     """Shape, size and packing of a specimen, or checksums of what was given instead of a packing.
 
     Attributes:
-        kind: ``rectangle``, ``disc`` or ``polygon``.
+        kind: ``rectangle``, ``disc``, ``polygon`` or ``half-disc``.
         width: Of a rectangle [m]; if None its default, and None for another shape.
         height: Of a rectangle, along the axis of the test [m]; None as for `width`.
-        diameter: Of a disc [m]; None as for `width`.
+        diameter: Of a disc or half of one [m]; None as for `width`.
         thickness: Out of plane [m].
         diameters: Smallest and largest diameter of the packed discs [m]; None for given discs.
         porosity: Sets the number of packed discs [-]; None for given discs.
@@ -121,7 +122,7 @@ class SpecimenSpec:
 
     def require_discs(self, model: str) -> None:
         """Refuse grains that are no discs, for a model of discs."""
-        sawn = self.outline is not None and self.discs is None
+        sawn = (self.outline is not None and self.discs is None) or self.kind == "half-disc"
         self.require_alike(model)
         kinds = {"given cells": self.cells, "sawn grains": sawn or None}
         what = next((kind for kind, one in kinds.items() if one is not None), "")

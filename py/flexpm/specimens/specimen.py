@@ -15,6 +15,7 @@ import numpy as np
 
 from .._flexpm import (
     GrainMeshes,
+    PolygonOutline,
     Tessellation,
     Tiling,
     cells_in_outline,
@@ -31,7 +32,7 @@ from . import joint_lines, packed, packing, specimen_file, statistics
 from . import strengths as contact_strengths
 from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
 from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
-from .outlines import kind_of, polygon_outline
+from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
 
@@ -39,7 +40,8 @@ from .spec import SpecimenSpec
 class Specimen(Shown):
     """Bonded grains that fill an outline.
 
-    Make it by ``rectangle``, ``disc``, ``polygon``, ``from_discs``, ``from_polygons`` or ``load``.
+    Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
+    ``from_polygons`` or ``load``.
 
     Attributes:
         discs: Rows x, y, radius [m], one per grain: centre of its disc, or the point from which
@@ -163,11 +165,55 @@ class Specimen(Shown):
                 f"{where}: discs, outline, minerals, joints or strengths = {what}, were given and "
                 "cannot be packed again; load the saved specimen"
             )
+        if spec.kind == "half-disc":
+            assert spec.diameters is not None
+            corners = half_disc_corners(spec.sizes["diameter"], 0.5 * sum(spec.diameters))
+            return cls._sawn(where, spec, polygon_outline(where, corners), progress)
         frame, outline = packed.frame_of(spec), packed.outline_of(spec)
         area = frame.area
         given = packed.packed_discs(where, spec, frame, area, progress)
         discs, cells = packed.tessellated(given, outline, spec.short_edge, drop_hidden=True)
         return cls(discs, outline, cells, spec, removed_discs=len(given) - len(discs))
+
+    @classmethod
+    def half_disc(
+        cls,
+        diameter: float,
+        thickness: float,
+        diameters: tuple[float, float] = (2e-3, 4e-3),
+        porosity: float = 0.10,
+        seed: int = 1,
+        *,
+        short_edge: float = SHORT_EDGE,
+        progress: Progress | None = None,
+    ) -> Specimen:
+        """Saw the upper half of a disc out of a packed block, its lower left corner at the origin.
+
+        Args:
+            diameter: Of the disc, along x [m].
+            thickness: Out of plane [m].
+            diameters: Smallest and largest disc diameter [m].
+            porosity: Sets the number of discs only [-]; the cells leave no pores.
+            seed: Any integer from 0 to 2**64 - 1; the same seed gives the same specimen.
+            short_edge: Collapse edges of cells below this share of the mean diameter [-].
+            progress: Called with (steps done, steps expected, text).
+
+        Returns:
+            The specimen; its arc has one chord for each grain along it, one of them on top.
+
+        Raises:
+            InputError: for a value out of range, or discs that do not fit.
+        """
+        spec = SpecimenSpec(
+            "half-disc",
+            diameter=diameter,
+            thickness=thickness,
+            diameters=diameters,
+            porosity=porosity,
+            seed=seed,
+            short_edge=short_edge,
+        )
+        return cls.pack(spec, progress)
 
     @classmethod
     def polygon(
@@ -206,9 +252,7 @@ class Specimen(Shown):
         """
         where = "Specimen.polygon"
         outline = polygon_outline(where, corners, holes)
-        ring, *inner = outline.rings
-        width, height = map(float, np.ptp(ring, axis=0))
-        require_diameters(where, diameters, min(width, height))
+        ring = outline.rings[0]
         kind, sizes = kind_of(ring)
         spec = SpecimenSpec(
             kind,
@@ -221,6 +265,16 @@ class Specimen(Shown):
             short_edge=short_edge,
             outline=checksum(np.vstack(outline.rings)),
         )
+        return cls._sawn(where, spec, outline, progress)
+
+    @classmethod
+    def _sawn(
+        cls, where: str, spec: SpecimenSpec, outline: PolygonOutline, progress: Progress | None
+    ) -> Specimen:
+        """Saw an outline out of a packing of the box around it."""
+        ring, *inner = outline.rings
+        width, height = map(float, np.ptp(ring, axis=0))
+        require_diameters(where, spec.diameters, min(width, height))
         frame = packing.Frame(width=width, height=height)
         block = packed.packed_discs(where, spec, frame, width * height, progress)
         length = spec.short_edge * 2.0 * float(np.mean(block[:, 2]))
@@ -479,7 +533,7 @@ class Specimen(Shown):
 
     @property
     def kind(self) -> str:
-        """``rectangle``, ``disc`` or ``polygon``."""
+        """``rectangle``, ``disc``, ``polygon`` or ``half-disc``."""
         return self.spec.kind
 
     @property

@@ -30,7 +30,7 @@ from flexpm.materials.mixing import is_brittle
 from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
 from flexpm.models.sphere_laws import LAWS
 from flexpm.results.measures import PEAK_DROP
-from flexpm.specimens.spec import SpecimenSpec
+from flexpm.specimens.spec import SIZES, SpecimenSpec
 
 POSITIVE = st.floats(1e-6, 1e6)
 CHECKSUMS = st.text("0123456789abcdef", min_size=16, max_size=16)
@@ -39,8 +39,7 @@ CHECKSUMS = st.text("0123456789abcdef", min_size=16, max_size=16)
 @st.composite
 def specimens(draw, kind: str) -> SpecimenSpec:
     """Packed or given discs in an outline of a kind."""
-    sizes = {"rectangle": ("width", "height"), "disc": ("diameter",)}[kind]
-    values = {name: draw(st.floats(0.01, 1.0)) for name in sizes}
+    values = {name: draw(st.floats(0.01, 1.0)) for name in SIZES[kind]}
     values["thickness"] = draw(POSITIVE)
     values["short_edge"] = draw(st.floats(0.0, 0.4))
     if draw(st.booleans()):
