@@ -308,3 +308,24 @@ TEST_CASE("Contacts of one pair of grains end together")
         a.contacts.area(1, p) = 0.0;
     CHECK(flexpm::ended_contacts(a) == std::vector<int> { 0 });
 }
+
+TEST_CASE("Grains on two sides of a joint never touch, also those that have only a corner on it")
+{
+    const auto touching = [](const std::vector<int>& edge_joint, GrainPair pair) {
+        auto options = specimens::options();
+        options.joints = { specimens::granite_contact() };
+        options.edge_joint = edge_joint;
+        const Assembly a = specimens::assemble(specimens::grid(2, 2, size), options);
+        return flexpm::touching_distance(a, pair);
+    };
+    // the joint turns around grain 0, and grain 3 lies beyond its corner
+    const std::vector<int> around { 0, 0, -1, -1 };
+    CHECK(touching(around, { 0, 1 }) == 0.0);
+    CHECK(touching(around, { 0, 3 }) == 0.0);
+    CHECK(touching(around, { 1, 2 }) > 0.0);
+    // the joint ends in the middle: what lies before it has no side
+    const std::vector<int> ending { 0, -1, -1, -1 };
+    CHECK(touching(ending, { 0, 1 }) == 0.0);
+    CHECK(touching(ending, { 0, 3 }) > 0.0);
+    CHECK(touching(ending, { 1, 2 }) > 0.0);
+}
