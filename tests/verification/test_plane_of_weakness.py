@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Biaxial compression across a cohesionless joint: the single plane of weakness."""
+
+import math
+
+import numpy as np
+import pytest
+
+import flexpm
+
+CONFINEMENT, FRICTION = 4e6, 0.5  # [Pa], [-]
+WEAK = {"normal_stiffness": 1e14, "shear_stiffness": 3e13, "friction": FRICTION}
+WEAK |= {"cohesion": 0.0, "tensile_strength": 0.0}
+
+
+def strength(dip):
+    """Axial stress at which a joint slides that dips by an angle [degrees] to the horizontal [Pa].
+
+    Jaeger, Cook and Zimmerman, Fundamentals of Rock Mechanics, 4th ed., 2007, Sec. 4.8.
+    """
+    angle = math.radians(dip)
+    divisor = (1.0 - FRICTION / math.tan(angle)) * math.sin(2.0 * angle)
+    return CONFINEMENT * (1.0 + 2.0 * FRICTION / divisor)
+
+
+def cut(specimen, dip):
+    """A rectangle with a joint through its middle, from side to side."""
+    width, height = specimen.dimensions["width"], specimen.dimensions["height"]
+    middle = np.array([0.5 * width, 0.5 * height])
+    half = 0.5 * width * np.array([1.0, math.tan(math.radians(dip))])
+    return specimen.with_joints({"weak": [[middle - half, middle + half]]})
+
+
+def material(model="flexible"):
+    preset = "augig-table7" if model == "flexible" else "augig-table2-bilinear"
+    keys = [f"joint.weak.{key}={value}" for key, value in WEAK.items()]
+    return flexpm.materials.load(preset).with_set(keys, model)
+
+
+def sliding_stress(specimen, dip, rate, model="flexible", max_strain=0.001):
+    """Axial stress once the joint has begun to slide, over that of the theory [-]."""
+    result = flexpm.run(
+        "biaxial",
+        cut(specimen, dip),
+        material(model),
+        model=model,
+        confinement=CONFINEMENT,
+        rate=rate,
+        max_strain=max_strain,
+    )
+    assert len(result.cracks) == 0
+    return result.curve["axial_stress"][-1] / strength(dip)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_halving_the_rate_halves_the_error_of_the_sliding_stress(seed):
+    """Damping drags on the blocks as they slide, in proportion to their velocity."""
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, 0.02, seed=seed)
+    fast, slow = (sliding_stress(specimen, 45.0, rate) for rate in (0.4, 0.2))
+    assert 1.0 < slow < 1.04
+    assert 2.0 * slow - fast == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("dip", "seed"), [(35.0, 1), (45.0, 1), (50.0, 1), (60.0, 2)])
+def test_strength_is_that_of_the_plane_of_weakness(dip, seed):
+    """Packings in which the joint is straight: a bent one interlocks (D35)."""
+    specimen = flexpm.Specimen.rectangle(0.03, 0.06, 0.02, seed=seed)
+    fast, slow = (sliding_stress(specimen, dip, rate) for rate in (0.2, 0.1))
+    assert slow == pytest.approx(1.0, abs=0.03)
+    assert 2.0 * slow - fast == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.slow
+def test_rigid_grains_slide_at_the_stress_of_the_plane_of_weakness():
+    """In a wide specimen: the plate that lies across the joint presses on one block alone."""
+    specimen = flexpm.Specimen.rectangle(0.08, 0.16, 0.02, seed=1)
+    found = sliding_stress(specimen, 45.0, 0.25, "rigid", max_strain=0.0015)
+    assert found == pytest.approx(1.0, abs=0.05)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("dip", [10.0, 20.0])
+def test_a_joint_that_dips_less_than_its_friction_angle_weakens_within_the_scatter(dip):
+    peaks = []
+    for seed in (1, 2, 3):
+        specimen = flexpm.Specimen.rectangle(0.02, 0.04, 0.02, seed=seed)
+        peaks.append(
+            [
+                flexpm.run(
+                    "biaxial", one, material(), confinement=CONFINEMENT, stop_ratio=0.9
+                ).peak_stress
+                for one in (specimen, cut(specimen, dip))
+            ]
+        )
+    whole, jointed = np.mean(peaks, axis=0)
+    scatter = np.std(peaks, axis=0, ddof=1)[0]
+    assert abs(jointed - whole) < scatter
