@@ -15,6 +15,7 @@ import numpy as np
 from yade import EnumClass_TestState as TestState
 from yade import wrapper
 
+from ..errors import InputError
 from ..models.grains import Model
 from ..results.record import Curve
 from .loading_rate import SLOWEST_WAIT, Scales, Schedule
@@ -26,6 +27,8 @@ from .runner import Runner
 _ROWS_A_CROSSING = 8
 #: Most steps from one row to the next: so often numbers are checked.
 _LONGEST_PERIOD = 100
+#: Looks of a servo while a wave crosses the specimen.
+_LOOKS_A_CROSSING = 100
 #: Share of the elastic limit up to which a preload goes [-].
 _PRELOAD_SHARE = 0.9
 #: Plates of the membrane on each side, paper Sec. 4.1.
@@ -91,17 +94,64 @@ class GrainRig(TestRig):
         recorder.stopRatio, recorder.leastPeak = plan.stop_ratio, plan.least_peak
         recorder.minStrain, recorder.maxStrain = plan.min_strain, plan.max_strain
         recorder.state, recorder.peak = TestState.running, 0.0
+        self._end_servo()
+        self._require_measure(plan.control)
         if recorder.loading is None:
+            recorder.controlled = plan.control
             self._begin_record()
             recorder.loading = self._take_hold()
-            recorder.loading.undampedLoading = plan.running_shares is not None
+            undamped = plan.running_shares is not None or plan.control != ""
+            recorder.loading.undampedLoading = undamped
             # elastic velocities raise no wave: a loading that has them may begin at full speed
             factor = 1.0 if self.disc else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
         for kind in (wrapper.LoadingRateController, wrapper.CrackWaitController):
             self.built.remove_engines(self.built.engine(kind))
+        servo = self._begin_servo(plan, factor)
         if plan.fastest > 1.0:
             self.built.add_engines(last=(self._rate_controller(plan),))
+        self.built.add_engines(last=servo)
+
+    def _begin_servo(self, plan: Schedule, factor: float) -> tuple[wrapper.ServoController, ...]:
+        """The servo of a plan that asks for one, in the place of what it drives. Deviation D51."""
+        recorder = self._recorder
+        if not plan.control:
+            return ()
+        crossing = self.scales().crossing_steps
+        servo = wrapper.ServoController(
+            recorder=recorder,
+            ends=recorder.loading,
+            velocityFactor=factor,
+            fastest=plan.fastest_ends,
+            crossingSteps=crossing,
+            period=max(math.floor(crossing / _LOOKS_A_CROSSING), 1),
+        )
+        recorder.loading = servo
+        return (servo,)
+
+    def _require_measure(self, control: str) -> None:
+        """Refuse control of what is no measure, or not of the one that the record began with."""
+        possible = self._measures()
+        if control and control not in possible:
+            raise InputError(
+                f"Loading: control = {control!r}, must be one of {', '.join(possible) or 'none'}"
+            )
+        first = self._recorder
+        if control and first.loading is not None and control != first.controlled:
+            raise InputError(
+                f"Loading: control = {control!r}, must be that of the first loading of the "
+                f"record, {first.controlled or 'none'}"
+            )
+
+    def _measures(self) -> tuple[str, ...]:
+        """Columns of the record that a servo can follow."""
+        return () if self.disc else ("lateral_strain",)
+
+    def _end_servo(self) -> None:
+        """Give the ends back to themselves; the record has no set point from here on."""
+        if servo := self.built.engine(wrapper.ServoController):
+            self._recorder.loading, self._recorder.setPoint = servo.ends, math.nan
+            self.built.remove_engines(servo)
 
     def _rate_controller(
         self, plan: Schedule

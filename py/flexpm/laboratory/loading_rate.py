@@ -141,10 +141,17 @@ class Loading:
     static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
     max_strain: float | None = None  #: axial strain at which the test ends [-]; None: the default
     stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
+    #: column of the record that is to grow at the rate, whatever the ends must do for it: a gauge,
+    #: ``load``, ``lateral_strain``; empty: the ends themselves go at the rate
+    control: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse a kind that there is not."""
+        """Refuse a kind that there is not, and a start at the elastic solution under control."""
         require_one_of("Loading: kind", self.kind, LOADINGS)
+        if self.control and self.static:
+            raise InputError(
+                f"Loading: static = True, must be False under control of {self.control}"
+            )
 
 
 @dataclass(frozen=True)
@@ -175,6 +182,8 @@ class Schedule:
     steps: int  #: up to the largest strain at the slowest
     likely_steps: int  #: as most tests have
     min_strain: float = -1e300  #: at which the test ends, too [-]
+    control: str = ""  #: column of the record that a servo makes grow at the rate
+    fastest_ends: float = 1.0  #: largest factor on the velocity of ends under control [-]
 
 
 def default_stop_ratio(test: str) -> float:
@@ -209,6 +218,16 @@ def _waiting(test: str, model: str, damage_share: float) -> tuple[float, tuple[f
     share = max(damage_share, _BRITTLE_PART) * RUNNING_SHARE[model][_driven_like(test)]
     fastest = _OTHER_WAITING_CONSTANTS.get(test, WAITING_CONSTANT) / rate_constant(test, model)
     return fastest, (share, _SHARE_AFTER_PEAK * share)
+
+
+def _fastest_ends(test: str, model: str, rate: float) -> float:
+    """Largest factor on the velocity of ends that a servo drives [-]: that of a waiting loading."""
+    if model not in RUNNING_SHARE:
+        raise InputError(
+            f"Loading: control, must be left out for model {model}; it is for "
+            f"{' and '.join(RUNNING_SHARE)} grains"
+        )
+    return _waiting(test, model, 1.0)[0] / min(rate, 1.0)
 
 
 def quasistatic_ratio(
@@ -284,4 +303,6 @@ def schedule(
         _LEAST_PEAK * scales.strength,
         math.ceil(steps / slowest),
         math.ceil(min(likely, steps / slowest)),
+        control=loading.control,
+        fastest_ends=_fastest_ends(test, model, loading.rate) if loading.control else 1.0,
     )

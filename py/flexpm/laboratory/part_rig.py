@@ -306,6 +306,10 @@ class PartRig(GrainRig):
             raise InputError(f"gauge = {name!r}, must not be the name of another column")
         return self._there
 
+    def _measures(self) -> tuple[str, ...]:
+        own = [name for name in self._recorder.names if name not in COLUMNS]
+        return tuple(name for name in own if name not in ("initial_energy", "displacement"))
+
     def _pressing(self) -> wrapper.PlateController | None:
         plates = self.built.engine(wrapper.PlateController)
         return plates if plates and plates.loaded else None

@@ -17,7 +17,7 @@ from typing import NoReturn, Protocol
 import yade
 from yade import EnumClass_TestState as TestState
 
-from ..errors import SimulationError
+from ..errors import InputError, SimulationError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..results.record import Curve
@@ -256,6 +256,8 @@ class TestRig(ABC):
         except RuntimeError:
             if not self.diverged:
                 raise
+        except ValueError as error:  # an engine cannot do what it was asked for
+            raise InputError(str(error)) from None
         return True
 
     def _begin_confinement(self, pressure: float) -> Span:

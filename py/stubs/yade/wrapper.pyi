@@ -179,6 +179,9 @@ class LoadingRateController(Engine):
 class CrackWaitController(Engine):
     recorder: AxialRecorder | None
 
+class ServoController(LoadingController):
+    ends: LoadingController | None
+
 class Gauge(Serializable):
     name: str
 
@@ -194,6 +197,8 @@ class AxialRecorder(Engine):
     strength: float
     def addGauge(self, gauge: Gauge) -> None: ...
     loading: LoadingController | None
+    controlled: str
+    setPoint: float
     stopRatio: float
     leastPeak: float
     minStrain: float

@@ -106,15 +106,15 @@ TEST_CASE("Gauges read what their nodes and plates move, each on its side of a n
     for_each_component(a.grains, [&](int i) {
         a.grains.displacement[i] = axis_of(i) == 0 ? 1e-3 * a.grains.reference[i] : 0.0;
     });
-    const double opening = gauge_opening(a, gauge, { 1.0, 0.0 });
+    const double opening = gauge_opening(a.grains.displacement, gauge, { 1.0, 0.0 });
     CHECK(opening == Approx(1e-3 * gauge_length(a, gauge)).epsilon(0.05));
-    CHECK(gauge_opening(a, gauge, { 0.0, 1.0 }) == 0.0);
+    CHECK(gauge_opening(a.grains.displacement, gauge, { 0.0, 1.0 }) == 0.0);
     a.plates.resize(1);
     a.plates[0].displacement = { 2.0, 3.0 };
     CHECK(plate_way(a, 0, { 0.0, 1.0 }) == 3.0);
     CHECK_THROWS_WITH(plate_way(a, 1, { 0.0, 1.0 }), Catch::Matchers::Contains("plate"));
-    CHECK_THROWS_WITH(
-        gauge_opening(a, { 0, 1 << 30 }, { 1.0, 0.0 }), Catch::Matchers::Contains("node"));
+    CHECK_THROWS_WITH(gauge_opening(a.grains.displacement, { 0, 1 << 30 }, { 1.0, 0.0 }),
+        Catch::Matchers::Contains("node"));
     CHECK_THROWS_WITH(
         gauge_points(a, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Matchers::Contains("length"));
 }
@@ -132,17 +132,21 @@ TEST_CASE("A section reads the mean way of the nodes in its band")
     for_each_component(a.grains, [&](int i) {
         a.grains.displacement[i] = axis_of(i) == 1 ? 1e-3 * a.grains.reference[i] : 0.0;
     });
-    CHECK(mean_way(a, found.nodes, up) == Approx(1e-3 * found.place).epsilon(1e-12));
-    CHECK(mean_way(a, found.nodes, { 1.0, 0.0 }) == 0.0);
+    CHECK(mean_way(a.grains.displacement, found.nodes, up)
+        == Approx(1e-3 * found.place).epsilon(1e-12));
+    CHECK(mean_way(a.grains.displacement, found.nodes, { 1.0, 0.0 }) == 0.0);
     // a grain that has been erased has no nodes any more
     const int gone = grain_node(a.grains, found.nodes.front()).grain;
     a.grains.erased[gone] = 1;
     for (int n : section_at(a, 0.01, up, 0.002).nodes)
         CHECK(grain_node(a.grains, n).grain != gone);
     CHECK_THROWS_WITH(section_at(a, 5.0, up, 0.001), Catch::Matchers::Contains("section"));
-    CHECK_THROWS_WITH(mean_way(a, {}, up), Catch::Matchers::Contains("at least 1"));
-    CHECK_THROWS_WITH(mean_way(a, { -1 }, up), Catch::Matchers::Contains("node"));
-    CHECK_THROWS_WITH(mean_way(a, { 1 << 30 }, up), Catch::Matchers::Contains("node"));
+    CHECK_THROWS_WITH(
+        mean_way(a.grains.displacement, {}, up), Catch::Matchers::Contains("at least 1"));
+    CHECK_THROWS_WITH(
+        mean_way(a.grains.displacement, { -1 }, up), Catch::Matchers::Contains("node"));
+    CHECK_THROWS_WITH(
+        mean_way(a.grains.displacement, { 1 << 30 }, up), Catch::Matchers::Contains("node"));
 }
 
 TEST_CASE("The scales of a bar between parts are those of its length and modulus")

@@ -138,6 +138,18 @@ def test_direct_shear(package_parent, tmp_path):
     assert len(statements) <= 1 + 25  # the text at its head
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_snap_back(package_parent, tmp_path, model):
+    """A bar longer than snaps back returns the law of its weak line while the ends go back."""
+    text = printed("snap_back.py", package_parent, str(tmp_path), model)
+    first, last = map(float, re.search(r"from ([\d.]+) to ([\d.]+) um", text).groups())
+    assert last < 0.8 * first
+    assert float(re.search(r"line by ([\d.]+) %", text)[1]) < 2.0
+    followed = re.search(r"set point: ([\d.]+) % of the rows$", text, re.MULTILINE)
+    assert float(followed[1]) > 95.0  # and no warning after it
+    assert (tmp_path / "snap_back.png").stat().st_size > 10000
+
+
 @pytest.mark.parametrize(
     ("name", "most"), [("load_unload_reload", 30), ("notched_beam", 30), ("cyclic_loading", 15)]
 )

@@ -105,14 +105,14 @@ double reaction(const Assembly& a, const std::vector<int>& nodes, int axis)
     return sum;
 }
 
-double side_displacement(const Assembly& a, int side, int axis)
+double side_displacement(const Assembly& a, int side, int axis, const Array<double>& moved)
 {
     double moment = 0.0, length = 0.0;
     for (int e = 0; e < a.edges.count; ++e) {
         if (!is_on_side(a, e, side)) continue;
         const auto [n0, n1] = a.edges.nodes(e);
-        const double l = edge_length(a, e), *u = a.grains.displacement.data();
-        moment += 0.5 * l * (u[component(n0, axis)] + u[component(n1, axis)]);
+        const double l = edge_length(a, e);
+        moment += 0.5 * l * (moved[component(n0, axis)] + moved[component(n1, axis)]);
         length += l;
     }
     return moment / length;

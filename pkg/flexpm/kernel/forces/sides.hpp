@@ -38,8 +38,8 @@ void release(Assembly& a, const std::vector<int>& nodes, int axis);
 /// Force that the holder exerts on the nodes [N]: minus the sum of the nodal forces.
 double reaction(const Assembly& a, const std::vector<int>& nodes, int axis);
 
-/// Mean displacement of a side, weighted by edge length [m].
-double side_displacement(const Assembly& a, int side, int axis);
+/// Mean displacement of a side, weighted by edge length, where nodes move so, in the layout of Grains::displacement [m].
+double side_displacement(const Assembly& a, int side, int axis, const Array<double>& moved);
 
 /// Reference length of a boundary edge [m].
 double edge_length(const Assembly& a, int edge);

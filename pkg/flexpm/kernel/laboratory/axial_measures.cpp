@@ -91,6 +91,12 @@ AxialGeometry rectangle_of(const Assembly& a, Sense sense)
     return { side_length(a, bottom_side), side_length(a, left_side), sense };
 }
 
+double lateral_strain(const Assembly& a, Sense sense, const Array<double>& moved)
+{
+    const double lateral = specimen_strain(a, moved).lateral;
+    return sense == Sense::compression ? lateral : -lateral;
+}
+
 AxialObservation observe(const Assembly& a, const AxialGeometry& g)
 {
     const double sign = g.sense == Sense::compression ? -1.0 : 1.0;

@@ -55,6 +55,9 @@ AxialObservation observe_ends(const Assembly& a, const EndForces& ends, Sense se
 
 AxialGeometry rectangle_of(const Assembly& a, Sense sense);
 
+/// Lateral strain of a rectangle where nodes move so, in the layout of Grains::displacement; positive as Poisson's effect [-].
+double lateral_strain(const Assembly& a, Sense sense, const Array<double>& moved);
+
 /// Of the last step, which must have been measured.
 AxialObservation observe(const Assembly& a, const AxialGeometry& geometry);
 

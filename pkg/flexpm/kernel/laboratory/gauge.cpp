@@ -35,9 +35,9 @@ int nearest_node(const Assembly& a, Point place, Point other)
     return nearest;
 }
 
-void need_node(const Assembly& a, int node)
+void need_node(const Array<double>& moved, int node)
 {
-    const int last = static_cast<int>(a.grains.displacement.size()) - lanes;
+    const int last = static_cast<int>(moved.size()) - lanes;
     if (node < 0 || node >= last)
         refuse("node of a gauge", node, "", "must be one of gauge_points() or section_at()");
 }
@@ -55,20 +55,33 @@ double gauge_length(const Assembly& a, const GaugePoints& gauge)
     return norm(reference_of(a, gauge.second) - reference_of(a, gauge.first));
 }
 
-double plate_way(const Assembly& a, int plate, Point direction)
+namespace {
+
+const Plate& plate_of(const Assembly& a, int plate)
 {
     if (plate < 0 || plate >= static_cast<int>(a.plates.size()))
         refuse("plate of a gauge", plate, "", "must be the number of a plate; add one first");
-    return dot(a.plates[plate].displacement, direction);
+    return a.plates[plate];
 }
 
-double gauge_opening(const Assembly& a, const GaugePoints& gauge, Point direction)
+}  // namespace
+
+double plate_way(const Assembly& a, int plate, Point direction)
+{
+    return dot(plate_of(a, plate).displacement, direction);
+}
+
+double plate_rate(const Assembly& a, int plate, Point direction)
+{
+    const Plate& p = plate_of(a, plate);
+    return dot(p.loaded ? p.loading_velocity : p.velocity, direction);
+}
+
+double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction)
 {
     for (int node : { gauge.first, gauge.second })
-        need_node(a, node);
-    const Point way = vector_at(a.grains.displacement, gauge.second)
-        - vector_at(a.grains.displacement, gauge.first);
-    return dot(way, direction);
+        need_node(moved, node);
+    return dot(vector_at(moved, gauge.second) - vector_at(moved, gauge.first), direction);
 }
 
 Section section_at(const Assembly& a, double place, Point direction, double half_width)
@@ -89,13 +102,13 @@ Section section_at(const Assembly& a, double place, Point direction, double half
     return found;
 }
 
-double mean_way(const Assembly& a, const std::vector<int>& nodes, Point direction)
+double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Point direction)
 {
     if (nodes.empty()) refuse("nodes of a gauge", 0.0, "", "must be at least 1");
     double sum = 0.0;
     for (int node : nodes) {
-        need_node(a, node);
-        sum += dot(vector_at(a.grains.displacement, node), direction);
+        need_node(moved, node);
+        sum += dot(vector_at(moved, node), direction);
     }
     return sum / static_cast<double>(nodes.size());
 }

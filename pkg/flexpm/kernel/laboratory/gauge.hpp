@@ -25,9 +25,13 @@ double gauge_length(const Assembly& a, const GaugePoints& gauge);
 /// @throws std::invalid_argument  if there is no such plate
 double plate_way(const Assembly& a, int plate, Point direction);
 
-/// How far the points have moved apart along a unit vector [m].
+/// Velocity along it that the loading gives a plate [m/s].
+/// @throws std::invalid_argument  as plate_way()
+double plate_rate(const Assembly& a, int plate, Point direction);
+
+/// How far the points move apart along a unit vector where nodes move so, in the layout of Grains::displacement [m].
 /// @throws std::invalid_argument  if one of them is no node of the assembly
-double gauge_opening(const Assembly& a, const GaugePoints& gauge, Point direction);
+double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction);
 
 /// A section through a specimen: the nodes in a band, and where they lie.
 struct Section {
@@ -40,8 +44,8 @@ struct Section {
 /// @throws std::invalid_argument  if there are none
 Section section_at(const Assembly& a, double place, Point direction, double half_width);
 
-/// Mean way of nodes along a unit vector [m].
+/// Mean way of nodes along a unit vector where they move so, in the same layout [m].
 /// @throws std::invalid_argument  if there are none, or one of them is no node of the assembly
-double mean_way(const Assembly& a, const std::vector<int>& nodes, Point direction);
+double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Point direction);
 
 }  // namespace flexpm

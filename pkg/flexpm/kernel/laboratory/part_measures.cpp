@@ -46,17 +46,17 @@ EndForces ends_of(const Assembly& a, const PartGeometry& parts)
     return { parts.holding.empty() ? -top : push(a, parts.holding, parts.direction), top };
 }
 
-/// Stiffness that the driven plates feel when nodes move so and they themselves by one along the loading [N/m].
-double stiffness_felt(
-    const Assembly& a, const PartGeometry& parts, const Array<double>& displacement)
+}  // namespace
+
+double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity)
 {
     double sum = 0.0;
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const Point u = vector_on_edge(displacement, a.edges.nodes(p.edge), p.weight);
-            const Point way = parts.direction - u;
+            const Point v = vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
+            const Point way = plate.velocity - v;
             const StiffnessBlock k = plate_springs(plate, i);
             const Point force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
             sum += dot(force, parts.direction);
@@ -64,8 +64,6 @@ double stiffness_felt(
     }
     return sum;
 }
-
-}  // namespace
 
 double part_load(const Assembly& a, const PartGeometry& parts)
 {
@@ -100,7 +98,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
         moved.plates[p].velocity = parts.direction;
     start_elastically(moved, false, Held::by_parts);
     const double mass = 2.0 * kinetic_of_velocities(moved.grains);
-    const double stiffness = stiffness_felt(moved, parts, moved.grains.velocity);
+    const double stiffness = part_load_rate(moved, parts, moved.grains.velocity);
     check_positive("stiffness that the driven parts feel", stiffness, "N/m");
     const double modulus = stiffness * parts.length / parts.area;
     if (strength == 0.0) {

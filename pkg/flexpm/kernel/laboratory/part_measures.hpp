@@ -22,6 +22,10 @@ struct PartGeometry {
 /// Load [N]: mean of what the driven plates push and the holding ones push back. Deviation D25.
 double part_load(const Assembly& a, const PartGeometry& parts);
 
+/// Change of the driven plates' push in a unit of time, where nodes move at such velocities, in the layout of
+/// Grains::displacement, and plates at their own [N/s].
+double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity);
+
 /// Way of the driven plates along the loading [m].
 double part_displacement(const Assembly& a, const PartGeometry& parts);
 

@@ -218,13 +218,12 @@ Array<double> unilateral_solution(Assembly& a, const std::vector<Prescribed>& pr
     return found;
 }
 
-}  // namespace
-
-Array<double> elastic_velocities(const Assembly& a, Held held)
+/// elastic_velocities() of ends and plates at `sense` times their velocities.
+Array<double> velocities_along(const Assembly& a, Held held, double sense)
 {
     std::vector<Prescribed> prescribed;
     for_each_component(a.grains, [&](int i) {
-        if (a.grains.prescribed[i]) prescribed.push_back({ i, a.grains.velocity[i] });
+        if (a.grains.prescribed[i]) prescribed.push_back({ i, sense * a.grains.velocity[i] });
     });
     if (a.plates.empty()) return solve_static(a, prescribed).displacement;
 
@@ -233,12 +232,19 @@ Array<double> elastic_velocities(const Assembly& a, Held held)
     for (const Plate& p : a.plates) {
         if (p.loaded) continue;
         moved.plates.push_back(p);
-        moved.plates.back().displacement = p.velocity;
+        moved.plates.back().displacement = sense * p.velocity;
     }
     if (held == Held::by_parts) return unilateral_solution(moved, prescribed);
     // smooth plates leave the specimen free to slide
     prescribed.push_back({ middle_of(a, bottom_side), 0.0 });
     return solve_static(moved, prescribed).displacement;
+}
+
+}  // namespace
+
+Array<double> elastic_velocities(const Assembly& a, Held held)
+{
+    return velocities_along(a, held, 1.0);
 }
 
 void start_elastically(Assembly& a, bool undamped, Held held)
@@ -271,14 +277,16 @@ void start_elastically(Assembly& a, bool undamped, Held held)
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
 }
 
-bool renew_loading(Assembly& a)
+bool renew_loading(Assembly& a, double sense)
 {
     Array<double> velocity;
     try {
-        velocity = elastic_velocities(a, Held::by_parts);
+        velocity = velocities_along(a, Held::by_parts, sense);
     } catch (const std::runtime_error&) {
         return false;  // grains have come loose, which nothing holds
     }
+    for (double& v : velocity)
+        v *= sense;
     for (Plate& p : a.plates) {
         if (p.loaded) p.loading_velocity = velocity_before(a, p, velocity);
     }

@@ -32,19 +32,26 @@ StrainGauge gauge_of(const Assembly& a, double height)
 
 SpecimenStrain specimen_strain(const Assembly& a)
 {
+    return specimen_strain(a, a.grains.displacement);
+}
+
+SpecimenStrain specimen_strain(const Assembly& a, const Array<double>& moved)
+{
     const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     check_positive("length of the bottom side", width, "m");
     check_positive("length of the left side", height, "m");
     if (!a.grains.is_rigid(0)) {
-        return { (side_displacement(a, top_side, 1) - side_displacement(a, bottom_side, 1))
+        return { (side_displacement(a, top_side, 1, moved)
+                     - side_displacement(a, bottom_side, 1, moved))
                 / height,
-            (side_displacement(a, right_side, 0) - side_displacement(a, left_side, 0)) / width };
+            (side_displacement(a, right_side, 0, moved) - side_displacement(a, left_side, 0, moved))
+                / width };
     }
     const auto index = [&](int grain, int axis) { return component(a.grains.centre(grain), axis); };
     return centre_strain(
         gauge_of(a, height), a.grains.count,
         [&](int grain, int axis) { return a.grains.reference[index(grain, axis)]; },
-        [&](int grain, int axis) { return a.grains.displacement[index(grain, axis)]; });
+        [&](int grain, int axis) { return moved[index(grain, axis)]; });
 }
 
 }  // namespace flexpm

@@ -11,4 +11,7 @@ namespace flexpm {
 /// @throws std::invalid_argument  if a side has no edges, or a band no grain
 SpecimenStrain specimen_strain(const Assembly& a);
 
+/// The same where nodes move so, in the layout of Grains::displacement.
+SpecimenStrain specimen_strain(const Assembly& a, const Array<double>& moved);
+
 }  // namespace flexpm

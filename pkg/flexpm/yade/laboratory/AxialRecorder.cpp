@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/loading_field.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -49,13 +50,14 @@ namespace {
 		return recorder.diameter > 0;
 	}
 
+	flexpm::Sense senseOf(const AxialRecorder& recorder) { return recorder.tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
+
 	/// What the recorder sees of the specimen after a step; the strains count from the bonded state.
 	flexpm::AxialObservation observed(const AxialRecorder& recorder, const flexpm::Assembly& assembly)
 	{
-		const auto sense = recorder.tension ? flexpm::Sense::tension : flexpm::Sense::compression;
-		auto       now   = !recorder.driven.empty() ? flexpm::observe_parts(assembly, recorder.parts())
-		                : isDisc(recorder)          ? flexpm::observe_disc(assembly, recorder.diameter)
-		                                            : flexpm::observe(assembly, flexpm::rectangle_of(assembly, sense));
+		auto now = !recorder.driven.empty() ? flexpm::observe_parts(assembly, recorder.parts())
+		        : isDisc(recorder)          ? flexpm::observe_disc(assembly, recorder.diameter)
+		                                    : flexpm::observe(assembly, flexpm::rectangle_of(assembly, senseOf(recorder)));
 		if (recorder.loading) now.velocity_factor = recorder.loading->velocityFactor;
 		return now;
 	}
@@ -83,6 +85,7 @@ void AxialRecorder::action()
 	}
 	for (const auto& gauge : gauges)
 		values.push_back(gauge->reading(solver->forEngines()));
+	if (!controlled.empty()) values.push_back(setPoint);
 	stress       = now.axial_stress;
 	strain       = now.axial_strain;
 	differential = flexpm::differential_stress(now);
@@ -109,13 +112,28 @@ py::list AxialRecorder::names() const
 	}
 	for (const auto& gauge : gauges)
 		all.append(gauge->name);
+	if (!controlled.empty()) all.append("set_point");
 	return all;
 }
 
 py::object AxialRecorder::rows() const
 {
-	const std::size_t columns = recorded.size() + (driven.empty() ? 0 : 2) + gauges.size();
+	const std::size_t columns = recorded.size() + (driven.empty() ? 0 : 2) + gauges.size() + (controlled.empty() ? 0 : 1);
 	return flexpm_bindings::copied(values, columns, flexpm_bindings::Access::readOnly);
+}
+
+std::pair<Real, Real> AxialRecorder::measure(const string& column, const flexpm::Assembly& assembly) const
+{
+	const auto field = flexpm::loading_field(assembly);
+	for (const auto& gauge : gauges) {
+		if (gauge->name == column) return { gauge->reading(assembly), gauge->rate(assembly, field) };
+	}
+	if (!driven.empty() && column == "load") return { flexpm::part_load(assembly, parts()), flexpm::part_load_rate(assembly, parts(), field) };
+	if (!driven.empty() || isDisc(*this) || column != "lateral_strain")
+		throw std::invalid_argument(
+		        "AxialRecorder.controlled = " + column + ", must be the name of a gauge, load between parts, or lateral_strain of a rectangle");
+	const auto sense = senseOf(*this);
+	return { flexpm::lateral_strain(assembly, sense, assembly.grains.displacement) - zero[1], flexpm::lateral_strain(assembly, sense, field) };
 }
 
 void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)

@@ -18,6 +18,9 @@ public:
 	boost::python::object rows() const;
 	boost::python::dict   scales() const;
 	void                  addGauge(const shared_ptr<Gauge>& gauge);
+	/// What a column of the record that a servo may follow reads now, and what it grows by in a second with the motion of the loading.
+	/// @throws std::invalid_argument  if it is none
+	std::pair<Real, Real> measure(const string& column, const flexpm::Assembly& assembly) const;
 	/// What holds and loads the specimen, if parts do.
 	flexpm::PartGeometry parts() const { return { driven, holding, { direction[0], direction[1] }, area, length }; }
 
@@ -41,6 +44,8 @@ public:
 		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen between parts, in the order of scales(); empty before it. Those of a broken one would be others."))
 		((vector<shared_ptr<Gauge>>, gauges,, Attr::hidden, "Readings that the record has, too."))
 		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
+		((string, controlled,,, "Column that a :yref:`ServoController` makes follow its set point, which is recorded, too: a gauge's, load, lateral_strain; empty: none."))
+		((Real, setPoint, 0.,, "Present set point of that column [SI unit of the column] |yupdate|."))
 		((Real, stopRatio, .5,, "The test is over once the stress above the confinement has fallen below this part of its peak [-]."))
 		((Real, leastPeak, 0.,, "No fall counts before the stress above the confinement has reached this [Pa]."))
 		((Real, minStrain, -1e300,, "The test is over at this axial strain or below [-]."))

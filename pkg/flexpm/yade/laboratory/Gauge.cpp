@@ -9,19 +9,28 @@ YADE_PLUGIN((Gauge));
 
 Gauge::~Gauge() = default;
 
+Real Gauge::perLength(Real moved) const { return length > 0 ? moved / length : moved; }
+
+Real Gauge::way(const flexpm::Array<double>& moved) const
+{
+	const flexpm::Point along = { direction[0], direction[1] };
+	return nodes.empty() ? flexpm::gauge_opening(moved, { first, second }, along) : flexpm::mean_way(moved, nodes, along);
+}
+
 Real Gauge::moved(const flexpm::Assembly& assembly) const
 {
 	const flexpm::Point along = { direction[0], direction[1] };
-	if (!nodes.empty()) return flexpm::mean_way(assembly, nodes, along);
-	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : flexpm::gauge_opening(assembly, { first, second }, along);
+	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : way(assembly.grains.displacement);
 }
 
 void Gauge::setZero(const flexpm::Assembly& assembly) { zero = moved(assembly); }
 
-Real Gauge::reading(const flexpm::Assembly& assembly) const
+Real Gauge::reading(const flexpm::Assembly& assembly) const { return perLength(moved(assembly) - zero); }
+
+Real Gauge::rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const
 {
-	const Real way = moved(assembly) - zero;
-	return length > 0 ? way / length : way;
+	const flexpm::Point along = { direction[0], direction[1] };
+	return perLength(plate >= 0 ? flexpm::plate_rate(assembly, plate, along) : way(velocity));
 }
 
 } // namespace yade

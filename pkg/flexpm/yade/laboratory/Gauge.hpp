@@ -16,9 +16,14 @@ public:
 	void setZero(const flexpm::Assembly& assembly);
 	/// Opening or way, less that at its zero [m], or a strain [-].
 	Real reading(const flexpm::Assembly& assembly) const;
+	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.
+	Real rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const;
 
 private:
 	Real moved(const flexpm::Assembly& assembly) const;
+	/// What nodes move that move so.
+	Real way(const flexpm::Array<double>& moved) const;
+	Real perLength(Real moved) const;
 
 public:
 	// clang-format off

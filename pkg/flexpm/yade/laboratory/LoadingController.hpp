@@ -13,7 +13,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(LoadingController, BoundaryController,
 		"Base of engines that load a specimen at a velocity. Not to be used directly.",
-		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` writes it [-] |yupdate|."))
+		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` and :yref:`ServoController` write it, the latter below 0 where the ends go back [-] |yupdate|."))
 		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on what grains move beyond them."))
 		((Real, seenFactor, 0., Attr::hidden, "The factor at the last step; 0 before the first [-]."))
 	);

@@ -35,7 +35,7 @@ void PlateController::renewAfterCracks(flexpm::Assembly& assembly)
 	if (assembly.step < renewedAt + renewPeriod) return;
 	renewedAt          = assembly.step;
 	const int softened = flexpm::count_softened(assembly), sliding = flexpm::count_sliding_joints(assembly);
-	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly);
+	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly, velocityFactor < 0 ? -1 : 1);
 	seenSoftened = softened;
 	seenSliding  = sliding;
 }

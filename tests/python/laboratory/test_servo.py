@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Servo of a loading: what it follows, the same bits again, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.errors import InputError
+from flexpm.laboratory.loading_rate import Loading
+from flexpm.laboratory.part_rig import PartRig
+from flexpm.results import measures
+
+LENGTH, HEIGHT = 0.06, 0.012
+STRONG = {"tensile_strength": 1e9, "cohesion": 1e9, "tensile_fracture_energy": 1e6}
+#: A line across the bar, longer than snaps back: 2 E G / sigma_t^2 is 40 mm.
+WEAK = {
+    **{"normal_stiffness": 1.8e13, "shear_stiffness": 1.8e13, "tensile_strength": 10e6},
+    **{"cohesion": 1e9, "friction": 0.5},
+    **{"tensile_fracture_energy": 80.0, "shear_fracture_energy": 1e6},
+}
+
+
+@pytest.fixture(scope="module")
+def bar() -> flexpm.Specimen:
+    whole = flexpm.Specimen.rectangle(LENGTH, HEIGHT, thickness=0.01, seed=2)
+    return whole.with_joints({"weak": [(LENGTH / 2, 0.0), (LENGTH / 2, HEIGHT)]})
+
+
+def pulled(bar: flexpm.Specimen, model: str = "rigid", threads: int = 1) -> PartRig:
+    """The bar between grips and rollers, with gauges."""
+    yade.O.reset()
+    rock = flexpm.materials.load(None, model).with_set(STRONG | {"shear_fracture_energy": 1e6})
+    rock = rock.with_set({f"joint.weak.{key}": value for key, value in WEAK.items()}, model)
+    rig = PartRig(flexpm.build(bar, rock, model=model, threads=threads))
+    left, right = (rig.platen(side, bonded=True, friction=1e6) for side in (3, 1))
+    for side in (0, 2):
+        rig.platen(side, bonded=True)
+    middle, apart = LENGTH / 2, bar.mean_diameter
+    rig.gauge("opening", (middle - apart, HEIGHT / 2), (middle + apart, HEIGHT / 2))
+    rig.gauge("closing", (middle + apart, HEIGHT / 2), (middle - apart, HEIGHT / 2), along=(1, 0))
+    rig.way_of("way", right, (1.0, 0.0))
+    area = HEIGHT * 0.01
+    rig.drive([right], (1.0, 0.0), against=[left], area=area, length=LENGTH, strength=10e6)
+    return rig
+
+
+@pytest.fixture(scope="module")
+def opened(bar) -> flexpm.results.record.Curve:
+    rig = pulled(bar)
+    rig.load(Loading(kind="waiting", control="opening", stop_ratio=0.1))
+    assert measures.energy_error(rig.record, rig.initial_energy) < 1e-3
+    assert rig.warnings == []
+    return rig.record
+
+
+def test_ends_go_back_while_the_opening_grows(opened):
+    way, opening, load = opened["displacement"], opened["opening"], opened["load"]
+    peak = int(np.argmax(load))
+    assert way[-1] < 0.8 * way[peak]
+    assert load[-1] <= 0.1 * load[peak]
+    off = np.abs(opening / opened["set_point"] - 1.0)
+    assert np.mean(off < 0.02) > 0.95
+    assert np.all(np.diff(opened["set_point"]) > 0.0)
+    # the line has taken what its law says: G (1 - sigma / sigma_t)
+    taken = opened["damage_energy"][-1] / (80.0 * HEIGHT * 0.01)
+    assert taken == pytest.approx(1.0 - opened["axial_stress"][-1] / 10e6, rel=0.02)
+
+
+def test_without_control_the_bar_breaks_at_once(bar, opened):
+    rig = pulled(bar)
+    rig.load(Loading(kind="waiting", stop_ratio=0.1))
+    assert np.all(np.diff(rig.record["displacement"]) >= 0.0)
+    assert len(rig.record) < 0.5 * len(opened)
+    assert "set_point" not in rig.record.columns
+
+
+@pytest.mark.parametrize("control", ["way", "load"])
+def test_an_elastic_bar_is_loaded_as_without_control(bar, control):
+    rig = pulled(bar)
+    rig.load(Loading(kind="waiting", control=control, max_strain=2e-4))
+    record = rig.record
+    row = np.searchsorted(record["axial_strain"], 1.5e-4)
+    assert record["set_point"][row] == pytest.approx(record[control][row], rel=0.02)
+    speeds = np.diff(record["displacement"][2:row])
+    assert speeds.min() > 0.9 * speeds.max()
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_other_threads_and_a_saved_scene_give_the_same_bits(bar, tmp_path, model):
+    loading = Loading(kind="waiting", control="opening", max_strain=1e-3)
+    records = []
+    for threads in (1, 2):
+        rig = pulled(bar, model, threads)
+        rig.start(loading)
+        for step in range(3000):
+            if threads == 2 and step == 1700:  # while the ends go back
+                yade.O.save(str(tmp_path / "scene.bin"), quiet=True)
+                yade.O.load(str(tmp_path / "scene.bin"), quiet=True)
+                rig.built.rebind()
+                rig = PartRig(rig.built)
+            yade.O.step()
+        records.append(rig.record.array)
+    assert np.array_equal(*records, equal_nan=True)
+
+
+def test_a_loading_without_control_goes_on_from_one_with_it(bar):
+    rig = pulled(bar)
+    rig.load(Loading(kind="waiting", control="opening", max_strain=1e-4))
+    rows = len(rig.record)
+    rig.strain_to(5e-5)
+    assert np.all(np.isfinite(rig.record["set_point"][:rows]))
+    assert np.all(np.isnan(rig.record["set_point"][rows:]))
+    assert rig.strain == pytest.approx(5e-5, rel=0.02)
+
+
+def test_what_cannot_be_followed_is_refused_in_one_line(bar):
+    rig = pulled(bar)
+    for control, message in (
+        ("nothing", "Loading: control = 'nothing', must be one of load, opening, closing, way"),
+        ("displacement", "Loading: control = 'displacement', must be one of"),
+        ("closing", "control = closing, must be a measure that grows along the loading"),
+    ):
+        with pytest.raises(InputError) as refused:
+            rig.load(Loading(kind="waiting", control=control))
+        assert str(refused.value).startswith(message)
+        assert "\n" not in str(refused.value)
+    rig = pulled(bar)
+    rig.load(Loading(kind="waiting", control="way", max_strain=1e-5))
+    with pytest.raises(InputError, match="must be that of the first loading of the record, way"):
+        rig.load(Loading(kind="waiting", control="opening"))
+    with pytest.raises(InputError, match="static = True, must be False under control of way"):
+        Loading(static=True, control="way")
+
+
+def test_models_that_damp_all_motions_have_no_servo():
+    yade.O.reset()
+    disc = flexpm.Specimen.disc(0.012, thickness=0.01, seed=1)
+    rig = flexpm.rig(flexpm.build(disc, model="rigid"))
+    with pytest.raises(InputError, match="control = 'lateral_strain', must be one of none"):
+        rig.load(Loading(kind="waiting", control="lateral_strain"))
+    yade.O.reset()
+    rectangle = flexpm.Specimen.rectangle(0.01, 0.02, thickness=0.01, seed=1)
+    rig = flexpm.rig(flexpm.build(rectangle, model="cohfrict"))
+    with pytest.raises(InputError, match="control, must be left out for model cohfrict"):
+        rig.load(Loading(control="lateral_strain"))
