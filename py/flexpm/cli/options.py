@@ -15,7 +15,7 @@ import click
 from ..errors import InputError
 from ..laboratory.loading_rate import LOADINGS
 from ..laboratory.output import FILMS, MOST_FRAMES
-from ..laboratory.run_spec import STARTS, WAVES, RunSpec
+from ..laboratory.run_spec import CONTROLS, STARTS, WAVES, RunSpec
 from ..models.options import MESHES, MODELS, POINTS
 from ..require import (
     ANY,
@@ -241,6 +241,13 @@ part_options = combined(
         type=Name(*WAVES),
         metavar="p|s",
         help="Pressure or shear wave, for sonic.  [default: p]",
+    ),
+    click.option(
+        "--control",
+        type=Name(*(name for names in CONTROLS.values() for name in names)),
+        metavar="axial|lateral",
+        help="What grows at the loading rate in uniaxial: the axial or the lateral strain, for "
+        "which the ends go back where the specimen snaps back.  [default: axial]",
     ),
 )
 seed_option = click.option(

@@ -17,7 +17,7 @@ from yade import wrapper
 
 from ..errors import InputError
 from ..models.grains import Model
-from ..results.record import Curve
+from ..results.record import COLUMNS, Curve
 from .loading_rate import SLOWEST_WAIT, Scales, Schedule
 from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
 from .runner import Runner
@@ -53,7 +53,9 @@ class GrainRig(TestRig):
     @property
     def record(self) -> Curve:
         """The record so far."""
-        return Curve.from_columns(self._recorder.names, self._recorder.rows)
+        names = self._recorder.names
+        own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
+        return Curve.from_columns(names, self._recorder.rows, own)
 
     @property
     def confinement(self) -> float | None:

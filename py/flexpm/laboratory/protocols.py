@@ -42,7 +42,7 @@ from .part_rig import PartRig
 from .part_tests import measure, part_rig, prepared
 from .rig import TestRig
 from .rigs import rig as rig_of
-from .run_spec import PART_TESTS, SONIC, RunSpec, described, require_pulse
+from .run_spec import MEASURES, PART_TESTS, SONIC, RunSpec, described, require_pulse
 from .runner import Foresee, Runner
 from .wave_rig import WaveRig
 
@@ -89,6 +89,7 @@ def run(
     normal_stress: float | None = None,
     max_displacement: float | None = None,
     wave: str | None = None,
+    control: str | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -144,6 +145,9 @@ def run(
         normal_stress: On the upper half in ``shear`` [Pa]; None: 1 MPa.
         max_displacement: At which ``shear`` ends [m]; None: a multiple of that of its strength.
         wave: ``p`` or ``s`` for ``sonic``; None: ``p``.
+        control: What grows at the rate in ``uniaxial``: ``axial``: the ends go at it; ``lateral``:
+            the lateral strain does, and the ends go back where the specimen snaps back; for
+            ``flexible`` and ``rigid``. None: ``axial``.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -180,6 +184,7 @@ def run(
         normal_stress=normal_stress,
         max_displacement=max_displacement,
         wave=wave,
+        control=control,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval, output)
     return carry_out(plan, threads=threads, progress=progress)
@@ -341,7 +346,8 @@ def _confine(rig: TestRig, spec: RunSpec) -> None:
 
 def _load(rig: TestRig, spec: RunSpec) -> None:
     static = spec.start == "static"
-    rig.load(Loading(spec.rate, spec.loading, static, spec.max_strain, spec.stop_ratio))
+    control = MEASURES[spec.control] if spec.control else ""
+    rig.load(Loading(spec.rate, spec.loading, static, spec.max_strain, spec.stop_ratio, control))
 
 
 def _press(rig: TestRig, spec: RunSpec) -> None:

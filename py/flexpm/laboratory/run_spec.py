@@ -52,6 +52,11 @@ SONIC = "sonic"
 TESTS = (*_ENDS_TESTS, *PART_TESTS, SONIC)
 #: Waves of ``sonic``: along the height, and across it.
 WAVES = ("p", "s")
+#: What may grow at the loading rate by test, the way of the ends first; the others make the ends go
+#: as they must, and are for ``PART_MODELS`` with scaled masses.
+CONTROLS = {"uniaxial": ("axial", "lateral")}
+#: Column of the record that each of the others is.
+MEASURES = {"lateral": "lateral_strain"}
 #: Of these the ones between supports, with a notch.
 _NOTCHED = ("bending", "scb")
 #: Models that parts hold.
@@ -85,6 +90,7 @@ _OWN = {
     **dict.fromkeys(("span", "notch"), _NOTCHED),
     **dict.fromkeys(("normal_stress", "max_displacement"), ("shear",)),
     "wave": (SONIC,),
+    "control": tuple(CONTROLS),
 }
 _UNUSED: dict[str, tuple[str, ...]] = {
     "uniaxial": ("diameter", "confinement"),
@@ -133,7 +139,7 @@ _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
     *("dynamic", "gravity", "start", "loading", "span", "notch"),
     *("normal_stress", "max_displacement"),
-    "wave",
+    *("wave", "control"),
 )
 #: Fields that options of the command set, by their names.
 OPTIONS = (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, *_SIMULATION)
@@ -174,6 +180,7 @@ class RunSpec:
         max_displacement: Of the lower half of a ``shear`` test, at which it ends [m]; None for a
             multiple of that at its reference strength, and for other tests.
         wave: Of ``sonic``, one of ``WAVES``; empty: ``p``. None for other tests.
+        control: What grows at the rate, one of ``CONTROLS``; None: the way of the ends.
     """
 
     test: str
@@ -195,6 +202,7 @@ class RunSpec:
     normal_stress: float | None = None
     max_displacement: float | None = None
     wave: str | None = None
+    control: str | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
@@ -212,6 +220,7 @@ class RunSpec:
         self._check_test()
         self._check_beam()
         self._check_shear()
+        self._check_control()
         self._set("points", int(self.points))
         self._set("material", dict(self.material))
 
@@ -456,6 +465,26 @@ class RunSpec:
         self._set("dynamic", True)  # a wave in scaled masses has another speed
         if self.specimen.diameters is not None:
             require_pulse(self.specimen.height or 0.0, float(sum(self.specimen.diameters)) / 2.0)
+
+    def _check_control(self) -> None:
+        if self.control is None:
+            return
+        if self.test not in CONTROLS:
+            raise InputError(f"run: control = {self.control}, must not be given for {self.test}")
+        require_one_of("run: control", self.control, CONTROLS[self.test])
+        first = CONTROLS[self.test][0]
+        if self.control == first:
+            self._set("control", None)
+        elif self.model not in PART_MODELS or self.dynamic:
+            raise InputError(
+                f"run: control = {self.control}, must be {first} for model {self.model}"
+                f"{' with real masses' if self.dynamic else ''}; it needs flexible or rigid grains "
+                "and scaled masses"
+            )
+        elif self.start == "static":
+            raise InputError(
+                f"run: start = static, must be rest with control = {self.control}; leave it out"
+            )
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -138,6 +138,17 @@ def test_direct_shear(package_parent, tmp_path):
     assert len(statements) <= 1 + 25  # the text at its head
 
 
+@pytest.mark.long
+def test_class_two(package_parent, tmp_path):
+    text = printed("class_two.py", package_parent, str(tmp_path))
+    found = re.findall(r"peak ([\d.]+) MPa at ([\d.]+) permille, the end at ([\d.]+).* ok", text)
+    axial, lateral = ([float(number) for number in line] for line in found)
+    assert lateral[0] == pytest.approx(axial[0], rel=0.05)
+    assert axial[2] > axial[1]
+    assert lateral[2] < 0.7 * lateral[1]
+    assert (tmp_path / "class_two.png").stat().st_size > 10000
+
+
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_snap_back(package_parent, tmp_path, model):
     """A bar longer than snaps back returns the law of its weak line while the ends go back."""

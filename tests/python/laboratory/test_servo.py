@@ -3,16 +3,23 @@
 
 from __future__ import annotations
 
+import dataclasses
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
+from flexpm.cli.main import main
 from flexpm.errors import InputError
+from flexpm.laboratory.checkpoint import Checkpoint
 from flexpm.laboratory.loading_rate import Loading
 from flexpm.laboratory.part_rig import PartRig
+from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.results import measures
+from flexpm.studies import study
 
 LENGTH, HEIGHT = 0.06, 0.012
 STRONG = {"tensile_strength": 1e9, "cohesion": 1e9, "tensile_fracture_energy": 1e6}
@@ -147,3 +154,101 @@ def test_models_that_damp_all_motions_have_no_servo():
     rig = flexpm.rig(flexpm.build(rectangle, model="cohfrict"))
     with pytest.raises(InputError, match="control, must be left out for model cohfrict"):
         rig.load(Loading(control="lateral_strain"))
+
+
+@pytest.fixture(scope="module", params=["flexible", "rigid"])
+def compressed(request, tmp_path_factory) -> tuple[flexpm.Result, Path]:
+    """A brittle specimen under control of its lateral strain."""
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=1)
+    folder = tmp_path_factory.mktemp(request.param)
+    ask = {"model": request.param, "control": "lateral", "out": folder, "report": False}
+    return flexpm.run("uniaxial", specimen, "augig-table2-brittle", **ask), folder
+
+
+def test_brittle_grains_show_a_branch_of_class_two(compressed):
+    result, folder = compressed
+    curve = result.curve
+    strain, lateral = curve["axial_strain"], curve["lateral_strain"]
+    assert result.status == "ok"
+    assert result.energy_error < 1e-3
+    assert strain[-1] < 0.7 * result.peak_strain
+    assert result.softening_slope > 0.0
+    assert np.mean(np.abs(lateral / curve["set_point"] - 1.0) < 0.02) > 0.95
+    again = flexpm.Result.read(folder)
+    assert again.curve.own == ("set_point",)
+    assert again.inputs["control"] == "lateral"
+
+
+def test_a_controlled_test_that_was_interrupted_has_the_same_bits(
+    compressed, tmp_path, monkeypatch
+):
+    whole, _ = compressed
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=1)
+    ask = {"model": whole.model, "control": "lateral", "out": tmp_path, "report": False}
+    peak = int(np.argmax(whole.curve["axial_stress"]))
+    end = 0.5 * (whole.curve["step"][peak] + whole.steps)
+    save = Checkpoint.save
+
+    def interrupt(self):
+        save(self)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Checkpoint, "save", interrupt)
+    monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > end))
+    with pytest.raises(KeyboardInterrupt):
+        flexpm.run("uniaxial", specimen, "augig-table2-brittle", **ask)
+    monkeypatch.undo()
+    resumed = flexpm.run("uniaxial", specimen, "augig-table2-brittle", **ask, threads=2)
+    assert end < resumed.resumed_at < whole.steps
+    assert np.array_equal(resumed.curve.array, whole.curve.array, equal_nan=True)
+
+
+def spec_of(**options: object) -> RunSpec:
+    specimen = flexpm.Specimen.rectangle(0.01, 0.02, thickness=0.08, seed=1)
+    model = str(options.get("model", "flexible"))
+    material = described(flexpm.materials.load(None, model), model)
+    return RunSpec("uniaxial", specimen.spec, material, **options)
+
+
+def test_control_of_the_ends_is_the_default_and_changes_no_key():
+    assert spec_of(control="axial") == spec_of()
+    assert spec_of(control="axial").key() == spec_of().key() != spec_of(control="lateral").key()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"control": "cmod"}, "run: control = 'cmod'"),
+        ({"control": "lateral", "model": "inner"}, "run: control = lateral, must be axial for"),
+        ({"control": "lateral", "dynamic": True}, "run: control = lateral, must be axial for"),
+        ({"control": "lateral", "start": "static"}, "run: start = static, must be rest with"),
+    ],
+)
+def test_control_that_cannot_be_is_refused_in_one_line(options, message):
+    with pytest.raises(InputError) as refused:
+        spec_of(**options)
+    assert str(refused.value).startswith(message)
+    assert "\n" not in str(refused.value)
+    with pytest.raises(InputError, match="control = lateral, must not be given for tension"):
+        dataclasses.replace(spec_of(), test="tension", start="", control="lateral")
+
+
+def test_commands_and_studies_take_the_control(tmp_path, capsys):
+    size = ["--width", "0.01", "--height", "0.02", "--no-report", "--control", "lateral"]
+    both = ["--models", "flexible,rigid", "--out", str(tmp_path / "both")]
+    assert main(["compare", "uniaxial", *size, *both]) == 0
+    capsys.readouterr()
+    assert main(["run", "tension", *size, "--out", str(tmp_path / "out")]) == 2
+    assert "control = lateral, must not be given for tension" in capsys.readouterr().err
+    file = tmp_path / "study.toml"
+    file.write_text(
+        "[common]\nwidth = 0.01\nheight = 0.02\n"
+        '[grid]\ntest = ["uniaxial", "tension"]\ncontrol = ["axial", "lateral"]\n'
+    )
+    found = study.read(file).jobs
+    # tension has no use for it
+    assert sorted((job.spec.test, job.spec.control or "") for job in found) == [
+        ("tension", ""),
+        ("uniaxial", ""),
+        ("uniaxial", "lateral"),
+    ]
