@@ -244,10 +244,11 @@ part_options = combined(
     ),
     click.option(
         "--control",
-        type=Name(*(name for names in CONTROLS.values() for name in names)),
-        metavar="axial|lateral",
-        help="What grows at the loading rate in uniaxial: the axial or the lateral strain, for "
-        "which the ends go back where the specimen snaps back.  [default: axial]",
+        type=Name(*dict.fromkeys(name for names in CONTROLS.values() for name in names)),
+        metavar="NAME",
+        help="What grows at the loading rate: in uniaxial axial or lateral, the strain; in bending "
+        "and scb displacement or cmod, the opening of the notch. The ends go back where the "
+        "specimen snaps back.  [default: axial, displacement]",
     ),
 )
 seed_option = click.option(

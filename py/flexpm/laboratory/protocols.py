@@ -145,9 +145,10 @@ def run(
         normal_stress: On the upper half in ``shear`` [Pa]; None: 1 MPa.
         max_displacement: At which ``shear`` ends [m]; None: a multiple of that of its strength.
         wave: ``p`` or ``s`` for ``sonic``; None: ``p``.
-        control: What grows at the rate in ``uniaxial``: ``axial``: the ends go at it; ``lateral``:
-            the lateral strain does, and the ends go back where the specimen snaps back; for
-            ``flexible`` and ``rigid``. None: ``axial``.
+        control: What grows at the rate, for ``flexible`` and ``rigid``. ``uniaxial``: ``axial``:
+            the ends go at it; ``lateral``: the lateral strain does, and the ends go back where the
+            specimen snaps back. ``bending`` and ``scb``: ``displacement``, or ``cmod``: the opening
+            of the notch. None: the first.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).

@@ -54,9 +54,13 @@ TESTS = (*_ENDS_TESTS, *PART_TESTS, SONIC)
 WAVES = ("p", "s")
 #: What may grow at the loading rate by test, the way of the ends first; the others make the ends go
 #: as they must, and are for ``PART_MODELS`` with scaled masses.
-CONTROLS = {"uniaxial": ("axial", "lateral")}
+CONTROLS = {
+    "uniaxial": ("axial", "lateral"),
+    "bending": ("displacement", "cmod"),
+    "scb": ("displacement", "cmod"),
+}
 #: Column of the record that each of the others is.
-MEASURES = {"lateral": "lateral_strain"}
+MEASURES = {"lateral": "lateral_strain", "cmod": "cmod"}
 #: Of these the ones between supports, with a notch.
 _NOTCHED = ("bending", "scb")
 #: Models that parts hold.

@@ -203,6 +203,26 @@ def test_a_controlled_test_that_was_interrupted_has_the_same_bits(
     assert np.array_equal(resumed.curve.array, whole.curve.array, equal_nan=True)
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_notched_beam_bends_as_its_notch_opens(model):
+    beam = flexpm.Specimen.rectangle(0.056, 0.012, thickness=0.01, seed=1)
+    ask = {"model": model, "span": 0.048, "notch": 0.0048, "rate": 2.0}
+    result = flexpm.run("bending", beam, **ask, control="cmod")
+    curve = result.curve
+    assert result.status == "ok"
+    assert result.energy_error < 1e-3
+    assert np.mean(np.abs(curve["cmod"] / curve["set_point"] - 1.0) < 0.02) > 0.95
+    assert curve["displacement"].argmax() < len(curve) - 1 or model == "rigid"
+    # all that the load has given has gone somewhere
+    names = ("damage", "friction", "damping", "elastic", "kinetic")
+    taken = sum(curve[f"{name}_energy"][-1] for name in names)
+    ligament = 0.01 * (0.012 - result.notch_depth)
+    assert result.fracture_energy == pytest.approx(taken / ligament, rel=0.01)
+    usual = flexpm.run("bending", beam, **ask)
+    assert result.peak_load == pytest.approx(usual.peak_load, rel=0.01)
+    assert curve["damping_energy"][-1] < usual.curve["damping_energy"][-1]
+
+
 def spec_of(**options: object) -> RunSpec:
     specimen = flexpm.Specimen.rectangle(0.01, 0.02, thickness=0.08, seed=1)
     model = str(options.get("model", "flexible"))
@@ -219,6 +239,7 @@ def test_control_of_the_ends_is_the_default_and_changes_no_key():
     ("options", "message"),
     [
         ({"control": "cmod"}, "run: control = 'cmod'"),
+        ({"control": "displacement"}, "run: control = 'displacement'"),
         ({"control": "lateral", "model": "inner"}, "run: control = lateral, must be axial for"),
         ({"control": "lateral", "dynamic": True}, "run: control = lateral, must be axial for"),
         ({"control": "lateral", "start": "static"}, "run: start = static, must be rest with"),
