@@ -4,7 +4,7 @@
 Runs each test on several packings: at two slow constant rates, from which a straight line over the
 rate gives the limit, and with each way of loading at some factors on its rate. Adds one CSV row a
 run and passes over rows that are there. SI units. Start it from a checkout that scripts/setup has
-built; the second command prints the table of the documentation:
+built; the second command prints the table of the documentation, ``slow_limit_table.csv``:
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/slow_limit.py limit.csv uniaxial
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/slow_limit.py limit.csv --table
@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import csv
 import statistics
+import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from itertools import product
@@ -125,33 +126,44 @@ def limits(rows: dict[Run, dict[str, str]]) -> dict[Packing, float]:
     return found
 
 
-def print_table(rows: dict[Run, dict[str, str]]) -> None:
-    """Print means of differences to the limit with their standard errors, steps and ratios."""
+#: Columns of the documentation's table: heading, way of loading and factor on its rate. What was in
+#: use before is adaptive, of brittle contacts constant.
+SHOWN = (
+    ("before", (("adaptive", 1.0), ("constant", 1.0))),
+    ("waiting", (("waiting", 1.0),)),
+    ("waiting, rate 2", (("waiting", 2.0),)),
+)
+
+
+def table(rows: dict[Run, dict[str, str]]) -> Iterator[list[str]]:
+    """Means of differences to the limit with their standard errors, and steps."""
     limit = limits(rows)
-    groups: dict[tuple[object, ...], list[tuple[float, float, float]]] = defaultdict(list)
-    for run, row in rows.items():
-        if run.packing not in limit:
-            continue
-        difference = 100.0 * (float(row["peak_stress"]) / limit[run.packing] - 1.0)
-        numbers = (difference, float(row["steps"]), float(row["unbalanced_median"]))
-        groups[(*run.packing[:-1], run.loading, run.rate)].append(numbers)
-    print(
-        *(*Packing._fields[:-1], "loading", "rate", "packings", "difference_percent"),
-        *("standard_error", "rms", "steps", "ratio"),
-        sep=",",
-    )
-    for key in sorted(groups):
-        differences, steps, ratios = zip(*groups[key], strict=True)
-        count = len(differences)
-        error = statistics.stdev(differences) / count**0.5 if count > 1 else float("nan")
-        rms = (sum(d * d for d in differences) / count) ** 0.5
-        print(
-            *key,
-            count,
-            *(f"{statistics.mean(differences):.2f}", f"{error:.2f}", f"{rms:.2f}"),
-            *(f"{statistics.mean(steps):.0f}", f"{statistics.mean(ratios):.2g}"),
-            sep=",",
-        )
+    groups: dict[tuple[object, ...], dict[tuple[str, float], list[tuple[float, float]]]] = {}
+    for run, row in sorted(rows.items()):
+        if run.packing in limit:
+            difference = 100.0 * (float(row["peak_stress"]) / limit[run.packing] - 1.0)
+            ways = groups.setdefault(run.packing[:-1], defaultdict(list))
+            ways[run.loading, run.rate].append((difference, float(row["steps"])))
+    yield [
+        *("test", "packings"),
+        *(f"{name}{what}" for name, _ in SHOWN for what in (" [%]", ", steps")),
+    ]
+    for key, ways in groups.items():
+        test, model, material, confinement, _ = key
+        words = [f"{model}, {test}"]
+        words += [f"{1e-6 * float(confinement):g} MPa"] if confinement else []
+        words += ["brittle"] if str(material).endswith("-brittle") else []
+        line = [", ".join(words), str(len(ways["waiting", 1.0]))]
+        for _, candidates in SHOWN:
+            found = next((ways[way] for way in candidates if way in ways), [])
+            differences, steps = zip(*found, strict=True) if found else ((), ())
+            if len(found) < 2:
+                line += ["", ""]
+                continue
+            error = statistics.stdev(differences) / len(found) ** 0.5
+            line += [f"{statistics.mean(differences):.1f} ± {error:.1f}"]
+            line += [f"{statistics.mean(steps):.0f}"]
+        yield line
 
 
 def main() -> None:
@@ -167,7 +179,7 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4])
     options = parser.parse_args()
     if options.shown:
-        print_table(read(options.table))
+        csv.writer(sys.stdout, lineterminator="\n").writerows(table(read(options.table)))
         return
     for test, model, seed in product(options.tests, options.model, options.seeds):
         confinement = options.confinement if test == "biaxial" else 0.0
