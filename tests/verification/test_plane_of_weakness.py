@@ -54,22 +54,17 @@ def sliding_stress(specimen, dip, rate, model="flexible", max_strain=0.001):
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_halving_the_rate_halves_the_error_of_the_sliding_stress(seed):
-    """Damping drags on the blocks as they slide, in proportion to their velocity."""
+def test_a_joint_slides_at_the_stress_of_the_plane_of_weakness(seed):
     specimen = flexpm.Specimen.rectangle(0.02, 0.04, 0.02, seed=seed)
-    fast, slow = (sliding_stress(specimen, 45.0, rate) for rate in (0.4, 0.2))
-    assert 1.0 < slow < 1.04
-    assert 2.0 * slow - fast == pytest.approx(1.0, abs=0.02)
+    assert sliding_stress(specimen, 45.0, 0.4) == pytest.approx(1.0, abs=0.01)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("dip", "seed"), [(35.0, 1), (45.0, 1), (50.0, 1), (60.0, 2)])
-def test_strength_is_that_of_the_plane_of_weakness(dip, seed):
+def test_the_stress_is_that_of_each_dip(dip, seed):
     """Packings in which the joint is straight: a bent one interlocks (D35)."""
     specimen = flexpm.Specimen.rectangle(0.03, 0.06, 0.02, seed=seed)
-    fast, slow = (sliding_stress(specimen, dip, rate) for rate in (0.2, 0.1))
-    assert slow == pytest.approx(1.0, abs=0.03)
-    assert 2.0 * slow - fast == pytest.approx(1.0, abs=0.01)
+    assert sliding_stress(specimen, dip, 0.25) == pytest.approx(1.0, abs=0.01)
 
 
 @pytest.mark.slow

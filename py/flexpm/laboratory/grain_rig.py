@@ -232,7 +232,11 @@ class NodeRig(GrainRig):
             self._ends().holdTop = True
         else:
             self.built.add_engines(before=(wrapper.EndDisplacementController(),))
-        return self._ends()
+        ends = self._ends()
+        if self.built.specimen.edge_joints is not None:
+            # what slides lets go within the time of a wave
+            ends.ofJoints, ends.renewPeriod = True, math.ceil(self.scales().crossing_steps)
+        return ends
 
     def _move(self, velocity: float, factor: float) -> None:
         self._ends().velocity, self._ends().velocityFactor = velocity, factor

@@ -157,6 +157,7 @@ class LoadingController(Engine):
 class EndDisplacementController(LoadingController):
     velocity: float
     holdTop: bool
+    ofJoints: bool
     def preload(self, share: float, steps: int) -> None: ...
     def release(self) -> None: ...
 

@@ -130,6 +130,29 @@ TEST_CASE("A start from rest without damping of the loading keeps to the elastic
     CHECK(unbalanced_ratio(a) < 1e-3);
 }
 
+TEST_CASE("Ends that move apart take the halves of a cracked specimen with them")
+{
+    constexpr double velocity = 1e-9;
+    Assembly a = driven_grains(velocity);
+    start_elastically(a, true);
+    const auto is_upper = [&](int g) {
+        return a.grains.reference[component(a.grains.centre(g), 1)] > 0.02;
+    };
+    for (int c = 0; c < a.contacts.count; ++c) {
+        const auto [g, h] = a.contacts.pairs[c];
+        if (is_upper(g) == is_upper(h)) continue;
+        for (int p = 0; p < a.contacts.points_of(c); ++p) {
+            a.contacts.state(c, p, PointRow::shear_damage) = 1.0;
+            a.contacts.state(c, p, PointRow::opening) = 1e-6;
+        }
+    }
+    REQUIRE(renew_loading(a));
+    for (int g = 0; g < a.grains.count; ++g) {
+        const double along = a.grains.loading_velocity[component(a.grains.centre(g), 1)];
+        CHECK(along == Approx(is_upper(g) ? velocity : 0.0).margin(1e-3 * velocity));
+    }
+}
+
 TEST_CASE("A change of the loading's velocity raises no wave")
 {
     const double ratio = GENERATE(0.1, -1.0, 3.0);

@@ -77,6 +77,21 @@ def test_a_statement_that_holds_here_and_there_is_counted(judge):
     assert told.startswith("in part: holds at 2 and is against at 1 of 3 points; ")
 
 
+@pytest.mark.parametrize(
+    ("told", "verdict"),
+    [
+        ("reproduced; +3.0 %", "reproduced"),
+        ("not reproduced; +3.0 %", "not reproduced"),
+        ("one: reproduced; +3 %. other: reproduced; +4 %", "reproduced"),
+        ("one: reproduced; +3 %. other: not reproduced; -4 %", "in part"),
+        ("in part: holds at 1 and is against at 1 of 3 points", "in part"),
+        ("within scatter, about 7 packings would decide; +1 %", "within scatter"),
+    ],
+)
+def test_a_statement_has_the_verdict_of_all_its_cases(judge, told, verdict):
+    assert judge.overall(told) == verdict
+
+
 def test_a_sweep_is_judged_by_its_ends(judge):
     found = table(scattered)
     assert "one: reproduced; +300.0" in judge.each(

@@ -32,7 +32,7 @@ Array<double> elastic_velocities(const Assembly& a, Held held = Held::by_ends);
 void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
 
 /// Give the velocities that damping does not act on those of the elastic solution of the specimen as it is now, held by
-/// parts: its cracks open and slide freely. A beam that is broken turns as two halves. Where grains have come loose there is no such
+/// parts or by driven ends: its cracks open and slide freely. A beam that is broken turns as two halves. Where grains have come loose there is no such
 /// solution; the velocities then stay as they are. Deviation D40.
 ///
 /// @param sense  -1 if the loading goes back: what opens as it goes on counts as open still

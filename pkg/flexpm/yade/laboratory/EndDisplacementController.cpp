@@ -15,8 +15,9 @@ EndDisplacementController::~EndDisplacementController() = default;
 void EndDisplacementController::action()
 {
 	const Real before = drivenAt, ratio = follow(velocity, seenVelocity, drivenAt);
+	auto&      assembly = GrainSolver::ofScene(*scene)->assembly;
+	if (gripped && undampedLoading && ofJoints) renew(assembly, false);
 	if (gripped && (!holdTop || drivenAt == before)) return;
-	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop) return;
 	flexpm::move_top(assembly, drivenAt);

@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
+#include <flexpm/kernel/laboratory/static_preload.hpp>
+
 namespace yade {
 
 YADE_PLUGIN((LoadingController));
 
 LoadingController::~LoadingController() = default;
+
+void LoadingController::renew(flexpm::Assembly& assembly, bool cracksCount)
+{
+	if (assembly.step < renewedAt + renewPeriod) return;
+	renewedAt          = assembly.step;
+	const int softened = cracksCount ? flexpm::count_softened(assembly) : 0, sliding = flexpm::count_sliding_joints(assembly);
+	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly, velocityFactor < 0 ? -1 : 1);
+	seenSoftened = softened;
+	seenSliding  = sliding;
+}
 
 } // namespace yade

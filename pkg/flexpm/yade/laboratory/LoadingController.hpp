@@ -2,6 +2,7 @@
 /// @file  Base of the engines that move ends or plates of a specimen at a velocity that may change, paper Sec. 4.1.
 #pragma once
 
+#include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 
 namespace yade {
@@ -15,11 +16,18 @@ public:
 		"Base of engines that load a specimen at a velocity. Not to be used directly.",
 		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` and :yref:`ServoController` write it, the latter below 0 where the ends go back [-] |yupdate|."))
 		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on what grains move beyond them."))
+		((int, renewPeriod, 1000,, "Steps after which these velocities are found anew, if joints have begun or ceased to slide or, under loading by parts, points have cracked [-]."))
+		((long, renewedAt, 0, Attr::hidden, "Step at which that was last looked for [-]."))
+		((int, seenSoftened, 0, Attr::hidden, "Points that had softened then [-]."))
+		((int, seenSliding, 0, Attr::hidden, "Contacts of joints that slid then [-]."))
 		((Real, seenFactor, 0., Attr::hidden, "The factor at the last step; 0 before the first [-]."))
 	);
 	// clang-format on
 
 protected:
+	/// Find the motion that the loading gives anew where joints slide and, if they count, points have cracked.
+	void renew(flexpm::Assembly& assembly, bool cracksCount);
+
 	/// Bring the present velocity to the coming step: what is set times the factor. Returns its ratio to that before.
 	///
 	/// A change of the factor alone acts by its ratio, so that the velocity keeps its bits while the factor does.

@@ -27,17 +27,7 @@ void PlateController::action()
 	else if ((elasticStart || undampedLoading) && !started)
 		flexpm::start_elastically(assembly, undampedLoading, ofParts ? flexpm::Held::by_parts : flexpm::Held::by_ends);
 	started = true;
-	if (undampedLoading && ofParts && !loaded) renewAfterCracks(assembly);
-}
-
-void PlateController::renewAfterCracks(flexpm::Assembly& assembly)
-{
-	if (assembly.step < renewedAt + renewPeriod) return;
-	renewedAt          = assembly.step;
-	const int softened = flexpm::count_softened(assembly), sliding = flexpm::count_sliding_joints(assembly);
-	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly, velocityFactor < 0 ? -1 : 1);
-	seenSoftened = softened;
-	seenSliding  = sliding;
+	if (undampedLoading && ofParts && !loaded) renew(assembly, true);
 }
 
 } // namespace yade

@@ -2,7 +2,6 @@
 /// @file  What moves the rigid plates of a test: a velocity or a pressure, paper Sec. 4.1.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
@@ -11,8 +10,6 @@ class PlateController : public LoadingController {
 public:
 	~PlateController() override;
 	void action() override;
-	/// Cracks change the motion that the loading gives.
-	void renewAfterCracks(flexpm::Assembly& assembly);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PlateController, LoadingController,
@@ -25,10 +22,6 @@ public:
 		((int, rampSteps, 0,, "Steps over which the pressure rises evenly to its value [-]."))
 		((bool, elasticStart, false,, "Start all grains with the velocities of the elastic solution for the plates' velocity, so that no wave runs through the specimen."))
 		((bool, ofParts, false,, "The plates are supports on parts of the outline, which hold the specimen by themselves: for the elastic solution nothing else does, and joints that the loading opens carry nothing."))
-		((int, renewPeriod, 1000,, "Steps after which the velocities of the elastic solution are found anew, if points have cracked or joints slide, for an undamped loading by parts [-]."))
-		((long, renewedAt, 0, Attr::hidden, "Step at which it was last looked whether points have cracked or joints slide [-]."))
-		((int, seenSoftened, 0, Attr::hidden, "Points that had softened then [-]."))
-		((int, seenSliding, 0, Attr::hidden, "Contacts of joints that slid then [-]."))
 		((Vector3r, seenVelocity, Vector3r::Zero(), Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
 		((Vector3r, drivenAt, Vector3r::Zero(), Attr::hidden, "Velocity that the plates have [m/s, or m per step]."))
 		((bool, started, false, Attr::readonly, "The elastic velocities are set |yupdate|."))
