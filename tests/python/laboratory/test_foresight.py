@@ -42,6 +42,32 @@ def test_the_steps_of_the_loading_are_told_once(test, model, confinement, tmp_pa
     assert len(told) == 1
 
 
+@pytest.mark.parametrize(
+    ("test", "most"),
+    # a joint slides all its way at the fastest rate; cracks of beams take as long as they take
+    [("shear", 1.1), ("bending", 4.0), ("scb", 4.0)],
+)
+@pytest.mark.parametrize("rate", [2.0, 8.0])
+def test_steps_between_parts_are_told(test, most, rate):
+    material, options = flexpm.materials.load("augig-table7", "rigid"), {"stop_ratio": 0.1}
+    if test == "scb":
+        specimen = flexpm.Specimen.half_disc(0.04, 0.01, seed=1)
+    elif test == "bending":
+        specimen = flexpm.Specimen.rectangle(0.09, 0.02, 0.01, seed=1)
+    else:
+        plane = {"normal_stiffness": 1e13, "shear_stiffness": 1e13, "friction": 0.5}
+        material = material.with_set({f"joint.plane.{key}": one for key, one in plane.items()})
+        whole = flexpm.Specimen.rectangle(0.04, 0.02, 0.01, seed=1)
+        specimen = whole.with_joints({"plane": [[0.0, 0.01], [0.04, 0.01]]})
+        options = {"max_displacement": 2e-6}
+    about = described(material, "rigid")
+    spec = RunSpec(test, specimen.spec, about, "rigid", rate=rate, **options)
+    told = []
+    result = carry_out(plan_run(spec, specimen, material), foresee=lambda *one: told.append(one[0]))
+    (steps,) = told
+    assert result.steps / most < steps < most * result.steps
+
+
 def test_the_command_tells_unless_it_is_to_be_quiet(tmp_path, capsys):
     arguments = ["run", "tension", *SIZES, "--out", str(tmp_path)]
     assert cli.main(arguments) == 0
