@@ -14,9 +14,9 @@ EndDisplacementController::~EndDisplacementController() = default;
 
 void EndDisplacementController::action()
 {
-	const Real before = drivenAt, ratio = follow(velocity, seenVelocity, drivenAt);
-	auto&      assembly = GrainSolver::ofScene(*scene)->assembly;
+	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
 	if (gripped && undampedLoading && ofJoints) renew(assembly, false);
+	const Real before = drivenAt, ratio = follow(velocity, seenVelocity, drivenAt);
 	if (gripped && (!holdTop || drivenAt == before)) return;
 	if (!gripped) flexpm::grip_bottom(assembly);
 	if (!holdTop) return;

@@ -14,7 +14,7 @@ void LoadingController::renew(flexpm::Assembly& assembly, bool cracksCount)
 	if (assembly.step < renewedAt + renewPeriod) return;
 	renewedAt          = assembly.step;
 	const int softened = cracksCount ? flexpm::count_softened(assembly) : 0, sliding = flexpm::count_sliding_joints(assembly);
-	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly, velocityFactor < 0 ? -1 : 1);
+	if (softened != seenSoftened || sliding != seenSliding) flexpm::renew_loading(assembly, seenFactor < 0 ? -1 : 1);
 	seenSoftened = softened;
 	seenSliding  = sliding;
 }

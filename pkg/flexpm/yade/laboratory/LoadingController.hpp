@@ -25,7 +25,8 @@ public:
 	// clang-format on
 
 protected:
-	/// Find the motion that the loading gives anew where joints slide and, if they count, points have cracked.
+	/// Find the motion that the loading gives anew, at the velocity that ends or plates have, where joints slide and, if they
+	/// count, points have cracked.
 	void renew(flexpm::Assembly& assembly, bool cracksCount);
 
 	/// Bring the present velocity to the coming step: what is set times the factor. Returns its ratio to that before.
