@@ -19,7 +19,7 @@ CLAIMS = {
     **dict.fromkeys(("onset flexible", "onset rigid"), 0.1),
     **dict.fromkeys(("sliding flexible", "sliding rigid"), 1.0),
     **dict.fromkeys(("K_I beam", "K_I half-disc", "closed crack"), 3.0),
-    "rubbing crack": 4.0,
+    "rubbing crack": 3.0,
 }
 
 
