@@ -42,15 +42,17 @@ def results(
     name: str,
     chosen: argparse.Namespace,
     drawn: Callable[[Mapping[str, Any]], bool] = lambda inputs: False,
+    plan: study.Study | None = None,
 ) -> tuple[pandas.DataFrame, Path]:
     """Table of a figure's runs and the folder for its pictures.
 
     Args:
-        name: Of the study file and the table.
+        name: Of the table, and of the study file.
         chosen: The script's options.
         drawn: Tells by its inputs whether a run's curve is drawn.
+        plan: The runs; None for those of the study file.
     """
-    plan = study.read(HERE / f"{name}.toml")
+    plan = plan or study.read(HERE / f"{name}.toml")
     table, folder = RESULTS / f"{name}.csv", chosen.out / name
     known = pandas.DataFrame({"key": []})
     if table.exists():  # pandas' own reader of numbers would change last digits at each writing

@@ -11,12 +11,15 @@ take a table with a row for each point and seed, and give a verdict with its num
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pandas
 
 NOT_RUN = "not run"
+#: What judges say; "not reproduced" stands before "reproduced", which is a part of it.
+VERDICTS = ("not reproduced", "reproduced", "in part", "within scatter", "not judged", NOT_RUN)
 #: Largest relative change that is called negligible, and largest bend of a straight line [-].
 LITTLE, STRAIGHT = 0.05, 0.10
 #: Numbers of packings beyond which it is not told how many would decide.
@@ -102,6 +105,12 @@ def shown(measure: str, value: float) -> str:
     """A measure with its unit."""
     factor, unit = SHOWN.get(measure, (1.0, ""))
     return f"{factor * value:.3g} {unit}".strip()
+
+
+def overall(told: str) -> str:
+    """Verdict on a statement from what is told of its cases: that of all, or in part."""
+    found = set(re.findall("|".join(VERDICTS), told))
+    return found.pop() if len(found) == 1 else "in part"
 
 
 def each(table: pandas.DataFrame, judge: Judge, cases: Mapping[str, Where], **given: Any) -> str:

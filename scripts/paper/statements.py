@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the paper says of Figs. 7 to 14, judged by the committed results: ``statements.csv``."""
+"""What the paper says of Figs. 7 to 14, judged by the committed results: ``statements.csv``.
+
+How many statements of each section are reproduced is in ``verdicts.csv``.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +34,8 @@ TABLE_KEYS = {
     "fig13": ["model", SHEAR, FRICTION],
     "fig14": ["model"],
 }
+#: Verdicts in the order of their table.
+SHOWN = ("reproduced", "in part", "within scatter", "not reproduced", "not judged", judge.NOT_RUN)
 QUOTIENT = "compression_over_direct"
 #: A slope over a strain that goes back tells how the strain is measured, not how brittle a fall is.
 RECOVERS = "not judged; the strain of {} recovers after the peak (see Fig. {})"
@@ -432,3 +437,8 @@ found = pandas.DataFrame(
 )
 found.to_csv(RESULTS / "statements.csv", index=False)
 print(found.to_string(index=False))
+verdicts = found["Here"].map(judge.overall)
+names = [name for name in SHOWN if name in set(verdicts)]
+counts = pandas.crosstab(found["Section"], verdicts, margins=True, margins_name="all")[names]
+counts.to_csv(RESULTS / "verdicts.csv")
+print(counts.to_string())
