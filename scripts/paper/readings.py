@@ -43,7 +43,7 @@ MEASURES = (
     ("indirect", "Brazilian [MPa]", 1e-6, 2),
     ("direct", "direct tension [MPa]", 1e-6, 2),
     ("cohesion", "c [MPa]", 1e-6, 1),
-    ("friction_angle", "φ [degrees]", 1.0, 1),
+    ("friction_angle", "φ [°]", 1.0, 1),
 )
 
 chosen = options(__doc__)
@@ -72,13 +72,13 @@ for reading, group in found.groupby("reading", sort=False):
     if len(values) < len(SEEDS):  # its runs are not all done
         continue
     mean, error = values.mean(), values.sem()
-    line = {"Reading": reading, "Packings": str(len(values))}
+    line = {"Reading": reading}
     for name, heading, factor, digits in MEASURES:
         line[heading] = f"{factor * mean[name]:.{digits}f} ± {factor * error[name]:.{digits}f}"
     distance = sum((mean[name] / goal - 1.0) ** 2 for name, goal in goals.items()) / len(goals)
     line["distance [%]"] = f"{100.0 * distance**0.5:.0f}"
     lines.append(line)
-last = {"Reading": "Table 3", "Packings": "", "distance [%]": ""}
+last = {"Reading": "Table 3", "distance [%]": ""}
 for name, heading, factor, digits in MEASURES:
     last[heading] = f"{factor * goals[name]:.{digits}f}" if name in goals else ""
 table = pandas.DataFrame([*lines, last])

@@ -131,7 +131,7 @@ def book(rows: Iterable[Row]) -> list[list[str]]:
         before: tuple[float, float] | None = None
         for fineness in sorted(one for known, one in found if known == name):
             errors = found[name, fineness]
-            mean, order = statistics.mean(errors), "-"
+            mean, order = statistics.mean(errors), ""
             if before is not None and case.converges:
                 order = f"{math.log(before[1] / mean) / math.log(fineness / before[0]):.1f}"
             place = case.at.format(fineness if case.at != _RATE else 1.0 / fineness)
