@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import flexpm
@@ -162,16 +162,25 @@ def test_a_line_may_bend_and_joints_may_cross(rectangle):
     assert one_by_one.spec.joint_names == ("bent", "across")
 
 
+def numbers(low, high):
+    """Numbers from one to the other in 10 000 steps: many floats exceed the size of an example."""
+    return st.integers(0, 10000).map(lambda step: low + (high - low) * step / 10000)
+
+
 segments = st.tuples(
-    st.floats(0.001, WIDTH - 0.001),
-    st.floats(0.001, HEIGHT - 0.001),
-    st.floats(0.0, math.pi),
-    st.floats(0.004, 0.02),
+    numbers(0.001, WIDTH - 0.001),
+    numbers(0.001, HEIGHT - 0.001),
+    numbers(0.0, math.pi),
+    numbers(0.004, 0.02),
+)
+#: As many as drawn: lists of up to 100 would have six as a rule.
+joint_sets = st.sampled_from(range(1, 101)).flatmap(
+    lambda count: st.lists(segments, min_size=count, max_size=count)
 )
 
 
-@settings(max_examples=_SETS, deadline=None)
-@given(st.lists(segments, min_size=1, max_size=100), st.integers(1, 5))
+@settings(max_examples=_SETS, deadline=None, suppress_health_check=list(HealthCheck))
+@given(joint_sets, st.integers(1, 5))
 def test_any_set_of_joints(drawn, seed):
     uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
     lines = [

@@ -2,25 +2,50 @@
 #include <flexpm/kernel/assembly/law_rows.hpp>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 namespace flexpm {
 
-/// Few blocks differ from the one before: most find their rows filled.
+LawRows::LawRows()
+{
+    std::fill_n(filled, lanes, -1);
+    std::fill_n(lane_dilates, lanes, false);
+}
+
+namespace {
+
+/// Two at a time: this is done for each block of a specimen with joints.
+bool are_equal(const int* a, const int* b)
+{
+    std::int64_t two_of_a, two_of_b;
+    for (int l = 0; l < lanes; l += 2) {
+        std::memcpy(&two_of_a, a + l, sizeof two_of_a);
+        std::memcpy(&two_of_b, b + l, sizeof two_of_b);
+        if (two_of_a != two_of_b) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+/// Few lanes differ from those of the block before: most find their rows filled.
 void LawRows::fill(const Contacts& contacts, int block)
 {
-    if (filled == 0 && contacts.laws.size() == 1) return;
-    const int first = block * lanes, last = std::min(first + lanes, contacts.count) - 1;
+    if (filled[0] == 0 && contacts.laws.size() == 1) return;
+    const int first = block * lanes;
     const int* kinds = contacts.law.data();
-    const bool one =
-        std::all_of(kinds + first, kinds + last, [kind = kinds[last]](int k) { return k == kind; });
-    if (one && kinds[last] == filled) return;
-    filled = one ? kinds[last] : none;
-    dilating = false;
+    if (first + lanes <= contacts.count && are_equal(filled, kinds + first)) return;
+    const int last = std::min(first + lanes, contacts.count) - 1;
     for (int l = 0; l < lanes; ++l) {
-        const LawParameters& law = contacts.laws[kinds[std::min(first + l, last)]];
+        const int kind = kinds[std::min(first + l, last)];
+        if (kind == filled[l]) continue;
+        const LawParameters& law = contacts.laws[kind];
         store_law(law, values, l);
-        dilating = dilating || law.dilation_compliance > 0.0;
+        filled[l] = kind;
+        lane_dilates[l] = law.dilation_compliance > 0.0;
     }
+    dilating = std::any_of(lane_dilates, lane_dilates + lanes, [](bool one) { return one; });
 }
 
 }  // namespace flexpm

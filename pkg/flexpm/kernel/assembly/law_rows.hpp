@@ -6,14 +6,15 @@
 
 namespace flexpm {
 
-/// Parameters of a block's contacts as rows. One for all blocks of a pass: it keeps what it holds for
-/// blocks of the same law.
+/// Parameters of a block's contacts as rows. One for all blocks of a pass: a lane keeps what it holds for
+/// contacts of the same law.
 struct LawRows {
-    static constexpr int none = -1;
-    int filled = none;      ///< index of the law in all lanes
-    bool dilating = false;  ///< whether a law in a lane dilates
+    int filled[lanes];         ///< index of the law in each lane, -1: none
+    bool lane_dilates[lanes];  ///< whether that law dilates
+    bool dilating = false;     ///< whether any of them does
     alignas(64) double values[LawRow::count * lanes];
 
+    LawRows();
     void fill(const Contacts& contacts, int block);
 };
 
