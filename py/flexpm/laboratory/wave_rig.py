@@ -232,5 +232,7 @@ class WaveRig(GrainRig):
 
 def _pulse(place: FloatArray) -> FloatArray:
     """Half a pulse, from 1 at a place of 0 down to 0 at 1 and beyond [-]."""
-    found: FloatArray = np.where(place < 1.0, 0.5 * (1.0 + np.cos(math.pi * place)), 0.0)
-    return found
+    # numpy has cosines of its own on some processors: results would differ between machines
+    return np.array(
+        [0.5 * (1.0 + math.cos(math.pi * one)) if one < 1.0 else 0.0 for one in place.tolist()]
+    )

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -53,9 +54,10 @@ def half_disc_corners(diameter: float, grain: float) -> FloatArray:
         grain: Mean diameter of the grains [m].
     """
     radius = 0.5 * diameter
-    chords = 2 * round(0.25 * np.pi * diameter / grain) + 1
-    angles = np.linspace(0.0, np.pi, chords + 1)
-    arc = radius * np.column_stack((1.0 + np.cos(angles), np.sin(angles)))
+    chords = 2 * round(0.25 * math.pi * diameter / grain) + 1
+    angles = [math.pi * k / chords for k in range(chords + 1)]
+    # numpy has cosines of its own on some processors: packings would differ between machines
+    arc = radius * np.array([(1.0 + math.cos(angle), math.sin(angle)) for angle in angles])
     arc[-1] = 0.0  # its sine is not quite 0
     return np.vstack((arc[-1:], arc[:-1]))
 
