@@ -107,6 +107,12 @@ CASES = {
         "Pollard, Segall 1987",
         *("a = {:g} grains", (5,), _SEEDS),
     ),
+    "kink": Case(
+        "first cracks from a closed crack at 45°, mu = 0",
+        "70.5° to the crack",
+        "largest hoop stress, Erdogan, Sih 1963",
+        *("a = {:g} grains", (5, 10), tuple(range(1, 11)), False),
+    ),
 }
 
 Row = dict[str, str]

@@ -23,6 +23,7 @@ from flexpm.laboratory.part_rig import PartRig
 from flexpm.laboratory.part_tests import notch_depth
 from flexpm.laboratory.rig import BOTTOM, TOP
 from flexpm.results import toughness, waves
+from flexpm.results.cracks import TENSILE
 from flexpm.results.snapshot import POINT_SHARES, Snapshot
 
 THICKNESS = 0.08
@@ -235,6 +236,8 @@ def sliding(model: str, fineness: float, seed: int) -> Measured:
 
 #: Half the length of a closed crack, and the side of the square that it lies in [m].
 _HALF_CRACK, _PLATE = 0.01, 0.1
+#: Compression at which cracks have left both tips, and none has crossed the plate [-].
+_KINK_STRAIN = 4.8e-4
 
 
 def closed_crack(fineness: float, seed: int) -> Measured:
@@ -281,13 +284,44 @@ def rubbing_crack(fineness: float, seed: int) -> Measured:
     return Measured(ratio, len(plate.discs))
 
 
-def _cracked_plate(fineness: float, seed: int) -> tuple[flexpm.Specimen, flexpm.Specimen]:
+#: Direction of the largest hoop stress at the tip of a crack that slides, to its plane.
+_KINK = math.degrees(math.acos(1.0 / 3.0))
+
+
+def kink(fineness: float, seed: int) -> Measured:
+    """Angle at which cracks leave a closed crack without friction, over that of a continuum.
+
+    Contacts of the rock are brittle. The angle is that between the crack and the line from its tip,
+    where the cut ended, to the mean place of all points within three mean grains of the tip that
+    crack in tension up to a given strain; it is the mean of both tips.
+
+    Args:
+        fineness: Mean grains in half the length.
+        seed: Of the packing.
+    """
+    _, cut = _cracked_plate(fineness, seed, side=0.5 * _PLATE)
+    rock = flexpm.materials.load("augig-table2-brittle")
+    material = _with_crack(rock, {"shear_stiffness": 1e3})
+    result = flexpm.run("uniaxial", cut, material, max_strain=_KINK_STRAIN, report=False)
+    cracks = np.array([(crack.x, crack.y) for crack in result.cracks if crack.mode == TENSILE])
+    ends = cut.joint_lines()[0].reshape(-1, 2)
+    angles = []
+    for outwards, tip in ((-1.0, ends[_along(ends).argmin()]), (1.0, ends[_along(ends).argmax()])):
+        ways = cracks - tip
+        x, y = ways[np.hypot(*ways.T) <= 3.0 * cut.mean_diameter].mean(axis=0)
+        angles.append(math.acos(outwards * _along(np.array([x, y])) / math.hypot(x, y)))
+    return Measured(math.degrees(np.mean(angles)) / _KINK, len(cut.discs))
+
+
+def _cracked_plate(
+    fineness: float, seed: int, side: float = _PLATE
+) -> tuple[flexpm.Specimen, flexpm.Specimen]:
     """A square plate, and the same with a crack at 45 degrees in its middle."""
     yade.O.reset()
     grains = diameters(_HALF_CRACK / fineness)
-    plate = flexpm.Specimen.rectangle(_PLATE, _PLATE, THICKNESS, diameters=grains, seed=seed)
+    plate = flexpm.Specimen.rectangle(side, side, THICKNESS, diameters=grains, seed=seed)
     reach = _HALF_CRACK / math.sqrt(2.0)
-    ends = [[_PLATE / 2 + side * reach] * 2 for side in (-1.0, 1.0)]
+    ends = [[side / 2 + sign * reach] * 2 for sign in (-1.0, 1.0)]
     return plate, plate.with_joints({"crack": ends})
 
 
@@ -339,4 +373,5 @@ CASES: dict[str, Callable[[float, int], Measured]] = {
     **{f"K_I {shape}": partial(intensity, shape) for shape in _SHAPES},
     "closed crack": closed_crack,
     "rubbing crack": rubbing_crack,
+    "kink": kink,
 }

@@ -20,6 +20,7 @@ CLAIMS = {
     **dict.fromkeys(("sliding flexible", "sliding rigid"), 1.0),
     **dict.fromkeys(("K_I beam", "K_I half-disc", "closed crack"), 3.0),
     "rubbing crack": 3.0,
+    "kink": 14.0,
 }
 
 
