@@ -2,7 +2,6 @@
 #include <flexpm/kernel/assembly/law_rows.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 
 namespace flexpm {
@@ -13,29 +12,14 @@ LawRows::LawRows()
     std::fill_n(lane_dilates, lanes, false);
 }
 
-namespace {
-
-/// Two at a time: this is done for each block of a specimen with joints.
-bool are_equal(const int* a, const int* b)
-{
-    std::int64_t two_of_a, two_of_b;
-    for (int l = 0; l < lanes; l += 2) {
-        std::memcpy(&two_of_a, a + l, sizeof two_of_a);
-        std::memcpy(&two_of_b, b + l, sizeof two_of_b);
-        if (two_of_a != two_of_b) return false;
-    }
-    return true;
-}
-
-}  // namespace
-
 /// Few lanes differ from those of the block before: most find their rows filled.
 void LawRows::fill(const Contacts& contacts, int block)
 {
     if (filled[0] == 0 && contacts.laws.size() == 1) return;
     const int first = block * lanes;
     const int* kinds = contacts.law.data();
-    if (first + lanes <= contacts.count && are_equal(filled, kinds + first)) return;
+    if (first + lanes <= contacts.count && std::memcmp(filled, kinds + first, sizeof filled) == 0)
+        return;
     const int last = std::min(first + lanes, contacts.count) - 1;
     for (int l = 0; l < lanes; ++l) {
         const int kind = kinds[std::min(first + l, last)];
