@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A rig of parts: supports, rollers, platens and gauges, which a test puts where it wants them. SI.
+"""A rig of parts: supports, rollers, platens, held nodes and gauges, where a test wants them. SI.
 
-A part is a rigid plate against a part of the outline, of deformable and of rigid grains alike. It
-does not turn; it presses, pulls too if it is bonded, and resists sliding within its friction.
+A part is a rigid plate against a part of the outline, of deformable and of rigid grains alike, or a
+set of nodes. A plate does not turn; it presses, pulls too if it is bonded, and resists sliding
+within its friction. Nodes are held, moved or turned as one, wherever they lie.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from dataclasses import astuple, dataclass
 import numpy as np
 from yade import wrapper
 
+from ..arrays import BoolArray, FloatArray
 from ..errors import InputError, SimulationError
 from ..files import Table
 from ..models.grains import Model
@@ -31,6 +33,8 @@ _SUPPORT = 0.5
 _NO_SLIDING = 1e6
 
 _Place = Sequence[float]
+#: Tells of places, by arrays of their x and y [m], which of them a region has.
+_Where = Callable[[FloatArray, FloatArray], BoolArray]
 
 
 @dataclass(frozen=True)
@@ -70,12 +74,72 @@ class Part:
         return self.solver.plates()[self.number]
 
 
+@dataclass(frozen=True)
+class HeldNodes:
+    """Nodes that a rig holds or moves as one. What it says is of the last step."""
+
+    solver: wrapper.GrainSolver
+    number: int  #: of the set
+
+    @property
+    def force(self) -> tuple[float, float]:
+        """On the specimen, x and y [N]."""
+        return _pair(self._now["force"])
+
+    @property
+    def moment(self) -> float:
+        """On the specimen about `place`, counter-clockwise [N m]."""
+        return float(self._now["moment"])
+
+    @property
+    def work(self) -> float:
+        """Done on the specimen so far [J]."""
+        return float(self._now["work"])
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """About which they turn, x and y [m]: the mean of their places, unless told otherwise."""
+        return _pair(self._now["place"])
+
+    @property
+    def displacement(self) -> tuple[float, float]:
+        """Of that place since they were held, x and y [m]."""
+        return _pair(self._now["displacement"])
+
+    @property
+    def angle(self) -> float:
+        """Since they were held, counter-clockwise [rad]."""
+        return float(self._now["angle"])
+
+    @property
+    def nodes(self) -> list[int]:
+        """Of the solver, see `GrainSolver.nodePlaces`."""
+        return [int(node) for node in self._now["nodes"]]
+
+    def move(self, velocity: _Place = (0.0, 0.0), spin: float = 0.0) -> None:
+        """Move them from the next step on, whatever the rig's loading does.
+
+        Args:
+            velocity: x and y [m/s, or m per step with scaled masses].
+            spin: About `place`, counter-clockwise [rad/s, or rad per step].
+        """
+        x, y = velocity
+        try:
+            self.solver.moveNodeSet(self.number, (float(x), float(y), float(spin)))
+        except ValueError as error:
+            raise InputError(f"move: {error}") from None
+
+    @property
+    def _now(self) -> Table:
+        return self.solver.nodeSets()[self.number]
+
+
 class PartRig(GrainRig):
     """A specimen of any outline between parts.
 
-    Lay parts with `support` and `platen`, read with `gauge` and `way_of`, say with `drive` which
-    parts load, and then `load` or `strain_to`. In a run that is taken up from a checkpoint the same
-    calls find what they have laid before.
+    Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,
+    say with `drive` or `turn` which parts load, and then `load` or `strain_to`. In a run that is
+    taken up from a checkpoint the same calls find what they have laid before.
     """
 
     def __init__(self, built: Model, *, kind: str = "own", runner: Runner | None = None) -> None:
@@ -88,7 +152,7 @@ class PartRig(GrainRig):
         """
         super().__init__(built, runner=runner)
         self.disc = False
-        self._kind, self._laid = kind, 0
+        self._kind, self._laid, self._held = kind, 0, 0
         self._scales: Scales | None = None
         self._same: dict[str, str] = {}
         #: What ``confine`` presses on.
@@ -150,6 +214,40 @@ class PartRig(GrainRig):
         except ValueError as error:
             raise InputError(f"platen: {error}") from None
 
+    def hold(
+        self,
+        *,
+        box: tuple[_Place, _Place] | None = None,
+        disc: tuple[_Place, float] | None = None,
+        where: _Where | None = None,
+        axes: str = "xy",
+    ) -> HeldNodes:
+        """Hold the nodes of a region at rest; `drive`, `turn` or `HeldNodes.move` moves them.
+
+        Of deformable grains all nodes in the region are held, of rigid ones the centres, about
+        which the grains are free to turn (deviation D52). The region is one of:
+
+        Args:
+            box: Two opposite corners, x and y of each [m]; what lies on its edges is in.
+            disc: x and y of the centre, and the radius [m].
+            where: Function of the places' x and y, arrays [m], that says which ones are in.
+            axes: ``"x"``, ``"y"`` or ``"xy"``: what is held.
+
+        Raises:
+            InputError: for a region without nodes, or with nodes that another part has.
+        """
+        if axes not in ("x", "y", "xy"):
+            raise InputError(f"hold: axes = {axes!r}, must be x, y or xy")
+        number, self._held = self._held, self._held + 1
+        if number >= len(self.built.solver.nodeSets()):
+            nodes, places = self.built.solver.nodePlaces()
+            chosen = nodes[_in_region(places, box, disc, where)]
+            try:
+                self.built.solver.addNodeSet(chosen.tolist(), "x" in axes, "y" in axes)
+            except ValueError as error:
+                raise InputError(f"hold: {error}") from None
+        return HeldNodes(self.built.solver, number)
+
     def gauge(
         self,
         name: str,
@@ -185,12 +283,20 @@ class PartRig(GrainRig):
             wrapper.Gauge(name=name, first=one, second=other, direction=direction, length=base)
         )
 
-    def way_of(self, name: str, part: Part, direction: _Place) -> None:
-        """Record how far a part moves along a direction [m], in a column of this name."""
+    def way_of(self, name: str, part: Part | HeldNodes, direction: _Place) -> None:
+        """Record how far a part moves along a direction [m], in a column of this name.
+
+        Of held nodes it is the mean.
+        """
         if self._has(name):
             return
         unit = _unit(name, direction)
-        self._recorder.addGauge(wrapper.Gauge(name=name, plate=part.number, direction=unit))
+        gauge = wrapper.Gauge(name=name, direction=unit)
+        if isinstance(part, Part):
+            gauge.plate = part.number
+        else:
+            gauge.nodes = part.nodes
+        self._recorder.addGauge(gauge)
 
     def also(self, name: str, column: str) -> None:
         """Give a column of the record a second name, which the test is known by."""
@@ -200,10 +306,10 @@ class PartRig(GrainRig):
 
     def drive(
         self,
-        parts: Sequence[Part],
+        parts: Sequence[Part | HeldNodes],
         direction: _Place,
         *,
-        against: Sequence[Part] = (),
+        against: Sequence[Part | HeldNodes] = (),
         area: float = 1.0,
         length: float = 1.0,
         strength: float = 0.0,
@@ -228,9 +334,46 @@ class PartRig(GrainRig):
         if self._there:
             return
         recorder = self._recorder
-        recorder.driven = [part.number for part in parts]
-        recorder.holding = [part.number for part in against]
+        recorder.driven, recorder.drivenSets = _numbers(parts)
+        recorder.holding, recorder.holdingSets = _numbers(against)
         recorder.direction = unit
+        recorder.area, recorder.length, recorder.strength = area, length, strength
+
+    def turn(
+        self,
+        parts: Sequence[HeldNodes],
+        back: Sequence[HeldNodes] = (),
+        *,
+        about: _Place | None = None,
+        area: float = 1.0,
+        length: float = 1.0,
+        strength: float = 0.0,
+    ) -> None:
+        """Load the specimen by turning held nodes, each set like a rigid body.
+
+        The record's ``load`` is the sum of their moments [N m], its ``displacement`` the angle of
+        each [rad]; stress and strain are these over `area` and `length`, as with `drive`.
+
+        Args:
+            parts: Sets that turn counter-clockwise.
+            back: Sets that turn clockwise by the same angle.
+            about: x and y of the point that all turn about [m]. None: each turns about the mean of
+                its places and is free to move with it, so that a moment alone acts (deviation D53).
+            area: Load over stress [N m / Pa].
+            length: Displacement over strain [-].
+            strength: As for `drive`.
+        """
+        for part in (*parts, *back):
+            if not isinstance(part, HeldNodes):
+                raise InputError("turn: part = a plate, must be held nodes; call hold")
+        if self._there:
+            return
+        recorder = self._recorder
+        for part in (*parts, *back):
+            self.built.solver.turnNodeSet(part.number, None if about is None else _vector(about))
+        recorder.drivenSets = [part.number for part in parts]
+        recorder.backSets = [part.number for part in back]
+        recorder.direction = (0.0, 0.0, 1.0)
         recorder.area, recorder.length, recorder.strength = area, length, strength
 
     def scales(self) -> Scales:
@@ -333,7 +476,11 @@ class PartRig(GrainRig):
 
     def _take_hold(self) -> wrapper.LoadingController:
         loading = wrapper.PlateController(
-            plates=self._recorder.driven, elasticStart=True, ofParts=True
+            plates=self._recorder.driven,
+            nodeSets=self._recorder.drivenSets,
+            backSets=self._recorder.backSets,
+            elasticStart=True,
+            ofParts=True,
         )
         if self.kind == "shear":  # what slides lets go within the time of a wave
             loading.renewPeriod = math.ceil(self.scales().crossing_steps)
@@ -344,11 +491,42 @@ class PartRig(GrainRig):
         loading, direction = self._recorder.loading, self._recorder.direction
         assert isinstance(loading, wrapper.PlateController)
         speed = -velocity  # a rig that presses gives that of its upper end, upwards
-        loading.velocity = (speed * direction[0], speed * direction[1], 0.0)
+        loading.velocity = (speed * direction[0], speed * direction[1], speed * direction[2])
         loading.velocityFactor = factor
 
     def _loaded_area(self) -> float:
         return float(self._recorder.area)
+
+
+def _numbers(parts: Sequence[Part | HeldNodes]) -> tuple[list[int], list[int]]:
+    """Of plates, and of node sets."""
+    plates = [part.number for part in parts if isinstance(part, Part)]
+    return plates, [part.number for part in parts if isinstance(part, HeldNodes)]
+
+
+def _in_region(
+    places: FloatArray,
+    box: tuple[_Place, _Place] | None,
+    disc: tuple[_Place, float] | None,
+    where: _Where | None,
+) -> BoolArray:
+    """Which of the places, (n, 2), lie in the one region that is given."""
+    if sum(region is not None for region in (box, disc, where)) != 1:
+        raise InputError("hold: region = none or several, must be one of box, disc and where")
+    if box is not None:
+        corners = np.array(box, dtype=float)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        found: BoolArray = np.all((places >= low) & (places <= high), axis=1)
+    elif disc is not None:
+        centre, radius = disc
+        radius = require_number("hold: radius of the disc", radius, POSITIVE, "m")
+        found = np.hypot(*(places - np.asarray(centre, dtype=float)).T) <= radius
+    else:
+        assert where is not None
+        found = np.asarray(where(places[:, 0], places[:, 1]))
+        if found.shape != places.shape[:1] or found.dtype != bool:
+            raise InputError("hold: where = another array, must be one truth for each place")
+    return found
 
 
 def _pair(vector: Sequence[float]) -> tuple[float, float]:

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/assembly/contacts.hpp>
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
 #include <flexpm/kernel/assembly/grains.hpp>
-#include <flexpm/kernel/assembly/plate.hpp>
+#include <flexpm/kernel/assembly/parts.hpp>
 #include <flexpm/kernel/assembly/step_plan.hpp>
 
 #include <cstdint>
@@ -21,6 +21,7 @@ struct Assembly {
     Contacts contacts;
     BoundaryEdges edges;
     std::vector<Plate> plates;
+    std::vector<NodeSet> node_sets;
     EnergyLedger ledger;
     double thickness = 0.0;  ///< out of plane [m]
     Point gravity;           ///< acceleration of all masses [m/s^2], by set_gravity()
@@ -36,6 +37,7 @@ struct Assembly {
         visit("contacts", s.contacts);
         visit("edges", s.edges);
         visit("plates", s.plates);
+        visit("node_sets", s.node_sets);
         visit("ledger", s.ledger);
         visit("thickness", s.thickness);
         visit("gravity_x", s.gravity.x);

@@ -214,6 +214,15 @@ void check_plate(const Plate& plate, int edges)
     }
 }
 
+void check_node_set(const Grains& grains, const NodeSet& set)
+{
+    check_size(
+        "grains of held nodes", set.grains.size(), static_cast<std::int64_t>(set.nodes.size()));
+    check_indices("grain of a held node", set.grains, grains.count);
+    for (std::size_t i = 0; i < set.nodes.size(); ++i)
+        check_node(grains, set.grains[i], set.nodes[i]);
+}
+
 void check_ledger(const EnergyLedger& ledger, int blocks)
 {
     check_size("works of damping", ledger.damping_work.size(), 2 * std::int64_t { blocks });
@@ -233,6 +242,9 @@ void check_state(const Assembly& a)
     check_index("plates", static_cast<std::int64_t>(a.plates.size()), most);
     for (const Plate& plate : a.plates)
         check_plate(plate, a.edges.count);
+    check_index("node sets", static_cast<std::int64_t>(a.node_sets.size()), most);
+    for (const NodeSet& set : a.node_sets)
+        check_node_set(a.grains, set);
     check_ledger(a.ledger, a.grains.blocks());
     check_index("step", a.step, std::int64_t { 1 } << 60);
 }

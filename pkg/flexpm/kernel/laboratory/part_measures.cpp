@@ -2,6 +2,7 @@
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
@@ -16,17 +17,26 @@ namespace {
 
 /// Strength that a test is taken to have, over the stress at which its first contact point softens [-].
 constexpr double strength_over_softening = 2.0;
+/// Time in which sets move by next to nothing at a unit velocity [s].
+constexpr double unit_way = 1e-9;
 
 void check(const Assembly& a, const PartGeometry& parts)
 {
     check_positive("area of a test's load", parts.area, "m2");
     check_positive("length of a test's displacement", parts.length, "m");
-    check_positive("length of a loading's direction", norm(parts.direction), "");
-    if (parts.driven.empty()) refuse("driven parts", 0.0, "", "must be at least 1");
+    check_positive("length of a loading's direction", norm(parts.direction) + parts.turn, "");
+    if (parts.driven.empty() && parts.driven_sets.empty())
+        refuse("driven parts", 0.0, "", "must be at least 1");
     for (const auto& plates : { parts.driven, parts.holding }) {
         for (int p : plates) {
             if (p >= 0 && p < static_cast<int>(a.plates.size())) continue;
             refuse("part", p, "", "must be the number of a plate; add one first");
+        }
+    }
+    for (const auto& sets : { parts.driven_sets, parts.back_sets, parts.holding_sets }) {
+        for (int s : sets) {
+            if (s >= 0 && s < static_cast<int>(a.node_sets.size())) continue;
+            refuse("part", s, "", "must be the number of a node set; add one first");
         }
     }
 }
@@ -39,18 +49,44 @@ double push(const Assembly& a, const std::vector<int>& plates, Point direction)
     return sum;
 }
 
+/// Sum over the driven sets along the loading, of a force and a moment of each.
+template <class Force, class Moment>
+double sum_of_sets(
+    const Assembly& a, const PartGeometry& parts, const Force& force, const Moment& moment)
+{
+    double sum = 0.0;
+    for (int s : parts.driven_sets)
+        sum += dot(force(a.node_sets[s]), parts.direction) + parts.turn * moment(a.node_sets[s]);
+    for (int s : parts.back_sets)
+        sum -= parts.turn * moment(a.node_sets[s]);
+    return sum;
+}
+
+double push_of_sets(const Assembly& a, const PartGeometry& parts)
+{
+    return sum_of_sets(
+        a, parts, [](const NodeSet& s) { return s.force; },
+        [](const NodeSet& s) { return s.moment; });
+}
+
 /// Forces along the loading: of the holding plates and of the driven ones.
 EndForces ends_of(const Assembly& a, const PartGeometry& parts)
 {
-    const double top = push(a, parts.driven, parts.direction);
-    return { parts.holding.empty() ? -top : push(a, parts.holding, parts.direction), top };
+    const double top = push(a, parts.driven, parts.direction) + push_of_sets(a, parts);
+    if (parts.holding.empty() && parts.holding_sets.empty()) return { -top, top };
+    double bottom = push(a, parts.holding, parts.direction);
+    for (int s : parts.holding_sets)
+        bottom += dot(a.node_sets[s].force, parts.direction);
+    return { bottom, top };
 }
 
 }  // namespace
 
 double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity)
 {
-    double sum = 0.0;
+    double sum = sum_of_sets(
+        a, parts, [](const NodeSet& s) { return s.loading_force; },
+        [](const NodeSet& s) { return s.loading_moment; });
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
@@ -73,7 +109,10 @@ double part_load(const Assembly& a, const PartGeometry& parts)
 
 double part_displacement(const Assembly& a, const PartGeometry& parts)
 {
-    return dot(a.plates[parts.driven.front()].displacement, parts.direction);
+    if (!parts.driven.empty())
+        return dot(a.plates[parts.driven.front()].displacement, parts.direction);
+    const NodeSet& set = a.node_sets[parts.driven_sets.front()];
+    return dot(set.displacement, parts.direction) + parts.turn * set.angle;
 }
 
 AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts)
@@ -96,8 +135,19 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
         p.velocity = {};
     for (int p : parts.driven)
         moved.plates[p].velocity = parts.direction;
+    for (NodeSet& set : moved.node_sets) {
+        set.velocity = set.loading_velocity = {};
+        set.spin = 0.0;
+    }
+    for (int s : parts.driven_sets)
+        set_motion_of(moved, s, parts.direction, parts.turn);
+    for (int s : parts.back_sets)
+        set_motion_of(moved, s, {}, -parts.turn);
+    drive_node_sets(moved, unit_way);
     start_elastically(moved, false, Held::by_parts);
-    const double mass = 2.0 * kinetic_of_velocities(moved.grains);
+    double mass = 2.0 * kinetic_of_velocities(moved.grains);
+    for (const NodeSet& set : moved.node_sets)
+        mass += 2.0 * kinetic_of_velocity(moved, set);
     const double stiffness = part_load_rate(moved, parts, moved.grains.velocity);
     check_positive("stiffness that the driven parts feel", stiffness, "N/m");
     const double modulus = stiffness * parts.length / parts.area;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  What a test records whose specimen is held and loaded by parts: supports, rollers and boxes, each a plate
-/// against a part of the outline. SI units; load and displacement are positive along the loading.
+/// against a part of the outline, and node sets. SI units; load and displacement are positive along the loading.
 #pragma once
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
@@ -14,26 +14,33 @@ namespace flexpm {
 struct PartGeometry {
     std::vector<int> driven;   ///< plates that load, which move alike
     std::vector<int> holding;  ///< plates that hold against them; none: the load alone counts
-    Point direction;           ///< of the loading, a unit vector
+    Point direction;           ///< of the loading, a unit vector; zero if the loading turns
     double area = 0.0;         ///< stress = load / area [m^2]
     double length = 0.0;       ///< strain = displacement / length [m]
+
+    std::vector<int>
+        driven_sets = {};  ///< node sets that load: they move along, or turn counter-clockwise
+    std::vector<int> back_sets = {};     ///< those that turn clockwise
+    std::vector<int> holding_sets = {};  ///< those that hold against a direction
+    double turn =
+        0.0;  ///< 1: sets turn, load and displacement are the sum of their moments [N m] and their angle
 };
 
-/// Load [N]: mean of what the driven plates push and the holding ones push back. Deviation D25.
+/// Load [N, or N m]: mean of what the driven parts push and the holding ones push back. Deviation D25.
 double part_load(const Assembly& a, const PartGeometry& parts);
 
-/// Change of the driven plates' push in a unit of time, where nodes move at such velocities, in the layout of
-/// Grains::displacement, and plates at their own [N/s].
+/// Change of the driven parts' push in a unit of time, where nodes move at such velocities, in the layout of
+/// Grains::displacement, and plates at their own; that of sets is the one of the loading [N/s].
 double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity);
 
-/// Way of the driven plates along the loading [m].
+/// Way of the driven parts along the loading [m], or their angle [rad].
 double part_displacement(const Assembly& a, const PartGeometry& parts);
 
 /// Of the last step, which must have been measured. There is no lateral strain and no confinement.
-/// @throws std::invalid_argument  if a plate is not there or a size is not above zero
+/// @throws std::invalid_argument  if a part is not there or a size is not above zero
 AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts);
 
-/// Scales of such a test, from its elastic solution for a unit way of the driven plates: its stiffness gives the
+/// Scales of such a test, from its elastic solution for a unit way of the driven parts: its stiffness gives the
 /// modulus, and the mass that takes part in the motion the steps of a crossing. These are those of a bar of the same
 /// lowest frequency: sqrt(3 m / k) / dt, with the kinetic energy m / 2 and the stored energy k / 2 at a unit velocity
 /// and way. Joints that the loading opens carry nothing.

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
@@ -102,12 +103,18 @@ double kinetic_energy(const Assembly& a)
     for (const Plate& p : a.plates) {
         if (p.loaded) total += 0.5 * p.mass * dot(p.velocity, p.velocity);
     }
+    for (const NodeSet& set : a.node_sets)
+        total += kinetic_of_velocity(a, set);
     return total;
 }
 
+/// Add to the motion of a rigid grain what is not held of it.
 void add_motion(Grains& grains, int grain, Point velocity, double spin)
 {
-    const Point v = vector_at(grains.velocity, grains.centre(grain)) + velocity;
+    const int centre = grains.centre(grain);
+    if (grains.prescribed[component(centre, 0)]) velocity.x = 0.0;
+    if (grains.prescribed[component(centre, 1)]) velocity.y = 0.0;
+    const Point v = vector_at(grains.velocity, centre) + velocity;
     set_motion(grains, grain, v, grains.spin[grains.slot[grain]] + spin, 1.0);
 }
 
@@ -205,27 +212,42 @@ bool loosen_plates(Assembly& a, const Array<double>& velocity)
 }
 
 /// Elastic solution in which cracks and plates bear pressure and friction alone.
-Array<double> unilateral_solution(Assembly& a, const std::vector<Prescribed>& prescribed)
+StaticSolution unilateral_solution(Assembly& a, const std::vector<Prescribed>& prescribed)
 {
-    Array<double> found = solve_static(a, prescribed).displacement;
+    StaticSolution found = solve_static(a, prescribed);
     const int laws = static_cast<int>(a.contacts.laws.size());
     // what one point lets go may take off the next one
     for (int i = 0; i < most_lifts; ++i) {
-        const bool cracks = loosen_cracks(a, laws, found), plates = loosen_plates(a, found);
+        const bool cracks = loosen_cracks(a, laws, found.displacement);
+        const bool plates = loosen_plates(a, found.displacement);
         if (!cracks && !plates) break;
-        found = solve_static(a, prescribed).displacement;
+        found = solve_static(a, prescribed);
     }
     return found;
 }
 
-/// elastic_velocities() of ends and plates at `sense` times their velocities.
-Array<double> velocities_along(const Assembly& a, Held held, double sense)
+/// All components whose velocity is given, not found by a set that floats.
+std::vector<Prescribed> given_velocities(const Assembly& a, double sense)
 {
+    std::vector<std::uint8_t> given(a.grains.prescribed.begin(), a.grains.prescribed.end());
+    for (const NodeSet& set : a.node_sets) {
+        for (int n : set.nodes) {
+            for (int axis = 0; axis < dimension; ++axis)
+                if (set.floats && set.holds(axis)) given[component(n, axis)] = 0;
+        }
+    }
     std::vector<Prescribed> prescribed;
     for_each_component(a.grains, [&](int i) {
-        if (a.grains.prescribed[i]) prescribed.push_back({ i, sense * a.grains.velocity[i] });
+        if (given[i]) prescribed.push_back({ i, sense * a.grains.velocity[i] });
     });
-    if (a.plates.empty() && held == Held::by_ends) return solve_static(a, prescribed).displacement;
+    return prescribed;
+}
+
+/// Elastic solution of ends, plates and node sets at `sense` times their velocities.
+StaticSolution solution_along(const Assembly& a, Held held, double sense)
+{
+    std::vector<Prescribed> prescribed = given_velocities(a, sense);
+    if (a.plates.empty() && held == Held::by_ends) return solve_static(a, prescribed);
 
     Assembly moved = a;
     moved.plates.clear();
@@ -234,23 +256,59 @@ Array<double> velocities_along(const Assembly& a, Held held, double sense)
         moved.plates.push_back(p);
         moved.plates.back().displacement = sense * p.velocity;
     }
+    for (NodeSet& set : moved.node_sets)
+        set.angle = sense * set.spin;
     if (held == Held::by_parts) return unilateral_solution(moved, prescribed);
     // smooth plates leave the specimen free to slide
     prescribed.push_back({ middle_of(a, bottom_side), 0.0 });
-    return solve_static(moved, prescribed).displacement;
+    return solve_static(moved, prescribed);
+}
+
+/// What the sets' forces grow by, and the velocities of those that float, in an elastic solution at `sense` times their
+/// velocities.
+void note_rates(Assembly& a, const StaticSolution& found, double sense)
+{
+    const Grains& grains = a.grains;
+    for (NodeSet& set : a.node_sets) {
+        const Point pivot = set.pivot - set.displacement;
+        set.loading_force = {};
+        set.loading_moment = 0.0;
+        for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+            const int g = set.grains[i];
+            Point on = vector_at(found.force, set.nodes[i]);
+            for (int k = 0; grains.is_rigid(g) && k < grains.vertices_of(g); ++k)
+                on = on + vector_at(found.force, grains.node(g, k));
+            const Point held = { set.holds_x ? -sense * on.x : 0.0,
+                set.holds_y ? -sense * on.y : 0.0 };
+            set.loading_force = set.loading_force + held;
+            set.loading_moment += cross(vector_at(grains.reference, set.nodes[i]) - pivot, held);
+        }
+        if (!set.floats || set.nodes.empty()) continue;
+        const int first = set.nodes.front();
+        const Point arm = vector_at(grains.reference, first) - pivot;
+        const Point v =
+            sense * vector_at(found.displacement, first) - set.spin * Point { -arm.y, arm.x };
+        set.loading_velocity = { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0 };
+    }
 }
 
 }  // namespace
 
 Array<double> elastic_velocities(const Assembly& a, Held held)
 {
-    return velocities_along(a, held, 1.0);
+    return solution_along(a, held, 1.0).displacement;
 }
 
 void start_elastically(Assembly& a, bool undamped, Held held)
 {
-    const Array<double> velocity = elastic_velocities(a, held);
+    const StaticSolution found = solution_along(a, held, 1.0);
+    const Array<double>& velocity = found.displacement;
     const double before = kinetic_energy(a);
+    note_rates(a, found, 1.0);
+    for (NodeSet& set : a.node_sets) {
+        set.velocity = set.velocity + set.loading_velocity;
+        if (!undamped) set.loading_velocity = {};
+    }
     for (Plate& p : a.plates) {
         if (!p.loaded) continue;
         p.velocity = velocity_before(a, p, velocity);
@@ -279,12 +337,14 @@ void start_elastically(Assembly& a, bool undamped, Held held)
 
 bool renew_loading(Assembly& a, double sense)
 {
-    Array<double> velocity;
+    StaticSolution found;
     try {
-        velocity = velocities_along(a, Held::by_parts, sense);
+        found = solution_along(a, Held::by_parts, sense);
     } catch (const std::runtime_error&) {
         return false;  // grains have come loose, which nothing holds
     }
+    note_rates(a, found, sense);
+    Array<double>& velocity = found.displacement;
     for (double& v : velocity)
         v *= sense;
     for (Plate& p : a.plates) {
@@ -334,6 +394,12 @@ void change_loading(Assembly& a, double ratio)
     for (Plate& p : a.plates) {
         p.velocity = p.velocity + (ratio - 1.0) * p.loading_velocity;
         p.loading_velocity = ratio * p.loading_velocity;
+    }
+    for (NodeSet& set : a.node_sets) {
+        set.velocity = set.velocity + (ratio - 1.0) * set.loading_velocity;
+        set.loading_velocity = ratio * set.loading_velocity;
+        set.loading_force = ratio * set.loading_force;
+        set.loading_moment *= ratio;
     }
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;

@@ -18,14 +18,14 @@ enum class Held {
 };
 
 /// Velocities of all nodes at which the bonded assembly deforms in elastic equilibrium with the
-/// velocities of its held nodes and of its plates; plates under a load give way to it [m/s].
+/// velocities of its held nodes, of its plates and node sets; plates under a load and sets that float give way [m/s].
 ///
 /// @throws std::runtime_error  as solve_static()
 Array<double> elastic_velocities(const Assembly& a, Held held = Held::by_ends);
 
 /// Add these velocities to all nodes that are free, and give them to plates under a load, so that
 /// loading starts without a wave. Held nodes and driven plates have theirs already. The kinetic energy that this gives is
-/// work of the boundary.
+/// work of the boundary. Call drive_node_sets() afterwards.
 ///
 /// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D30
 /// @throws std::runtime_error  as solve_static()
@@ -48,6 +48,7 @@ int count_sliding_joints(const Assembly& a);
 
 /// Change the velocities that damping does not act on to `ratio` times what they are, and all velocities with them, so
 /// that a change of the loading's velocity raises no wave. The kinetic energy that this gives is work of the boundary.
+/// Call drive_node_sets() afterwards.
 void change_loading(Assembly& a, double ratio);
 
 /// Time at `velocity` after which the first contact point of the unloaded assembly leaves its

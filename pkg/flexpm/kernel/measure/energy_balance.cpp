@@ -5,6 +5,7 @@
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
@@ -61,6 +62,12 @@ double damping_power(const Assembly& a, double damping)
     for (const Plate& p : a.plates) {
         if (p.loaded) add(p.unbalanced, dot(p.normal, p.velocity - p.loading_velocity));
     }
+    for (const NodeSet& set : a.node_sets) {
+        if (!set.floats) continue;
+        const Point v = set.velocity - set.loading_velocity;
+        add(set.force.x, v.x);
+        add(set.force.y, v.y);
+    }
     return damping * total;
 }
 
@@ -98,6 +105,8 @@ Dissipation dissipation(const Assembly& a)
         d.friction += p.friction_energy;
         d.boundary_work += p.boundary_work;
     }
+    for (const NodeSet& set : a.node_sets)
+        d.boundary_work -= set.float_work;  // which the ledger holds as work on its nodes
     return d;
 }
 
@@ -119,6 +128,10 @@ Energies energies(const Assembly& a)
         e.kinetic += p.kinetic;
         e.elastic += elastic_energy(p);
         e.damping += p.damping_work;
+    }
+    for (const NodeSet& set : a.node_sets) {
+        e.kinetic += set.kinetic;
+        e.damping += set.damping_work;
     }
     e.initial = a.ledger.initial;
     return e;
@@ -143,9 +156,13 @@ void reset_energy_balance(Assembly& a)
     a.ledger.erased = 0.0;
     for (Plate& p : a.plates)
         p.boundary_work = p.damping_work = p.friction_energy = 0.0;
+    for (NodeSet& set : a.node_sets)
+        set.work = set.float_work = set.damping_work = 0.0;
     if (a.step == 0) {
         a.ledger.kinetic[0] = kinetic_of_velocities(a.grains);
         a.ledger.erased_next = 0.0;
+        for (NodeSet& set : a.node_sets)
+            set.kinetic = kinetic_of_velocity(a, set);
     }
     const Energies now = energies(a);
     a.ledger.initial = now.kinetic + now.elastic + now.potential;
@@ -157,6 +174,8 @@ double unbalanced_ratio(const Assembly& a)
     double largest = *std::max_element(forces.begin(), forces.end());
     for (const Plate& p : a.plates)
         largest = std::max(largest, p.unbalanced);
+    for (const NodeSet& set : a.node_sets)
+        largest = std::max(largest, set.unbalanced);
     const auto& erased = a.contacts.erased;
     const auto gone = std::count(erased.begin(), erased.end(), 1);
     const double sum = sum_of_forces(a.contacts);

@@ -68,6 +68,7 @@ ElasticConstants elastic_constants(const Assembly& a)
     const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     Assembly solved = a;
     solved.plates.clear();
+    solved.node_sets.clear();
     const std::vector<Prescribed> prescribed = hold_ends(solved, height);
     StaticSolution s = solve_static(solved, prescribed);
     solved.grains.displacement = std::move(s.displacement);

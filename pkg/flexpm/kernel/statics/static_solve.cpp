@@ -56,23 +56,27 @@ struct Term {
     double factor;
 };
 
-/// Numbers of the unknowns. Entries are those of Assembly::displacement, and behind them the rotation of each slot.
+/// Numbers of the unknowns. Entries are those of Assembly::displacement, and behind them the rotation of each slot and
+/// of each node set.
 struct Unknowns {
     std::vector<Kind> kind;   ///< per entry
     std::vector<int> number;  ///< per entry that is unknown: its number
     std::vector<int> index;   ///< per unknown: its entry
     std::vector<Term> lever;  ///< per entry that follows a rotation: index and arm
-    std::vector<int> leader;  ///< per entry that follows: the same component of the centre
+    std::vector<int>
+        leader;  ///< per entry that follows: the same component of a centre, or of a set's first node
 };
 
 /// Call visit(index, factor) for each entry that this one is made of.
-template <class Visit> void for_each_term(const Unknowns& n, int entry, Visit visit)
+///
+/// A node follows the centre of its rigid grain, which may follow the first one of its set.
+template <class Visit> void for_each_term(const Unknowns& n, int entry, const Visit& visit)
 {
     if (n.kind[entry] != Kind::follower) {
         visit(entry, 1.0);
         return;
     }
-    visit(n.leader[entry], 1.0);
+    for_each_term(n, n.leader[entry], visit);
     visit(n.lever[entry].index, n.lever[entry].factor);
 }
 
@@ -95,6 +99,23 @@ void follow_centre(const Grains& grains, int grain, Unknowns& n)
     }
 }
 
+/// Let what a set that floats holds follow its first node; its rotation is given.
+void follow_first(const Grains& grains, const NodeSet& set, int rotation, Unknowns& n)
+{
+    for (int node : set.nodes) {
+        const int first = set.nodes.front();
+        if (node == first) continue;
+        const Point arm = vector_at(grains.reference, node) - vector_at(grains.reference, first);
+        for (int axis = 0; axis < dimension; ++axis) {
+            if (!set.holds(axis)) continue;
+            const int entry = component(node, axis);
+            n.kind[entry] = Kind::follower;
+            n.leader[entry] = component(first, axis);
+            n.lever[entry] = { rotation, axis == 0 ? -arm.y : arm.x };
+        }
+    }
+}
+
 [[noreturn]] void refuse_prescribed(const Prescribed& p, const std::string& rule)
 {
     refuse("solve_static: prescribed displacement " + std::to_string(p.index), p.value, "m", rule);
@@ -102,10 +123,14 @@ void follow_centre(const Grains& grains, int grain, Unknowns& n)
 
 /// Mark what is prescribed and number the rest, node by node; fill `u` with the given values.
 Unknowns number_unknowns(
-    const Grains& grains, const std::vector<Prescribed>& prescribed, Array<double>& u)
+    const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
 {
+    const Grains& grains = a.grains;
     Unknowns n;
-    n.kind.assign(grains.displacement.size() + grains.in_slot.size(), Kind::padding);
+    const std::size_t moving = grains.displacement.size() + grains.in_slot.size();
+    n.kind.assign(moving, Kind::padding);
+    n.kind.resize(moving + a.node_sets.size(), Kind::prescribed);
+    u.assign(n.kind.size(), 0.0);
     n.number.assign(n.kind.size(), 0);
     n.leader.assign(grains.displacement.size(), 0);
     n.lever.assign(grains.displacement.size(), { 0, 0.0 });
@@ -114,13 +139,19 @@ Unknowns number_unknowns(
         for_each_component(grains, g, [&](int i) { n.kind[i] = Kind::unknown; });
         if (grains.is_rigid(g)) follow_centre(grains, g, n);
     }
+    for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
+        if (!a.node_sets[s].floats) continue;
+        u[moving + s] = a.node_sets[s].angle;
+        follow_first(grains, a.node_sets[s], static_cast<int>(moving + s), n);
+    }
     for (const Prescribed& p : prescribed) {
         if (!std::isfinite(p.value)) refuse_prescribed(p, "must be a finite number");
-        const bool known = p.index >= 0 && p.index < static_cast<int>(u.size())
+        const bool known = p.index >= 0 && p.index < static_cast<int>(grains.displacement.size())
             && n.kind[p.index] != Kind::padding;
         if (!known) refuse_prescribed(p, "its index must name a component of a grain's node");
         if (n.kind[p.index] == Kind::follower) {
-            refuse_prescribed(p, "belongs to a rigid grain; prescribe its centre");
+            refuse_prescribed(
+                p, "belongs to a rigid grain or to a set that floats; prescribe a centre");
         }
         if (n.kind[p.index] == Kind::prescribed && u[p.index] != p.value) {
             refuse_prescribed(p, "given before with another value; give it once");
@@ -192,18 +223,17 @@ void check_pivots(const Assembly& a, const Unknowns& n, const SparseMatrix& k, c
     }
 }
 
-/// Displacements of all nodes from the unknowns.
-void spread(const Unknowns& n, const Eigen::VectorXd& x, Array<double>& displacement)
+/// Displacements of all nodes from the unknowns and the given values.
+void spread(const Unknowns& n, const Eigen::VectorXd& x, const Array<double>& given,
+    Array<double>& displacement)
 {
-    const auto value_of = [&](int index) {
-        return n.kind[index] == Kind::unknown ? x[n.number[index]] : displacement[index];
-    };
     for (std::size_t i = 0; i < displacement.size(); ++i) {
-        if (n.kind[i] == Kind::unknown) displacement[i] = x[n.number[i]];
-    }
-    for (std::size_t i = 0; i < displacement.size(); ++i) {
-        if (n.kind[i] != Kind::follower) continue;
-        displacement[i] = value_of(n.leader[i]) + n.lever[i].factor * x[n.number[n.lever[i].index]];
+        if (n.kind[i] == Kind::padding) continue;
+        double sum = 0.0;
+        for_each_term(n, static_cast<int>(i), [&](int j, double factor) {
+            sum += factor * (n.kind[j] == Kind::unknown ? x[n.number[j]] : given[j]);
+        });
+        displacement[i] = sum;
     }
 }
 
@@ -215,7 +245,8 @@ StaticSolution solve_static(
     StaticSolution s;
     s.displacement.assign(a.grains.displacement.size(), 0.0);
     s.force.assign(a.grains.displacement.size(), 0.0);
-    const Unknowns n = number_unknowns(a.grains, prescribed, s.displacement);
+    Array<double> given;
+    const Unknowns n = number_unknowns(a, prescribed, given);
     const std::vector<StiffnessEntry> entries = stiffness_entries(a);
 
     if (loads && loads->size() != s.displacement.size()) {
@@ -231,12 +262,14 @@ StaticSolution solve_static(
             if (n.kind[j] == Kind::unknown) rhs[n.number[j]] += factor * load;
         });
     }
-    const SparseMatrix k = reduce(entries, n, s.displacement, rhs);
+    const SparseMatrix k = reduce(entries, n, given, rhs);
     if (k.rows() > 0) {
         // minimum degree, the default order, fills in least of those that Eigen has
         const Solver solver(k);
         check_pivots(a, n, k, solver);
-        spread(n, solver.solve(rhs), s.displacement);
+        spread(n, solver.solve(rhs), given, s.displacement);
+    } else {
+        spread(n, rhs, given, s.displacement);
     }
     for (const StiffnessEntry& e : entries) {
         s.force[e.row] -= e.value * s.displacement[e.column];

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/forces/element_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/nodal_forces.hpp>
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/motion/centre_motion.hpp>
@@ -153,6 +154,7 @@ void step(Assembly& a, const StepOptions& options)
     ThreadTeam& team = team_of(options.threads);
     const ThreadTeam::Work share = [&](int thread) { update_share(a, options, team, thread); };
     team.run(share);
+    update_node_sets(a, options.dt, options.damping);  // which are few
     ++a.step;
 }
 

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
@@ -188,6 +189,7 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
         }
         p.points = points_on_edge(a, p);
         lay(a, p);
+        require_apart(a, p);
         numbers.push_back(static_cast<int>(a.plates.size()));
         a.plates.push_back(p);
     }
@@ -262,6 +264,7 @@ int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact
         p.area[2 * i] = (1.0 - middle) * area;
         p.area[2 * i + 1] = middle * area;
     }
+    require_apart(a, p);
     a.plates.push_back(p);
     return static_cast<int>(a.plates.size()) - 1;
 }

@@ -43,6 +43,20 @@ void forget_edges(const Assembly& a, int grain, Plate& plate)
     plate = kept;
 }
 
+/// Take the nodes of a grain from a set.
+void forget_nodes(int grain, NodeSet& set)
+{
+    NodeSet kept = set;
+    kept.nodes.clear();
+    kept.grains.clear();
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        if (set.grains[i] == grain) continue;
+        kept.nodes.push_back(set.nodes[i]);
+        kept.grains.push_back(set.grains[i]);
+    }
+    set = kept;
+}
+
 void remove_triangles(Grains& grains, int grain)
 {
     const int block = grains.block_of(grain);
@@ -78,6 +92,8 @@ void remove_grain(Assembly& a, int grain)
     a.plan.element_bound.clear();
     for (Plate& plate : a.plates)
         forget_edges(a, grain, plate);
+    for (NodeSet& set : a.node_sets)
+        forget_nodes(grain, set);
     for (int e = 0; e < a.edges.count; ++e) {
         if (a.edges.grain[e] != grain) continue;
         a.edges.pressure[e] = 0.0;

@@ -25,13 +25,14 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::ElasticMaterial& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::Plate& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::NodeSet& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::Grains& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::Contacts& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::BoundaryEdges& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::EnergyLedger& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Of what visit_members() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 9;
+	constexpr unsigned assemblyVersion = 10;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{

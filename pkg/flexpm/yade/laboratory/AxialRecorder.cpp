@@ -55,9 +55,9 @@ namespace {
 	/// What the recorder sees of the specimen after a step; the strains count from the bonded state.
 	flexpm::AxialObservation observed(const AxialRecorder& recorder, const flexpm::Assembly& assembly)
 	{
-		auto now = !recorder.driven.empty() ? flexpm::observe_parts(assembly, recorder.parts())
-		        : isDisc(recorder)          ? flexpm::observe_disc(assembly, recorder.diameter)
-		                                    : flexpm::observe(assembly, flexpm::rectangle_of(assembly, senseOf(recorder)));
+		auto now = recorder.betweenParts() ? flexpm::observe_parts(assembly, recorder.parts())
+		        : isDisc(recorder)         ? flexpm::observe_disc(assembly, recorder.diameter)
+		                                   : flexpm::observe(assembly, flexpm::rectangle_of(assembly, senseOf(recorder)));
 		if (recorder.loading) now.velocity_factor = recorder.loading->velocityFactor;
 		return now;
 	}
@@ -65,6 +65,13 @@ namespace {
 } // namespace
 
 AxialRecorder::~AxialRecorder() = default;
+
+bool AxialRecorder::betweenParts() const { return !driven.empty() || !drivenSets.empty(); }
+
+flexpm::PartGeometry AxialRecorder::parts() const
+{
+	return { driven, holding, { direction[0], direction[1] }, area, length, drivenSets, backSets, holdingSets, direction[2] };
+}
 
 void AxialRecorder::action()
 {
@@ -79,7 +86,7 @@ void AxialRecorder::action()
 	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
-	if (!driven.empty()) {
+	if (betweenParts()) {
 		values.push_back(now.axial_stress * area);
 		values.push_back(now.axial_strain * length);
 	}
@@ -106,7 +113,7 @@ py::list AxialRecorder::names() const
 	py::list all;
 	for (const Column& column : recorded)
 		all.append(column.name);
-	if (!driven.empty()) {
+	if (betweenParts()) {
 		all.append("load");
 		all.append("displacement");
 	}
@@ -118,7 +125,7 @@ py::list AxialRecorder::names() const
 
 py::object AxialRecorder::rows() const
 {
-	const std::size_t columns = recorded.size() + (driven.empty() ? 0 : 2) + gauges.size() + (controlled.empty() ? 0 : 1);
+	const std::size_t columns = recorded.size() + (betweenParts() ? 2 : 0) + gauges.size() + (controlled.empty() ? 0 : 1);
 	return flexpm_bindings::copied(values, columns, flexpm_bindings::Access::readOnly);
 }
 
@@ -128,8 +135,8 @@ std::pair<Real, Real> AxialRecorder::measure(const string& column, const flexpm:
 	for (const auto& gauge : gauges) {
 		if (gauge->name == column) return { gauge->reading(assembly), gauge->rate(assembly, field) };
 	}
-	if (!driven.empty() && column == "load") return { flexpm::part_load(assembly, parts()), flexpm::part_load_rate(assembly, parts(), field) };
-	if (!driven.empty() || isDisc(*this) || column != "lateral_strain")
+	if (betweenParts() && column == "load") return { flexpm::part_load(assembly, parts()), flexpm::part_load_rate(assembly, parts(), field) };
+	if (betweenParts() || isDisc(*this) || column != "lateral_strain")
 		throw std::invalid_argument(
 		        "AxialRecorder.controlled = " + column + ", must be the name of a gauge, load between parts, or lateral_strain of a rectangle");
 	const auto sense = senseOf(*this);
@@ -149,7 +156,7 @@ py::dict AxialRecorder::scales() const
 {
 	const auto  world = Omega::instance().getScene();
 	const auto& a     = GrainSolver::ofScene(*world)->assembly;
-	if (!driven.empty()) return flexpm_bindings::scales_dict(flexpm::part_scales(a, parts(), strength, world->dt));
+	if (betweenParts()) return flexpm_bindings::scales_dict(flexpm::part_scales(a, parts(), strength, world->dt));
 	const auto sense  = tension || isDisc(*this) ? flexpm::Sense::tension : flexpm::Sense::compression;
 	const auto inputs = flexpm::scale_inputs(a, sense, world->dt);
 	if (diameter > 0) return flexpm_bindings::scales_dict(flexpm::disc_scales(inputs, diameter));

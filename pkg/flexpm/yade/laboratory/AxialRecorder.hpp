@@ -21,8 +21,9 @@ public:
 	/// What a column of the record that a servo may follow reads now, and what it grows by in a second with the motion of the loading.
 	/// @throws std::invalid_argument  if it is none
 	std::pair<Real, Real> measure(const string& column, const flexpm::Assembly& assembly) const;
-	/// What holds and loads the specimen, if parts do.
-	flexpm::PartGeometry parts() const { return { driven, holding, { direction[0], direction[1] }, area, length }; }
+	/// Whether parts hold and load the specimen.
+	bool                 betweenParts() const;
+	flexpm::PartGeometry parts() const;
 
 private:
 	/// Count strains and gauges from here on.
@@ -37,7 +38,10 @@ public:
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
 		((vector<int>, driven,,, "Plates that load a specimen between parts, as :yref:`GrainSolver` numbers them; empty: it is loaded between its ends [-]."))
 		((vector<int>, holding,,, "Plates that hold it against them [-]."))
-		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven plates load, a unit vector [-]."))
+		((vector<int>, drivenSets,,, "Node sets that load it, as :yref:`GrainSolver` numbers them [-]."))
+		((vector<int>, backSets,,, "Those that turn the other way [-]."))
+		((vector<int>, holdingSets,,, "Node sets that hold it against a direction [-]."))
+		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; z = 1: node sets turn, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
 		((Real, area, 0.,, "Load over the record's stress, between parts [m2]."))
 		((Real, length, 0.,, "Displacement over the record's strain, between parts [m]."))
 		((Real, strength, 0.,, "Stress that a test between parts may reach, roughly [Pa]."))

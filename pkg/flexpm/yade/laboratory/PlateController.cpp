@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/PlateController.hpp>
 
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
@@ -22,12 +23,18 @@ void PlateController::action()
 		else
 			flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
 	}
+	for (int set : nodeSets)
+		flexpm::set_motion_of(assembly, set, { drivenAt[0], drivenAt[1] }, drivenAt[2]);
+	for (int set : backSets)
+		flexpm::set_motion_of(assembly, set, {}, -drivenAt[2]);
+	flexpm::drive_node_sets(assembly, scene->dt);
 	if (undampedLoading && started && ratio != 1)
 		flexpm::change_loading(assembly, ratio);
 	else if ((elasticStart || undampedLoading) && !started)
 		flexpm::start_elastically(assembly, undampedLoading, ofParts ? flexpm::Held::by_parts : flexpm::Held::by_ends);
 	started = true;
 	if (undampedLoading && ofParts && !loaded) renew(assembly, true);
+	flexpm::drive_node_sets(assembly, scene->dt); // those that float have got another velocity
 }
 
 } // namespace yade

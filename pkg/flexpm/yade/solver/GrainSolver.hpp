@@ -69,6 +69,11 @@ public:
 	py::tuple  gaugePoints(Vector3r first, Vector3r second);
 	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
 	void       fixTangential(int plate);
+	py::tuple  nodePlaces();
+	int        addNodeSet(vector<int> nodes, bool x, bool y);
+	void       turnNodeSet(int set, py::object about);
+	void       moveNodeSet(int set, Vector3r velocity);
+	py::list   nodeSets();
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
 	void       setGravity(Vector3r acceleration);
@@ -123,6 +128,14 @@ public:
 		.def("sectionNodes", AfterAssembly<&GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
 			"The nodes in a band of a width [m] around a place along a direction, a unit vector, and their mean place along it [m], for :yref:`Gauge`.")
 		.def("fixTangential", AfterAssembly<&GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
+		.def("nodePlaces", AfterAssembly<&GrainSolver::nodePlaces>::call, "Nodes that a set may hold, (n,), all of deformable grains and the centres of rigid ones, and where they are, (n, 2) [m].")
+		.def("addNodeSet", AfterAssembly<&GrainSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true),
+			"Hold nodes of nodePlaces at rest along x, y or both, and return the number of their set.")
+		.def("turnNodeSet", AfterAssembly<&GrainSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about") = py::object()),
+			"Let a set turn about a point [m], or, with None, about the mean of its places, free to move: a moment alone acts.")
+		.def("moveNodeSet", AfterAssembly<&GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity")),
+			"Move a set from the next step on: velocity along x and y [m/s, or m per step with scaled masses]; z: spin [rad/s].")
+		.def("nodeSets", AfterAssembly<&GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
 		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")

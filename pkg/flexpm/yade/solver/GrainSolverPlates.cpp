@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Plates and pressure on the specimen, as scripts lay them on and take them off.
+/// @file  Plates, node sets and pressure on the specimen, as scripts lay them on and take them off.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
+#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
@@ -43,6 +44,49 @@ py::tuple GrainSolver::sectionNodes(Real place, Vector3r direction, Real width)
 }
 
 void GrainSolver::fixTangential(int plate) { flexpm::fix_tangential(assembly, plate); }
+
+py::tuple GrainSolver::nodePlaces()
+{
+	const auto          nodes = flexpm::holdable_nodes(current());
+	std::vector<double> places;
+	for (int node : nodes) {
+		const auto p = assembly.grains.position(node);
+		places.insert(places.end(), { p.x, p.y });
+	}
+	return py::make_tuple(flexpm_bindings::copied(nodes, 0), flexpm_bindings::copied(places, 2));
+}
+
+int GrainSolver::addNodeSet(vector<int> nodes, bool x, bool y) { return flexpm::add_node_set(current(), nodes, x, y); }
+
+void GrainSolver::turnNodeSet(int set, py::object about)
+{
+	if (about.is_none()) return flexpm::let_float(assembly, set);
+	const Vector3r pivot = py::extract<Vector3r>(about);
+	flexpm::set_pivot(assembly, set, { pivot[0], pivot[1] });
+}
+
+void GrainSolver::moveNodeSet(int set, Vector3r velocity)
+{
+	flexpm::set_motion_of(assembly, set, { velocity[0], velocity[1] }, velocity[2]);
+	flexpm::drive_node_sets(assembly, Omega::instance().getScene()->dt);
+}
+
+py::list GrainSolver::nodeSets()
+{
+	py::list all;
+	for (const flexpm::NodeSet& set : current().node_sets) {
+		py::dict d;
+		d["nodes"]        = flexpm_bindings::copied(set.nodes, 0);
+		d["place"]        = py::make_tuple(set.pivot.x, set.pivot.y);
+		d["displacement"] = py::make_tuple(set.displacement.x, set.displacement.y);
+		d["angle"]        = set.angle;
+		d["force"]        = py::make_tuple(set.force.x, set.force.y);
+		d["moment"]       = set.moment;
+		d["work"]         = set.work;
+		all.append(d);
+	}
+	return all;
+}
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A rigid plate that loads grains through one-point contacts, paper Sec. 4.1. SI units; the
-/// normal points from the plate into the specimen, forces are positive along it.
+/// @file  Parts that hold and load a specimen: rigid plates against its outline, paper Sec. 4.1, and sets of nodes. SI
+/// units; forces are those on the specimen.
 #pragma once
 
 #include <flexpm/kernel/core/vector.hpp>
@@ -9,9 +9,11 @@
 
 namespace flexpm {
 
-/// A straight plate that does not turn. Its contacts are the middles of boundary edges of rigid
-/// grains, or both ends of those of deformable grains, each with half of the edge: a boundary node
-/// then carries its tributary length. Contacts are elastic and only press, unless the plate is bonded.
+/// A straight plate that loads grains through one-point contacts. It does not turn; its normal points
+/// into the specimen, and forces are positive along it. Its contacts are the middles of boundary edges
+/// of rigid grains, or both ends of those of deformable grains, each with half of the edge: a boundary
+/// node then carries its tributary length. Contacts are elastic and only press, unless the plate is
+/// bonded.
 struct Plate {
     // what it is
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
@@ -91,5 +93,76 @@ struct Plate {
 
 /// Place of point `point` along its edge, 0 to 1.
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
+
+/// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid motion,
+/// a translation and a rotation about a pivot, counter-clockwise.
+/// Deviation D52: of rigid grains the centres are held, and the grains are free to turn about them.
+/// Deviation D53: with `floats` the rotation alone is given; the set moves under the forces on it, so
+/// that only a moment acts.
+struct NodeSet {
+    // what it is
+    std::vector<int> nodes;   ///< of deformable grains; of rigid ones their centres
+    std::vector<int> grains;  ///< that of each node
+    bool holds_x = true, holds_y = true;
+    bool floats = false;
+
+    // what drives it
+    Point velocity;          ///< of the pivot, half a step after `displacement` [m/s]
+    double spin = 0.0;       ///< [rad/s]
+    Point loading_velocity;  ///< of one that floats: part of `velocity` that is not damped [m/s]
+    Point loading_force;     ///< growth of `force` with the motion of the loading [N/s]
+    double loading_moment = 0.0;  ///< the same of `moment` [N m/s]
+
+    // state
+    Point pivot;          ///< where it is now [m]
+    Point displacement;   ///< of the pivot [m]
+    double angle = 0.0;   ///< [rad]
+    Point force;          ///< at the last step [N]
+    double moment = 0.0;  ///< about the pivot at the last step [N m]
+
+    // energy [J]
+    double work = 0.0, work_next = 0.0;  ///< on the specimen; next: of the half step that follows
+    double float_work = 0.0,
+           float_work_next = 0.0;  ///< of its forces on the translation of one that floats
+    double damping_work = 0.0, damping_work_next = 0.0;
+    double kinetic = 0.0;     ///< of the translation of one that floats
+    double unbalanced = 0.0;  ///< largest force on it that nothing balances [N]
+
+    bool holds(int axis) const { return axis == 0 ? holds_x : holds_y; }
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("nodes", s.nodes);
+        visit("grains", s.grains);
+        visit("holds_x", s.holds_x);
+        visit("holds_y", s.holds_y);
+        visit("floats", s.floats);
+        visit("velocity_x", s.velocity.x);
+        visit("velocity_y", s.velocity.y);
+        visit("spin", s.spin);
+        visit("loading_velocity_x", s.loading_velocity.x);
+        visit("loading_velocity_y", s.loading_velocity.y);
+        visit("loading_force_x", s.loading_force.x);
+        visit("loading_force_y", s.loading_force.y);
+        visit("loading_moment", s.loading_moment);
+        visit("pivot_x", s.pivot.x);
+        visit("pivot_y", s.pivot.y);
+        visit("displacement_x", s.displacement.x);
+        visit("displacement_y", s.displacement.y);
+        visit("angle", s.angle);
+        visit("force_x", s.force.x);
+        visit("force_y", s.force.y);
+        visit("moment", s.moment);
+        visit("work", s.work);
+        visit("work_next", s.work_next);
+        visit("float_work", s.float_work);
+        visit("float_work_next", s.float_work_next);
+        visit("damping_work", s.damping_work);
+        visit("damping_work_next", s.damping_work_next);
+        visit("kinetic", s.kinetic);
+        visit("unbalanced", s.unbalanced);
+    }
+};
 
 }  // namespace flexpm
