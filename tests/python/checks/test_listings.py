@@ -92,6 +92,13 @@ def test_the_listings_of_the_page_on_specimens():
     assert {0, 1} <= set(scope["cut"].edge_joints)
 
 
+def test_the_listing_of_held_nodes():
+    scope = {"flexpm": flexpm}
+    exec(code_after("doc/own_tests.rst", "turned until it breaks::"), scope)
+    load = scope["rig"].record["load"]
+    assert load[-1] <= 0.5 * load.max()
+
+
 @pytest.mark.long
 def test_the_listing_of_the_page_on_comparisons(monkeypatch):
     scope = {"flexpm": flexpm, "specimen": flexpm.Specimen.rectangle(0.012, 0.024, 0.01)}
