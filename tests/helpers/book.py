@@ -105,7 +105,7 @@ CASES = {
         "slip of a closed crack at 45°, mu = 0.3",
         "4 (tau - mu sigma_n) sqrt(a^2 - x^2) / E",
         "Pollard, Segall 1987",
-        *("a = {:g} grains", (5,), _SEEDS),
+        *("a = {:g} grains", (5, 10), _SEEDS, False),
     ),
     "kink": Case(
         "first cracks from a closed crack at 45°, mu = 0",

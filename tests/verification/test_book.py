@@ -68,8 +68,14 @@ def measured_again(name: str, fineness: float, number: int) -> None:
     assert CASES[name](fineness, number).ratio == pytest.approx(before, rel=1e-6)
 
 
+#: Cases whose coarsest run takes half a minute, too.
+LONG = ("rubbing crack",)
+
+
 @pytest.mark.long
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=[pytest.mark.slow] * (one in LONG)) for one in CASES]
+)
 def test_the_coarsest_run_is_what_the_book_says(name):
     measured_again(name, min(WANTED[name].finenesses), 1)
 
