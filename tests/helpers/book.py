@@ -113,6 +113,12 @@ CASES = {
         "largest hoop stress, Erdogan, Sih 1963",
         *("a = {:g} grains", (5, 10), tuple(range(1, 11)), False),
     ),
+    "strip opened": Case(
+        "strip opened by end moments, arms of 4 grains",
+        "M = sqrt(G_fn t B)",
+        "beams, Griffith",
+        *(_RATE, (1, 5), (1,)),
+    ),
 }
 
 Row = dict[str, str]

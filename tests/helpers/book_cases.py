@@ -16,6 +16,7 @@ import numpy as np
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from strip_case import open_strip
 
 from flexpm.arrays import FloatArray
 from flexpm.laboratory.loading_rate import Loading
@@ -234,6 +235,9 @@ def sliding(model: str, fineness: float, seed: int) -> Measured:
     return Measured(largest / (friction * pressure), len(cut.discs))
 
 
+#: Grains over the height of an arm of a strip.
+_ARM = 4
+
 #: Half the length of a closed crack, and the side of the square that it lies in [m].
 _HALF_CRACK, _PLATE = 0.01, 0.1
 #: Compression at which cracks have left both tips, and none has crossed the plate [-].
@@ -362,6 +366,20 @@ def _along(places: FloatArray) -> FloatArray:
     return found
 
 
+def strip(mode: str, fineness: float, seed: int) -> Measured:
+    """Moment at which a crack grows between the arms of a strip, over that of its fracture energy.
+
+    Args:
+        mode: ``opened``, or ``sheared`` by arms that turn alike.
+        fineness: One over the factor on the loading rate.
+        seed: Of the packing.
+    """
+    found = open_strip(mode, _ARM, seed, 1.0 / fineness)
+    assert abs(found.energy - 1.0) < 1e-3, found
+    assert found.zone < 0.3, found
+    return Measured(found.moment, found.grains)
+
+
 MODELS = ("flexible", "rigid")
 CASES: dict[str, Callable[[float, int], Measured]] = {
     **{f"v{wave} {model}": partial(speed, model, wave) for model in MODELS for wave in ("p", "s")},
@@ -371,4 +389,5 @@ CASES: dict[str, Callable[[float, int], Measured]] = {
     "closed crack": closed_crack,
     "rubbing crack": rubbing_crack,
     "kink": kink,
+    "strip opened": partial(strip, "opened"),
 }

@@ -21,6 +21,7 @@ CLAIMS = {
     **dict.fromkeys(("K_I beam", "K_I half-disc", "closed crack"), 3.0),
     "rubbing crack": 3.0,
     "kink": 14.0,
+    "strip opened": 3.0,
 }
 
 
