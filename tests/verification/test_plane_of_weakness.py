@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Biaxial compression across a cohesionless joint: the single plane of weakness."""
+"""Compression across a cohesionless joint, confined or not: the single plane of weakness."""
 
 import math
 
@@ -13,14 +13,14 @@ WEAK = {"normal_stiffness": 1e14, "shear_stiffness": 3e13, "friction": FRICTION}
 WEAK |= {"cohesion": 0.0, "tensile_strength": 0.0}
 
 
-def strength(dip):
+def strength(dip, confinement=CONFINEMENT):
     """Axial stress at which a joint slides that dips by an angle [degrees] to the horizontal [Pa].
 
     Jaeger, Cook and Zimmerman, Fundamentals of Rock Mechanics, 4th ed., 2007, Sec. 4.8.
     """
     angle = math.radians(dip)
     divisor = (1.0 - FRICTION / math.tan(angle)) * math.sin(2.0 * angle)
-    return CONFINEMENT * (1.0 + 2.0 * FRICTION / divisor)
+    return confinement * (1.0 + 2.0 * FRICTION / divisor)
 
 
 def cut(specimen, dip):
@@ -37,19 +37,19 @@ def material(model="flexible"):
     return flexpm.materials.load(preset).with_set(keys, model)
 
 
-def sliding_stress(specimen, dip, rate, model="flexible", max_strain=0.001):
+def sliding_stress(specimen, dip, rate, model="flexible", confinement=CONFINEMENT, **options):
     """Axial stress once the joint has begun to slide, over that of the theory [-]."""
     result = flexpm.run(
         "biaxial",
         cut(specimen, dip),
         material(model),
         model=model,
-        confinement=CONFINEMENT,
+        confinement=confinement,
         rate=rate,
-        max_strain=max_strain,
+        **{"max_strain": 2.5e-10 * confinement, **options},
     )
     assert len(result.cracks) == 0
-    return result.curve["axial_stress"][-1] / strength(dip)
+    return result.curve["axial_stress"][-1] / strength(dip, confinement)
 
 
 @pytest.mark.long
@@ -65,6 +65,38 @@ def test_the_stress_is_that_of_each_dip(dip, seed):
     """Packings in which the joint is straight: a bent one interlocks (D35)."""
     specimen = flexpm.Specimen.rectangle(0.03, 0.06, 0.02, seed=seed)
     assert sliding_stress(specimen, dip, 0.25) == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("dip", "seed", "confinement"),
+    [
+        pytest.param(dip, seed, confinement, marks=pytest.mark.long if often else pytest.mark.slow)
+        for dip, seed, confinement, often in (
+            (35.0, 1, 2e6, True),
+            (40.0, 2, 2e6, False),
+            (50.0, 1, 2e6, False),
+            (55.0, 1, 2e6, False),
+            (60.0, 2, 2e6, True),
+            (40.0, 2, 4e6, False),
+            (55.0, 1, 4e6, False),
+        )
+    ],
+)
+def test_the_stress_grows_with_the_confinement(dip, seed, confinement):
+    specimen = flexpm.Specimen.rectangle(0.03, 0.06, 0.02, seed=seed)
+    found = sliding_stress(specimen, dip, 0.25, confinement=confinement)
+    assert found == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.long
+def test_without_confinement_the_blocks_slide_off():
+    """Then nothing holds them; as the load begins they bear 2 % of what the rock does."""
+    whole = flexpm.Specimen.rectangle(0.02, 0.04, 0.02, seed=1)
+    result = flexpm.run("uniaxial", cut(whole, 45.0), material(), rate=0.4, max_strain=5e-4)
+    assert len(result.cracks) == 0
+    stress = result.curve["axial_stress"]
+    assert stress.max() < 3e6
+    assert abs(stress[-1]) < 1e4
 
 
 @pytest.mark.slow
