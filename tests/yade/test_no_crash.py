@@ -152,13 +152,16 @@ def test_what_can_be_done_goes_on(forks, snippet):
     assert ending == Ending(signal=0), ending
 
 
-#: A call with a value of each type that the signature in its documentation names.
+#: A call with a value of each type that the signature in its documentation names; a list of whole
+#: numbers is an object there.
 CALLS = """
 kinds = {"float": FLOAT, "int": INT, "bool": True, "Vector3": (FLOAT, FLOAT, 0.0), "object": None,
          "list": [], "dict": {}, "tuple": (), "str": "x"}
+lists = {"nodes": [INT]}
 def arguments(method):
     signature = method.__doc__.split("->")[0].split("(", 1)[1]
-    return [kinds[kind] for kind in re.findall(r"\\((?:[\\w.]*[.])?(\\w+)\\)", signature)[1:]]
+    found = re.findall(r"\\((?:[\\w.]*[.])?(\\w+)\\)(\\w+)", signature)[1:]
+    return [lists.get(name, kinds[kind]) for kind, name in found]
 told = []
 def look(thing, name):
     try:
