@@ -59,8 +59,10 @@ private:
     /// By little, or to any value: neighbours and wrong orders, or what is far away.
     template <class Whole> std::enable_if_t<std::is_integral<Whole>::value> change(Whole& value)
     {
+        using Unsigned = std::make_unsigned_t<Whole>;  // it may go around
         value = bytes.flag() ? bytes.raw<Whole>()
-                             : static_cast<Whole>(value + static_cast<Whole>(bytes.whole(-40, 40)));
+                             : static_cast<Whole>(static_cast<Unsigned>(value)
+                                 + static_cast<Unsigned>(bytes.whole(-40, 40)));
     }
     template <class Part> std::enable_if_t<std::is_class<Part>::value> change(Part& part)
     {
