@@ -21,7 +21,7 @@ TESTS = (
     {"test": "tension", "stop_ratio": 0.8},
     {"test": "brazilian", "stop_ratio": 0.8},
 )
-COMMON = {"model": "flexible", "material": "augig-table7"}
+COMMON = {"model": "flexible", "material": "augig-table7", "points": 3}
 SEEDS = range(1, 6)
 HALF_AREA = {"set.tensile_fracture_energy": 10.0, "set.shear_fracture_energy": 400.0}
 FAST = {"loading": "constant", "rate": 10.0}
