@@ -77,7 +77,7 @@ def open_strip(mode: str, grains: int, seed: int, rate: float) -> Opened:
     size = sizes(grains)
     share = 1.0 if mode == "opened" else 0.75
     rig, cut = _rig(mode, size, seed)
-    upper, lower = _turn(rig, size, mode)
+    upper, lower = _arm_ends(rig, size)
     clamp = rig.hold(where=lambda x, y: x > size.length - _END * GRAIN)
     stiffness = _YOUNG * THICKNESS * size.arm**3 / 12.0
     likely = math.sqrt(size.energy * THICKNESS * stiffness / share)
@@ -129,7 +129,7 @@ def _rig(mode: str, size: Sizes, seed: int) -> tuple[PartRig, flexpm.Specimen]:
     return rig, cut
 
 
-def _turn(rig: PartRig, size: Sizes, mode: str) -> tuple[HeldNodes, HeldNodes]:
+def _arm_ends(rig: PartRig, size: Sizes) -> tuple[HeldNodes, HeldNodes]:
     """The ends of the upper and of the lower arm."""
     end, middle = _END * GRAIN, size.arm
     off = 1e-4 * GRAIN

@@ -24,7 +24,7 @@ RADIUS = 0.02
 
 @pytest.fixture(scope="module")
 def half() -> flexpm.Specimen:
-    return flexpm.Specimen.half_disc(2.0 * RADIUS, 0.01, seed=1)
+    return flexpm.Specimen.half_disc(2.0 * RADIUS, 0.01, seed=2)
 
 
 def test_half_a_disc_has_its_outline_its_area_and_its_seed(half):
@@ -46,7 +46,7 @@ def test_half_a_disc_has_its_outline_its_area_and_its_seed(half):
     )
     again = flexpm.Specimen.pack(half.spec)
     assert np.array_equal(again.discs, half.discs)
-    other = flexpm.Specimen.half_disc(2.0 * RADIUS, 0.01, seed=2)
+    other = flexpm.Specimen.half_disc(2.0 * RADIUS, 0.01, seed=1)
     assert not np.array_equal(other.discs[0], half.discs[0])
 
 
@@ -79,7 +79,7 @@ def test_a_crack_runs_from_the_notch_to_the_load(half, model, tmp_path):
     assert result.tensile_cracks > 5 * result.shear_cracks
     spent = curve["damage_energy"][-1] + curve["friction_energy"][-1]
     assert spent < result.fracture_energy * 0.01 * (height - depth)
-    assert curve["load"][-1] <= 0.3 * result.peak_load  # or the largest displacement came first
+    assert curve["load"][-1] <= 0.11 * result.peak_load
     assert curve["cmod"][-1] > 2.0 * curve["cmod"][int(np.argmax(curve["load"]))] > 0.0
     assert result.energy_error < 1e-3
     text = tables.result_table(result)

@@ -122,8 +122,7 @@ struct NodeSet {
 
     // energy [J]
     double work = 0.0, work_next = 0.0;  ///< on the specimen; next: of the half step that follows
-    double float_work = 0.0,
-           float_work_next = 0.0;  ///< of its forces on the translation of one that floats
+    double float_work = 0.0, float_work_next = 0.0;  ///< on the translation of one that floats
     double damping_work = 0.0, damping_work_next = 0.0;
     double kinetic = 0.0;     ///< of the translation of one that floats
     double unbalanced = 0.0;  ///< largest force on it that nothing balances [N]

@@ -18,12 +18,10 @@ struct PartGeometry {
     double area = 0.0;         ///< stress = load / area [m^2]
     double length = 0.0;       ///< strain = displacement / length [m]
 
-    std::vector<int>
-        driven_sets = {};  ///< node sets that load: they move along, or turn counter-clockwise
+    std::vector<int> driven_sets = {};   ///< node sets that move along, or turn counter-clockwise
     std::vector<int> back_sets = {};     ///< those that turn clockwise
     std::vector<int> holding_sets = {};  ///< those that hold against a direction
-    double turn =
-        0.0;  ///< 1: sets turn, load and displacement are the sum of their moments [N m] and their angle
+    double turn = 0.0;  ///< 1: sets turn; load and way are moments [N m] and an angle
 };
 
 /// Load [N, or N m]: mean of what the driven parts push and the holding ones push back. Deviation D25.

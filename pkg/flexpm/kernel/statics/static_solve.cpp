@@ -63,8 +63,7 @@ struct Unknowns {
     std::vector<int> number;  ///< per entry that is unknown: its number
     std::vector<int> index;   ///< per unknown: its entry
     std::vector<Term> lever;  ///< per entry that follows a rotation: index and arm
-    std::vector<int>
-        leader;  ///< per entry that follows: the same component of a centre, or of a set's first node
+    std::vector<int> leader;  ///< per entry that follows: that of a centre, or of a set
 };
 
 /// Call visit(index, factor) for each entry that this one is made of.
