@@ -54,9 +54,7 @@ def results(
     """
     plan = plan or study.read(HERE / f"{name}.toml")
     table, folder = RESULTS / f"{name}.csv", chosen.out / name
-    known = pandas.DataFrame({"key": []})
-    if table.exists():  # pandas' own reader of numbers would change last digits at each writing
-        known = pandas.read_csv(table, float_precision="round_trip")
+    known = committed(name)
     done = set(known["key"])
     missing = [job for job in plan.jobs if job.key not in done]
     print(f"{name}: {len(plan.jobs)} runs, {len(missing)} of them not in {table.name}")
@@ -83,6 +81,15 @@ def results(
             RESULTS.mkdir(exist_ok=True)
             _in_order(known, plan.jobs).to_csv(table, index=False)
     return _in_order(known, plan.jobs), folder
+
+
+def committed(name: str) -> pandas.DataFrame:
+    """Rows of ``results/NAME.csv``; none if there is no such table."""
+    table = RESULTS / f"{name}.csv"
+    if not table.exists():
+        return pandas.DataFrame({"key": []})
+    # pandas' own reader of numbers would change last digits at each writing
+    return pandas.read_csv(table, float_precision="round_trip")
 
 
 def _in_order(known: pandas.DataFrame, wanted: Sequence[jobs.Job]) -> pandas.DataFrame:

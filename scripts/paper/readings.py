@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Table 7 under other readings of the paper, full size: five measures each, beside Table 3.
 
+``readings_changes.csv`` has the change of each measure on the same packing.
+
 A reading changes one thing that the paper leaves open, or two where its name says so, on the same
 packings. Those at ten times the rate are no readings but tell what loading too fast would give.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pandas
-from common import HERE, RESULTS, macroscopic, options, results
+from common import HERE, RESULTS, committed, macroscopic, options, results
 
 from flexpm.materials.references import reference_of
 from flexpm.studies import jobs, study
@@ -25,8 +29,15 @@ COMMON = {"model": "flexible", "material": "augig-table7", "points": 3}
 SEEDS = range(1, 6)
 HALF_AREA = {"set.tensile_fracture_energy": 10.0, "set.shear_fracture_energy": 400.0}
 FAST = {"loading": "constant", "rate": 10.0}
-#: Inputs of each reading, by the words of the table; that in use is of Fig. 14.
+#: The reading in use is of Fig. 14, with the same confinements as the others, or with those named.
 IN_USE = "in use"
+RANGES = {
+    "in use, c and φ from 0, 2, 4 MPa": (0.0, 2e6, 4e6),
+    "in use, c and φ from 4, 8, 12 MPa": (4e6, 8e6, 12e6),
+}
+#: Another law, whose runs ``present_opening.py`` makes.
+PRESENT = "damage by the present opening"
+#: Inputs of each reading, by the words of the table.
 READINGS = {
     "G_f is half the area": HALF_AREA,
     "ten times the constant rate": FAST,
@@ -46,6 +57,17 @@ MEASURES = (
     ("friction_angle", "φ [°]", 1.0, 1),
 )
 
+
+def in_use(known: pandas.DataFrame, pressures: Sequence[float], name: str) -> pandas.DataFrame:
+    """Measures of the reading in use, with c and φ from some confinements [Pa]."""
+    compressed = known["test"].isin(["uniaxial", "biaxial"])
+    part = known[~compressed | known["confinement"].fillna(0.0).isin(pressures)]
+    rock = macroscopic(part.assign(reading=name), ["reading"])
+    # the strength without confinement belongs to the rock, whatever the range
+    alone = known[known["test"] == "uniaxial"].set_index("seed")["peak_stress"]
+    return rock.assign(compressive_strength=rock["seed"].map(alone))
+
+
 chosen = options(__doc__)
 made = [
     (reading, jobs.make({**COMMON, **test, "seed": seed, **changes}, HERE))
@@ -56,9 +78,11 @@ made = [
 rows, folder = results("readings", chosen, plan=study.Study("readings", [job for _, job in made]))
 rows["reading"] = rows["key"].map({job.key: reading for reading, job in made})
 known, _ = results("fig14", chosen)
-pressures = [test.get("confinement", 0.0) for test in TESTS]
-known = known[known["confinement"].fillna(0.0).isin(pressures)].assign(reading=IN_USE)
-found = macroscopic(pandas.concat([known, rows], ignore_index=True), ["reading"])
+measured = [in_use(known, [test.get("confinement", 0.0) for test in TESTS], IN_USE)]
+measured += [in_use(known, pressures, name) for name, pressures in RANGES.items()]
+present = committed("present_opening")
+measured.append(macroscopic(pandas.concat([rows, present.assign(reading=PRESENT)]), ["reading"]))
+found = pandas.concat(measured, ignore_index=True)
 rock = reference_of("augig")
 goals = {
     "compressive_strength": rock.compressive_strength,
@@ -66,22 +90,29 @@ goals = {
     "cohesion": rock.cohesion,
     "friction_angle": rock.friction_angle,
 }
-lines = []
+base = found[found["reading"] == IN_USE].set_index("seed")
+lines, changes = [], []
 for reading, group in found.groupby("reading", sort=False):
-    values = group[[name for name, *_ in MEASURES]].astype(float).dropna()
+    values = group.set_index("seed")[[name for name, *_ in MEASURES]].astype(float).dropna()
     if len(values) < len(SEEDS):  # its runs are not all done
         continue
     mean, error = values.mean(), values.sem()
-    line = {"Reading": reading}
+    change = 100.0 * (values / base[values.columns].astype(float) - 1.0)
+    line, paired = {"Reading": reading}, {"Reading": reading}
     for name, heading, factor, digits in MEASURES:
         line[heading] = f"{factor * mean[name]:.{digits}f} ± {factor * error[name]:.{digits}f}"
+        label = heading.split(" [")[0]
+        paired[label] = f"{change[name].mean():+.1f} ± {change[name].sem():.1f}"
     distance = sum((mean[name] / goal - 1.0) ** 2 for name, goal in goals.items()) / len(goals)
     line["distance [%]"] = f"{100.0 * distance**0.5:.0f}"
     lines.append(line)
+    if reading != IN_USE:
+        changes.append(paired)
 last = {"Reading": "Table 3", "distance [%]": ""}
 for name, heading, factor, digits in MEASURES:
     last[heading] = f"{factor * goals[name]:.{digits}f}" if name in goals else ""
-table = pandas.DataFrame([*lines, last])
-for place in (folder, RESULTS) if chosen.keep else (folder,):
-    table.to_csv(place / "readings_table.csv", index=False)
-print(table.to_string(index=False))
+tables = {"table": pandas.DataFrame([*lines, last]), "changes": pandas.DataFrame(changes)}
+for name, table in tables.items():
+    for place in (folder, RESULTS) if chosen.keep else (folder,):
+        table.to_csv(place / f"readings_{name}.csv", index=False)
+    print(table.to_string(index=False))

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import importlib.util
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -70,3 +72,11 @@ def test_the_table_of_trends_has_all_its_runs_under_keys_of_old_or_new_results()
     for arguments, row in rows.items():
         run = trends.spec_of(*arguments)
         assert row[-1] in (run.key(), *run.older_keys())
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
+def test_the_law_whose_runs_are_in_present_opening_can_still_be_made_from_that_in_use():
+    patch = SCRIPTS / "paper" / "present_opening.patch"
+    fits = ["git", "apply", "--check", patch]
+    told = subprocess.run(fits, cwd=SCRIPTS.parent, capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr
