@@ -93,18 +93,23 @@ goals = {
 base = found[found["reading"] == IN_USE].set_index("seed")
 lines, changes = [], []
 for reading, group in found.groupby("reading", sort=False):
-    values = group.set_index("seed")[[name for name, *_ in MEASURES]].astype(float).dropna()
-    if len(values) < len(SEEDS):  # its runs are not all done
+    values = group.set_index("seed")[[name for name, *_ in MEASURES]].astype(float)
+    # a mean of other packings could not be compared
+    whole = [name for name in values if values[name].notna().sum() == len(SEEDS)]
+    if not whole:
         continue
     mean, error = values.mean(), values.sem()
     change = 100.0 * (values / base[values.columns].astype(float) - 1.0)
     line, paired = {"Reading": reading}, {"Reading": reading}
     for name, heading, factor, digits in MEASURES:
-        line[heading] = f"{factor * mean[name]:.{digits}f} ± {factor * error[name]:.{digits}f}"
         label = heading.split(" [")[0]
-        paired[label] = f"{change[name].mean():+.1f} ± {change[name].sem():.1f}"
-    distance = sum((mean[name] / goal - 1.0) ** 2 for name, goal in goals.items()) / len(goals)
-    line["distance [%]"] = f"{100.0 * distance**0.5:.0f}"
+        line[heading] = paired[label] = ""
+        if name in whole:
+            line[heading] = f"{factor * mean[name]:.{digits}f} ± {factor * error[name]:.{digits}f}"
+            paired[label] = f"{change[name].mean():+.1f} ± {change[name].sem():.1f}"
+    squares = [(mean[name] / goal - 1.0) ** 2 for name, goal in goals.items() if name in whole]
+    distance = f"{100.0 * (sum(squares) / len(goals)) ** 0.5:.0f}"
+    line["distance [%]"] = distance if len(squares) == len(goals) else ""
     lines.append(line)
     if reading != IN_USE:
         changes.append(paired)
