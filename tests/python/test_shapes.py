@@ -16,9 +16,12 @@ from hypothesis import strategies as st
 
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.files import load_toml
+from flexpm.files import json_text, load_toml
+from flexpm.laboratory import asked
+from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials import material as materials
 from flexpm.materials.mixing import description
+from flexpm.specimens.spec import SpecimenSpec
 from flexpm.studies import calibration_problem, study
 
 MATERIAL = {
@@ -30,6 +33,7 @@ MATERIAL = {
     "elastic": {
         "flexible": {"normal_stiffness": 1e14, "shear_ratio": 0.3, "young": 2e10, "poisson": 0.2}
     },
+    "joint": {"saw": {"normal_stiffness": 1e13, "shear_stiffness": 1e12, "friction": 0.6}},
     "mineral": [
         {"name": "hard", "fraction": 0.5},
         {"name": "soft", "fraction": 0.5, "elastic": {"flexible": {"young": 1e10}}},
@@ -133,6 +137,36 @@ def test_any_shape_is_read_or_refused(tmp_path, kind, data):
         read(tmp_path / "it.toml")
     except InputError as error:
         assert str(error)
+
+
+def inputs_of_a_run():
+    """Content of a result.json, as far as `flexpm rerun` reads it."""
+    rock = materials.Material.from_dict({**MATERIAL, "name": "a rock"})
+    spec = RunSpec("uniaxial", SpecimenSpec("rectangle"), described(rock, "flexible"))
+    return {"inputs": spec.to_json()}
+
+
+@given(data=st.data())
+@settings(
+    max_examples=examples(150),
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+def test_any_shape_of_a_result_is_read_or_refused(tmp_path, data):
+    file = tmp_path / "result.json"
+    whole = inputs_of_a_run()
+    file.write_text(json_text(whole))
+    asked.read_inputs(file)
+    content = data.draw(documents(whole))
+    try:
+        text = json_text(content)
+    except (TypeError, ValueError):  # no JSON: a date, or a number that is none
+        return
+    file.write_text(text, encoding="utf-8")
+    try:
+        asked.read_inputs(file)
+    except InputError as error:
+        assert "\n" not in str(error)
 
 
 @given(st.binary(max_size=40))

@@ -7,6 +7,7 @@ Nothing heavy is loaded before a page is written, so that a file is checked befo
 
 from __future__ import annotations
 
+import contextlib
 import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
@@ -51,12 +52,10 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
         raise InputError(
             f"result = {str(file)!r}, has no inputs of a run; give a result.json of flexpm"
         )
-    try:
+    with _refusing(file):
         spec = RunSpec.from_json(dict(inputs))
         material = from_description(spec.material, spec.model)
         found = described(material, spec.model)
-    except (TypeError, ValueError) as error:  # also an InputError
-        raise InputError(f"result = {str(file)!r}: {error}") from None
     if found != spec.material:
         name = next(key for key in {**found, **spec.material} if _differ(found, spec.material, key))
         raise InputError(
@@ -65,6 +64,19 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
             "run"
         )
     return spec, material
+
+
+@contextlib.contextmanager
+def _refusing(file: Path) -> Iterator[None]:
+    """Name the file whose inputs are those of no run."""
+    try:
+        yield
+    except (TypeError, ValueError) as error:  # also an InputError
+        raise InputError(f"result = {str(file)!r}: {error}") from None
+    except (AttributeError, LookupError):
+        raise InputError(
+            f"result = {str(file)!r}, has inputs that no run has; give a result.json of flexpm"
+        ) from None
 
 
 def differences(before: Table, now: Table) -> list[str]:
@@ -89,7 +101,8 @@ def write_report(folder: Path, result: Result) -> Path:
     """Write report.html of a run into its folder, from its result and its specimen.vtu."""
     from ..report.page_run import write_page
 
-    spec = RunSpec.from_json(result.inputs or {})
+    with _refusing(folder / "result.json"):
+        spec = RunSpec.from_json(result.inputs or {})
     commands = [("From its one file:", "flexpm rerun result.json")]
     if line := command(spec):
         commands.append(("By all that was asked for:", line))

@@ -244,6 +244,12 @@ class Result(Shown):
                 f"result = {str(folder / 'result.json')!r}, lacks {', '.join(missing)}; give that "
                 "of a test"
             )
+        for one in fields(cls):
+            if one.name in given and not _fits(one, given[one.name]):
+                raise InputError(
+                    f"result = {str(folder / 'result.json')!r}, has {one.name} = "
+                    f"{str(given[one.name])[:80]}; give that of a test"
+                )
         result = cls(**given)
         result.curve = Curve.read(folder / "curve.csv")
         result.cracks = read_cracks(folder / "cracks.csv")
@@ -261,6 +267,20 @@ class Result(Shown):
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", self.snapshot.fragments.csv())
         write_text(folder / "result.json", json_text(self.as_dict()))
+
+
+def _fits(one: Field[object], value: object) -> bool:
+    """Whether a value of result.json is of the type that the field is said to have."""
+    named = str(one.type).split(" | ")
+    if value is None or isinstance(value, bool):
+        return value is None and "None" in named
+    kinds: dict[str, tuple[type, ...]] = {
+        "int": (int,),
+        "float": (int, float),
+        "str": (str,),
+        "Table": (dict,),
+    }
+    return any(isinstance(value, kinds.get(name, ())) for name in named)
 
 
 def _is_required(one: Field[object]) -> bool:

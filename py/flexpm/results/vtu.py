@@ -6,7 +6,6 @@ Stress, traction and opening are positive in tension. The arrays are listed in t
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -85,12 +84,12 @@ def write_vtu(
 
 
 def _written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
-    """What VTK writes, by way of the memory: it does not tell that a disk refused a part."""
-    with os.fdopen(os.memfd_create("flexpm"), "rb") as file:
-        writer.SetFileName(f"/proc/self/fd/{file.fileno()}")
-        if writer.Write() != 1:
-            raise MemoryError("VTK could not write a grid into memory")
-        return file.read()
+    """What VTK writes, as a text: of a file it does not tell that a part of it was refused."""
+    writer.SetWriteToOutputString(True)
+    if writer.Write() != 1:
+        raise MemoryError("VTK could not write a grid into memory")
+    content: str = writer.GetOutputString()
+    return content.encode()
 
 
 def read_vtu(path: Path | str) -> Snapshot:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -31,3 +32,24 @@ def test_a_grid_reaches_the_disk_by_way_of_python(tmp_path):
     flexpm.export.write_vtu(tmp_path / "grid.vtu", flexpm.build(small).snapshot())
     content = (tmp_path / "grid.vtu").read_bytes()
     assert content.startswith(b"<?xml") and content.endswith(b"</VTKFile>\n")
+
+
+#: Writes a grid where no file may be longer than a thousand bytes.
+LIMITED = """
+import resource, sys
+import flexpm
+state = flexpm.build(flexpm.Specimen.rectangle(0.012, 0.024, 0.01)).snapshot()
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+flexpm.export.write_vtu(sys.argv[1], state)
+"""
+
+
+def test_a_grid_that_is_refused_leaves_no_file(package_parent, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED, str(tmp_path / "grid.vtu")],
+        env={**os.environ, "PYTHONPATH": str(package_parent)},
+        capture_output=True,
+        text=True,
+    )
+    assert "OSError: [Errno 27]" in done.stderr
+    assert list(tmp_path.iterdir()) == []

@@ -13,36 +13,51 @@ NUMBERS = st.sampled_from(
 )
 WORDS = st.sampled_from(
     """uniaxial tension biaxial brazilian flexible rigid inner jcfpm static adaptive constant
-    augig-table7 augig-table2-brittle nofile.toml""".split()
+    waiting p s axial lateral displacement cmod gif augig-table7 augig-table2-brittle
+    nofile.toml""".split()
 )
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
 KEYS = st.sampled_from(
-    ["young", "cohesion", "friction", "softening", "normal_stiffness", "quartz.x"]
+    "young cohesion friction softening normal_stiffness quartz.x joint.j.friction".split()
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
-    --thickness --diameters --points --gravity --diameter""".split()
+    --thickness --diameters --points --gravity --diameter --length --span --notch --normal-stress
+    --max-displacement --seeds --frames --workers""".split()
+FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
+NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
+    --joints""".split()
 OPTIONS = st.one_of(
     st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
-    st.tuples(st.sampled_from(["--model", "--material", "--mesh", "--start", "--loading"]), WORDS),
+    st.tuples(st.sampled_from(NAMED), WORDS),
     st.tuples(st.just("--set"), st.builds("{}={}".format, KEYS, NUMBERS | WORDS)),
-    st.tuples(st.sampled_from(["--dynamic", "--discard-checkpoint", "--help", "--nothing"])),
+    st.tuples(st.sampled_from(FLAGS)),
     st.tuples(TEXTS),
 )
 COMMANDS = st.sampled_from(
     [
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
+        *(("run", test) for test in ("bending", "scb", "shear", "sonic")),
         *(("specimen", shape) for shape in ("rectangle", "disc")),
-        *((name, "nofile.toml") for name in ("study", "calibrate")),
-        *(("compare", "uniaxial"), ("elastic",), ("bench",), ("run",), ()),
+        *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
+        *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
     ]
 )
 #: A small specimen and few steps, so that what is right soon ends.
+RECTANGLE = ["--width", "0.012", "--height", "0.016"]
+BEAM = ["--length", "0.03", "--height", "0.008"]
+FEW = ["--max-strain", "1e-5", "--rate", "50"]
 SIZES = {
-    "run": ["--width", "0.012", "--height", "0.016", "--max-strain", "1e-5", "--rate", "50"],
-    "elastic": ["--width", "0.012", "--height", "0.016"],
+    "run brazilian": ["--diameter", "0.012", *FEW],
+    "run bending": [*BEAM, *FEW],
+    "run scb": ["--diameter", "0.024", *FEW],
+    "run shear": [*RECTANGLE, "--max-displacement", "1e-8", "--rate", "50"],
+    "run sonic": RECTANGLE,
+    "run": [*RECTANGLE, *FEW],
+    "elastic": RECTANGLE,
     "specimen": ["--out", "made"],
-    "compare": ["--width", "0.012", "--height", "0.016", "--max-strain", "1e-5", "--rate", "50"],
-    "bench": ["--width", "0.012", "--height", "0.016", "--steps", "2"],
+    "compare bending": [*BEAM, *FEW],
+    "compare": [*RECTANGLE, *FEW],
+    "bench": [*RECTANGLE, "--steps", "2"],
 }
 
 
@@ -56,9 +71,8 @@ def child():
 @given(COMMANDS, st.lists(OPTIONS, max_size=4))
 @settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_command_line_ends_as_documented(child, command, options):
-    words = [*command, *(SIZES.get(command[0], []) if command else [])]
-    if command[:2] == ("run", "brazilian"):
-        words = [*command, "--diameter", "0.012", *SIZES["run"][4:]]
+    sizes = SIZES.get(" ".join(command)) or SIZES.get(command[0] if command else "", [])
+    words = [*command, *sizes]
     code, errors, left = child.run([*words, *(word for option in options for word in option)])
     assert code in (0, 2, 3), errors
     assert errors.count("\n") == (code != 0), errors

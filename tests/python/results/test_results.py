@@ -459,3 +459,16 @@ def test_without_work_the_energy_error_is_the_share_of_the_initial_energy():
     assert measures.energy_error(record, initial=4.0) == 0.0
     assert measures.energy_error(record, initial=4.4) == pytest.approx(0.4 / 4.4)
     assert measures.energy_error(record) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("peak_stress", "high"), ("steps", 1.5), ("grains", None), ("seed", True), ("material", [])],
+)
+def test_a_value_of_another_type_is_named(tmp_path, name, value):
+    result_of(Curve()).write(tmp_path)
+    assert Result.read(tmp_path).grains == 4
+    content = json.loads((tmp_path / "result.json").read_text())
+    (tmp_path / "result.json").write_text(json.dumps(content | {name: value}))
+    with pytest.raises(InputError, match=f"result.json', has {name} = "):
+        Result.read(tmp_path)
