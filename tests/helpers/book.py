@@ -83,6 +83,15 @@ CASES = {
             *(_RATE, (0.25, 0.5, 1.0), (1, 2, 3)),
         ),
     ),
+    **_both(
+        "sliding far",
+        Case(
+            "shear test of a joint over three mean diameters, mean stress",
+            "mu sigma_n",
+            "Coulomb",
+            *(_RATE, (0.1, 0.2), (1, 2, 3), False),
+        ),
+    ),
     "K_I beam": Case(
         "K_I of a beam, a / H = 0.2 to 0.6",
         "three-point bending, S = 2.5 H",

@@ -25,6 +25,7 @@ from flexpm.laboratory.part_tests import notch_depth
 from flexpm.laboratory.rig import BOTTOM, TOP
 from flexpm.results import toughness, waves
 from flexpm.results.cracks import TENSILE
+from flexpm.results.record import Curve
 from flexpm.results.snapshot import POINT_SHARES, Snapshot
 
 THICKNESS = 0.08
@@ -214,6 +215,39 @@ def onset(model: str, fineness: float, pressure: int) -> Measured:
     return Measured(float(rig.record["axial_stress"].max()) / strength, 2)
 
 
+def _sheared(
+    model: str, fineness: float, seed: int, *, width: float, grains: float | None = None
+) -> tuple[flexpm.Specimen, Curve, FloatArray]:
+    """Shear test of a joint without cohesion: specimen, record and its stress over mu sigma_n.
+
+    Args:
+        model: ``flexible`` or ``rigid``.
+        fineness: One over the factor on the loading rate.
+        seed: Of the packing.
+        width: Of the specimen [m].
+        grains: Displacement over the mean diameter; None for that of the test.
+    """
+    height, friction, pressure = 0.016, 0.5, 2e6
+    law = {"normal_stiffness": 1.8e13, "shear_stiffness": 5e12, "friction": friction}
+    rock = flexpm.materials.load("augig-table7", model).with_set(
+        {f"joint.plane.{key}": value for key, value in law.items()}, model
+    )
+    whole = flexpm.Specimen.rectangle(width, height, 0.01, seed=seed)
+    cut = whole.with_joints({"plane": [(0.0, height / 2), (width, height / 2)]})
+    result = flexpm.run(
+        *("shear", cut, rock, model),
+        rate=1.0 / fineness,
+        normal_stress=pressure,
+        max_displacement=None if grains is None else grains * _mean_diameter(cut),
+        report=False,
+    )
+    return cut, result.curve, result.curve["shear_stress"] / (friction * pressure)
+
+
+def _mean_diameter(specimen: flexpm.Specimen) -> float:
+    return 2.0 * float(specimen.discs[:, 2].mean())
+
+
 def sliding(model: str, fineness: float, seed: int) -> Measured:
     """Largest stress of a shear test of a joint without cohesion over mu sigma_n.
 
@@ -222,17 +256,21 @@ def sliding(model: str, fineness: float, seed: int) -> Measured:
         fineness: One over the factor on the loading rate.
         seed: Of the packing.
     """
-    width, height, friction, pressure = 0.024, 0.016, 0.5, 2e6
-    law = {"normal_stiffness": 1.8e13, "shear_stiffness": 5e12, "friction": friction}
-    rock = flexpm.materials.load("augig-table7", model).with_set(
-        {f"joint.plane.{key}": value for key, value in law.items()}, model
-    )
-    whole = flexpm.Specimen.rectangle(width, height, 0.01, seed=seed)
-    cut = whole.with_joints({"plane": [(0.0, height / 2), (width, height / 2)]})
-    rate = {"rate": 1.0 / fineness, "normal_stress": pressure}
-    result = flexpm.run("shear", cut, rock, model, report=False, **rate)
-    largest = float(result.curve["shear_stress"].max())
-    return Measured(largest / (friction * pressure), len(cut.discs))
+    specimen, _, stress = _sheared(model, fineness, seed, width=0.024)
+    return Measured(float(stress.max()), len(specimen.discs))
+
+
+def sliding_far(model: str, fineness: float, seed: int) -> Measured:
+    """Mean stress over mu sigma_n of such a test, from a slip of a tenth to three mean diameters.
+
+    Args:
+        model: ``flexible`` or ``rigid``.
+        fineness: One over the factor on the loading rate.
+        seed: Of the packing.
+    """
+    specimen, curve, stress = _sheared(model, fineness, seed, width=0.036, grains=3.0)
+    slides = curve["shear_displacement"] > 0.1 * _mean_diameter(specimen)
+    return Measured(float(np.mean(stress[slides])), len(specimen.discs))
 
 
 #: Grains over the height of an arm of a strip.
@@ -385,6 +423,7 @@ CASES: dict[str, Callable[[float, int], Measured]] = {
     **{f"v{wave} {model}": partial(speed, model, wave) for model in MODELS for wave in ("p", "s")},
     **{f"onset {model}": partial(onset, model) for model in MODELS},
     **{f"sliding {model}": partial(sliding, model) for model in MODELS},
+    **{f"sliding far {model}": partial(sliding_far, model) for model in MODELS},
     **{f"K_I {shape}": partial(intensity, shape) for shape in _SHAPES},
     "closed crack": closed_crack,
     "rubbing crack": rubbing_crack,

@@ -18,6 +18,7 @@ CLAIMS = {
     **dict.fromkeys(("vp flexible", "vs flexible", "vp rigid", "vs rigid"), 1.0),
     **dict.fromkeys(("onset flexible", "onset rigid"), 0.1),
     **dict.fromkeys(("sliding flexible", "sliding rigid"), 1.0),
+    **dict.fromkeys(("sliding far flexible", "sliding far rigid"), 1.0),
     **dict.fromkeys(("K_I beam", "K_I half-disc", "closed crack"), 3.0),
     "rubbing crack": 3.0,
     "kink": 14.0,

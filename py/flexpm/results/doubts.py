@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Doubts about a run, one line each: other units than SI's, too far a slip, too fast a loading.
+"""Doubts about a run, one line each: other units than SI's, too fast a loading.
 
 A doubt stops nothing: the numbers are computed as they were asked for.
 """
 
 from __future__ import annotations
 
-import statistics
 from collections.abc import Iterator, Mapping
 
 from ..files import Table
@@ -29,8 +28,6 @@ _USUAL: dict[str, tuple[float, float, str]] = {
 LARGEST_MISMATCH = 0.05
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
-#: Slip of a joint over the mean grain diameter [-], up to which its faces lie on their partners.
-LARGEST_SLIP = 0.5
 #: Of a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
@@ -39,7 +36,7 @@ NO_PULSE = (
 
 
 def of_inputs(inputs: Table) -> list[str]:
-    """Inputs of a run that are surely in other units, or that slide a joint too far.
+    """Inputs of a run that are surely in other units.
 
     Args:
         inputs: As result.json has them.
@@ -47,8 +44,7 @@ def of_inputs(inputs: Table) -> list[str]:
     material = inputs["material"]
     tables = [("", {**inputs, **inputs["specimen"]}), ("", material)]
     tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
-    lines = [line for where, values in tables for line in _of_values(where, values)]
-    return [*lines, *_of_slip(inputs["specimen"], inputs.get("max_displacement"))]
+    return [line for where, values in tables for line in _of_values(where, values)]
 
 
 def of_result(
@@ -84,14 +80,3 @@ def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:
         value = values.get(name)
         if isinstance(value, int | float) and value != 0.0 and not low <= value <= high:
             yield f"{where}{name} = {value:g}, is unusual; the unit is {meant}"
-
-
-def _of_slip(specimen: Table, way: float | None) -> Iterator[str]:
-    if way is None or specimen.get("joints") is None:
-        return
-    limit = LARGEST_SLIP * statistics.fmean(specimen["diameters"])
-    if way > limit:
-        yield (
-            f"max_displacement = {way:g} m, is more than half a mean grain, {limit:g} m: the faces "
-            "of a joint lose their partners as they slide on, and it bears too little"
-        )

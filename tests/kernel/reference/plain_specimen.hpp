@@ -57,6 +57,7 @@ struct ContactPoint {
     double weight[2] = { 0.0, 0.0 };  ///< on the edges of a and b: share of the second node [-]
     double area = 0.0;                ///< [m^2]
     flexpm::PointState state;
+    double paired_slip = 0.0;  ///< at which its places on the edges lay opposite [m]
     int crack_step = -1;
     int crack_mode = 0;
     Point crack_place;

@@ -73,12 +73,13 @@ void update_contact(Specimen& s, Contact& c, double dt)
         const double opens = dot(apart, mean), slips = cross(mean, apart);
         // both grains are compared in the middle of the gap, to which each edge carries its rotation; the gap is that
         // of half of the step
-        const double opening = p.state.opening + 0.5 * (opens + turn * p.state.slip);
-        const double slip = p.state.slip + 0.5 * (slips - turn * p.state.opening);
+        const double along = p.state.slip - p.paired_slip;
+        const double opening = p.state.opening + 0.5 * (opens + turn * along);
+        const double slip = along + 0.5 * (slips - turn * p.state.opening);
         const PointTraction t = advance(c.law, opens + turn * slip, slips - turn * opening, p);
 
         const double normal = p.area * t.normal, shear = p.area * t.shear;
-        gap_moment += p.state.opening * shear - p.state.slip * normal;
+        gap_moment += p.state.opening * shear - (p.state.slip - p.paired_slip) * normal;
         for (int side = 0; side < 2; ++side) {
             const double sign = side == 0 ? 1.0 : -1.0, w = p.weight[side];
             on_ends[side][0] = on_ends[side][0] + sign * (1.0 - w) * Point { normal, shear };

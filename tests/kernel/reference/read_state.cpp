@@ -85,6 +85,7 @@ Contact read_contact(const Assembly& a, int c, const Numbers& number)
         point.weight[1] = contacts.weight(c, p, 1);
         point.area = contacts.area(c, p);
         point.state = contacts.point_state(c, p);
+        point.paired_slip = contacts.paired_slip(c, p);
         point.crack_step = contacts.crack_steps[contacts.point_index(c, p)];
         point.crack_mode = contacts.crack_modes[contacts.point_index(c, p)];
         point.crack_place = contacts.crack_position(c, p);

@@ -6,11 +6,13 @@
 ///     FLEXPM_ASSEMBLIES=10000 kernel_tests "[reference]"
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 
 #include "reference/plain_step.hpp"
 #include "reference/random_case.hpp"
 #include "reference/read_state.hpp"
+#include "support/joint_rows.hpp"
 
 #include <cstdlib>
 #include <string>
@@ -88,4 +90,36 @@ TEST_CASE("A step agrees with a plain one", "[reference]")
     CHECK(all.excepted <= 1 + all.points / 1000000);
     for (long count : { events.softened, events.cracked, events.closed, events.slid })
         CHECK(count > 10 * assemblies);
+}
+
+TEST_CASE("A step between faces that have been paired anew agrees with a plain one", "[reference]")
+{
+    const bool rigid = GENERATE(false, true);
+    flexpm::Assembly a = joint_rows::two_rows(rigid);
+    flexpm::scale_masses(a, 0.7);
+    // across the joint, along it and turning
+    for (int g = 0; g < a.grains.count; ++g) {
+        const bool upper = g >= joint_rows::columns;
+        driven::set_velocity(a, g, [&](flexpm::Point p) {
+            return upper ? flexpm::Point { 1e-5 - 1e-4 * p.y, 1e-4 * p.x - 2e-6 }
+                         : flexpm::Point {};
+        });
+        if (rigid && upper) a.grains.spin[a.grains.slot[g]] = 1e-4;
+    }
+    flexpm::StepOptions options;
+    options.damping = 0.0;
+    plain::Differences all;
+    int changes = 0;
+    for (int i = 0; i < 300; ++i) {
+        changes += !flexpm::follow_faces(a, 0.7, 1.0).empty();
+        plain::Specimen expected = plain::read_state(a);
+        const plain::Specimen before = expected;
+        plain::step(expected, options.dt, options.damping);
+        flexpm::step(a, options);
+        all.take_larger(plain::compare(before, plain::read_state(a), expected));
+    }
+    CAPTURE(all.text());
+    CHECK(changes > 5);
+    CHECK(all.largest() < 1e-12);
+    CHECK(all.records == 0);
 }

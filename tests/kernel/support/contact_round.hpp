@@ -12,6 +12,7 @@ namespace contact_round {
 /// End contacts that are over, begin those of discs that touch.
 inline void update_contacts(flexpm::Assembly& a)
 {
+    flexpm::follow_faces(a, 0.0, 1.0);
     flexpm::follow_touches(a, 0.0, 1.0);
     std::vector<int> over;
     for (int c = 0; c < a.contacts.count; ++c) {

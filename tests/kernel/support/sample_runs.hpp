@@ -9,6 +9,7 @@
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include "contact_round.hpp"
+#include "joint_rows.hpp"
 #include "same_bits.hpp"
 
 #include <functional>
@@ -109,6 +110,24 @@ inline Assembly thrown()
     return a;
 }
 
+/// Two rows pressed on each other and thrown along their joint by more than a grain.
+inline Assembly slid_far(bool rigid)
+{
+    flexpm::ContactMaterial weak = joint_rows::smooth_joint();
+    weak.cohesion = weak.tensile_strength = 1e4;
+    Assembly a = joint_rows::two_rows(rigid, 3, weak);
+    flexpm::scale_masses(a, 0.0);
+    for (int side : { flexpm::bottom_side, flexpm::top_side })
+        flexpm::set_pressure(a, side, 1e6);
+    for (int g = joint_rows::columns; g < 2 * joint_rows::columns; ++g)
+        driven::set_velocity(a, g, Point { 1e-5, 0.0 });
+    for (int i = 0; i < 50; ++i) {
+        step(a, 10, 0.0);
+        contact_round::update_contacts(a);
+    }
+    return a;
+}
+
 inline std::vector<Run> all()
 {
     std::vector<Run> runs;
@@ -124,6 +143,8 @@ inline std::vector<Run> all()
     runs.push_back({ "grains between plates", [] { return squeezed(false); } });
     runs.push_back({ "rigid grains between plates", [] { return squeezed(true); } });
     runs.push_back({ "rigid grains that touch", thrown });
+    runs.push_back({ "faces that slide", [] { return slid_far(false); } });
+    runs.push_back({ "rigid faces that slide", [] { return slid_far(true); } });
     return runs;
 }
 

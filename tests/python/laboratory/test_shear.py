@@ -127,6 +127,22 @@ def test_a_bonded_joint_softens_to_its_friction(whole, tmp_path):
     assert f"residual strength           {result.residual_strength / 1e6:.4g}" in text
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_faces_that_slide_far_keep_their_friction_and_their_interactions(whole, model):
+    result = sheared(whole, model, **FAR)
+    assert result.energy_error < 1e-3
+    slip, stress = result.curve["shear_displacement"], result.curve["shear_stress"]
+    assert slip[-1] == pytest.approx(FAR["max_displacement"], rel=0.01)
+    slides = stress[slip > 0.1 * slip[-1]] / (FRICTION * PRESSURE)
+    assert slides.mean() == pytest.approx(1.0, abs=2e-3)
+    # YADE has one interaction for each pair with a contact, and none for pairs that have parted
+    contacts = [one for one in yade.O.interactions if one.isReal]
+    assert all(one.phys.area.sum() > 0.0 for one in contacts)
+    across = [one for one in contacts if np.abs(one.geom.ends[:, 1] - HEIGHT / 2).max() < 1e-5]
+    area = sum(one.phys.area.sum() for one in across)
+    assert area == pytest.approx((WIDTH - slip[-1]) * 0.01, rel=0.01)
+
+
 def test_rock_without_a_joint_shears_beyond_its_cohesion(whole):
     result = flexpm.run("shear", whole, model="rigid", normal_stress=PRESSURE)
     law = result.material
@@ -136,9 +152,15 @@ def test_rock_without_a_joint_shears_beyond_its_cohesion(whole):
     assert not result.failed
 
 
-@pytest.mark.parametrize("stage", [1, 2])
-def test_a_shear_test_that_was_interrupted_has_the_same_bits(whole, tmp_path, monkeypatch, stage):
-    once = sheared(whole, "rigid")
+#: Slides by half a grain: faces get new partners.
+FAR = {"rate": 20.0, "max_displacement": 1.5e-3}
+
+
+@pytest.mark.parametrize(("stage", "options"), [(1, {}), (2, {}), (2, FAR)])
+def test_a_shear_test_that_was_interrupted_has_the_same_bits(
+    whole, tmp_path, monkeypatch, stage, options
+):
+    once = sheared(whole, "rigid", **options)
     saves = []
     save = Checkpoint.save
 
@@ -153,12 +175,12 @@ def test_a_shear_test_that_was_interrupted_has_the_same_bits(whole, tmp_path, mo
     monkeypatch.setattr(Checkpoint, "save", interrupt)
     monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > late + 100))
     with pytest.raises(KeyboardInterrupt):
-        sheared(whole, "rigid", out=tmp_path, report=False)
+        sheared(whole, "rigid", out=tmp_path, report=False, **options)
     monkeypatch.undo()
-    resumed = sheared(whole, "rigid", out=tmp_path, report=False)
+    resumed = sheared(whole, "rigid", out=tmp_path, report=False, **options)
     assert 0 < resumed.resumed_at < once.steps
     assert np.array_equal(resumed.curve.array, once.curve.array, equal_nan=True)
-    again = sheared(whole, "rigid", out=tmp_path, report=False)
+    again = sheared(whole, "rigid", out=tmp_path, report=False, **options)
     assert again.steps == once.steps
 
 

@@ -50,21 +50,6 @@ def test_inputs_in_other_units_are_said_before_the_run(capsys, monkeypatch, argu
     assert f"warning: {says}, is unusual" in capsys.readouterr().out
 
 
-def test_a_joint_that_slides_more_than_half_a_grain_is_doubtful():
-    specimen = SpecimenSpec("rectangle", diameters=(2e-3, 4e-3))
-    law = {"normal_stiffness": 1e13, "shear_stiffness": 1e13, "cohesion": 0.0, "friction": 0.5}
-    law["tensile_strength"] = 0.0
-    rock = materials.load("augig-table7", "flexible")
-    jointed = rock.with_set({f"joint.saw.{key}": value for key, value in law.items()})
-    material = described(jointed, "flexible")
-    for cut, way, doubtful in ((False, 2e-3, 0), (True, 1.4e-3, 0), (True, 1.6e-3, 1)):
-        chosen = specimen.with_joints({"saw": [(0.0, 0.08), (0.08, 0.08)]}) if cut else specimen
-        spec = RunSpec("shear", chosen, material, "flexible", max_displacement=way)
-        found = doubts.of_inputs(spec.to_json())
-        assert len(found) == doubtful
-        assert all("max_displacement = 0.0016 m, is more than half" in line for line in found)
-
-
 def test_doubts_about_a_result():
     assert doubts.of_result("ok", 0.009, 0.04, 1.0) == []
     assert doubts.of_result("ok", None, None, None) == []

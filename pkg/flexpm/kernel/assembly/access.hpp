@@ -183,6 +183,22 @@ inline double damage_of(const Contacts& contacts, int contact, int point)
     return law::damage(contacts.law_of(contact), s.max_opening, s.shear_damage);
 }
 
+/// Shares of an edge's second node between which a contact acts: the whole edge, but a part where the faces of a joint have slid.
+inline std::array<double, 2> acting_part(const Assembly& a, int contact, int side)
+{
+    const Contacts& contacts = a.contacts;
+    if (contacts.joint[contact] < 0) return { 0.0, 1.0 };
+    const int last = contacts.points_of(contact) - 1;
+    if (last > 0)
+        return { contacts.weight(contact, 0, side), contacts.weight(contact, last, side) };
+    const auto [from, to] = contacts.edge(contact, side);
+    const double length =
+        norm(vector_at(a.grains.reference, to) - vector_at(a.grains.reference, from));
+    const double half = 0.5 * contacts.area(contact, 0) / (length * a.thickness);
+    const double middle = contacts.weight(contact, 0, side);
+    return { middle - half, middle + half };
+}
+
 /// Unit normal of a contact when it was bonded, from a to b: along the centres, or across the edge of
 /// a contact without a branch.
 inline Point bonded_normal(const Assembly& a, int contact)

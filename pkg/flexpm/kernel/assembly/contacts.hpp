@@ -50,10 +50,12 @@ struct Contacts {
     Array<double> inverse_edge_lengths;  ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
     Array<double> normals;               ///< [component] of the current unit normal, from a to b
     Array<double> states;                ///< [point][PointRow]
-    Array<int> crack_steps;              ///< [point]: step of the crack or erasure, -1 while intact
-    Array<std::uint8_t> crack_modes;     ///< [point]: CrackMode
-    Array<double> crack_positions;       ///< [point][component] where it cracked [m]
-    Array<double> crack_energies;        ///< [point]: dissipated by damage until it cracked [J]
+    /// [point]: slip at which its places on the two edges lay opposite to each other [m]; 0 until faces slide far.
+    Array<double> paired_slips;
+    Array<int> crack_steps;           ///< [point]: step of the crack or erasure, -1 while intact
+    Array<std::uint8_t> crack_modes;  ///< [point]: CrackMode
+    Array<double> crack_positions;    ///< [point][component] where it cracked [m]
+    Array<double> crack_energies;     ///< [point]: dissipated by damage until it cracked [J]
     /// `force_values` of each contact, one contact after the other, as nodes gather them [N]; a force of
     /// zero follows the last block, see no_force().
     Array<double> forces;
@@ -113,6 +115,19 @@ struct Contacts {
     {
         return load_state(&states[point_index(contact, point, 0, PointRow::count)], 0);
     }
+    void set_point_state(int contact, int point, const PointState& s)
+    {
+        store_state(s, &states[point_index(contact, point, 0, PointRow::count)], 0);
+    }
+
+    double& paired_slip(int contact, int point)
+    {
+        return paired_slips[point_index(contact, point)];
+    }
+    double paired_slip(int contact, int point) const
+    {
+        return paired_slips[point_index(contact, point)];
+    }
 
     Point branch(int contact) const { return vector_at(branches, vector_index(contact)); }
     void set_branch(int contact, Point p) { set_vector(branches, vector_index(contact), p); }
@@ -148,6 +163,7 @@ struct Contacts {
         visit(s.inverse_edge_lengths, 2, row_index);
         visit(s.normals, dimension, row_index);
         visit(s.states, s.points * PointRow::count, row_index);
+        visit(s.paired_slips, s.points, row_index);
         visit(s.crack_steps, s.points, row_index);
         visit(s.crack_modes, s.points, row_index);
         visit(s.crack_positions, s.points * dimension, row_index);
@@ -176,6 +192,7 @@ struct Contacts {
         visit("inverse_edge_lengths", s.inverse_edge_lengths);
         visit("normals", s.normals);
         visit("states", s.states);
+        visit("paired_slips", s.paired_slips);
         visit("crack_steps", s.crack_steps);
         visit("crack_modes", s.crack_modes);
         visit("crack_positions", s.crack_positions);

@@ -118,9 +118,10 @@ Point contact_end(const Assembly& a, int contact, int end)
 {
     Point sum;
     for (int side = 0; side < 2; ++side) {
-        const Point p = a.grains.position(a.contacts.node(contact, side, end));
-        sum.x += 0.5 * p.x;
-        sum.y += 0.5 * p.y;
+        const auto [from, to] = a.contacts.edge(contact, side);
+        const double share = acting_part(a, contact, side)[end];
+        const Point p = a.grains.position(from), q = a.grains.position(to);
+        sum = sum + 0.5 * ((1.0 - share) * p + share * q);
     }
     return sum;
 }

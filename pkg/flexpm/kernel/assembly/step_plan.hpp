@@ -48,7 +48,7 @@ struct StepPlan {
     PrefetchLists prefetch;
 
     /// 1 where all contacts of a block lie between whole edges that both grains share, with points at the ends and in
-    /// the middle: weights 0, 1/2, 1, one inverse edge length for both, equal end areas.
+    /// the middle: weights 0, 1/2, 1, one inverse edge length for both, equal end areas, as they were bonded.
     std::vector<std::uint8_t> whole_edges;
 
     std::vector<int> contacts_by_id;  ///< places of the contacts in the order of their Contacts::id

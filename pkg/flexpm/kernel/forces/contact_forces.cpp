@@ -191,6 +191,7 @@ ContactLanes rows_from(Assembly& a, int block, const LawRows& law)
         contacts.inverse_edge_lengths.data() + contact * 2,
         contacts.normals.data() + contact * dimension,
         contacts.states.data() + contact * points * PointRow::count,
+        contacts.paired_slips.data() + contact * points,
         contacts.forces.data() + contact * Contacts::force_values, law.values, false, false,
         a.plan.prefetch.needed ? block_distance : 0 };
 }
@@ -205,6 +206,7 @@ void advance_block(ContactLanes& b, int points)
     b.inverse_edge_length += lanes * 2;
     b.normal += lanes * dimension;
     b.state += lanes * points * PointRow::count;
+    b.paired_slip += lanes * points;
     b.force += lanes * Contacts::force_values;
 }
 

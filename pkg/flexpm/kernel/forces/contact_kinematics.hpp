@@ -28,6 +28,7 @@ struct ContactLanes {
     const double* inverse_edge_length;
     double* normal;
     double* state;
+    const double* paired_slip;
     double* force;
     const double* law;      ///< LawRows
     bool dilating;          ///< whether any of these laws dilates
@@ -97,6 +98,13 @@ FLEXPM_INLINE double between_edges(const ContactLanes& b, int p, int l, double o
     if (Whole) return p == 0 ? 0.0 : p == 1 ? 0.5 * (of_b - of_a) : of_b - of_a;
     const double wa = b.weight[(2 * p) * lanes + l], wb = b.weight[(2 * p + 1) * lanes + l];
     return wb * of_b - wa * of_a;
+}
+
+/// Distance along the tangent between the places of a point on the two edges [m].
+template <bool Whole> FLEXPM_INLINE double gap_along(const ContactLanes& b, int p, int l)
+{
+    const double slip = b.state[(p * PointRow::count + PointRow::slip) * lanes + l];
+    return Whole ? slip : slip - b.paired_slip[p * lanes + l];
 }
 
 /// Ask for the first rows, or all, of the block ahead of an array with `per_block` rows a block.
@@ -182,7 +190,7 @@ FLEXPM_INLINE void move_points(const ContactLanes& b, double dt, PointMotion& mo
             const double apart = g_apart + between_edges<Whole>(b, p, l, a_apart, b_apart);
             const double along = g_along + between_edges<Whole>(b, p, l, a_along, b_along);
             const double opening = state[PointRow::opening * lanes],
-                         slip = state[PointRow::slip * lanes];
+                         slip = gap_along<Whole>(b, p, l);
             motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
             motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
         }
@@ -228,7 +236,7 @@ FLEXPM_INLINE void spread_forces(const ContactLanes& b, const double* normal, co
             const double area = b.area[(Whole && p == 2 ? 0 : p) * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
             const double* state = b.state + p * PointRow::count * lanes + l;
-            moment += state[PointRow::opening * lanes] * fs - state[PointRow::slip * lanes] * fn;
+            moment += state[PointRow::opening * lanes] * fs - gap_along<Whole>(b, p, l) * fn;
             sum_n += fn;
             sum_s += fs;
             end_n.add<Whole>(b, p, l, fn);

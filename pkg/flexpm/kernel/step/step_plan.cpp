@@ -19,6 +19,7 @@ bool is_between_whole_edges(const Contacts& contacts, int contact)
     for (int p = 0; p < 3; ++p) {
         for (int side = 0; side < 2; ++side)
             if (contacts.weight(contact, p, side) != 0.5 * p) return false;
+        if (contacts.paired_slip(contact, p) != 0.0) return false;
     }
     return contacts.area(contact, 0) == contacts.area(contact, 2)
         && contacts.inverse_edge_length(contact, 0) == contacts.inverse_edge_length(contact, 1);

@@ -6,6 +6,8 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/geometry/disc_checks.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
+#include <flexpm/kernel/topology/edge_points.hpp>
+#include <flexpm/kernel/topology/joint_sides.hpp>
 
 #include <algorithm>
 #include <array>
@@ -144,19 +146,6 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
         &a.grains.stiffness[StiffnessRow::count * lanes * block], lane);
 }
 
-/// Place and share of area of each point along an edge: Lobatto, paper Sec. 2.5.
-struct EdgePoints {
-    std::array<double, 3> weight;
-    std::array<double, 3> share;
-};
-
-EdgePoints edge_points(int points)
-{
-    if (points == 1) return { { 0.5 }, { 1.0 } };
-    if (points == 2) return { { 0.0, 1.0 }, { 0.5, 0.5 } };
-    return { { 0.0, 0.5, 1.0 }, { 1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0 } };
-}
-
 /// Weight of the edge's end for the point where Eq. 7 with d_v = 0 puts it: between the two discs,
 /// in the middle of their overlap. It may lie beyond the edge: weights then extrapolate.
 double centre_line_weight(Point p0, Point p1, const Disc& a, const Disc& b)
@@ -264,69 +253,6 @@ void crack_from_start(Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p)
         contacts.state(contact, p, PointRow::shear_damage) = 1.0;
-}
-
-/// Grains on one joint, each with a vector that points across it.
-using Sides = std::map<int, Point>;
-
-/// Sides of the grains that have an edge on a joint: sums of the normals out of them.
-Sides sides_by_edges(const Contacts& contacts, int joint)
-{
-    Sides outward;
-    for (int c = 0; c < contacts.count; ++c) {
-        if (contacts.joint[c] != joint) continue;
-        const auto& pair = contacts.pairs[c];
-        outward[pair[0]] = outward[pair[0]] + contacts.normal(c);
-        outward[pair[1]] = outward[pair[1]] - contacts.normal(c);
-    }
-    return outward;
-}
-
-/// Sides of the grains that have no more than a corner on a joint. They are those of the neighbours with which they share
-/// an edge from there. What lies before the end of a joint is on no side.
-Sides sides_by_corners(
-    const Contacts& contacts, const Tessellation& t, int joint, const Sides& by_edges)
-{
-    std::map<int, int> edges_at;  // of the joint, at each of its vertices
-    for (int c = 0; c < contacts.count; ++c) {
-        if (contacts.joint[c] != joint) continue;
-        ++edges_at[t.shared_edges[c].vertex_0];
-        ++edges_at[t.shared_edges[c].vertex_1];
-    }
-    const auto is_within = [&](int vertex) {
-        const auto found = edges_at.find(vertex);
-        return found != edges_at.end() && found->second > 1;
-    };
-    Sides outward;
-    for (int c = 0; c < contacts.count; ++c) {
-        const SharedEdge& edge = t.shared_edges[c];
-        if (contacts.joint[c] == joint || !(is_within(edge.vertex_0) || is_within(edge.vertex_1)))
-            continue;
-        for (int side = 0; side < 2; ++side) {
-            const int grain = contacts.pairs[c][side];
-            const auto neighbour = by_edges.find(contacts.pairs[c][1 - side]);
-            if (by_edges.count(grain) == 0 && neighbour != by_edges.end())
-                outward[grain] = outward[grain] + neighbour->second;
-        }
-    }
-    return outward;
-}
-
-/// Grains on the two sides of a joint never touch by their discs, which would catch on each other as they slide along
-/// flat faces. Deviation D37.
-void part_sides_of_joints(Assembly& a, const Tessellation& t)
-{
-    for (int joint : std::set<int>(a.contacts.joint.begin(), a.contacts.joint.end())) {
-        if (joint < 0) continue;
-        Sides outward = sides_by_edges(a.contacts, joint);
-        outward.merge(sides_by_corners(a.contacts, t, joint, outward));
-        for (auto g = outward.begin(); g != outward.end(); ++g) {
-            for (auto h = std::next(g); h != outward.end(); ++h) {
-                if (dot(g->second, h->second) < 0.0)
-                    a.contacts.close_pairs[{ g->first, h->first }] = 0.0;
-            }
-        }
-    }
 }
 
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,

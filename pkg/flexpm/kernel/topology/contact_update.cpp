@@ -5,6 +5,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
+#include <flexpm/kernel/topology/joint_faces.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 #include <flexpm/kernel/topology/touch_point.hpp>
 
@@ -32,8 +33,6 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
     const int points = contacts.points_of(c);
     for (int p = 0; p < points; ++p) {
         contacts.area(c, p) = area / points;
-        contacts.crack_steps[contacts.point_index(c, p)] = -1;
-        contacts.state(c, p, PointRow::shear_damage) = 1.0;
     }
     contacts.set_branch(c,
         vector_at(a.grains.reference, a.grains.centre(pair[1]))
@@ -41,30 +40,59 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
     contacts.set_normal(c, touch.normal);
 }
 
-/// A contact once some have come and gone: one that was there before, or a new touch of a pair.
-struct Origin {
-    static constexpr int new_touch = -1;
+/// Fill the rows of contact `c` between the parts of two faces.
+void fill_face(Assembly& a, int c, const FaceContact& face)
+{
+    Contacts& contacts = a.contacts;
+    const int centre_rows[] = { NodeRow::centre_a, NodeRow::centre_b };
+    for (int side = 0; side < 2; ++side) {
+        for (int end = 0; end < 2; ++end)
+            contacts.node(c, side, end) = face.edges[side][end];
+        contacts.nodes[row_index(c, centre_rows[side], NodeRow::count)] =
+            a.grains.centre_place(face.pair[side]);
+        contacts.inverse_edge_length(c, side) = face.inverse_edge_length[side];
+    }
+    for (int p = 0; p < contacts.points_of(c); ++p) {
+        const FaceContact::Place& point = face.points[p];
+        for (int side = 0; side < 2; ++side)
+            contacts.weight(c, p, side) = point.weight[side];
+        contacts.area(c, p) = point.area;
+        contacts.set_point_state(c, p, point.state);
+        contacts.paired_slip(c, p) = point.state.slip;
+    }
+    contacts.set_normal(c, face.normal);
+}
+
+/// A contact that begins: the touch of a pair, or one between faces.
+struct NewContact {
     GrainPair pair;
-    int contact;  ///< its number before, or new_touch
+    const FaceContact* face = nullptr;  ///< none: the discs touch
+};
+
+/// A contact once some have come and gone: one that was there before, or a new one.
+struct Origin {
+    static constexpr int is_new = -1;
+    int contact;  ///< its number before, or is_new
+    NewContact made;
 };
 
 /// All contacts that stay and all new ones, in the order of their pairs.
-std::vector<Origin> origins(
-    const Contacts& contacts, const std::vector<int>& ended, const std::vector<GrainPair>& touching)
+std::vector<Origin> origins(const Contacts& contacts, const std::vector<int>& ended,
+    const std::vector<NewContact>& beginning)
 {
     std::vector<Origin> order;
     for (int c = 0; c < contacts.count; ++c) {
         const bool ends = std::binary_search(ended.begin(), ended.end(), c);
-        if (!ends || contacts.bonded[c]) order.push_back({ contacts.pairs[c], c });
+        if (!ends || contacts.bonded[c]) order.push_back({ c, { contacts.pairs[c] } });
     }
-    for (const GrainPair& pair : touching)
-        order.push_back({ pair, Origin::new_touch });
+    for (const NewContact& made : beginning)
+        order.push_back({ Origin::is_new, made });
     std::stable_sort(order.begin(), order.end(),
-        [](const Origin& i, const Origin& j) { return i.pair < j.pair; });
+        [](const Origin& i, const Origin& j) { return i.made.pair < j.made.pair; });
     return order;
 }
 
-/// Move the rows of all contacts into a new order; those of new touches become 0.
+/// Move the rows of all contacts into a new order; those of new ones become 0.
 void move_rows(Contacts& contacts, const std::vector<Origin>& order)
 {
     const int count = static_cast<int>(order.size());
@@ -72,14 +100,28 @@ void move_rows(Contacts& contacts, const std::vector<Origin>& order)
         const auto old = values;
         values.assign(static_cast<std::size_t>(blocks_of(count)) * lanes * rows, 0);
         for (int c = 0; c < count; ++c) {
-            if (order[c].contact == Origin::new_touch) continue;
+            if (order[c].contact == Origin::is_new) continue;
             for (int r = 0; r < rows; ++r)
                 values[index(c, r, rows)] = old[index(order[c].contact, r, rows)];
         }
     });
 }
 
-/// Bring all contacts into a new order, with new touches in their places.
+/// Fill the rows of a contact that begins.
+void fill_new(Assembly& a, int c, const NewContact& made)
+{
+    Contacts& contacts = a.contacts;
+    for (int p = 0; p < contacts.points_of(c); ++p) {
+        contacts.crack_steps[contacts.point_index(c, p)] = -1;
+        contacts.state(c, p, PointRow::shear_damage) = 1.0;
+    }
+    if (made.face)
+        fill_face(a, c, *made.face);
+    else
+        fill_touch(a, c, made.pair);
+}
+
+/// Bring all contacts into a new order, with new ones in their places.
 void reorder(Assembly& a, const std::vector<Origin>& order)
 {
     Contacts& contacts = a.contacts;
@@ -98,15 +140,17 @@ void reorder(Assembly& a, const std::vector<Origin>& order)
     contacts.bonded.clear();
     contacts.erased.clear();
     for (int c = 0; c < contacts.count; ++c) {
-        const auto& [pair, from] = order[c];
-        const bool is_new = from == Origin::new_touch;
+        const auto& [from, made] = order[c];
+        const auto& [pair, face] = made;
+        const bool is_new = from == Origin::is_new;
+        const int law = face ? face->law : a.grains.law_index(pair[0], pair[1]);
         contacts.pairs.push_back(pair);
         contacts.id.push_back(is_new ? contacts.next_id++ : old_id[from]);
-        contacts.law.push_back(is_new ? a.grains.law_index(pair[0], pair[1]) : old_law[from]);
-        contacts.joint.push_back(is_new ? -1 : old_joint[from]);
+        contacts.law.push_back(is_new ? law : old_law[from]);
+        contacts.joint.push_back(!is_new ? old_joint[from] : face ? face->joint : -1);
         contacts.bonded.push_back(is_new ? 0 : old_bonded[from]);
         contacts.erased.push_back(is_new ? 0 : old_erased[from]);
-        if (is_new) fill_touch(a, c, pair);
+        if (is_new) fill_new(a, c, made);
     }
 }
 
@@ -125,17 +169,33 @@ void pad_contacts(Contacts& contacts)
     }
 }
 
+/// Stored and dissipated by the points of a contact [J].
+struct ContactEnergy {
+    double elastic = 0.0, damage = 0.0, friction = 0.0;
+    double area = 0.0;  ///< [m^2]
+};
+
+ContactEnergy energy_of(const Contacts& contacts, int contact)
+{
+    ContactEnergy sum;
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        const double area = contacts.area(contact, p);
+        const PointState s = contacts.point_state(contact, p);
+        sum.elastic += area * law::elastic_energy(contacts.law_of(contact), s);
+        sum.damage += area * s.damage_energy;
+        sum.friction += area * s.friction_energy;
+        sum.area += area;
+    }
+    return sum;
+}
+
 /// Keep in the balance what contacts that end have dissipated; what they store leaves as friction.
 void keep_energy(Assembly& a, const std::vector<int>& ended)
 {
     for (int c : ended) {
-        for (int p = 0; p < a.contacts.points_of(c); ++p) {
-            const double area = a.contacts.area(c, p);
-            const PointState s = a.contacts.point_state(c, p);
-            a.ledger.removed_damage += area * s.damage_energy;
-            a.ledger.removed_friction +=
-                area * (s.friction_energy + law::elastic_energy(a.contacts.law_of(c), s));
-        }
+        const ContactEnergy e = energy_of(a.contacts, c);
+        a.ledger.removed_damage += e.damage;
+        a.ledger.removed_friction += e.friction + e.elastic;
     }
 }
 
@@ -153,19 +213,34 @@ void raise_masses(Assembly& a, double damping, double dt)
     a.ledger.initial += kinetic_of_velocities(grains) - before;
 }
 
+/// Take contacts out and put new ones in, and prepare the next step.
+void replace(Assembly& a, const std::vector<int>& ended, const std::vector<NewContact>& beginning)
+{
+    keep_energy(a, ended);
+    for (int c : ended)
+        remove_contact(a.contacts, c);
+    reorder(a, origins(a.contacts, ended, beginning));
+    pad_contacts(a.contacts);
+    prepare_step(a);
+}
+
+/// Let a contact act between other parts of the same faces: what it has dissipated stays with it.
+void shift_contact(Assembly& a, const FaceContact& face)
+{
+    Contacts& contacts = a.contacts;
+    const ContactEnergy before = energy_of(contacts, face.contact);
+    fill_face(a, face.contact, face);
+    const ContactEnergy now = energy_of(contacts, face.contact);
+    for (int p = 0; p < contacts.points_of(face.contact); ++p) {
+        contacts.state(face.contact, p, PointRow::damage_energy) = before.damage / now.area;
+        contacts.state(face.contact, p, PointRow::friction_energy) = before.friction / now.area;
+    }
+    a.ledger.removed_friction += before.elastic - now.elastic;
+}
+
 Point between_centres(const Grains& grains, GrainPair pair)
 {
     return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
-}
-
-/// Whether the faces of a joint have slid past each other: no place of one lies opposite to the other.
-bool has_slid_off(const Contacts& contacts, int contact)
-{
-    for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const double slip = std::abs(contacts.state(contact, p, PointRow::slip));
-        if (slip * std::abs(contacts.inverse_edge_length(contact, 0)) < 1.0) return false;
-    }
-    return true;
 }
 
 }  // namespace
@@ -210,7 +285,7 @@ bool has_ended(const Assembly& a, int contact)
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         if (damage_of(contacts, contact, p) < 1.0) return false;
     }
-    if (contacts.joint[contact] >= 0) return has_slid_off(contacts, contact);
+    if (contacts.joint[contact] >= 0) return false;  // follow_faces() ends it
     const GrainPair pair = contacts.pairs[contact];
     double limit = touching_distance(a, pair);
     if (contacts.bonded[contact]) limit = std::max(limit, norm(contacts.branch(contact)));
@@ -242,7 +317,7 @@ bool follow_touches(Assembly& a, double damping, double dt)
     Contacts& contacts = a.contacts;
     bool moved = false;
     for (int c = 0; c < contacts.count; ++c) {
-        if (contacts.bonded[c]) continue;
+        if (contacts.bonded[c] || contacts.joint[c] >= 0) continue;
         const TouchPoint touch = touch_point(a.grains, contacts.pairs[c]);
         if (!is_elsewhere(contacts, c, touch)) continue;
         attach(contacts, c, touch);
@@ -255,16 +330,40 @@ bool follow_touches(Assembly& a, double damping, double dt)
     return true;
 }
 
+std::vector<GrainPair> follow_faces(Assembly& a, double damping, double dt)
+{
+    const FacePairing pairing = pair_faces(a);
+    if (pairing.empty()) return {};
+    std::vector<GrainPair> changed;
+    std::vector<NewContact> beginning;
+    for (int c : pairing.ended)
+        changed.push_back(a.contacts.pairs[c]);
+    for (const FaceContact& face : pairing.contacts) {
+        changed.push_back(face.pair);
+        if (face.contact == FaceContact::none)
+            beginning.push_back({ face.pair, &face });
+        else
+            shift_contact(a, face);
+    }
+    const int first_new = a.contacts.next_id;
+    replace(a, pairing.ended, beginning);
+    if (dt > 0.0) raise_masses(a, damping, dt);
+    for (int c = 0; c < a.contacts.count; ++c)
+        if (a.contacts.id[c] >= first_new)
+            a.ledger.removed_friction -= energy_of(a.contacts, c).elastic;
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
+}
+
 void change_contacts(Assembly& a, const std::vector<int>& ended,
     const std::vector<GrainPair>& touching, double damping, double dt)
 {
     if (ended.empty() && touching.empty()) return;
-    keep_energy(a, ended);
-    for (int c : ended)
-        remove_contact(a.contacts, c);
-    reorder(a, origins(a.contacts, ended, touching));
-    pad_contacts(a.contacts);
-    prepare_step(a);
+    std::vector<NewContact> beginning;
+    for (const GrainPair& pair : touching)
+        beginning.push_back({ pair });
+    replace(a, ended, beginning);
     if (!touching.empty() && dt > 0.0) raise_masses(a, damping, dt);
 }
 

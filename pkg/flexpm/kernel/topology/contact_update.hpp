@@ -3,7 +3,7 @@
 ///
 /// A bonded pair keeps its contact until all its points are cracked and its centres are further apart
 /// than when bonded and than the two disc radii. A new contact starts when the discs touch, without
-/// cohesion, at the nearest edges of the two grains; so no energy appears.
+/// cohesion, at the nearest edges of the two grains; so no energy appears. Contacts of joints follow their faces.
 /// Deviation D23: all points of a new contact lie in one place, between the two discs: it carries no
 /// moment. The corners of cells may overlap once grains have come loose.
 #pragma once
@@ -30,7 +30,7 @@ double touching_distance(const Assembly& a, GrainPair pair);
 /// Whether the discs of two grains without a contact touch.
 bool is_touching(const Assembly& a, GrainPair pair);
 
-/// Whether only a new touch can bring the pair of a contact together again.
+/// Whether only a new touch can bring the pair of a contact together again. No contact of a joint ends so: follow_faces() ends it.
 bool has_ended(const Assembly& a, int contact);
 
 /// Contacts that have ended, ascending. A pair that shares several edges keeps all of its contacts until the last has.
@@ -40,6 +40,11 @@ std::vector<int> ended_contacts(const Assembly& a);
 /// area stay, so no energy appears. Otherwise a grain would turn about a point of its outline into the
 /// other. Arguments as of change_contacts(). Returns whether any contact has moved.
 bool follow_touches(Assembly& a, double damping, double dt);
+
+/// Let contacts of joints act between the parts of faces that lie opposite to each other now, pair_faces(). What that changes in
+/// stored energy is booked as friction. Arguments as of change_contacts().
+/// @return pairs of grains whose contacts have moved, come or gone, ascending
+std::vector<GrainPair> follow_faces(Assembly& a, double damping, double dt);
 
 /// Take contacts out and put frictional ones in, in the order of pairs, and prepare the next step. New ones
 /// get numbers (Contacts::id) that no contact has had. Bonded contacts keep their rows, removed, for the record

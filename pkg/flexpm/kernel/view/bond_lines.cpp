@@ -14,12 +14,19 @@ namespace {
 constexpr double parts[3][4] = { { 0.0, 1.0, 1.0, 1.0 }, { 0.0, 0.5, 1.0, 1.0 },
     { 0.0, 1.0 / 6.0, 5.0 / 6.0, 1.0 } };
 
-/// End of a contact's edge, in the middle between both grains.
+/// End of the part of the edges on which a contact acts, in the middle between both grains.
 Point drawn_end(const Assembly& a, int contact, int end, double factor)
 {
-    const Point one = drawn_position(a.grains, a.contacts.node(contact, 0, end), factor);
-    const Point other = drawn_position(a.grains, a.contacts.node(contact, 1, end), factor);
-    return 0.5 * (one + other);
+    Point sum;
+    for (int side = 0; side < 2; ++side) {
+        const auto [from, to] = a.contacts.edge(contact, side);
+        const double share = acting_part(a, contact, side)[end];
+        sum = sum
+            + 0.5
+                * ((1.0 - share) * drawn_position(a.grains, from, factor)
+                    + share * drawn_position(a.grains, to, factor));
+    }
+    return sum;
 }
 
 }  // namespace

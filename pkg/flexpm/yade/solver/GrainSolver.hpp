@@ -180,6 +180,9 @@ private:
 	void            changeContacts();
 	void            limitStep();
 	void            insertTouches(int firstId);
+	void            followFaces();
+	void            showContactOf(const flexpm::GrainPair& pair);
+	void            showContact(int place);
 	void            check();
 	void            mirrorStates();
 	void            mirrorAtStop();

@@ -81,6 +81,7 @@ void GrainSolver::changeContacts()
 	vector<int> ended;
 	if (!listed) listCandidates(); // also in a scene that was loaded
 	if (assembly.step % checkPeriod == 0) {
+		followFaces();
 		listCandidates();
 		ended = flexpm::ended_contacts(assembly);
 		if (flexpm::follow_touches(assembly, massDamping, scaled ? scene->dt : 0.)) limitStep();
@@ -103,6 +104,49 @@ void GrainSolver::changeContacts()
 	listCandidates();
 }
 
+void GrainSolver::followFaces()
+{
+	vector<flexpm::GrainPair> changed;
+	{
+		const std::lock_guard<std::mutex> lock(scene->interactions->drawloopmutex); // a window may be drawing contacts
+		changed = flexpm::follow_faces(assembly, massDamping, scaled ? scene->dt : 0.);
+	}
+	if (changed.empty()) return;
+	limitStep();
+	for (const auto& pair : changed)
+		showContactOf(pair);
+	seenDestroyed = destroyedContacts();
+	nearPairs.forget();
+}
+
+void GrainSolver::showContactOf(const flexpm::GrainPair& pair)
+{
+	const auto& pairs = assembly.contacts.pairs;
+	const auto  all   = std::equal_range(pairs.begin(), pairs.end(), pair);
+	for (auto one = all.first; one != all.second; ++one) {
+		const int place = int(one - pairs.begin());
+		if (flexpm::is_active(assembly.contacts, place)) return showContact(place);
+	}
+	scene->interactions->requestErase(bodyIds[pair[0]], bodyIds[pair[1]]);
+}
+
+void GrainSolver::showContact(int place)
+{
+	const auto&      grains = assembly.contacts.pairs[place];
+	const int        id     = assembly.contacts.id[place];
+	const Body::id_t id1 = bodyIds[grains[0]], id2 = bodyIds[grains[1]];
+	auto             pair = scene->interactions->find(id1, id2);
+	if (!pair) {
+		pair = boost::make_shared<Interaction>(id1, id2);
+		scene->interactions->insert(pair);
+	}
+	const auto* shown = dynamic_cast<const LobattoPhys*>(pair->phys.get());
+	if (pair->isReal() && shown && shown->contact == id) return;
+	if (!pair->isReal()) pair->iterMadeReal = scene->iter;
+	makeBond(assembly, id, *pair);
+	bondsShown = true; // until the end of the step
+}
+
 void GrainSolver::limitStep()
 {
 	// scaled masses rise with new contacts; real ones do not, so the step falls
@@ -114,17 +158,7 @@ void GrainSolver::limitStep()
 void GrainSolver::insertTouches(int firstId)
 {
 	for (int c = 0; c < assembly.contacts.count; ++c) {
-		const int id = assembly.contacts.id[c];
-		if (id < firstId) continue;
-		const Body::id_t id1 = bodyIds[assembly.contacts.pairs[c][0]], id2 = bodyIds[assembly.contacts.pairs[c][1]];
-		auto             pair = scene->interactions->find(id1, id2);
-		if (!pair) {
-			pair = boost::make_shared<Interaction>(id1, id2);
-			scene->interactions->insert(pair);
-		}
-		if (!pair->isReal()) pair->iterMadeReal = scene->iter;
-		makeBond(assembly, id, *pair);
-		bondsShown = true; // until the end of the step
+		if (assembly.contacts.id[c] >= firstId) showContact(c);
 	}
 	seenDestroyed = destroyedContacts();
 }
