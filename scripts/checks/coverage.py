@@ -36,6 +36,7 @@ WHOLE = (
     "topology/contact_search.*",
     "topology/contact_update.*",
     "topology/erasure.*",
+    "topology/joint_faces.*",
     "topology/removal.*",
     "topology/touch_point.*",
 )

@@ -4,12 +4,14 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
 
 #include "support/balance.hpp"
 #include "support/driven.hpp"
 #include "support/joint_rows.hpp"
 
+#include <limits>
 #include <tuple>
 
 using namespace driven;
@@ -152,14 +154,83 @@ TEST_CASE("Faces that have not cracked keep their partners")
     CHECK(part_of_face(a, { 3, 3 + columns }) == Approx(1.0));
 }
 
+namespace {
+
+int contact_of(const Assembly& a, GrainPair pair)
+{
+    int found = 0;
+    while (a.contacts.pairs[found] != pair)
+        ++found;
+    return found;
+}
+
+void set_damage(Assembly& a, int contact, double damage)
+{
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        a.contacts.state(contact, p, flexpm::PointRow::shear_damage) = damage;
+        a.contacts.state(contact, p, flexpm::PointRow::max_opening) = 0.0;
+    }
+}
+
+/// Move the upper row by a part of a square in one step.
+void jump(Assembly& a, double part)
+{
+    for (int g = columns; g < 2 * columns; ++g)
+        set_velocity(a, g, Point { part * size, 0.0 });
+    run(a, 1);
+}
+
+}  // namespace
+
+TEST_CASE("Masses rise for new partners, real ones stay")
+{
+    const double dt = GENERATE(0.0, 1.0);
+    Assembly a = two_rows(true);
+    flexpm::scale_masses(a, 0.7);
+    a.contacts.laws[0].normal_stiffness *= 2.0;  // of the bonds: masses have to be larger now
+    const auto before = a.grains.inverse_mass;
+    jump(a, 0.1);
+    CHECK_FALSE(flexpm::follow_faces(a, 0.7, dt).empty());
+    CHECK((a.grains.inverse_mass == before) == (dt == 0.0));
+}
+
+TEST_CASE("Of a joint that has cracked in part only the cracked faces get new partners")
+{
+    Assembly a = held_rows();
+    const int beside = contact_of(a, { 0, 1 }), bond = contact_of(a, { 7, 7 + columns });
+    a.contacts.joint[beside] = 0;  // the joint turns down beside the first grain
+    set_damage(a, beside, 1.0);
+    a.contacts.law[bond] = 0;
+    jump(a, 0.3);
+    set_damage(a, bond, 0.0);
+    flexpm::follow_faces(a, 0.7, 1.0);
+    CHECK(part_of_face(a, { 7, 7 + columns }) == Approx(1.0));
+    CHECK(part_of_face(a, { 7, 6 + columns }) == 0.0);
+    CHECK(part_of_face(a, { 4, 3 + columns }) == Approx(0.3));
+    CHECK(part_of_face(a, { 0, 1 }) == Approx(1.0));
+}
+
+TEST_CASE("Faces that are nowhere have no partners")
+{
+    Assembly a = held_rows();
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    jump(a, 0.3);
+    const int first = contact_of(a, { 0, columns }), second = contact_of(a, { 1, 1 + columns });
+    for (int node : { a.contacts.node(first, 0, 0), a.contacts.node(second, 0, 1) })
+        flexpm::set_vector(a.grains.displacement, node, { nowhere, nowhere });
+    flexpm::follow_faces(a, 0.7, 0.0);
+    CHECK(part_of_face(a, { 4, 3 + columns }) == Approx(0.3));
+    CHECK(part_of_face(a, { 1, columns }) == 0.0);
+    std::fill(a.grains.displacement.begin(), a.grains.displacement.end(), nowhere);
+    flexpm::follow_faces(a, 0.7, 0.0);
+    CHECK(part_of_face(a, { 4, 3 + columns }) == 0.0);
+}
+
 TEST_CASE("What a script erases gets no new partner")
 {
     Assembly a = held_rows();
-    int bond = 0;
-    while (a.contacts.pairs[bond] != GrainPair { 3, 3 + columns })
-        ++bond;
     flexpm::Erasure what;
-    what.contacts = { bond };
+    what.contacts = { contact_of(a, { 3, 3 + columns }) };
     what.grains = { 5 };
     flexpm::erase(a, what, 1.0);
     move_row(a, { 0.5 * size, 0.0 }, 500);
