@@ -116,6 +116,8 @@ class StrainGauge:
     def strains(self, centres: FloatArray, displacements: FloatArray) -> tuple[float, float]: ...
 
 build_info: BuildInfo
+#: What saved scenes hold of all classes: its number, which rises with each change of it [-].
+saved_state: int
 #: On the masses of the stability bound [-].
 mass_margin: float
 

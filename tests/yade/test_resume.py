@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
+import struct
 import subprocess
 import time
 from pathlib import Path
@@ -18,6 +20,9 @@ from hypothesis import HealthCheck, assume, given
 from hypothesis import strategies as st
 
 import flexpm
+from flexpm import _plugin
+from flexpm._flexpm import saved_state
+from flexpm.cli import main as cli
 from flexpm.errors import BusyError
 from flexpm.files import FolderLock
 from flexpm.laboratory import checkpoint
@@ -207,8 +212,9 @@ def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
 def test_a_checkpoint_of_another_version_is_refused(small, tmp_path, monkeypatch):
     flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
     monkeypatch.setattr(checkpoint, "__version__", "17.0")
-    with pytest.raises(flexpm.InputError, match=r"flexpm = \S+ there, 17.0 here"):
+    with pytest.raises(flexpm.InputError, match=r"flexpm = \S+ there, 17.0 here") as caught:
         flexpm.run("tension", small, rate=8.0, max_strain=1e-5, out=tmp_path)
+    assert "written by another build of flexpm" in str(caught.value)
 
 
 @pytest.mark.long
@@ -343,6 +349,78 @@ def test_a_scene_with_an_engine_that_could_run_any_code_is_refused(small, copied
     about["sha256"] = checkpoint._checksum(about, copied / about["scene"])
     (copied / "checkpoint.json").write_text(json.dumps(about))
     assert "has an engine PyRunner" in refusal(small, copied)
+
+
+def write_as_another_build(folder: Path, scene: bytes, **entries: object) -> None:
+    """Leave a checkpoint as another build would: whole, with its own checksum."""
+    about = saved_in(folder) | entries
+    file = folder / about["scene"]
+    file.write_bytes(scene)
+    plain = {key: value for key, value in about.items() if key != "sha256" and value is not None}
+    about = plain | {"sha256": checkpoint._checksum(plain, file)}
+    (folder / "checkpoint.json").write_text(json.dumps(about))
+
+
+@pytest.mark.parametrize(
+    ("entries", "told"),
+    [
+        ({"state": 1}, r"state = 1 there, \d+ here"),
+        ({"state": None}, r"state = None there, \d+ here"),
+        ({"results": 99}, r"results = 99 there, \d+ here"),
+        ({"yade": "2018.02b"}, r"yade = 2018.02b there, \S+ here"),
+        ({"stage_likely": None, "results": 99}, r"results = 99 there, \d+ here"),
+    ],
+)
+def test_a_checkpoint_of_another_build_is_said_to_be_one(small, copied, entries, told):
+    write_as_another_build(copied, (copied / saved_in(copied)["scene"]).read_bytes(), **entries)
+    line = refusal(small, copied)
+    assert re.search(rf"written by another build of flexpm \({told}\), must be of this", line), line
+    assert line.endswith("or remove the file to start again")
+
+
+def test_a_checkpoint_is_one_of_this_build(small, copied):
+    """What the others are changed from is taken."""
+    write_as_another_build(copied, (copied / saved_in(copied)["scene"]).read_bytes())
+    assert flexpm.run("tension", small, **STOPPED, out=copied).resumed_at > 0
+
+
+def with_another_class(scene: bytes) -> bytes:
+    """The scene with an engine that is none here."""
+    return scene.replace(b"GrainSolver", b"GrainSolved", 1)
+
+
+def of_another_state(scene: bytes) -> bytes:
+    """The scene with another number at the first class of flexpm that it holds.
+
+    What follows is never read: as other members it would ask for any amount of memory.
+    """
+    number = struct.pack("<I", saved_state)
+    names = [name.encode() for name in _plugin.load() if name.encode() in scene]
+    place = scene.index(number, min(map(scene.index, names)))
+    return scene[:place] + struct.pack("<I", saved_state - 1) + scene[place + 4 : place + 100]
+
+
+@pytest.mark.parametrize("change", [with_another_class, of_another_state])
+def test_a_scene_that_only_another_build_reads_is_refused_in_one_line(small, copied, change):
+    scene = (copied / saved_in(copied)["scene"]).read_bytes()
+    assert change(scene) != scene
+    write_as_another_build(copied, change(scene))
+    assert "written by another build of flexpm (" in refusal(small, copied)
+    assert not yade.O.engines and not len(yade.O.bodies)
+
+
+@pytest.mark.long
+def test_a_run_of_a_study_starts_again_from_such_a_scene(tmp_path, capsys):
+    size = ["--width", "0.012", "--height", "0.024", "--thickness", "0.01", "--quiet"]
+    command = ["run", "tension", *size, "--rate", "8", "--max-strain", "1e-5"]
+    command += ["--no-report", "--out", str(tmp_path)]
+    assert cli.main(command) == 3  # no peak
+    scene = (tmp_path / saved_in(tmp_path)["scene"]).read_bytes()
+    write_as_another_build(tmp_path, with_another_class(scene))
+    assert cli.main(command) == 2
+    assert capsys.readouterr().err.count("\n") == 2  # a line of each
+    assert cli.main([*command, "--discard-checkpoint"]) == 3
+    assert "starts again: run: " in capsys.readouterr().out
 
 
 def test_a_full_disk_is_named_and_leaves_the_earlier_checkpoint(small, copied, monkeypatch):

@@ -2,6 +2,7 @@
 /// @file  The Python module _flexpm: registers the plugin's classes with YADE and the kernel's functions with Python.
 #include <flexpm/yade/abi/abi.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/assembly_archive.hpp>
 #include <flexpm/yade/bindings/bindings.hpp>
 
 namespace py = boost::python;
@@ -53,7 +54,8 @@ py::dict buildInfo()
 
 BOOST_PYTHON_MODULE(_flexpm)
 {
-	py::scope().attr("build_info") = buildInfo();
+	py::scope().attr("build_info")  = buildInfo();
+	py::scope().attr("saved_state") = boost::serialization::assemblyVersion;
 	py::def("refresh_renderer", refreshRenderer, py::arg("renderer"), "Make an existing renderer know the plugin's shapes.");
 	flexpm_abi::registerBindings();
 	flexpm_bindings::register_geometry_bindings();

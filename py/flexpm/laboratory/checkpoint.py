@@ -24,6 +24,7 @@ from typing import TypeGuard
 import yade
 
 from .. import _plugin
+from .._flexpm import saved_state
 from .._version import __version__
 from ..errors import InputError
 from ..files import FolderLock, Table, json_text, whole_file, write_text
@@ -76,7 +77,7 @@ class Checkpoint:
         """
         require_number("run: checkpoint_interval", interval, POSITIVE, "s")
         self._folder, self._interval = folder, interval
-        self._made = _versions(spec) | {"inputs": spec.to_json()}
+        self._build, self._inputs = _build(spec), spec.to_json()
         self._saved = time.monotonic()
         self._scene: Path | None = None
         self.position = Position()
@@ -96,14 +97,18 @@ class Checkpoint:
         return time.monotonic() - self._saved > self._interval
 
     def restore(self) -> None:
-        """Replace YADE's scene by the saved one."""
+        """Replace YADE's scene by the saved one.
+
+        Raises:
+            InputError: if another build has written it, or an engine is none of a test.
+        """
         try:
             yade.O.load(str(self._scene))
         except (RuntimeError, MemoryError) as error:
-            raise InputError(
-                f"run: checkpoint = {self._scene}, cannot be read ({error}); "
-                f"remove {_NAME} to start again"
-            ) from error
+            # by its checksum it is what was written, so what wrote it writes otherwise
+            yade.O.reset()
+            reason = " ".join(str(error).split()) or "reading it takes more memory than there is"
+            raise _other_build(self._folder / _NAME, reason) from error
         known = {*_ENGINES, *_plugin.load()}
         for engine in yade.O.engines:
             if type(engine).__name__ not in known:
@@ -139,17 +144,20 @@ class Checkpoint:
         self._remove_others(scene)
 
     def _about(self, scene: Path) -> Table:
-        return {"scene": scene.name, **asdict(self.position), **self._made}
+        about = {"scene": scene.name, **asdict(self.position), **self._build}
+        return about | {"inputs": self._inputs}
 
     def _read(self, file: Path) -> None:
         content = _content(file)
-        scene = file.parent / content["scene"]
-        if not scene.exists():
+        if _is_scene(content.get("scene")) and not self._scenes():
             return  # someone has removed it: there is nothing to go on from, and nothing to lose
+        _refuse_other_build(file, content, self._build)
+        _require_entries(file, content)
+        scene = file.parent / content["scene"]
         given = content.pop(_CHECKSUM)
         try:
             same = given == _checksum(content, scene)
-            there = _flat({name: content[name] for name in self._made})
+            there = _flat(content["inputs"])
         except (OSError, LookupError, TypeError, ValueError) as error:
             raise _no_checkpoint(file, error) from None
         if not same:
@@ -157,19 +165,24 @@ class Checkpoint:
                 f"run: checkpoint = {scene}, is damaged: {file.name} has another checksum; remove "
                 f"{file.name} to start again"
             )
-        _refuse_differences(file.parent, there, _flat(self._made))
+        _refuse_differences(file.parent, there, _flat(self._inputs))
         self._scene = scene
         self.position = Position(**{name: content[name] for name in asdict(self.position)})
 
+    def _scenes(self) -> list[Path]:
+        return list(self._folder.glob(_SCENE.format(step="*")))
+
     def _remove_others(self, scene: Path) -> None:
-        for other in self._folder.glob(_SCENE.format(step="*")):
+        for other in self._scenes():
             if other != scene:
                 with contextlib.suppress(OSError):
                     other.unlink()
 
 
 def discard_unusable(folder: Path, spec: RunSpec) -> str:
-    """Remove a checkpoint that a run cannot go on from: damaged, of other inputs or versions.
+    """Remove a checkpoint that a run cannot go on from: damaged, of other inputs or another build.
+
+    YADE's scene is empty afterwards if there was one to go on from.
 
     Returns:
         Why it could not be used, or an empty text.
@@ -178,7 +191,10 @@ def discard_unusable(folder: Path, spec: RunSpec) -> str:
         BusyError: if another process uses the folder.
     """
     try:
-        Checkpoint(folder, spec)
+        there = Checkpoint(folder, spec)
+        if there.found:  # only who reads the scene knows whether it can
+            there.restore()
+            yade.O.reset()
     except InputError as error:
         (folder / _NAME).unlink(missing_ok=True)
         return str(error)
@@ -186,13 +202,20 @@ def discard_unusable(folder: Path, spec: RunSpec) -> str:
 
 
 def _content(file: Path) -> Table:
-    """What checkpoint.json holds, each entry of the right type and range."""
+    """What checkpoint.json holds."""
     try:
         content = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:
         raise _no_checkpoint(file, error) from None
+    if not isinstance(content, dict):
+        raise _no_checkpoint(file, TypeError())
+    return content
+
+
+def _require_entries(file: Path, content: Table) -> None:
+    """Check that each entry is there, of the right type and range."""
     rules: dict[str, Callable[[object], bool]] = {
-        "scene": lambda name: isinstance(name, str) and bool(_SCENE_PATTERN.fullmatch(name)),
+        "scene": _is_scene,
         "stage": lambda stage: _is_count(stage) and stage <= _MOST_STAGES,
         "stage_start": _is_count,
         "stage_end": _is_count,
@@ -202,8 +225,6 @@ def _content(file: Path) -> Table:
         "inputs": lambda inputs: isinstance(inputs, dict),
         _CHECKSUM: lambda checksum: isinstance(checksum, str),
     }
-    if not isinstance(content, dict):
-        raise _no_checkpoint(file, TypeError())
     for name, holds in rules.items():
         if name not in content:
             raise _no_checkpoint(file, KeyError())
@@ -212,7 +233,10 @@ def _content(file: Path) -> Table:
                 f"run: {file} {name} = {str(content[name])[:80]!r}, must be a checkpoint of "
                 "flexpm; remove the file to start again"
             )
-    return content
+
+
+def _is_scene(name: object) -> bool:
+    return isinstance(name, str) and bool(_SCENE_PATTERN.fullmatch(name))
 
 
 def _is_count(value: object) -> TypeGuard[int]:
@@ -234,20 +258,40 @@ def _checksum(about: Mapping[str, object], scene: Path) -> str:
     return digest.hexdigest()
 
 
-def _versions(spec: RunSpec) -> Table:
-    """What a scene depends on beside the inputs of its run."""
-    return {"flexpm": __version__, "yade": yade.config.version, "results": spec.results}
+def _build(spec: RunSpec) -> Table:
+    """What a scene depends on beside the inputs of its run: another build differs in it."""
+    return {
+        "flexpm": __version__,
+        "yade": yade.config.version,
+        "results": spec.results,
+        "state": saved_state,
+    }
 
 
-def _flat(made: Table) -> Table:
+def _flat(inputs: Table) -> Table:
     """Inputs by one name each: that of the field, or ``material`` and the name of the parameter."""
-    plain = {name: value for name, value in made.items() if name != "inputs"}
-    inputs = dict(made["inputs"])
+    inputs = dict(inputs)
     specimen, material = inputs.pop("specimen"), inputs.pop("material")
     # a name changes no result
     law = {f"material {key}": value for key, value in material.items() if key != "name"}
     # what others follow from comes first: the default of the loading follows from the material
-    return {**plain, **law, **specimen, **inputs}
+    return {**law, **specimen, **inputs}
+
+
+def _refuse_other_build(file: Path, there: Table, here: Table) -> None:
+    if "flexpm" not in there:
+        return  # what no build has written
+    for name, value in here.items():
+        if there.get(name) != value:
+            told = f"{name} = {str(there.get(name))[:80]} there, {value} here"
+            raise _other_build(file, told)
+
+
+def _other_build(file: Path, reason: str) -> InputError:
+    return InputError(
+        f"run: {file} = written by another build of flexpm ({reason}), must be of this one; choose "
+        "another folder, go on with that build, or remove the file to start again"
+    )
 
 
 def _refuse_differences(folder: Path, there: Table, here: Table) -> None:

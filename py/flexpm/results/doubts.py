@@ -19,6 +19,7 @@ _USUAL: dict[str, tuple[float, float, str]] = {
     "friction": (0.0, 5.0, "1, the tangent of an angle; that of 30 degrees is 0.577"),
     "density": (100.0, 3e4, "kg/m3"),
     "confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
+    "normal_stress": (1e3, 1e11, "Pa; 1 MPa is 1e6"),
     "width": (1e-6, 5.0, "m; 20 mm is 0.02"),
     "height": (1e-6, 5.0, "m; 40 mm is 0.04"),
     "diameter": (1e-6, 5.0, "m; 80 mm is 0.08"),
@@ -44,6 +45,7 @@ def of_inputs(inputs: Table) -> list[str]:
     material = inputs["material"]
     tables = [("", {**inputs, **inputs["specimen"]}), ("", material)]
     tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
+    tables += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
     return [line for where, values in tables for line in _of_values(where, values)]
 
 

@@ -19,6 +19,7 @@ from flexpm.materials import material as materials
 from flexpm.results import doubts
 from flexpm.specimens.spec import SpecimenSpec
 
+SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"
 TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
 
 
@@ -42,12 +43,19 @@ def test_no_preset_and_no_default_is_doubtful(test, preset):
         ("--set young=25.8", "young = 25.8"),
         ("--width 20 --height 40", "width = 20"),
         ("--diameters 3,4 --width 12 --height 24", "height = 24"),
+        (f"{SAW} --set joint.saw.friction=30", "joint saw friction = 30"),
     ],
 )
 def test_inputs_in_other_units_are_said_before_the_run(capsys, monkeypatch, arguments, says):
     monkeypatch.setattr(cli.inputs, "load_yade", lambda: 1 / 0)  # nothing runs
     assert cli.main(["elastic", *TINY, *arguments.split()]) == 3
     assert f"warning: {says}, is unusual" in capsys.readouterr().out
+
+
+def test_a_normal_stress_in_other_units_is_doubtful():
+    material = described(materials.load("augig-table7", "flexible"), "flexible")
+    spec = RunSpec("shear", SpecimenSpec("rectangle"), material, normal_stress=2.0)
+    assert "normal_stress = 2, is unusual" in doubts.of_inputs(spec.to_json())[0]
 
 
 def test_doubts_about_a_result():

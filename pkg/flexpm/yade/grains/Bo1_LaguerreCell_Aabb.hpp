@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -21,6 +22,6 @@ private:
 	/// Log that a body is no grain of the scene, for the first one.
 	static void reportOnce(int grain, Body::id_t body);
 };
-REGISTER_SERIALIZABLE(Bo1_LaguerreCell_Aabb);
+REGISTER_SAVED(Bo1_LaguerreCell_Aabb);
 
 } // namespace yade

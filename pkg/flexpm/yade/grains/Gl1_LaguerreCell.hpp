@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -24,6 +25,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(Gl1_LaguerreCell);
+REGISTER_SAVED(Gl1_LaguerreCell);
 
 } // namespace yade

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -21,6 +22,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(Gl1_LobattoPhys);
+REGISTER_SAVED(Gl1_LobattoPhys);
 
 } // namespace yade

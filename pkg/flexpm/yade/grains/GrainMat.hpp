@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -28,7 +29,7 @@ public:
 	// clang-format on
 	REGISTER_CLASS_INDEX(GrainMat, ElastMat);
 };
-REGISTER_SERIALIZABLE(GrainMat);
+REGISTER_SAVED(GrainMat);
 
 /// All that grains and contacts take from a material when they are assembled, in the order of the messages.
 vector<Real> valuesOf(const GrainMat& material);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -44,6 +45,6 @@ public:
 	// clang-format on
 	REGISTER_CLASS_INDEX(LaguerreCell, Shape);
 };
-REGISTER_SERIALIZABLE(LaguerreCell);
+REGISTER_SAVED(LaguerreCell);
 
 } // namespace yade

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 #include <atomic>
 
@@ -33,7 +34,7 @@ public:
 	// clang-format on
 	REGISTER_CLASS_INDEX(LobattoGeom, ScGeom);
 };
-REGISTER_SERIALIZABLE(LobattoGeom);
+REGISTER_SAVED(LobattoGeom);
 
 class LobattoPhys : public NormShearPhys {
 public:
@@ -67,7 +68,7 @@ public:
 	// clang-format on
 	REGISTER_CLASS_INDEX(LobattoPhys, NormShearPhys);
 };
-REGISTER_SERIALIZABLE(LobattoPhys);
+REGISTER_SAVED(LobattoPhys);
 
 /// Make the handles of a contact, by its number; reference radii are those of spheres with the grains' volumes.
 void makeBond(const flexpm::Assembly& assembly, int contact, Interaction& interaction);

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/laboratory/end_rule.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/Gauge.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
@@ -70,6 +71,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(AxialRecorder);
+REGISTER_SAVED(AxialRecorder);
 
 } // namespace yade

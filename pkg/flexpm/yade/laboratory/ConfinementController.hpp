@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -20,6 +21,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(ConfinementController);
+REGISTER_SAVED(ConfinementController);
 
 } // namespace yade

@@ -2,6 +2,7 @@
 /// @file  Loading that waits for the cracks of a test.
 #pragma once
 
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/AxialRecorder.hpp>
 
 namespace yade {
@@ -27,6 +28,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(CrackWaitController);
+REGISTER_SAVED(CrackWaitController);
 
 } // namespace yade

@@ -2,6 +2,7 @@
 /// @file  Driven ends of a rectangle of deformable grains: held and moved boundary nodes, paper Sec. 4.1.
 #pragma once
 
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
@@ -31,6 +32,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(EndDisplacementController);
+REGISTER_SAVED(EndDisplacementController);
 
 } // namespace yade

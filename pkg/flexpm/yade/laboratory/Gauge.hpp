@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -40,6 +41,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(Gauge);
+REGISTER_SAVED(Gauge);
 
 } // namespace yade

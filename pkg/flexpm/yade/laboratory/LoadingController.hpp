@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -50,6 +51,6 @@ private:
 	static Real over(Real set, Real seen) { return seen == 0 ? 0 : set / seen; }
 	static Real over(const Vector3r& set, const Vector3r& seen) { return seen == Vector3r::Zero() ? 0 : set.dot(seen) / seen.squaredNorm(); }
 };
-REGISTER_SERIALIZABLE(LoadingController);
+REGISTER_SAVED(LoadingController);
 
 } // namespace yade

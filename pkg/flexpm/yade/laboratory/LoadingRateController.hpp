@@ -2,6 +2,7 @@
 /// @file  Adaptive rate of a test's loading, paper Sec. 4.1.
 #pragma once
 
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
@@ -23,6 +24,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(LoadingRateController);
+REGISTER_SAVED(LoadingRateController);
 
 } // namespace yade

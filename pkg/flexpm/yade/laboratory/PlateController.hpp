@@ -2,6 +2,7 @@
 /// @file  What moves the rigid plates and node sets of a test: a velocity or a pressure, paper Sec. 4.1.
 #pragma once
 
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
@@ -30,6 +31,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(PlateController);
+REGISTER_SAVED(PlateController);
 
 } // namespace yade

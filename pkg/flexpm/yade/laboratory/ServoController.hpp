@@ -2,6 +2,7 @@
 /// @file  Servo of a loading on a measure of the specimen, deviation D51.
 #pragma once
 
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/AxialRecorder.hpp>
 
 namespace yade {
@@ -31,6 +32,6 @@ public:
 private:
 	void begin(Real reading, Real growth);
 };
-REGISTER_SERIALIZABLE(ServoController);
+REGISTER_SAVED(ServoController);
 
 } // namespace yade

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/geometry/disc_repulsion.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
 
@@ -43,6 +44,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(DiscLoop);
+REGISTER_SAVED(DiscLoop);
 
 } // namespace yade

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/topology/erasure.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
-#include <flexpm/yade/bindings/assembly_archive.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 
 namespace yade {
@@ -191,6 +191,6 @@ private:
 	void            mirrorForces(Scene& world);
 	void            trackEnergies();
 };
-REGISTER_SERIALIZABLE(GrainSolver);
+REGISTER_SAVED(GrainSolver);
 
 } // namespace yade
