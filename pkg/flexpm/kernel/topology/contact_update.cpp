@@ -193,9 +193,13 @@ ContactEnergy energy_of(const Contacts& contacts, int contact)
 void keep_energy(Assembly& a, const std::vector<int>& ended)
 {
     for (int c : ended) {
-        const ContactEnergy e = energy_of(a.contacts, c);
-        a.ledger.removed_damage += e.damage;
-        a.ledger.removed_friction += e.friction + e.elastic;
+        for (int p = 0; p < a.contacts.points_of(c); ++p) {
+            const double area = a.contacts.area(c, p);
+            const PointState s = a.contacts.point_state(c, p);
+            a.ledger.removed_damage += area * s.damage_energy;
+            a.ledger.removed_friction +=
+                area * (s.friction_energy + law::elastic_energy(a.contacts.law_of(c), s));
+        }
     }
 }
 
