@@ -144,6 +144,17 @@ def test_a_scene_has_room_for_one_solver(make, specimen):
     assert len(O.bodies) == len(specimen.discs), "nothing was added"
 
 
+def test_engines_put_in_during_a_step_run_from_the_next(make, monkeypatch):
+    model = make()
+    late = wrapper.PyRunner(command="None", iterPeriod=1)
+    monkeypatch.setattr("__main__.put_in", lambda: model.add_engines(last=(late,)), raising=False)
+    model.add_engines(last=(wrapper.PyRunner(command="put_in()", iterPeriod=1, nDo=1),))
+    model.run(1)
+    assert (late.nDone, O.engines[-1] is late) == (0, False)
+    model.run(1)
+    assert (late.nDone, O.engines[-1] is late) == (1, True)
+
+
 def test_bodies_of_a_script_are_kept(specimen):
     O.reset()
     from yade import utils

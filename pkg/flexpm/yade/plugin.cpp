@@ -5,6 +5,8 @@
 #include <flexpm/yade/bindings/assembly_archive.hpp>
 #include <flexpm/yade/bindings/bindings.hpp>
 
+#include <boost/python/stl_iterator.hpp>
+
 namespace py = boost::python;
 
 namespace {
@@ -38,6 +40,18 @@ void refreshRenderer(py::object renderer)
 	known.init();
 }
 
+/// Give the scene its engines, as an assignment to O.engines does.
+///
+/// YADE's own assignment keeps a reference to each item of the list for ever, and so all that a solver holds.
+void setEngines(py::list engines)
+{
+	using Engines = std::vector<boost::shared_ptr<yade::Engine>>;
+	const auto&   scene = yade::Omega::instance().getScene();
+	const Engines chosen { py::stl_input_iterator<boost::shared_ptr<yade::Engine>>(engines), {} };
+	const bool    inStep = scene->subStep >= 0; // its list must stay until the step ends
+	(inStep ? scene->_nextEngines : scene->engines) = chosen;
+}
+
 py::dict buildInfo()
 {
 	py::dict info;
@@ -57,6 +71,7 @@ BOOST_PYTHON_MODULE(_flexpm)
 	py::scope().attr("build_info")  = buildInfo();
 	py::scope().attr("saved_state") = boost::serialization::assemblyVersion;
 	py::def("refresh_renderer", refreshRenderer, py::arg("renderer"), "Make an existing renderer know the plugin's shapes.");
+	py::def("set_engines", setEngines, py::arg("engines"), "Give the scene its engines; unlike O.engines it lets them go with the scene.");
 	flexpm_abi::registerBindings();
 	flexpm_bindings::register_geometry_bindings();
 	flexpm_bindings::register_instruction_set_bindings();

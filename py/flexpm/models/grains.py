@@ -15,7 +15,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from .._flexpm import Tessellation
+from .._flexpm import Tessellation, set_engines
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError, SimulationError
 from ..files import Table
@@ -108,12 +108,12 @@ class Model:
         place = self.engines.index(self.solver)
         self.engines[place : place + 1] = [*before, self.solver, *after]
         self.engines += last
-        yade.O.engines = self.engines
+        set_engines(self.engines)
 
     def remove_engines(self, *engines: wrapper.Engine | None) -> None:
         """Take engines of a protocol out again."""
         self.engines = [engine for engine in self.engines if engine not in engines]
-        yade.O.engines = self.engines
+        set_engines(self.engines)
 
     def engine(self, kind: type[Engine]) -> Engine | None:
         """The first engine of a class, or None."""
@@ -206,7 +206,7 @@ def build(
     mean_diameter = 2.0 * float(np.mean(grains.discs[:, 2]))
     bounds = [wrapper.Bo1_LaguerreCell_Aabb()]
     engines = [collider(bounds, mean_diameter), solver, _idle_newton()]
-    yade.O.engines = engines
+    set_engines(engines)
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = Model(specimen, chosen, model, solver, engines, dynamic, kinds, gravity)
     built.set_threads(threads)

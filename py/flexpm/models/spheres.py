@@ -18,7 +18,7 @@ import numpy as np
 import yade
 from yade import utils, wrapper
 
-from .._flexpm import mass_margin
+from .._flexpm import mass_margin, set_engines
 from ..arrays import FloatArray
 from ..errors import InputError
 from ..files import Table
@@ -256,7 +256,7 @@ def build(
         masses, inertias = real
     _set_masses(ids, masses, inertias)
     functor, engines = _engines(specimen, kind, damping)
-    yade.O.engines = engines
+    set_engines(engines)
     built = SphereModel(specimen, chosen, kind, bonds, functor, engines, material_ids, ids)
     built.set_threads(threads)
     return built

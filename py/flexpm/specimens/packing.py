@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from yade import log, utils, wrapper
 
-from .._flexpm import Outline, insert_discs
+from .._flexpm import Outline, insert_discs, set_engines
 from ..arrays import FloatArray, IntArray
 from ..errors import SimulationError
 from ..progress import Progress
@@ -234,12 +234,14 @@ def _fill_scene(
     physics = wrapper.Ip2_FrictMat_FrictMat_FrictPhys(kn=normal, ks=shear)
     loop = wrapper.DiscLoop(geometries, [physics], [law])
     loop.mirror = False
-    scene.engines = [
-        wrapper.ForceResetter(),
-        wrapper.InsertionSortCollider(bounds, verletDist=0.1),
-        loop,
-        wrapper.NewtonIntegrator(damping=_DAMPING),
-    ]
+    set_engines(
+        [
+            wrapper.ForceResetter(),
+            wrapper.InsertionSortCollider(bounds, verletDist=0.1),
+            loop,
+            wrapper.NewtonIntegrator(damping=_DAMPING),
+        ]
+    )
     return loop
 
 
