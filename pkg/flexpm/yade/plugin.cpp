@@ -45,10 +45,10 @@ void refreshRenderer(py::object renderer)
 /// YADE's own assignment keeps a reference to each item of the list for ever, and so all that a solver holds.
 void setEngines(py::list engines)
 {
-	using Engines = std::vector<boost::shared_ptr<yade::Engine>>;
+	using Engines       = std::vector<boost::shared_ptr<yade::Engine>>;
 	const auto&   scene = yade::Omega::instance().getScene();
 	const Engines chosen { py::stl_input_iterator<boost::shared_ptr<yade::Engine>>(engines), {} };
-	const bool    inStep = scene->subStep >= 0; // its list must stay until the step ends
+	const bool    inStep                            = scene->subStep >= 0; // its list must stay until the step ends
 	(inStep ? scene->_nextEngines : scene->engines) = chosen;
 }
 
