@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Let calls to the file system fail, one in each run, and see that nothing finished is lost.
 
-    scripts/checks/faults.py [run] [study] [calibration] [--draw N] [--seed S] [--build DIR]
+    scripts/checks/faults.py [run] [study] [calibration] [--draw N] [--seed S]
+                             [--part K/N] [--build DIR]
 
 A small command is traced (strace): each write, rename, unlink and fsync below its folder is a place
 by call and file name. At the first and the last call of each place the process is killed, or the
 call gives EIO or ENOSPC. After the fault every file under its final name is whole; a process that
 was not killed has ended with a documented exit code and one line. The same command again, without
 a fault, ends with the bits of an undisturbed one and leaves nothing behind. --draw takes N of the
-faults by chance, of a seed that is printed.
+faults by chance, of a seed that is printed; --part 2/3 takes every third from the second, for
+several processes side by side.
 """
 
 from __future__ import annotations
@@ -235,6 +237,7 @@ def main() -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="run, study, calibration")
     parser.add_argument("--draw", type=int, metavar="N", help="so many of the faults by chance")
     parser.add_argument("--seed", type=int, default=1, metavar="S")
+    parser.add_argument("--part", default="1/1", metavar="K/N", help="every Nth from the Kth")
     parser.add_argument("--build", type=Path, default=ROOT / "build", help="build folder")
     options = parser.parse_args()
     if not shutil.which("strace"):
@@ -253,6 +256,8 @@ def _campaign(campaign: Campaign, options: argparse.Namespace) -> int:
     chosen = faults
     if options.draw is not None:
         chosen = random.Random(options.seed).sample(faults, min(options.draw, len(faults)))
+    first, step = map(int, options.part.split("/"))
+    chosen = chosen[first - 1 :: step]
     failed, hit = 0, set()
     for number, fault in enumerate(chosen, 1):
         wrong, place = campaign.try_fault(fault, whole)

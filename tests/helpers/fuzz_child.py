@@ -23,6 +23,7 @@ from typing import Any
 QUERIES = (
     *("counts", "cracks", "energies", "unbalanced", "snapshot", "plates", "mirrorBodies"),
     *("resetEnergyBalance", "scaleMasses", "useRealMasses", "elasticConstants"),
+    *("nodePlaces", "nodeSets"),
 )
 #: Attributes that a script may set to nonsense.
 NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
@@ -119,6 +120,7 @@ class Script:
     def _begin(self) -> None:
         self._yade.O.reset()
         self._built: Any = None
+        self._rig: Any = None
         self._solver: Any = None
         self._views: list[Any] = []
         self._erased = False  # something, since the last step
@@ -155,12 +157,80 @@ class Script:
         return hashlib.sha256(places.tobytes()).hexdigest()[:16]
 
     def do_build(self, model: str, seed: int, points: int, mesh: str) -> None:
+        self._rig = None
+        self._built = self._flexpm.build(
+            self._specimen(seed), None, model, points=points, mesh=mesh
+        )
+        self._solver = self._built.solver
+
+    def do_build_cut(self, model: str, seed: int, slope: float, law: dict[str, Any]) -> None:
+        middle, rise = 0.008, 0.006 * slope
+        line = [[0.0, middle - rise], [0.012, middle + rise]]
+        cut = self._specimen(seed).with_joints({"cut": line})
+        rock = self._flexpm.materials.load(None, model)
+        rock = rock.with_set({f"joint.cut.{key}": value for key, value in law.items()}, model)
+        self._rig = None
+        self._built = self._flexpm.build(cut, rock, model)
+        self._solver = self._built.solver
+
+    def _specimen(self, seed: int) -> Any:
         if seed not in self._specimens:
             made = self._flexpm.Specimen.rectangle(0.012, 0.016, 0.01, seed=seed)
             self._specimens[seed] = made
-        specimen = self._specimens[seed]
-        self._built = self._flexpm.build(specimen, None, model, points=points, mesh=mesh)
-        self._solver = self._built.solver
+        return self._specimens[seed]
+
+    def _parts(self) -> Any:
+        """The specimen between parts, once something is built."""
+        if self._rig is None and self._built is not None:
+            self._rig = self._flexpm.PartRig(self._built)
+            self._held: list[Any] = []
+        return self._rig
+
+    def do_support(self, x: float, y: float, length: float, bonded: bool) -> None:
+        if rig := self._parts():
+            self._held.append(rig.support((x, y), length, bonded=bonded))
+
+    def do_platen(self, side: int, bonded: bool) -> None:
+        if rig := self._parts():
+            self._held.append(rig.platen(side, bonded=bonded))
+
+    def do_hold(self, x: float, y: float, radius: float, axes: str) -> None:
+        if rig := self._parts():
+            self._held.append(rig.hold(disc=((x, y), radius), axes=axes))
+
+    def do_drive(self, along: float, across: float) -> None:
+        if rig := self._parts():
+            rig.drive(self._held[:1], (across, along), against=self._held[1:])
+
+    def do_turn(self, about: bool) -> None:
+        if rig := self._parts():
+            rig.turn(self._held[:1], self._held[1:], about=(0.006, 0.008) if about else None)
+
+    def do_press(self, pressure: float) -> None:
+        if (rig := self._parts()) and self._held:
+            rig.press(self._held[0], pressure)
+
+    def do_start(self, rate: float) -> None:
+        if rig := self._parts():
+            rig.start(self._flexpm.Loading(rate=rate))
+
+    def do_finish(self) -> None:
+        if rig := self._parts():
+            rig.finish()
+
+    def do_gauge(self, x: float, y: float) -> None:
+        if rig := self._parts():
+            rig.gauge("opening", (x, y), (y, x))
+
+    def do_set_nodes(self, first: int, count: int) -> None:
+        nodes = self._solver.nodePlaces()[0][max(first, 0) :][:count].tolist()
+        self._solver.addNodeSet(nodes if first >= 0 else [first], True, False)
+
+    def do_turn_set(self, number: int, x: float) -> None:
+        self._solver.turnNodeSet(number, None if x == 0.0 else (x, 0.0, 0.0))
+
+    def do_move_set(self, number: int, speed: float) -> None:
+        self._solver.moveNodeSet(number, (speed, 0.0, 0.0))
 
     def do_bare(self) -> None:
         self._solver = self._yade.wrapper.GrainSolver()
@@ -195,6 +265,7 @@ class Script:
     def do_load(self) -> None:
         if Path(self._folder.name, "scene.bin").exists():
             self._yade.O.load(f"{self._folder.name}/scene.bin", quiet=True)
+            self._rig = None
             if self._built is not None:
                 self._built.rebind()
             kind = self._yade.wrapper.GrainSolver
@@ -303,6 +374,8 @@ class Physics:
         try:
             rock = flexpm.materials.load(None, model).with_set(example["material"], model)
             specimen = flexpm.Specimen.pack(SpecimenSpec(**sizes))
+            if example["joints"]:
+                specimen = specimen.with_joints(example["joints"])
             result = flexpm.run(
                 example["test"], specimen, rock, model, progress=look, **example["options"]
             )

@@ -5,15 +5,18 @@ from __future__ import annotations
 
 import copy
 import datetime
+import math
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 import tomli_w
 from fuzz_child import examples
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
+import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.files import json_text, load_toml
@@ -21,6 +24,7 @@ from flexpm.laboratory import asked
 from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials import material as materials
 from flexpm.materials.mixing import description
+from flexpm.specimens import joint_lines
 from flexpm.specimens.spec import SpecimenSpec
 from flexpm.studies import calibration_problem, study
 
@@ -88,6 +92,11 @@ VALUES = st.recursive(
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=3),
     max_leaves=6,
 )
+
+
+@pytest.fixture(scope="module")
+def small():
+    return flexpm.Specimen.rectangle(0.012, 0.016, 0.01)
 
 
 def places(content, path=()):
@@ -180,6 +189,46 @@ def test_any_bytes_are_toml_or_refused(tmp_path, content):
         assert isinstance(load_toml(tmp_path / "it.toml", "it"), dict)
     except InputError as error:
         assert str(error)
+
+
+CELLS = SCALARS.map(str) | st.sampled_from(["0", "0.005", "-1e300", '"', ",", "\n", "x1"])
+
+
+@given(rows=st.lists(st.lists(CELLS, max_size=6), max_size=4), named=st.booleans())
+@example(rows=[["0", "0.004", "0.012", "0.004", "saw"]], named=True)
+@example(rows=[["0", "0.004", "1e300", "0.004", "saw"]], named=True)
+@settings(
+    max_examples=examples(150),
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+def test_any_file_of_joints_cuts_or_is_refused(tmp_path, small, rows, named):
+    text = "\n".join(",".join(row) for row in rows)
+    header = ",".join(joint_lines.COLUMNS) + "\n" if named else ""
+    (tmp_path / "joints.csv").write_text(header + text, encoding="utf-8")
+    try:
+        cut = small.with_joints(joint_lines.read(tmp_path / "joints.csv"))
+        assert math.fsum(cut.tessellation.cell_areas) == pytest.approx(0.012 * 0.016, rel=1e-12)
+    except InputError as error:
+        assert "\n" not in str(error)
+
+
+@given(place=st.integers(0, 10**6), byte=st.integers(0, 255))
+@settings(
+    max_examples=examples(100),
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+def test_a_saved_specimen_with_another_byte_is_the_same_or_refused(tmp_path, small, place, byte):
+    file = tmp_path / "grains.json"
+    small.save(file)
+    content = bytearray(file.read_bytes())
+    content[place % len(content)] = byte
+    file.write_bytes(content)
+    try:
+        assert np.array_equal(flexpm.Specimen.load(file).discs, small.discs)
+    except InputError as error:
+        assert "\n" not in str(error)
 
 
 def refused(capsys, path: Path, content: dict, command: str = "study") -> str:

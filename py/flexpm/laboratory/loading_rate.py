@@ -12,8 +12,11 @@ import math
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..require import require_one_of
+from ..require import Bounds, require_number, require_one_of
 
+#: Ranges beyond which sums are no numbers, or no test has a sense.
+RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
+_STRAIN = Bounds(at_least=0.0, at_most=1e6)
 #: Tests that are held by parts, of flexible and rigid grains, and tests of one's own.
 PART_TESTS = ("bending", "own")
 
@@ -155,7 +158,12 @@ class Loading:
     control: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse a kind that there is not, and a start at the elastic solution under control."""
+        """Refuse numbers out of range, an unknown kind, and a static start under control."""
+        require_number("Loading: rate", self.rate, RATE)
+        if self.max_strain is not None:
+            require_number("Loading: max_strain", self.max_strain, _STRAIN)
+        bounds = Bounds(at_least=0.0, at_most=LARGEST_STOP_RATIO)
+        require_number("Loading: stop_ratio", self.stop_ratio, bounds)
         require_one_of("Loading: kind", self.kind, LOADINGS)
         if self.control and self.static:
             raise InputError(

@@ -20,6 +20,7 @@ from yade import EnumClass_TestState as TestState
 from ..errors import InputError, SimulationError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
+from ..require import require_number
 from ..results.record import Curve
 from .loading_rate import Loading, Scales, Schedule, schedule
 from .runner import Runner, Span
@@ -120,8 +121,10 @@ class TestRig(ABC):
             rate: Factor on the default loading rate [-].
 
         Raises:
+            InputError: for a strain or a rate out of range.
             SimulationError: if the strain does not come there.
         """
+        strain = require_number("strain_to: strain", strain)
         entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
         if self.diverged or (entered and not self._is_over()):
             raise SimulationError(

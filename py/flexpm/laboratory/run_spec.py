@@ -35,6 +35,7 @@ from ..specimens.spec import SIZES, SpecimenSpec
 from .loading_rate import (
     LARGEST_STOP_RATIO,
     LOADINGS,
+    RATE,
     RUNNING_SHARE,
     STOP_RATIO,
     default_stop_ratio,
@@ -136,7 +137,6 @@ PULSE = 0.4
 #: Least length of a pulse in mean diameters of the grains [-].
 _FEWEST_GRAINS = 20.0
 #: Ranges beyond which sums are no numbers, or no test has a sense.
-_RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 _STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
 _PRESSURE = Bounds(at_least=0.0, at_most=1e15)
 _GRAVITY = Bounds(at_least=0.0, at_most=1e12)
@@ -342,7 +342,7 @@ class RunSpec:
         return "constant" if is_brittle(self.material) else "adaptive"
 
     def _check_numbers(self) -> None:
-        self._set("rate", require_number("run: rate", self.rate, _RATE))
+        self._set("rate", require_number("run: rate", self.rate, RATE))
         if self.max_strain is not None:
             largest = require_number("run: max_strain", self.max_strain, _STRAIN)
             self._set("max_strain", largest)

@@ -121,5 +121,8 @@ def test_only_boundary_nodes_are_preloaded(rectangle):
 def test_a_loading_that_cannot_be_is_refused(rectangle):
     with pytest.raises(InputError, match="kind = 'wating', must be one of constant, adaptive"):
         flexpm.Loading(kind="wating")
+    for name, value in (("rate", 0.0), ("max_strain", -1.0), ("stop_ratio", float("nan"))):
+        with pytest.raises(InputError, match=f"Loading: {name} = "):
+            flexpm.Loading(**{name: value})
     with pytest.raises(InputError, match="kind = waiting, must be another"):
         rig_of(rectangle, "jcfpm").load(flexpm.Loading(kind="waiting"))
