@@ -10,9 +10,13 @@ from __future__ import annotations
 import math
 import os
 import random
+from collections.abc import Callable
 
 import pytest
 from fuzz_child import Child
+
+from flexpm.laboratory.loading_rate import RATE_CONSTANT
+from flexpm.laboratory.run_spec import CONTROLS, PART_MODELS, TESTS, WAVES
 
 CASES = 300 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 10
 STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged")
@@ -28,23 +32,26 @@ def case(seed: int) -> dict:
         return 10.0 ** draw.uniform(low, high)
 
     scale = draw.choice([1.0, 1.0, 1.0, 1e-4, 1e3, power(-3.0, 2.0)])
-    test = draw.choice(["uniaxial", "tension", "biaxial", "brazilian"])
-    model = draw.choice(["flexible"] * 5 + ["rigid"] * 4 + ["inner-un", "jcfpm", "cohfrict"])
+    test = draw.choice(TESTS)
+    others = ["inner-un", "jcfpm", "cohfrict"] if test in RATE_CONSTANT["jcfpm"] else []
+    model = draw.choice(["flexible"] * 5 + ["rigid"] * 4 + others)
     smallest = 1e-3 * draw.choice([1.0, 2.0])
     specimen = {
-        "kind": "disc" if test == "brazilian" else "rectangle",
+        "kind": {"brazilian": "disc", "scb": "half-disc"}.get(test, "rectangle"),
         "diameters": [scale * smallest, scale * smallest * draw.choice([1.0, 2.0, 4.0])],
         "porosity": draw.choice([0.01, 0.1, 0.4]),
         "thickness": scale * draw.choice([1e-2, power(-4.0, 0.0)]),
         "seed": draw.randrange(1000),
     }
-    if test == "brazilian":
+    if specimen["kind"] != "rectangle":
         specimen["diameter"] = scale * draw.uniform(0.008, 0.016)
     else:
+        slender = {"bending": [0.25, 0.5], "sonic": [2.0]}.get(test, [0.5, 1.0, 2.0, 3.0])
         specimen["width"] = scale * draw.uniform(0.008, 0.016)
-        specimen["height"] = specimen["width"] * draw.choice([0.5, 1.0, 2.0, 3.0])
+        specimen["height"] = specimen["width"] * draw.choice(slender)
     side = min(specimen[name] for name in ("diameter", "width", "height") if name in specimen)
-    specimen["diameters"] = [min(one, 0.4 * side) for one in specimen["diameters"]]
+    largest = {"scb": 0.2, "sonic": 0.039}.get(test, 0.4) * side
+    specimen["diameters"] = [min(one, largest) for one in specimen["diameters"]]
     material = {
         "young": 25.8e9 * power(-2.0, 2.0),
         "poisson": draw.choice([1e-6, 0.23, 0.45, 0.499]),
@@ -68,10 +75,38 @@ def case(seed: int) -> dict:
     options = {"rate": power(0.5, 2.5), "stop_ratio": draw.choice([0.2, 0.5, 0.9])}
     if test == "biaxial":
         options["confinement"] = draw.choice([0.0, power(4.0, 9.0)])
-    if model == "flexible" and draw.random() < 0.15:
+    if test == "bending":
+        options["notch"] = specimen["height"] * draw.choice([0.0, 0.3, 0.8])
+    if model in PART_MODELS and test in CONTROLS:
+        options["control"] = draw.choice(CONTROLS[test])
+    if test == "shear":
+        del options["stop_ratio"]
+        options["normal_stress"] = draw.choice([1e6, power(3.0, 10.0)])
+    if test == "sonic":
+        options = {"wave": draw.choice(WAVES)}
+    elif model == "flexible" and draw.random() < 0.15:
         options |= {"dynamic": True, "gravity": draw.choice([0.0, 9.81, 1e6])}
+    joints = {}
+    if draw.random() < 0.25:
+        across = specimen.get("width", specimen.get("diameter"))
+        joints["cut"] = [[-across, power(-2.0, 0.0) * side], [2.0 * across, 0.5 * side]]
+        material |= {f"joint.cut.{key}": value for key, value in _joint(draw, power).items()}
     return {"test": test, "model": model, "specimen": specimen, "material": material} | {
-        "options": options
+        "options": options,
+        "joints": joints,
+    }
+
+
+def _joint(draw: random.Random, power: Callable[[float, float], float]) -> dict:
+    if draw.random() < 0.3:
+        return {"open": True}
+    dilating = {"friction": 0.5, "dilation_angle": 5.0, "dilation_slip": 1e-4 * power(-3.0, 1.0)}
+    return {
+        "normal_stiffness": 1e14 * power(-2.0, 2.0),
+        "shear_stiffness": 3e13 * power(-2.0, 2.0),
+        "cohesion": draw.choice([0.0, power(4.0, 8.0)]),
+        "tensile_strength": draw.choice([0.0, power(4.0, 8.0)]),
+        **draw.choice([{"friction": 0.0}, {"friction": 3.0}, dilating]),
     }
 
 
