@@ -185,6 +185,8 @@ class Campaign:
         inject = f"inject={fault.place.call}:{fault.kind}:when={fault.number}"
         done = self.run(*self.strace("-e", inject))
         hit = [place for _, place, _, line in self.calls() if "(INJECTED)" in line]
+        # the call of that number fails in each process, be it on its messages
+        elsewhere = sum("(INJECTED)" in line for line in self._lines()) > len(hit)
         if fault.kind.startswith("signal"):
             ends = {line.split()[0] for line in self._lines() if "+++ killed" in line}
             last = {process: place for process, place, _, _ in self.calls() if process in ends}
@@ -192,16 +194,24 @@ class Campaign:
         killed = done.returncode in (-9, 137)
         if not killed and done.returncode not in CODES:
             return f"exit code {done.returncode}: {done.stderr[-300:]}", None
-        if not killed and done.returncode and done.stderr.count("\n") != 1:
+        if not (killed or elsewhere) and done.returncode and done.stderr.count("\n") != 1:
             return f"{done.stderr.count(chr(10))} lines on stderr: {done.stderr[-600:]}", None
         if half := self._half_files(whole):
             return f"half a file: {half}", None
         again = self.run()
         if again.returncode != self.code:
             return f"restart: exit code {again.returncode}: {again.stderr[-300:]}", None
-        if differing := _differing(whole, self.bits()):
+        if differing := _differing(whole, self._asked_for(whole)):
             return f"restart: other {differing}", None
         return "", (hit or [None])[0]
+
+    def _asked_for(self, whole: dict[str, str]) -> dict[str, str]:
+        """Bits without runs that only the disturbed command did: a failed one turns a search."""
+        runs = {Path(name).parent for name in whole}
+        found = self.bits()
+        if self.name != "calibration":
+            return found
+        return {name: found[name] for name in found if Path(name).parent in runs}
 
     def _lines(self) -> list[str]:
         return (self.work / "trace").read_text(errors="replace").splitlines()
