@@ -201,7 +201,10 @@ class Campaign:
         again = self.run()
         if again.returncode != self.code:
             return f"restart: exit code {again.returncode}: {again.stderr[-300:]}", None
-        if differing := _differing(whole, self._asked_for(whole)):
+        found = self._asked_for(whole)
+        if fault.place.call == "unlink":  # a lock that the disk keeps holds nobody up
+            found = {name: found[name] for name in found if not name.endswith(".flexpm.lock")}
+        if differing := _differing(whole, found):
             return f"restart: other {differing}", None
         return "", (hit or [None])[0]
 
