@@ -48,8 +48,9 @@ void setEngines(py::list engines)
 	using Engines       = std::vector<boost::shared_ptr<yade::Engine>>;
 	const auto&   scene = yade::Omega::instance().getScene();
 	const Engines chosen { py::stl_input_iterator<boost::shared_ptr<yade::Engine>>(engines), {} };
-	const bool    inStep                            = scene->subStep >= 0; // its list must stay until the step ends
-	(inStep ? scene->_nextEngines : scene->engines) = chosen;
+	// the list of a step that runs must stay until it ends
+	auto& list = scene->subStep < 0 ? scene->engines : scene->_nextEngines;
+	list       = chosen;
 }
 
 py::dict buildInfo()

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 from ..errors import InputError
 from ..require import Bounds, require_number, require_one_of
 
-#: Ranges beyond which sums are no numbers, or no test has a sense.
+#: Factors on the default loading rate that a test may have [-].
 RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
+#: Largest strains of a loading [-]; 0 for one that ends where it is.
 _STRAIN = Bounds(at_least=0.0, at_most=1e6)
 #: Tests that are held by parts, of flexible and rigid grains, and tests of one's own.
 PART_TESTS = ("bending", "own")

@@ -190,6 +190,7 @@ ContactEnergy energy_of(const Contacts& contacts, int contact)
 }
 
 /// Keep in the balance what contacts that end have dissipated; what they store leaves as friction.
+/// Point by point: sums in another order have other last digits, which the waiting for cracks makes other results.
 void keep_energy(Assembly& a, const std::vector<int>& ended)
 {
     for (int c : ended) {
