@@ -133,3 +133,10 @@ def test_whatever_is_asked_for_ends_with_a_status_and_numbers(child, seed):
     if error is not None and not (math.isfinite(error) and error <= 0.01):
         assert found["status"] in ("not_quasistatic", "diverged"), where
         assert found["warnings"] or found["status"] == "diverged", where
+
+
+@pytest.mark.long
+def test_what_presses_on_a_heap_that_has_flown_apart_is_refused(child):
+    """A platen goes on to push grains that nothing holds, and forces seem in balance."""
+    error = child.run(case(4))["error"]
+    assert error.startswith("SimulationError: confine: force on the other parts = "), error

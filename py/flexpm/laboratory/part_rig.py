@@ -23,7 +23,7 @@ from ..require import POSITIVE, require_number
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from .grain_rig import GrainRig
-from .loading_rate import Scales
+from .loading_rate import Scales, rate_constant
 from .runner import Runner
 
 #: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
@@ -149,7 +149,12 @@ class PartRig(GrainRig):
             built: The specimen.
             kind: Name of the test, whose loading rate is taken.
             runner: Steps, shows progress and saves checkpoints; None for one that only steps.
+
+        Raises:
+            InputError: for a test that is not one of the model's; ``"own"`` is one of deformable
+                and of rigid grains.
         """
+        rate_constant(kind, built.name)
         super().__init__(built, runner=runner)
         self.disc = False
         self._kind, self._laid, self._held = kind, 0, 0
@@ -464,6 +469,22 @@ class PartRig(GrainRig):
             plates=[self.pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
         )
         self.built.add_engines(before=(engine,))
+
+    def _require_rest(self) -> None:
+        """Refuse it, too, where the other parts do not bear what presses: all has fallen apart."""
+        super()._require_rest()
+        assert self.pressed is not None
+        solver = self.built.solver
+        if math.hypot(solver.gravity[0], solver.gravity[1]) > 0.0:
+            return  # they bear the weight, too
+        parts = [part["force"][:2] for part in (*solver.plates(), *solver.nodeSets())]
+        pressing, missing = math.hypot(*self.pressed.force), math.hypot(*np.sum(parts, axis=0))
+        if not missing <= doubts.LARGEST_MISMATCH * pressing:
+            raise SimulationError(
+                f"confine: force on the other parts = {missing:.3g} N short of the "
+                f"{pressing:.3g} N that press, must be within {doubts.LARGEST_MISMATCH:.0%}; lower "
+                "the pressure"
+            )
 
     def _crossing_steps(self) -> float:
         """Of a disc of the specimen's area: what is open before it is pressed has no scales."""

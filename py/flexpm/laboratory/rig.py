@@ -94,11 +94,8 @@ class TestRig(ABC):
         """
         begin = partial(self._begin_confinement, pressure)
         entered = self._stage(begin, self._at_rest, "isotropic pressure")
-        if entered and not (self.diverged or self._at_rest()):
-            raise SimulationError(
-                f"confine: unbalanced-force ratio = {self.unbalanced():.2g} under the pressure, "
-                f"must fall below {_AT_REST}; lower the confinement"
-            )
+        if entered and not self.diverged:
+            self._require_rest()
 
     def load(self, loading: Loading | None = None) -> None:
         """Drive the ends until the stress has fallen from its peak, or to the largest strain.
@@ -293,6 +290,14 @@ class TestRig(ABC):
             yade.O.iter - start, (end - start) // (_RAMP_CROSSINGS + _REST_CROSSINGS)
         )
         return rest == 0 and crossings > _RAMP_CROSSINGS and self.unbalanced() < _AT_REST
+
+    def _require_rest(self) -> None:
+        """Refuse a confinement under which the forces are not in balance."""
+        if not self._at_rest():
+            raise SimulationError(
+                f"confine: unbalanced-force ratio = {self.unbalanced():.2g} under the pressure, "
+                f"must fall below {_AT_REST}; lower the confinement"
+            )
 
     def _is_over(self) -> bool:
         return self.diverged or self._readings.state != TestState.running

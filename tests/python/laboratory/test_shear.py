@@ -269,3 +269,11 @@ def test_a_rig_presses_on_what_it_is_told(whole):
     rig.press(lid, 1e6)
     assert lid.force[1] == pytest.approx(-1e6 * WIDTH * 0.01, rel=0.02)
     assert floor.force[1] == pytest.approx(1e6 * WIDTH * 0.01, rel=0.02)
+
+
+def test_a_specimen_that_is_pressed_to_pieces_is_refused(whole):
+    """It gives way to all sides, and no contact bears anything then."""
+    soft = {"young": 2e9, "normal_stiffness": 1.3e12, "friction": 0.0, "poisson": 0.45}
+    rock = flexpm.materials.load(None, "rigid").with_set(soft, "rigid")
+    with pytest.raises(flexpm.errors.SimulationError, match="confine: unbalanced-force ratio = 1 "):
+        flexpm.run("shear", whole, rock, "rigid", normal_stress=1.2e9)

@@ -177,9 +177,11 @@ double unbalanced_ratio(const Assembly& a)
     for (const NodeSet& set : a.node_sets)
         largest = std::max(largest, set.unbalanced);
     const auto& erased = a.contacts.erased;
-    const auto gone = std::count(erased.begin(), erased.end(), 1);
+    const auto left = a.contacts.count - std::count(erased.begin(), erased.end(), 1);
     const double sum = sum_of_forces(a.contacts);
-    return sum > 0.0 ? largest * static_cast<double>(a.contacts.count - gone) / sum : 0.0;
+    if (sum > 0.0) return largest * static_cast<double>(left) / sum;
+    // a specimen that flies apart is not in balance
+    return left > 0 && largest > 0.0 ? 1.0 : 0.0;
 }
 
 CrackCount count_cracks(const Assembly& a)

@@ -48,7 +48,7 @@ void reset_energy_balance(Assembly& a);
 double kinetic_of_velocities(const Grains& grains);
 
 /// Largest force component on a free node over the mean contact force [-]; of the last measured
-/// step. 0 without contact forces.
+/// step. Where no contact bears a force it is 1 if a node does, else 0; 0 without contacts, too.
 double unbalanced_ratio(const Assembly& a);
 
 /// Cracked points; erased ones did not crack.
