@@ -214,8 +214,14 @@ def _driven_like(test: str) -> str:
 
 
 def rate_constant(test: str, model: str) -> float:
-    """The constant k of a test on a model [-]."""
-    return RATE_CONSTANT[_LIKE.get(model, model)][_driven_like(test)]
+    """The constant k of a test on a model [-].
+
+    Raises:
+        InputError: for a test that the model has no constant for.
+    """
+    constants, like = RATE_CONSTANT[_LIKE.get(model, model)], _driven_like(test)
+    require_one_of(f"test of model {model}", like, tuple(constants))
+    return constants[like]
 
 
 def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:

@@ -104,6 +104,7 @@ def child():
 
 @given(st.lists(CALLS, min_size=1, max_size=12))
 @example([("bare",), ("ask", "counts")])
+@example([("build", "inner", 1, 1, "fan"), ("start", 1e-3)])
 @example([("bare",), ("engines", "solver"), ("step", 10)])
 @settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
 def test_calls_in_any_order_end_in_one_line(child, calls):

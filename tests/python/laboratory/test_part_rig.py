@@ -250,3 +250,12 @@ def test_bending_is_for_flexible_and_rigid_grains_and_has_its_own_options(beam):
     assert wide.specimen.width == 0.3
     assert RunSpec.from_json(spec_of(beam, "rigid", span=SPAN).to_json()).span == SPAN
     assert "bending" in protocols.TESTS
+
+
+def test_a_rig_of_parts_refuses_a_model_or_a_test_without_a_rate(beam):
+    yade.O.reset()
+    with pytest.raises(InputError, match="test of model inner = 'own', must be one of"):
+        PartRig(flexpm.build(beam, model="inner"))
+    yade.O.reset()
+    with pytest.raises(InputError, match="test of model rigid = 'pull', must be one of"):
+        PartRig(flexpm.build(beam, model="rigid"), kind="pull")
