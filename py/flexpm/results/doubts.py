@@ -77,6 +77,18 @@ def of_result(
     return lines
 
 
+def of_bend(bend: float) -> str:
+    """What a joint that bends to the grains (D35) says about the strength.
+
+    Args:
+        bend: Its largest distance from its lines [m].
+    """
+    return (
+        f"joint_bend = {bend:.3g} m, a joint bends to the grains and catches as it slides; take "
+        "another seed or smaller grains"
+    )
+
+
 def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:
     for name, (low, high, meant) in _USUAL.items():
         value = values.get(name)

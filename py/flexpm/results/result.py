@@ -72,6 +72,7 @@ class Result(Shown):
     shear_onset_stress: float | None = None  #: [Pa]
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
+    joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
@@ -107,6 +108,8 @@ class Result(Shown):
         found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
         if self.test == "sonic" and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)
+        if self.joint_bend:
+            found.append(doubts.of_bend(self.joint_bend))
         return found + doubts.of_result(self.status, self.energy_error, mismatch, rate)
 
     def measure(

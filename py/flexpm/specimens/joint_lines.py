@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import itertools
 import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..arrays import FloatArray
 from ..errors import InputError
 from ..require import quoted
 
@@ -82,6 +84,27 @@ def checksum(lines: Lines, before: str | None = None) -> str:
     """Short hash of lines, and of those that a specimen has already."""
     text = json.dumps([before, sorted(lines.items())])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def bend(lines: Sequence[Line], places: FloatArray) -> float:
+    """Largest distance of places from the nearest line [m]; lines go on beyond their ends.
+
+    Args:
+        lines: Of a joint.
+        places: Of its contacts' ends, (n, 2) [m].
+    """
+    import numpy as np
+
+    found = np.full(len(places), np.inf)
+    for line in lines:
+        corners = np.array(line)
+        last = len(corners) - 2
+        for k, (start, end) in enumerate(itertools.pairwise(corners)):
+            way = end - start
+            share = (places - start) @ way / (way @ way)
+            share = np.clip(share, -np.inf if k == 0 else 0.0, np.inf if k == last else 1.0)
+            found = np.minimum(found, np.hypot(*(places - start - np.outer(share, way)).T))
+    return float(np.max(found, initial=0.0))
 
 
 def _ends(where: str, row: Mapping[str | Any, str | Any]) -> Line:

@@ -7,7 +7,7 @@ import dataclasses
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +35,9 @@ from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
+#: Below this share of the mean diameter a distance is round-off [-].
+_STRAIGHT = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class Specimen(Shown):
@@ -53,6 +56,7 @@ class Specimen(Shown):
         minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
         holes: Corners of each hole of the outline, clockwise, (n, 2) [m].
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
+        joints: Lines of each joint as they were asked for, by its name [m].
         grains: Per cell the grain before joints cut it; None: each cell is a grain.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
     """
@@ -67,6 +71,7 @@ class Specimen(Shown):
     edge_joints: IntArray | None = None
     grains: IntArray | None = None
     strengths: FloatArray | None = None
+    joints: joint_lines.Lines = field(default_factory=dict)
 
     @classmethod
     def rectangle(
@@ -375,6 +380,7 @@ class Specimen(Shown):
             "discs": self.discs.tolist(),
             "sides": cells.boundary_edges[:, 1:].tolist(),
             "joints": joints[found >= 0].tolist(),
+            "lines": self.joints,
             "strengths": None if self.strengths is None else self.strengths.tolist(),
             "grains": None if self.grains is None else self.grains.tolist(),
         }
@@ -476,6 +482,10 @@ class Specimen(Shown):
             minerals=minerals,
             edge_joints=edge_joints,
             grains=grains,
+            joints={
+                name: [*self.joints.get(name, ()), *lines.get(name, ())]
+                for name in spec.joint_names or ()
+            },
         )
 
     def with_strengths(self, factors: Sequence[float] | FloatArray) -> Specimen:
@@ -510,6 +520,18 @@ class Specimen(Shown):
         cells, count = self.tessellation, len(self.spec.joint_names or ())
         ends = cells.vertices[cells.shared_edges[:, 2:]]
         return [ends[self.edge_joints == number] for number in range(count)]
+
+    def joint_bends(self) -> dict[str, float]:
+        """Largest distance of each joint's contacts from its lines, which bends to grains [m].
+
+        Deviation D35; a joint of a file without its lines has none.
+        """
+        least, found = _STRAIGHT * self.mean_diameter, {}
+        for name, ends in zip(self.spec.joint_names or (), self.joint_lines(), strict=True):
+            if name in self.joints:
+                bend = joint_lines.bend(self.joints[name], ends.reshape(-1, 2))
+                found[name] = bend if bend > least else 0.0
+        return found
 
     def with_minerals(self, minerals: Sequence[int] | IntArray) -> Specimen:
         """Return the same grains, each of a given mineral.

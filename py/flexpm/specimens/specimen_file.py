@@ -13,6 +13,7 @@ from typing import Any
 from ..errors import InputError
 from ..files import Table, load_json, write_text
 from ..require import require_known
+from . import joint_lines
 from .spec import SpecimenSpec
 
 _FORMAT = "flexpm specimen 1"
@@ -91,6 +92,7 @@ def parts(content: Table) -> Table:
         "spec": spec_of(content),
         "removed_discs": content["removed_discs"],
         "holes": tuple(np.array(hole) for hole in content["holes"]),
+        "joints": joint_lines.checked(content["lines"]) if content.get("lines") else {},
     }
     for key in ("minerals", "grains"):
         if content[key] is not None:

@@ -59,6 +59,7 @@ KEYS = [
     "shear_onset_stress",
     "peak_load",
     "notch_depth",
+    "joint_bend",
     "fracture_toughness",
     "residual_strength",
     "fracture_energy",

@@ -203,6 +203,42 @@ def test_a_cut_specimen_is_loaded_to_the_bit(rectangle, tmp_path):
     np.testing.assert_array_equal(again.tessellation.shared_edges, cut.tessellation.shared_edges)
 
 
+def test_the_bend_of_a_line_is_its_distance():
+    """Beyond its ends a line goes on; at a corner the distance is that from the corner."""
+    corner = [[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]]
+    places = np.array([(-3.0, 0.0), (0.5, 0.25), (1.0, 9.0), (1.3, -0.4)])
+    far = [joint_lines.bend(corner, place[None]) for place in places]
+    assert far == pytest.approx([0.0, 0.25, 0.0, 0.5])
+    assert joint_lines.bend([*corner, [(0.0, 0.2), (1.0, 0.2)]], places[1:2]) == pytest.approx(0.05)
+    assert joint_lines.bend(corner, places) == pytest.approx(0.5)
+
+
+def test_a_joint_that_bends_to_the_grains_says_so(rectangle, weak, tmp_path):
+    dip = math.tan(math.radians(60.0))
+    line = [(-0.01, 0.012 - 0.016 * dip), (0.022, 0.012 + 0.016 * dip)]
+    straight, bent = (
+        Specimen.rectangle(0.012, 0.024, 0.01, seed=seed).with_joints({"weak": line})
+        for seed in (1, 14)
+    )
+    assert straight.joint_bends() == {"weak": 0.0}
+    found = bent.joint_bends()["weak"]
+    assert found == pytest.approx(off(joint_edges(bent), line).max())
+    assert found > 0.05 * bent.mean_diameter
+    bent.save(tmp_path / "bent.json")
+    assert Specimen.load(tmp_path / "bent.json").joint_bends() == bent.joint_bends()
+    rig = {"material": weak, "model": "rigid", "rate": 20.0}
+    result = flexpm.run("uniaxial", bent, **rig)
+    assert result.joint_bend == found
+    assert sum(line.startswith(f"joint_bend = {found:.3g} m") for line in result.warnings) == 1
+    silent = flexpm.run("uniaxial", straight, **rig)
+    assert silent.joint_bend == 0.0
+    assert not any("joint_bend" in line for line in silent.warnings)
+    notch = rectangle.with_joints({"weak": [(0.0, 0.02), (0.007, 0.0213)]})
+    notch = notch.with_joints({"weak": [(0.02, 0.03), (0.015, 0.03)]})
+    assert len(notch.joints["weak"]) == 2
+    assert notch.joint_bends()["weak"] < 0.1 * notch.mean_diameter
+
+
 def test_pieces_have_the_mineral_of_their_grain(rectangle):
     marked = rectangle.with_minerals(np.arange(len(rectangle.discs)) % 3)
     cut = marked.with_joints({"weak": DIP})
