@@ -192,6 +192,10 @@ class GrainRig(TestRig):
         steps = math.ceil(self.scales().crossing_steps / _ROWS_A_CROSSING)
         self.built.solver.measurePeriod = min(steps, _LONGEST_PERIOD)
 
+    def _measure_every(self, steps: int) -> None:
+        solver = self.built.solver
+        solver.measurePeriod = min(solver.measurePeriod, steps)
+
     def _synchronize(self) -> None:
         self.built.solver.mirrorPeriod = 1  # a script may go on from here
         self.built.solver.mirrorBodies()

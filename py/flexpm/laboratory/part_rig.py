@@ -32,6 +32,10 @@ _SUPPORT = 0.5
 #: Friction of a part that is pinned: it does not slide as long as it presses [-].
 _NO_SLIDING = 1e6
 
+#: Part of a pressing force that the other parts may fail to bear while a specimen swings, before
+#: it has come to rest [-].
+_SHORT = 0.5
+
 _Place = Sequence[float]
 #: Tells of places, by arrays of their x and y [m], which of them a region has.
 _Where = Callable[[FloatArray, FloatArray], BoolArray]
@@ -479,11 +483,10 @@ class PartRig(GrainRig):
             return  # they bear the weight, too
         parts = [part["force"][:2] for part in (*solver.plates(), *solver.nodeSets())]
         pressing, missing = math.hypot(*self.pressed.force), math.hypot(*np.sum(parts, axis=0))
-        if not missing <= doubts.LARGEST_MISMATCH * pressing:
+        if not missing <= _SHORT * pressing:
             raise SimulationError(
                 f"confine: force on the other parts = {missing:.3g} N short of the "
-                f"{pressing:.3g} N that press, must be within {doubts.LARGEST_MISMATCH:.0%}; lower "
-                "the pressure"
+                f"{pressing:.3g} N that press, must be within {_SHORT:.0%}; lower the pressure"
             )
 
     def _crossing_steps(self) -> float:

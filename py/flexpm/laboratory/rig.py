@@ -208,6 +208,9 @@ class TestRig(ABC):
     def _press(self, pressure: float, ramp: int) -> None:
         """Press on the top and the sides, rising over `ramp` steps, and hold the bottom."""
 
+    def _measure_every(self, steps: int) -> None:  # noqa: B027
+        """Know the balance of forces at least so often; most rigs know it at each step."""
+
     @abstractmethod
     def _drive(self, plan: Schedule) -> None:
         """Drive the ends by a plan from now on; the first time, take hold and begin the record."""
@@ -263,6 +266,7 @@ class TestRig(ABC):
     def _begin_confinement(self, pressure: float) -> Span:
         crossing = math.ceil(self._crossing_steps())
         self._press(pressure, _RAMP_CROSSINGS * crossing)
+        self._measure_every(_RAMP_CROSSINGS * crossing)
         return Span((_RAMP_CROSSINGS + _REST_CROSSINGS) * crossing, 2 * _RAMP_CROSSINGS * crossing)
 
     def _begin_preload(self, loading: Loading) -> Span:

@@ -277,3 +277,16 @@ def test_a_specimen_that_is_pressed_to_pieces_is_refused(whole):
     rock = flexpm.materials.load(None, "rigid").with_set(soft, "rigid")
     with pytest.raises(flexpm.errors.SimulationError, match="confine: unbalanced-force ratio = 1 "):
         flexpm.run("shear", whole, rock, "rigid", normal_stress=1.2e9)
+
+
+def test_the_forces_balance_under_a_pressure_on_two_grains():
+    """A wave crosses them within a few steps: the balance must be known as often."""
+    yade.O.reset()
+    square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
+    blocks = flexpm.Specimen.from_polygons([square, square + np.array([0.0, 0.01])], 0.01)
+    rig = PartRig(flexpm.build(blocks, model="rigid"))
+    floor, lid = rig.platen(0, bonded=True), rig.platen(2)
+    rig.drive([floor], (0.0, 1.0))
+    rig.press(lid, 1e6)
+    assert floor.force[1] == pytest.approx(100.0, rel=0.01)
+    assert lid.force[1] == pytest.approx(-100.0, rel=0.01)
