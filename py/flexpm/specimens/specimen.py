@@ -529,7 +529,7 @@ class Specimen(Shown):
         least, found = _STRAIGHT * self.mean_diameter, {}
         for name, ends in zip(self.spec.joint_names or (), self.joint_lines(), strict=True):
             if name in self.joints:
-                bend = joint_lines.bend(self.joints[name], ends.reshape(-1, 2))
+                bend = joint_lines.bend(self.joints[name], ends)
                 found[name] = bend if bend > least else 0.0
         return found
 

@@ -17,32 +17,83 @@ namespace flexpm {
 
 namespace {
 
+/// Take out vertices on a straight edge between two cells that have the same joint on both sides of the vertex.
+void remove_idle_vertices(PlanarCells& cells, std::size_t first)
+{
+    std::map<int, std::vector<std::size_t>> cells_at;
+    for (std::size_t c = 0; c < cells.cells.size(); ++c)
+        for (int v : cells.cells[c])
+            if (v >= static_cast<int>(first)) cells_at[v].push_back(c);
+    const auto joint_of = [&](VertexPair edge) {
+        const auto at = cells.joints.find(edge);
+        return at == cells.joints.end() ? -1 : at->second;
+    };
+    for (const auto& [vertex, around] : cells_at) {
+        if (around.size() > 2) continue;
+        const Loop& loop = cells.cells[around[0]];
+        const std::size_t n = loop.size(),
+                          k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
+        const VertexPair before = undirected(loop[(k + n - 1) % n], vertex),
+                         after = undirected(vertex, loop[(k + 1) % n]);
+        const VertexPair whole = undirected(loop[(k + n - 1) % n], loop[(k + 1) % n]);
+        if (joint_of(before) != joint_of(after)) continue;
+        for (auto* labels : { &cells.sides, &cells.joints }) {
+            const auto at = labels->find(before);
+            if (at == labels->end()) continue;
+            labels->emplace(whole, at->second);
+            labels->erase(before);
+            labels->erase(after);
+        }
+        for (std::size_t c : around) {
+            Loop& changed = cells.cells[c];
+            changed.erase(std::find(changed.begin(), changed.end(), vertex));
+        }
+    }
+}
+
 class Cutter {
 public:
     Cutter(PlanarCells& c, double mean) : cells(c), mean_area(mean) { }
 
     void cut(const JointLine& line)
     {
+        const std::size_t first = cells.vertices.size();
+        laid.clear();
         const std::vector<JointStep> steps = joint_steps(cells, line, mean_area);
         for (const JointStep& step : steps)
             connect(step.from, step.to, line.joint);
+        if (around.empty()) return;
+        // places where it would have crossed are in the way
+        remove_idle_vertices(cells, first);
+        straighten(cells, line, around, laid, mean_area);
+        around.clear();
     }
 
 private:
     PlanarCells& cells;
     double mean_area;
+    std::vector<int> around;    ///< vertices where the line goes along edges
+    std::set<VertexPair> laid;  ///< edges of the line
 
     /// Lay a joint between two vertices.
     void connect(int from, int to, int joint)
     {
         if (from == to || split_between(from, to, joint)) return;
         const Loop way = way_along_edges(from, to);
+        around.insert(around.end(), way.begin(), way.end());
         const EdgeOwners owners(cells.cells);
         for (std::size_t k = 0; k + 1 < way.size(); ++k) {
             const bool inner = owners.left_of(way[k], way[k + 1]) != EdgeOwners::none
                 && owners.left_of(way[k + 1], way[k]) != EdgeOwners::none;
-            if (inner) cells.joints.emplace(undirected(way[k], way[k + 1]), joint);
+            if (inner) lay({ way[k], way[k + 1] }, joint);
         }
+    }
+
+    /// An edge keeps the joint that it has.
+    void lay(VertexPair ends, int joint)
+    {
+        const VertexPair edge = undirected(ends.first, ends.second);
+        if (cells.joints.emplace(edge, joint).second) laid.insert(edge);
     }
 
     /// Split the cell of which two vertices are the ends of a diagonal that leaves sound parts.
@@ -63,7 +114,7 @@ private:
             cells.cells[c] = std::move(first);
             cells.whole[c] = 0;
             cells.add_cell(std::move(second), cells.origin[c], false);
-            cells.joints.emplace(undirected(from, to), joint);
+            lay({ from, to }, joint);
             return true;
         }
         return false;
@@ -130,40 +181,6 @@ void check_line(const JointLine& line, std::size_t number)
             refuse(name + ": point", place(line.points[k]), "must be finite; correct it");
         if (k > 0 && !(norm(line.points[k] - line.points[k - 1]) > 0.0))
             refuse(name + ": point", place(line.points[k]), "must not be there twice; remove one");
-    }
-}
-
-/// Take out vertices on a straight edge between two cells that have the same joint on both sides of the vertex.
-void remove_idle_vertices(PlanarCells& cells, std::size_t first)
-{
-    std::map<int, std::vector<std::size_t>> cells_at;
-    for (std::size_t c = 0; c < cells.cells.size(); ++c)
-        for (int v : cells.cells[c])
-            if (v >= static_cast<int>(first)) cells_at[v].push_back(c);
-    const auto joint_of = [&](VertexPair edge) {
-        const auto at = cells.joints.find(edge);
-        return at == cells.joints.end() ? -1 : at->second;
-    };
-    for (const auto& [vertex, around] : cells_at) {
-        if (around.size() > 2) continue;
-        const Loop& loop = cells.cells[around[0]];
-        const std::size_t n = loop.size(),
-                          k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
-        const VertexPair before = undirected(loop[(k + n - 1) % n], vertex),
-                         after = undirected(vertex, loop[(k + 1) % n]);
-        const VertexPair whole = undirected(loop[(k + n - 1) % n], loop[(k + 1) % n]);
-        if (joint_of(before) != joint_of(after)) continue;
-        for (auto* labels : { &cells.sides, &cells.joints }) {
-            const auto at = labels->find(before);
-            if (at == labels->end()) continue;
-            labels->emplace(whole, at->second);
-            labels->erase(before);
-            labels->erase(after);
-        }
-        for (std::size_t c : around) {
-            Loop& changed = cells.cells[c];
-            changed.erase(std::find(changed.begin(), changed.end(), vertex));
-        }
     }
 }
 

@@ -16,6 +16,9 @@ namespace flexpm {
 
 namespace {
 
+/// Share of a size below which a distance, and below which the sine of an angle, is round-off.
+constexpr double straight = 1e-9;
+
 /// A place of the line: a vertex on it, or a crossing of the edge between two vertices.
 struct Node {
     double along;     ///< [m]
@@ -164,20 +167,22 @@ std::vector<Node> nodes_of(
 /// Moves vertices onto a line where the cells around them stay sound.
 class Straightener {
 public:
-    Straightener(PlanarCells& c, double mean) : cells(c), mean_area(mean)
+    /// @param rails   joints along which their vertices may go
+    Straightener(PlanarCells& c, double mean, const std::set<VertexPair>& joints) :
+        cells(c),
+        mean_area(mean),
+        rails(joints)
     {
         for (std::size_t i = 0; i < cells.cells.size(); ++i)
             for (int v : cells.cells[i])
                 around[v].push_back(i);
-        for (const auto& entry : cells.joints)
-            fixed.insert({ entry.first.first, entry.first.second });
     }
 
     /// Move a vertex to the line that runs through `on_line` along `way`.
     void move(int vertex, Point on_line, Point way)
     {
         Point target = on_line;
-        if (fixed.count(vertex) || !stays_on_side(vertex, way, target)) return;
+        if (!around.count(vertex) || !stays_on_rail(vertex, way, target)) return;
         const Point before = cells.vertices[vertex];
         cells.vertices[vertex] = target;
         for (std::size_t cell : around[vertex]) {
@@ -191,28 +196,38 @@ private:
     PlanarCells& cells;
     double mean_area;
     std::map<int, std::vector<std::size_t>> around;
-    std::set<int> fixed;  ///< on joints
+    const std::set<VertexPair>& rails;
 
-    /// A vertex on a side goes to where the line crosses that side; a corner of the outline has no such place.
-    bool stays_on_side(int vertex, Point way, Point& target) const
+    /// A vertex on a side or on a straight joint goes to where the line crosses it; a corner has no such place.
+    bool stays_on_rail(int vertex, Point way, Point& target) const
     {
-        std::vector<VertexPair> outer;
+        std::vector<VertexPair> on_side;
+        std::set<VertexPair> on_joint;
         std::set<int> sides;
         for (std::size_t cell : around.at(vertex)) {
             const Loop& loop = cells.cells[cell];
             for (std::size_t k = 0; k < loop.size(); ++k) {
-                const int u = loop[k], v = loop[(k + 1) % loop.size()];
-                const auto side = cells.sides.find(undirected(u, v));
-                if ((u != vertex && v != vertex) || side == cells.sides.end()) continue;
-                outer.push_back({ u, v });
+                const VertexPair edge = undirected(loop[k], loop[(k + 1) % loop.size()]);
+                if (edge.first != vertex && edge.second != vertex) continue;
+                if (rails.count(edge)) on_joint.insert(edge);
+                const auto side = cells.sides.find(edge);
+                if (side == cells.sides.end()) continue;
+                on_side.push_back(edge);
                 sides.insert(side->second);
             }
         }
-        if (outer.empty()) return true;
-        if (sides.size() > 1 || outer.size() != 2) return false;
+        if (on_side.empty() && on_joint.empty()) return true;
+        if (on_side.size() + on_joint.size() != 2 || sides.size() > 1) return false;
+        const auto out = [&](const VertexPair& edge) {
+            return cells.vertices[edge.first == vertex ? edge.second : edge.first]
+                - cells.vertices[vertex];
+        };
         const Point at = cells.vertices[vertex];
-        const auto& [u, v] = outer.front();
-        const Point e = cells.vertices[v] - cells.vertices[u];
+        const Point e = out(on_side.empty() ? *on_joint.begin() : on_side.front());
+        if (on_side.empty()) {
+            const Point back = out(*on_joint.rbegin());
+            if (std::abs(cross(e, back)) > straight * norm(e) * norm(back)) return false;
+        }
         const double slope = cross(e, way), share = cross(target - at, way) / slope;
         if (!(std::abs(slope) > 0.1 * norm(e) * norm(way))) return false;
         target = at + share * e;
@@ -298,7 +313,10 @@ std::vector<JointStep> joint_steps(PlanarCells& cells, const JointLine& joint, d
         refuse("joint from", place(joint.points.front()),
             "must lie inside the specimen; move or remove it");
     }
-    Straightener straightener(cells, mean_area);
+    std::set<VertexPair> rails;
+    for (const auto& entry : cells.joints)
+        rails.insert(entry.first);
+    Straightener straightener(cells, mean_area, rails);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         if (needed[k] && nodes[k].vertex >= 0)
             straightener.move(
@@ -309,6 +327,22 @@ std::vector<JointStep> joint_steps(PlanarCells& cells, const JointLine& joint, d
     for (std::size_t k : steps)
         found.push_back({ nodes[k].vertex, nodes[k + 1].vertex });
     return found;
+}
+
+void straighten(PlanarCells& cells, const JointLine& joint, const std::vector<int>& vertices,
+    const std::set<VertexPair>& laid, double mean_area)
+{
+    std::set<VertexPair> rails;
+    for (const auto& entry : cells.joints)
+        if (!laid.count(entry.first)) rails.insert(entry.first);
+    const double least = straight * std::sqrt(mean_area);
+    const LongLine line(joint, 10.0 * longest_edge(cells, edges_of(cells)));
+    Straightener straightener(cells, mean_area, rails);
+    for (int v : vertices) {
+        const Nearest found = nearest(line, cells.vertices[v]);
+        if (found.distance > least)
+            straightener.move(v, line.place(found.along), line.way_at(found.along));
+    }
 }
 
 }  // namespace flexpm

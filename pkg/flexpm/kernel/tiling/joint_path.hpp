@@ -6,6 +6,7 @@
 
 #include <flexpm/kernel/tiling/planar_cells.hpp>
 
+#include <set>
 #include <vector>
 
 namespace flexpm {
@@ -29,5 +30,12 @@ struct JointStep {
 /// @param mean_area  of a cell
 /// @throws std::invalid_argument  if the line lies outside of all cells
 std::vector<JointStep> joint_steps(PlanarCells& cells, const JointLine& line, double mean_area);
+
+/// Move vertices of a joint that went along edges onto its line, where the cells around them stay sound.
+/// @param vertices   of the joint
+/// @param laid       its edges; those of other joints stay straight
+/// @param mean_area  of a cell
+void straighten(PlanarCells& cells, const JointLine& line, const std::vector<int>& vertices,
+    const std::set<VertexPair>& laid, double mean_area);
 
 }  // namespace flexpm
