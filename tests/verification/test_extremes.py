@@ -136,7 +136,17 @@ def test_whatever_is_asked_for_ends_with_a_status_and_numbers(child, seed):
 
 
 @pytest.mark.long
-def test_what_presses_on_a_heap_that_has_flown_apart_is_refused(child):
-    """A platen goes on to push grains that nothing holds, and forces seem in balance."""
-    error = child.run(case(4))["error"]
-    assert error.startswith("SimulationError: confine: force on the other parts = "), error
+@pytest.mark.parametrize(
+    ("seed", "start"),
+    [
+        # a platen goes on to push grains that have flown apart, and forces seem in balance
+        (4, "SimulationError: confine: force on the other parts = "),
+        # half a disc that an open joint cuts off from its supports
+        (86, "InputError: load: stiffness that the driven parts feel = "),
+        # the notch of a beam of few grains cuts it through
+        (189, "InputError: run: notch = "),
+    ],
+)
+def test_what_cannot_be_loaded_is_refused(child, seed, start):
+    error = child.run(case(seed))["error"]
+    assert error.startswith(start), error

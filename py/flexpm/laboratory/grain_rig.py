@@ -80,8 +80,17 @@ class GrainRig(TestRig):
         return float(np.mean(widths)) if self.disc else None
 
     def scales(self) -> Scales:
-        """What the loading rate follows from, of the specimen as it is."""
-        return Scales(**self._recorder.scales())
+        """What the loading rate follows from, of the specimen as it is.
+
+        Raises:
+            InputError: where nothing resists the loading.
+        """
+        try:
+            return Scales(**self._recorder.scales())
+        except ValueError as error:
+            raise InputError(
+                f"load: {error}; what is driven must be held against by what is not cut off from it"
+            ) from None
 
     def unbalanced(self) -> float:
         """Largest unbalanced force over the mean contact force [-], at the last measured step."""

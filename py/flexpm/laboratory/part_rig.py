@@ -392,7 +392,7 @@ class PartRig(GrainRig):
         """
         if self._scales is None:
             kept = self._recorder.loadingScales
-            self._scales = Scales(*kept) if kept else Scales(**self._recorder.scales())
+            self._scales = Scales(*kept) if kept else super().scales()
         return self._scales
 
     @property

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import SimulationError
+from ..errors import InputError, SimulationError
 from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
@@ -39,13 +39,23 @@ class _Box:
 
 
 def prepared(spec: RunSpec, specimen: Specimen, material: Material) -> tuple[Specimen, Material]:
-    """The specimen and the material of a test, with its notch if it has one."""
+    """The specimen and the material of a test, with its notch if it has one.
+
+    Raises:
+        InputError: for a notch that cuts the specimen through.
+    """
     if not spec.notch:
         return specimen, material
     box = _box(specimen)
     line = [[box.middle, box.bottom], [box.middle, box.bottom + spec.notch]]
     law = {f"joint.{_NOTCH}.open": True}
-    return specimen.with_joints({_NOTCH: line}), material.with_set(law, spec.model)
+    cut = specimen.with_joints({_NOTCH: line})
+    if not notch_depth(cut) < box.top - box.bottom:
+        raise InputError(
+            f"run: notch = {spec.notch:g} m, goes on to the end of the last grain (D35), "
+            "must leave a ligament; take a shorter notch or smaller grains"
+        )
+    return cut, material.with_set(law, spec.model)
 
 
 def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
