@@ -60,9 +60,9 @@ def test_a_joint_slides_at_the_stress_of_the_plane_of_weakness(seed):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("dip", "seed"), [(35.0, 1), (45.0, 1), (50.0, 1), (60.0, 2)])
+@pytest.mark.parametrize(("dip", "seed"), [(35.0, 1), (45.0, 1), (50.0, 1), (60.0, 1)])
 def test_the_stress_is_that_of_each_dip(dip, seed):
-    """Packings in which the joint is straight: a bent one interlocks (D35)."""
+    """At 60 degrees grains have given way to the joint, which would interlock if it bent (D35)."""
     specimen = flexpm.Specimen.rectangle(0.03, 0.06, 0.02, seed=seed)
     assert sliding_stress(specimen, dip, 0.25) == pytest.approx(1.0, abs=0.01)
 

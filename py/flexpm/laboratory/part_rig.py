@@ -414,10 +414,17 @@ class PartRig(GrainRig):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the record doubtful: load and reactions that differ, a bad energy balance."""
+        """What makes the record doubtful.
+
+        Load and reactions that differ, a bad energy balance, a joint that bends.
+        """
         record = self.record
         error = measures.energy_error(record, self.initial_energy)
-        return doubts.of_result("", error, measures.median_end_mismatch(record), None)
+        bend = self.built.joint_bend
+        return [
+            *([doubts.of_bend(bend)] if bend else []),
+            *doubts.of_result("", error, measures.median_end_mismatch(record), None),
+        ]
 
     @property
     def confinement(self) -> float | None:

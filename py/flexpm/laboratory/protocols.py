@@ -416,15 +416,9 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         result.measure_emission(_event_rule(rig.built.specimen))
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
-    result.joint_bend = _joint_bend(rig.built.specimen, result.material)
+    if isinstance(rig.built, Model):
+        result.joint_bend = rig.built.joint_bend
     return result
-
-
-def _joint_bend(specimen: Specimen, material: Table) -> float | None:
-    """Largest bend of a joint that bears [m]; None without one."""
-    bearing = [joint["name"] for joint in material.get("joints", ()) if not joint["open"]]
-    bends = specimen.joint_bends().items()
-    return max((bend for name, bend in bends if name in bearing), default=None)
 
 
 def _largest_unbalanced(spec: RunSpec) -> float:

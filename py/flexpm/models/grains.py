@@ -150,6 +150,13 @@ class Model:
                 kind["area_fraction"] = area
         return found
 
+    @property
+    def joint_bend(self) -> float | None:
+        """Largest distance of a joint that bears from its lines [m], see `Specimen.joint_bends`."""
+        bearing = {joint.name for joint in self.material.joints if not joint.open}
+        bends = self.specimen.joint_bends().items()
+        return max((bend for name, bend in bends if name in bearing), default=None)
+
 
 def build(
     specimen: Specimen,
