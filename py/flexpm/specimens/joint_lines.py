@@ -5,14 +5,12 @@ from __future__ import annotations
 
 import csv
 import hashlib
-import itertools
 import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..arrays import FloatArray
 from ..errors import InputError
 from ..require import quoted
 
@@ -84,38 +82,6 @@ def checksum(lines: Lines, before: str | None = None) -> str:
     """Short hash of lines, and of those that a specimen has already."""
     text = json.dumps([before, sorted(lines.items())])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def bend(lines: Sequence[Line], contacts: FloatArray) -> float:
-    """Largest distance of contacts from their lines [m], each from the one that it follows best.
-
-    Args:
-        lines: Of a joint; they go on beyond their ends.
-        contacts: Of the joint, places of both ends, (n, 2, 2) [m].
-    """
-    import numpy as np
-
-    found = np.full(len(contacts), np.inf)
-    for line in lines:
-        found = np.minimum(found, _distances(line, contacts).max(axis=1))
-    return float(np.max(found, initial=0.0))
-
-
-def _distances(line: Line, places: FloatArray) -> FloatArray:
-    """Of places, (n, m, 2), from a line that goes on beyond its ends."""
-    import numpy as np
-
-    found = np.full(places.shape[:2], np.inf)
-    corners = np.array(line)
-    last = len(corners) - 2
-    for k, (start, end) in enumerate(itertools.pairwise(corners)):
-        way = end - start
-        share = (places - start) @ way / (way @ way)
-        share = np.clip(share, -np.inf if k == 0 else 0.0, np.inf if k == last else 1.0)
-        found = np.minimum(
-            found, np.hypot(*np.moveaxis(places - start - share[..., None] * way, -1, 0))
-        )
-    return found
 
 
 def _ends(where: str, row: Mapping[str | Any, str | Any]) -> Line:

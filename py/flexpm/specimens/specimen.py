@@ -28,7 +28,7 @@ from ..errors import InputError
 from ..notebook import Shown
 from ..progress import Progress
 from ..require import require_flag
-from . import joint_lines, packed, packing, specimen_file, statistics
+from . import joint_bend, joint_lines, packed, packing, specimen_file, statistics
 from . import strengths as contact_strengths
 from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
 from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
@@ -529,7 +529,7 @@ class Specimen(Shown):
         least, found = _STRAIGHT * self.mean_diameter, {}
         for name, ends in zip(self.spec.joint_names or (), self.joint_lines(), strict=True):
             if name in self.joints:
-                bend = joint_lines.bend(self.joints[name], ends)
+                bend = joint_bend.largest_bend(self.joints[name], ends)
                 found[name] = bend if bend > least else 0.0
         return found
 

@@ -181,6 +181,7 @@ class LoadingRateController(Engine):
 
 class CrackWaitController(Engine):
     recorder: AxialRecorder | None
+    def release(self) -> None: ...
 
 class ServoController(LoadingController):
     ends: LoadingController | None

@@ -18,7 +18,7 @@ from flexpm.errors import InputError
 from flexpm.materials.material import load
 from flexpm.materials.mixing import description, from_description
 from flexpm.report.maps import cell_polygons
-from flexpm.specimens import joint_lines
+from flexpm.specimens import joint_bend, joint_lines
 from flexpm.specimens.specimen import Specimen
 
 WIDTH, HEIGHT = 0.02, 0.04
@@ -210,13 +210,13 @@ def test_the_bend_of_a_line_is_its_distance():
     corner = [[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]]
     places = np.array([(-3.0, 0.0), (0.5, 0.25), (1.0, 9.0), (1.3, -0.4)])
     pairs = np.stack((places, places), axis=1)
-    far = [joint_lines.bend(corner, pair[None]) for pair in pairs]
+    far = [joint_bend.largest_bend(corner, pair[None]) for pair in pairs]
     assert far == pytest.approx([0.0, 0.25, 0.0, 0.5])
     both = [*corner, [(0.0, 0.2), (1.0, 0.2)]]
-    assert joint_lines.bend(both, pairs[1:2]) == pytest.approx(0.05)
-    assert joint_lines.bend(corner, pairs) == pytest.approx(0.5)
+    assert joint_bend.largest_bend(both, pairs[1:2]) == pytest.approx(0.05)
+    assert joint_bend.largest_bend(corner, pairs) == pytest.approx(0.5)
     # an edge from one line to the other follows neither
-    assert joint_lines.bend(both, np.array([[(0.5, 0.0), (0.6, 0.2)]])) == pytest.approx(0.2)
+    assert joint_bend.largest_bend(both, np.array([[(0.5, 0.0), (0.6, 0.2)]])) == pytest.approx(0.2)
 
 
 def test_straight_joints_are_straight():

@@ -8,6 +8,7 @@
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
 #include <flexpm/kernel/assembly/grains.hpp>
 #include <flexpm/kernel/assembly/parts.hpp>
+#include <flexpm/kernel/assembly/steady_motion.hpp>
 #include <flexpm/kernel/assembly/step_plan.hpp>
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct Assembly {
     std::vector<Plate> plates;
     std::vector<NodeSet> node_sets;
     EnergyLedger ledger;
+    SteadyMotion steady;
     double thickness = 0.0;  ///< out of plane [m]
     Point gravity;           ///< acceleration of all masses [m/s^2], by set_gravity()
     std::int64_t step = 0;   ///< steps done
@@ -39,6 +41,7 @@ struct Assembly {
         visit("plates", s.plates);
         visit("node_sets", s.node_sets);
         visit("ledger", s.ledger);
+        visit("steady", s.steady);
         visit("thickness", s.thickness);
         visit("gravity_x", s.gravity.x);
         visit("gravity_y", s.gravity.y);

@@ -104,6 +104,17 @@ void check_blocks(const Grains& grains)
     check_size("shapes of triangles", grains.shape.size(), triangles);
 }
 
+void check_steady(const Assembly& a)
+{
+    const SteadyMotion& s = a.steady;
+    const bool followed = s.is_followed();
+    for (std::size_t size : { s.loading_velocity.size(), s.displacement.size() })
+        check_size("values of nodes followed", size, followed ? a.grains.displacement.size() : 0);
+    for (std::size_t size : { s.loading_spin.size(), s.angle.size() })
+        check_size("rotations followed", size, followed ? a.grains.spin.size() : 0);
+    if (!(s.step >= 0 && s.step <= a.step)) refuse("step of the last look", static_cast<double>(s.step), "", "must be one that has been done");
+}
+
 void check_grains(const Grains& grains)
 {
     check_index("grains", grains.count, most);
@@ -237,6 +248,7 @@ void check_ledger(const EnergyLedger& ledger, int blocks)
 void check_state(const Assembly& a)
 {
     check_grains(a.grains);
+    check_steady(a);
     check_contacts(a);
     check_edges(a);
     check_index("plates", static_cast<std::int64_t>(a.plates.size()), most);

@@ -29,6 +29,8 @@ struct CrackWatch {
         fastest_work;  ///< of the loading in that time, at the present stress and the fastest velocity [J]
     double stress, peak;  ///< now and the largest so far, above the confinement [Pa]
     double steps;         ///< in between
+
+    bool has_fallen() const { return stress < fallen_from_peak * peak; }
 };
 
 /// Work of an area under a stress that moves for a time [J]; `sweep` is the volume that it sweeps in a unit of time [m^3/s].

@@ -2,13 +2,15 @@
 #include <flexpm/kernel/laboratory/loading_field.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
 
 namespace flexpm {
 
 Array<double> loading_field(const Assembly& a)
 {
     const Grains& grains = a.grains;
-    Array<double> field = grains.loading_velocity;
+    Array<double> field = velocity_of_loading(a);
+    const Array<double>& spins = spin_of_loading(a);
     for (int g = 0; g < grains.count; ++g) {
         if (!grains.is_rigid(g)) {
             for_each_component(grains, g, [&](int i) {
@@ -18,7 +20,7 @@ Array<double> loading_field(const Assembly& a)
         }
         const int c = grains.centre(g);
         const Point middle = grains.position(c), velocity = vector_at(field, c);
-        const double spin = grains.loading_spin[grains.slot[g]];
+        const double spin = spins[grains.slot[g]];
         for (int k = 0; k < grains.nodes_of(g); ++k) {
             const int n = grains.node(g, k);
             const Point arm = grains.position(n) - middle;

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
@@ -351,16 +352,17 @@ bool renew_loading(Assembly& a, double sense)
         if (p.loaded) p.loading_velocity = velocity_before(a, p, velocity);
     }
     Grains& grains = a.grains;
+    Array<double>&of_loading = velocity_of_loading(a), &spins = spin_of_loading(a);
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
             const Point v = vector_at(velocity, grains.centre(g));
-            set_vector(grains.loading_velocity, grains.centre(g), v);
-            grains.loading_spin[grains.slot[g]] = spin_in(grains, g, velocity);
+            set_vector(of_loading, grains.centre(g), v);
+            spins[grains.slot[g]] = spin_in(grains, g, velocity);
             continue;
         }
         for_each_component(grains, g, [&](int i) {
-            if (!grains.prescribed[i]) grains.loading_velocity[i] = velocity[i];
+            if (!grains.prescribed[i]) of_loading[i] = velocity[i];
         });
     }
     return true;
@@ -390,6 +392,7 @@ void change_loading(Assembly& a, double ratio)
 {
     check_finite("velocity of the loading over that before", ratio, "");
     Grains& grains = a.grains;
+    Array<double>&of_loading = velocity_of_loading(a), &spins = spin_of_loading(a);
     const double before = kinetic_energy(a);
     for (Plate& p : a.plates) {
         p.velocity = p.velocity + (ratio - 1.0) * p.loading_velocity;
@@ -404,17 +407,17 @@ void change_loading(Assembly& a, double ratio)
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
-            const Point v = vector_at(grains.loading_velocity, grains.centre(g));
-            double& spin = grains.loading_spin[grains.slot[g]];
+            const Point v = vector_at(of_loading, grains.centre(g));
+            double& spin = spins[grains.slot[g]];
             add_motion(grains, g, (ratio - 1.0) * v, (ratio - 1.0) * spin);
-            set_vector(grains.loading_velocity, grains.centre(g), ratio * v);
+            set_vector(of_loading, grains.centre(g), ratio * v);
             spin *= ratio;
             continue;
         }
         for_each_component(grains, g, [&](int i) {
             if (grains.prescribed[i]) return;  // held since the loading began
-            grains.velocity[i] += (ratio - 1.0) * grains.loading_velocity[i];
-            grains.loading_velocity[i] *= ratio;
+            grains.velocity[i] += (ratio - 1.0) * of_loading[i];
+            of_loading[i] *= ratio;
         });
     }
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;

@@ -31,7 +31,7 @@ Array<double> elastic_velocities(const Assembly& a, Held held = Held::by_ends);
 /// @throws std::runtime_error  as solve_static()
 void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
 
-/// Give the velocities that damping does not act on those of the elastic solution of the specimen as it is now, held by
+/// Give the velocities of the loading those of the elastic solution of the specimen as it is now, held by
 /// parts or by driven ends: its cracks open and slide freely. A beam that is broken turns as two halves. Where grains have come loose there is no such
 /// solution; the velocities then stay as they are. Deviation D40.
 ///
@@ -46,7 +46,7 @@ int count_softened(const Assembly& a);
 /// point that softens.
 int count_sliding_joints(const Assembly& a);
 
-/// Change the velocities that damping does not act on to `ratio` times what they are, and all velocities with them, so
+/// Change the velocities that the loading gives to `ratio` times what they are, and all velocities with them, so
 /// that a change of the loading's velocity raises no wave. The kinetic energy that this gives is work of the boundary.
 /// Call drive_node_sets() afterwards.
 void change_loading(Assembly& a, double ratio);

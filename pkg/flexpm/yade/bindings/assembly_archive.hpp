@@ -30,9 +30,10 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::Contacts& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::BoundaryEdges& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::EnergyLedger& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::SteadyMotion& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Of what visit_members() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 11;
+	constexpr unsigned assemblyVersion = 12;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{

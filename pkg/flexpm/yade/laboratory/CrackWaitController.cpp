@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/crack_wait.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -27,6 +28,12 @@ void CrackWaitController::action()
 	Real&                       factor = recorder->loading->velocityFactor;
 	factor                             = flexpm::factor_for_cracks(factor, watch, rule);
 	seen                               = now;
+	if (undampedDescent && watch.has_fallen())
+		flexpm::follow_steady_motion(solver->assembly, scene->dt);
+	else
+		flexpm::end_steady_motion(solver->assembly);
 }
+
+void CrackWaitController::release() { flexpm::end_steady_motion(GrainSolver::ofScene(*Omega::instance().getScene())->assembly); }
 
 } // namespace yade

@@ -11,9 +11,10 @@ class CrackWaitController : public BoundaryController {
 public:
 	~CrackWaitController() override;
 	void action() override;
+	void release();
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(CrackWaitController, BoundaryController,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(CrackWaitController, BoundaryController,
 		"Lets a loading wait for cracks: it goes fast while the specimen is elastic and nearly stands still while what damage, "
 		"friction and damping take says that a crack runs. It looks at each measured step of :yref:`GrainSolver`. Place it last, after :yref:`AxialRecorder`.",
 		((shared_ptr<AxialRecorder>, recorder,,, "Record of the test; the velocityFactor of its loading is set."))
@@ -24,7 +25,10 @@ public:
 		((Real, shareAfterPeak, .01,, "The same once the stress has fallen from its peak [-]."))
 		((bool, ofFriction, true,, "Friction is taken for a sign of cracks that run; not where faces are to slide."))
 		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
+		((bool, undampedDescent, false,, "Once the stress has fallen from its peak, damping acts only on what grains move beyond their mean motion since the last look, deviation D55."))
 		((Real, seen, -1., Attr::hidden, "Damage energy, with that of friction if it counts, at the last look, negative before the first [J]."))
+		, /* ctor */
+		, .def("release", &CrackWaitController::release, "Let damping act on all but the motion that the loading gives again; call it before another loading.")
 	);
 	// clang-format on
 };
