@@ -48,8 +48,6 @@ WAYS_BRITTLE = (("constant", 1.0), ("waiting", 1.0), ("waiting", 2.0), ("waiting
 WAYS_PARTS = (
     *((loading, rate) for loading in ("constant", "waiting") for rate in (1.0, 2.0, 4.0)),
 )
-#: Half discs of flexible grains are not at the limit yet at a rate of 1.
-WAYS_SCB = (*WAYS_PARTS, ("waiting", 0.5))
 #: On a joint in direct shear [Pa].
 NORMAL_STRESS = 2e6
 
@@ -84,7 +82,6 @@ def runs_of(packing: Packing) -> Iterator[Run]:
     brittle = is_brittle(description(load(packing.material), packing.model))
     ways = WAYS_BRITTLE if brittle else WAYS
     ways = WAYS_PARTS if packing.test in PART_TESTS else ways
-    ways = WAYS_SCB if packing[:2] == ("scb", "flexible") else ways
     slow = [("constant", rate) for rate in SLOW.get(packing[:2], SLOW_OTHERS)]
     for loading, rate in sorted({*ways, *slow}):
         yield Run(packing, loading, rate)

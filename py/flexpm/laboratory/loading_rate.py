@@ -41,8 +41,12 @@ RATE_CONSTANT = {
 FASTEST_CONSTANT = 0.04
 #: The rate of a loading that waits for cracks is up to this k [-].
 WAITING_CONSTANT = 0.16
-#: The same where another one suits: a joint that begins to slide has carried 3 % too much at 0.16.
-_OTHER_WAITING_CONSTANTS = {"shear": 0.04}
+#: The same where another one suits: at 0.16 a joint that begins to slide has carried 3 % too much,
+#: half a disc of deformable grains as well.
+_OTHER_WAITING_CONSTANTS = {
+    **{("shear", model): 0.04 for model in ("flexible", "rigid")},
+    ("scb", "flexible"): 0.08,
+}
 #: Cracks run where damage and friction take more than this share of what a waiting loading would
 #: supply at its fastest [-], by model and test.
 RUNNING_SHARE = {
@@ -64,7 +68,7 @@ SLOWEST_WAIT = 0.01
 _LIKELY_CROSSINGS = {
     "flexible": {
         **{"uniaxial": 110, "tension": 20, "biaxial": 250, "brazilian": 45},
-        **{"bending": 100, "scb": 220, "own": 60},
+        **{"bending": 100, "scb": 400, "own": 60},
     },
     "rigid": {
         **{"uniaxial": 140, "tension": 60, "biaxial": 160, "brazilian": 105},
@@ -107,7 +111,7 @@ _WAITING_RATIO = {
         "biaxial": (0.0017, 0.045),
         "brazilian": (0.033, 0.028),
         "bending": (0.004, 0.012),
-        "scb": (0.007, 0.025),
+        "scb": (0.0055, 0.012),
         "shear": (0.06, 0.1),
     },
     "rigid": {
@@ -240,7 +244,8 @@ def _waiting(test: str, model: str, damage_share: float) -> tuple[float, tuple[f
             f"{' and '.join(RUNNING_SHARE)} grains"
         )
     share = max(damage_share, _BRITTLE_PART) * RUNNING_SHARE[model][_driven_like(test)]
-    fastest = _OTHER_WAITING_CONSTANTS.get(test, WAITING_CONSTANT) / rate_constant(test, model)
+    most = _OTHER_WAITING_CONSTANTS.get((test, model), WAITING_CONSTANT)
+    fastest = most / rate_constant(test, model)
     return fastest, (share, _SHARE_AFTER_PEAK * share)
 
 
@@ -308,7 +313,7 @@ def schedule(
     if loading.kind == "adaptive":
         fastest = fastest_factor(test, model, loading.rate)
     elif loading.kind == "waiting":
-        fastest, shares = _waiting(test, model, scales.damage_share)
+        fastest, shares = _waiting(own, model, scales.damage_share)
         slowest = min(SLOWEST_WAIT * fastest, 1.0)
     if loading.kind == "waiting":
         if crossings := _LIKELY_CROSSINGS[model].get(own):
@@ -331,5 +336,5 @@ def schedule(
         math.ceil(steps / slowest),
         math.ceil(min(likely, steps / slowest)),
         control=loading.control,
-        fastest_ends=_fastest_ends(test, model, loading.rate) if loading.control else 1.0,
+        fastest_ends=_fastest_ends(own, model, loading.rate) if loading.control else 1.0,
     )

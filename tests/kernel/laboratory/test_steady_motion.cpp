@@ -98,10 +98,12 @@ TEST_CASE("Damping leaves alone the mean motion since the last look", "[laborato
             step(a, o);
         follow_steady_motion(a, 1.0);
         const int node = rigid ? a.grains.centre(0) : a.grains.node(0, 1);
-        CHECK(a.grains.loading_velocity[node] == (a.grains.displacement[node] - before[node]) / 10.0);
+        CHECK(
+            a.grains.loading_velocity[node] == (a.grains.displacement[node] - before[node]) / 10.0);
         CHECK(a.grains.loading_velocity[node] != 0.0);
         if (rigid) {
-            CHECK(a.grains.loading_spin[a.grains.slot[0]] == (rotation_of(a.grains, 0) - angle) / 10.0);
+            CHECK(a.grains.loading_spin[a.grains.slot[0]]
+                == (rotation_of(a.grains, 0) - angle) / 10.0);
         }
         CHECK(velocity_of_loading(a) == of_loading);
         check_state(a);

@@ -112,7 +112,9 @@ void check_steady(const Assembly& a)
         check_size("values of nodes followed", size, followed ? a.grains.displacement.size() : 0);
     for (std::size_t size : { s.loading_spin.size(), s.angle.size() })
         check_size("rotations followed", size, followed ? a.grains.spin.size() : 0);
-    if (!(s.step >= 0 && s.step <= a.step)) refuse("step of the last look", static_cast<double>(s.step), "", "must be one that has been done");
+    if (!(s.step >= 0 && s.step <= a.step))
+        refuse("step of the last look", static_cast<double>(s.step), "",
+            "must be one that has been done");
 }
 
 void check_grains(const Grains& grains)

@@ -22,8 +22,8 @@ void check(const CrackWaitRule& rule)
 /// Part of the fastest velocity that suits what is dissipated [-]. Without a stress all that is dissipated counts.
 double wanted_part(const CrackWatch& seen, const CrackWaitRule& rule)
 {
-    const double allowed =
-        (seen.has_fallen() ? rule.share_after_peak : rule.running_share) * std::max(seen.fastest_work, 0.0);
+    const double allowed = (seen.has_fallen() ? rule.share_after_peak : rule.running_share)
+        * std::max(seen.fastest_work, 0.0);
     // no number: the run has diverged, which is seen elsewhere
     if (!(seen.dissipated > allowed)) return 1.0;
     const double square = allowed / seen.dissipated * (allowed / seen.dissipated);
