@@ -31,7 +31,7 @@ sizes = [
 ratio = mean / mean_half
 share = ((error / mean) ** 2 + (error_half / mean_half) ** 2) ** 0.5
 lines = []
-for corner in ratio.index:
+for corner in mean.index:
     model, cohesion, energy = corner
     line = {
         "Model": model,

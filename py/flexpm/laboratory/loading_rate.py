@@ -67,11 +67,11 @@ SLOWEST_WAIT = 0.01
 #: has none: it goes all its way.
 _LIKELY_CROSSINGS = {
     "flexible": {
-        **{"uniaxial": 110, "tension": 20, "biaxial": 250, "brazilian": 45},
+        **{"uniaxial": 60, "tension": 19, "biaxial": 125, "brazilian": 42},
         **{"bending": 100, "scb": 400, "own": 60},
     },
     "rigid": {
-        **{"uniaxial": 140, "tension": 60, "biaxial": 160, "brazilian": 105},
+        **{"uniaxial": 130, "tension": 58, "biaxial": 130, "brazilian": 100},
         **{"bending": 155, "scb": 180, "own": 60},
     },
 }

@@ -8,7 +8,6 @@
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
 #include <flexpm/kernel/assembly/grains.hpp>
 #include <flexpm/kernel/assembly/parts.hpp>
-#include <flexpm/kernel/assembly/steady_motion.hpp>
 #include <flexpm/kernel/assembly/step_plan.hpp>
 
 #include <cstdint>

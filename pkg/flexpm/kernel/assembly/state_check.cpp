@@ -112,9 +112,7 @@ void check_steady(const Assembly& a)
         check_size("values of nodes followed", size, followed ? a.grains.displacement.size() : 0);
     for (std::size_t size : { s.loading_spin.size(), s.angle.size() })
         check_size("rotations followed", size, followed ? a.grains.spin.size() : 0);
-    if (!(s.step >= 0 && s.step <= a.step))
-        refuse("step of the last look", static_cast<double>(s.step), "",
-            "must be one that has been done");
+    check_index("step of the last look", s.step, a.step + 1);
 }
 
 void check_grains(const Grains& grains)
@@ -250,7 +248,6 @@ void check_ledger(const EnergyLedger& ledger, int blocks)
 void check_state(const Assembly& a)
 {
     check_grains(a.grains);
-    check_steady(a);
     check_contacts(a);
     check_edges(a);
     check_index("plates", static_cast<std::int64_t>(a.plates.size()), most);
@@ -261,6 +258,7 @@ void check_state(const Assembly& a)
         check_node_set(a.grains, set);
     check_ledger(a.ledger, a.grains.blocks());
     check_index("step", a.step, std::int64_t { 1 } << 60);
+    check_steady(a);
 }
 
 }  // namespace flexpm
