@@ -123,10 +123,16 @@ CASES = {
         *("a = {:g} grains", (5, 10), tuple(range(1, 11)), False),
     ),
     "strip opened": Case(
-        "strip opened by end moments, arms of 4 grains",
+        "strip opened by end moments",
         "M = sqrt(G_fn t B)",
         "beams, Griffith",
-        *(_RATE, (1, 5), (1,)),
+        *("arms of {:g} grains", (4, 8), (1,), False),
+    ),
+    "strip sheared": Case(
+        "strip sheared by end moments",
+        "M = sqrt(G_fs t B / 0.75)",
+        "beams, Griffith",
+        *("arms of {:g} grains", (4,), (1,), False),
     ),
 }
 
