@@ -31,8 +31,8 @@ _LONGEST_PERIOD = 100
 _LOOKS_A_CROSSING = 100
 #: Share of the elastic limit up to which a preload goes [-].
 _PRELOAD_SHARE = 0.9
-#: Tests whose descent from the peak is free of damping, deviation D55. The halves of a beam would fly
-#: apart, and a test under control of a measure comes down at its rate.
+#: Tests whose descent from the peak is free of damping, deviation D55. The halves of a beam would
+#: fly apart, and a test under control of a measure comes down at its rate.
 _DESCENTS = ("uniaxial", "tension", "biaxial", "brazilian")
 #: Plates of the membrane on each side, paper Sec. 4.1.
 _MEMBRANE_PLATES = 16
