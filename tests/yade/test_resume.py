@@ -37,7 +37,7 @@ DISC = {"diameter": 0.016, "thickness": 0.01, "seed": 1}
 TESTS = {
     "uniaxial": {"rate": 0.25},
     "tension": {"rate": 0.1},
-    "biaxial": {"rate": 1.5, "confinement": 5e6},
+    "biaxial": {"rate": 0.4, "confinement": 5e6},
     "brazilian": {"rate": 0.06},
 }
 #: On the rate: a step of rigid grains is short, one of inner particles long.
