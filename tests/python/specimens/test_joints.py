@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
@@ -183,6 +183,15 @@ joint_sets = st.sampled_from(range(1, 101)).flatmap(
 
 @settings(max_examples=_SETS, deadline=None, suppress_health_check=list(HealthCheck))
 @given(joint_sets, st.integers(1, 5))
+# a straightened joint left a grain that its disc did not see whole
+@example(
+    [
+        (0.0129232, 0.009436, 2.441645810369987, 0.004),
+        (0.0152542, 0.0167928, 0.7118848953034471, 0.0090208),
+        (0.0119836, 0.0118604, 0.0, 0.004),
+    ],
+    1,
+)
 def test_any_set_of_joints(drawn, seed):
     uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
     lines = [
