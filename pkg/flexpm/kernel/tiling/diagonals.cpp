@@ -6,6 +6,13 @@
 
 namespace flexpm {
 
+namespace {
+
+/// Share of a length below which a distance is round-off.
+constexpr double round_off = 1e-9;
+
+}  // namespace
+
 bool is_diagonal(const std::vector<Point>& p, int i, int j)
 {
     const int n = static_cast<int>(p.size());
@@ -34,6 +41,12 @@ double angle_at(const std::vector<Point>& polygon, std::size_t k)
     const Point u = polygon[(k + 1) % n] - polygon[k], v = polygon[(k + n - 1) % n] - polygon[k];
     const double angle = std::atan2(cross(u, v), dot(u, v));
     return angle < 0.0 ? angle + 2.0 * pi : angle;
+}
+
+bool is_between(Point a, Point p, Point b)
+{
+    const Point way = b - a;
+    return dot(p - a, p - b) <= 0.0 && std::abs(cross(way, p - a)) <= round_off * dot(way, way);
 }
 
 Loop part_of(const Loop& loop, int i, int j)

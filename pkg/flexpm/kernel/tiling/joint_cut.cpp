@@ -33,10 +33,13 @@ void remove_idle_vertices(PlanarCells& cells, std::size_t first)
         const Loop& loop = cells.cells[around[0]];
         const std::size_t n = loop.size(),
                           k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
-        const VertexPair before = undirected(loop[(k + n - 1) % n], vertex),
-                         after = undirected(vertex, loop[(k + 1) % n]);
-        const VertexPair whole = undirected(loop[(k + n - 1) % n], loop[(k + 1) % n]);
+        const int last = loop[(k + n - 1) % n], next = loop[(k + 1) % n];
+        const VertexPair before = undirected(last, vertex), after = undirected(vertex, next);
+        const VertexPair whole = undirected(last, next);
         if (joint_of(before) != joint_of(after)) continue;
+        // a later line may have moved it
+        const auto& places = cells.vertices;
+        if (!is_between(places[last], places[vertex], places[next])) continue;
         for (auto* labels : { &cells.sides, &cells.joints }) {
             const auto at = labels->find(before);
             if (at == labels->end()) continue;
@@ -53,12 +56,7 @@ void remove_idle_vertices(PlanarCells& cells, std::size_t first)
 
 class Cutter {
 public:
-    Cutter(PlanarCells& c, const std::vector<Disc>& own, double mean) :
-        cells(c),
-        discs(own),
-        mean_area(mean)
-    {
-    }
+    Cutter(PlanarCells& c, double mean) : cells(c), mean_area(mean) { }
 
     void cut(const JointLine& line)
     {
@@ -70,15 +68,12 @@ public:
         if (around.empty()) return;
         // places where it would have crossed are in the way
         remove_idle_vertices(cells, first);
-        const PlanarCells bent = cells;
         straighten(cells, line, around, laid, mean_area);
-        if (!all_stay_sound(bent)) cells = bent;
         around.clear();
     }
 
 private:
     PlanarCells& cells;
-    const std::vector<Disc>& discs;  ///< that whole cells keep
     double mean_area;
     std::vector<int> around;    ///< vertices where the line goes along edges
     std::set<VertexPair> laid;  ///< edges of the line
@@ -135,23 +130,6 @@ private:
         return polygon_shape(polygon).area >= least_piece * mean_area
             && angle_at(polygon, 0) >= least_angle
             && angle_at(polygon, polygon.size() - 1) >= least_angle && reference_point(polygon);
-    }
-
-    /// Whether all cells that have changed are large enough and seen whole from their point.
-    bool all_stay_sound(const PlanarCells& before) const
-    {
-        for (std::size_t c = 0; c < cells.cells.size(); ++c) {
-            const std::vector<Point> now = polygon_of(cells, cells.cells[c]);
-            const std::vector<Point> old = polygon_of(before, before.cells[c]);
-            bool changed = false;
-            for (std::size_t k = 0; k < now.size(); ++k)
-                changed = changed || norm(now[k] - old[k]) > 0.0;
-            if (!changed) continue;
-            const bool seen = cells.whole[c] ? clearance(now, discs[cells.origin[c]].centre) > 0.0
-                                             : reference_point(now).has_value();
-            if (!seen || polygon_shape(now).area < least_piece * mean_area) return false;
-        }
-        return true;
     }
 
     /// Vertices of the shortest way along edges; what lies off the straight line counts twice.
@@ -219,12 +197,17 @@ Tiling cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>& 
         const SharedEdge& edge = tessellation.shared_edges[e];
         if (joints[e] >= 0) cells.joints[undirected(edge.vertex_0, edge.vertex_1)] = joints[e];
     }
-    Cutter cutter(cells, discs, enclosed_area(tessellation) / tessellation.cells());
+    Cutter cutter(cells, enclosed_area(tessellation) / tessellation.cells());
     for (std::size_t k = 0; k < lines.size(); ++k) {
         check_line(lines[k], k);
         cutter.cut(lines[k]);
     }
     remove_idle_vertices(cells, tessellation.vertices.size());
+    // a vertex that was moved onto a line may be out of sight of the disc's centre
+    for (std::size_t c = 0; c < cells.cells.size(); ++c) {
+        const Point centre = discs[cells.origin[c]].centre;
+        if (!(clearance(polygon_of(cells, cells.cells[c]), centre) > 0.0)) cells.whole[c] = 0;
+    }
     return make_tiling(cells, discs);
 }
 

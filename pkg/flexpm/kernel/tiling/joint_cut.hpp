@@ -9,7 +9,8 @@ namespace flexpm {
 
 /// Cut cells by the lines of joints, one after the other. Within a cell a line is straight. Where a cut would leave a
 /// piece below 2 % of the area of a mean cell, an angle below 5 degrees, or a piece whose edges no point sees, the joint
-/// goes along edges around it. An edge keeps the joint that it got first.
+/// goes along edges around it. An edge keeps the joint that it got first. A cell that is not cut keeps its disc as long
+/// as its centre sees all edges.
 ///
 /// @param discs   of the cells
 /// @param joints  per shared edge: joint that it has already, -1: none; empty: none has one

@@ -16,8 +16,10 @@ namespace flexpm {
 
 namespace {
 
-/// Share of a size below which a distance, and below which the sine of an angle, is round-off.
-constexpr double straight = 1e-9;
+/// Share of the size of a cell below which a distance is round-off.
+constexpr double round_off = 1e-9;
+/// Share of the size of a cell below which a moved vertex may not come to the next one.
+constexpr double least_edge = 0.001;
 
 /// A place of the line: a vertex on it, or a crossing of the edge between two vertices.
 struct Node {
@@ -225,8 +227,7 @@ private:
         const Point at = cells.vertices[vertex];
         const Point e = out(on_side.empty() ? *on_joint.begin() : on_side.front());
         if (on_side.empty()) {
-            const Point back = out(*on_joint.rbegin());
-            if (std::abs(cross(e, back)) > straight * norm(e) * norm(back)) return false;
+            if (!is_between(e, {}, out(*on_joint.rbegin()))) return false;
         }
         const double slope = cross(e, way), share = cross(target - at, way) / slope;
         if (!(std::abs(slope) > 0.1 * norm(e) * norm(way))) return false;
@@ -241,6 +242,11 @@ private:
                           k = std::find(loop.begin(), loop.end(), moved) - loop.begin();
         for (std::size_t corner : { k + n - 1, k, k + 1 }) {
             if (angle_at(polygon, corner % n) < least_angle) return false;
+        }
+        // a line along an earlier joint would move a vertex onto the next one
+        for (std::size_t next : { k + n - 1, k + 1 }) {
+            if (norm(polygon[next % n] - polygon[k]) < least_edge * std::sqrt(mean_area))
+                return false;
         }
         return polygon_shape(polygon).area >= least_piece * mean_area && reference_point(polygon);
     }
@@ -335,7 +341,7 @@ void straighten(PlanarCells& cells, const JointLine& joint, const std::vector<in
     std::set<VertexPair> rails;
     for (const auto& entry : cells.joints)
         if (!laid.count(entry.first)) rails.insert(entry.first);
-    const double least = straight * std::sqrt(mean_area);
+    const double least = round_off * std::sqrt(mean_area);
     const LongLine line(joint, 10.0 * longest_edge(cells, edges_of(cells)));
     Straightener straightener(cells, mean_area, rails);
     for (int v : vertices) {
