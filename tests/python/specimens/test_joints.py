@@ -183,8 +183,9 @@ joint_sets = st.sampled_from(range(1, 101)).flatmap(
 
 
 #: Sets that were cut badly once, with the seed of the packing: a grain that its point did not see
-#: whole, a piece below 2 %, an edge without length where lines coincide.
+#: whole, a piece below 2 %, edges without length where lines coincide; an end on an edge hung.
 FOUND = [
+    ([(0.013600000000000001, 0.0238, 3.1415926535897927, 0.0136)], 1),
     ([(0.00678, 0.00443, 0.85055, 0.004)], 5),
     (
         [
@@ -231,6 +232,19 @@ def require_cut(drawn, seed):
 @pytest.mark.parametrize(("drawn", "seed"), FOUND)
 def test_sets_of_joints_that_were_cut_badly(drawn, seed):
     require_cut(drawn, seed)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        [(0.0, 0.036), (0.0078, 0.036), (0.0078, 0.01), (0.0078, 0.036)],
+        [(0.0166, 0.0242), (0.0034, 0.0242), (-0.001, 0.041), (0.01, -0.001)],
+    ],
+)
+def test_a_line_may_turn_back_onto_itself(line):
+    for seed in range(1, 6):
+        uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
+        require_pieces(uncut.with_joints({"back": line}), uncut)
 
 
 @settings(max_examples=_SETS, deadline=None, suppress_health_check=list(HealthCheck))

@@ -144,8 +144,10 @@ private:
             }
         }
         const Point a = cells.vertices[from], way = cells.vertices[to] - a;
+        // a cost that is no number would never end the search
+        const double square = std::max(dot(way, way), std::numeric_limits<double>::min());
         const auto off = [&](Point p) {
-            const double share = std::clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0);
+            const double share = std::clamp(dot(p - a, way) / square, 0.0, 1.0);
             return norm(p - (a + share * way));
         };
         using Entry = std::pair<double, int>;

@@ -18,7 +18,7 @@ namespace {
 
 /// Share of the size of a cell below which a distance is round-off.
 constexpr double round_off = 1e-9;
-/// Share of the size of a cell below which a moved vertex may not come to the next one.
+/// Share of the size of a cell below which a vertex may not come to the next one.
 constexpr double least_edge = 0.001;
 
 /// A place of the line: a vertex on it, or a crossing of the edge between two vertices.
@@ -44,6 +44,7 @@ public:
     }
 
     int segments() const { return static_cast<int>(points.size()) - 1; }
+    /// First point of a segment, which is the last of the one before.
     Point from(int segment) const { return points[segment]; }
     Point way(int segment) const { return points[segment + 1] - points[segment]; }
     double along(int segment, double share) const
@@ -134,10 +135,10 @@ void add_crossings(
 {
     const Point u = cells.vertices[edge.first], e = cells.vertices[edge.second] - u;
     for (int k = 0; k < line.segments(); ++k) {
-        const Point a = line.from(k), w = line.way(k);
+        const Point a = line.from(k), b = line.from(k + 1), w = b - a;
         const double of_u = cross(w, u - a), of_v = cross(w, u + e - a);
-        const double of_a = cross(e, a - u), of_b = cross(e, a + w - u);
-        // the first end of a segment belongs to it, the last to the next
+        // the first end of a segment belongs to it, the last to the next, which must have the same numbers
+        const double of_a = cross(e, a - u), of_b = cross(e, b - u);
         if (!((of_u > 0.0) != (of_v > 0.0) && (of_a >= 0.0) != (of_b >= 0.0))) continue;
         const double share = of_u / (of_u - of_v);
         nodes.push_back({ line.along(k, of_a / (of_a - of_b)), -1, edge, u + share * e });
@@ -272,8 +273,10 @@ void divide(PlanarCells& cells, VertexPair edge, int vertex)
     }
 }
 
-/// Make vertices of the crossings among the nodes that are needed. Several may lie on one edge.
-void insert_crossings(PlanarCells& cells, std::vector<Node>& nodes, const std::vector<bool>& needed)
+/// Make vertices of the crossings among the nodes that are needed. Several may lie on one edge; closer together than
+/// `least` they are one vertex, as where a line turns back onto itself.
+void insert_crossings(
+    PlanarCells& cells, std::vector<Node>& nodes, const std::vector<bool>& needed, double least)
 {
     std::map<VertexPair, std::vector<std::pair<double, std::size_t>>> on_edge;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -286,6 +289,10 @@ void insert_crossings(PlanarCells& cells, std::vector<Node>& nodes, const std::v
         int from = edge.first;
         for (const auto& crossing : crossings) {
             Node& node = nodes[crossing.second];
+            if (from != edge.first && norm(node.place - cells.vertices[from]) < least) {
+                node.vertex = from;
+                continue;
+            }
             node.vertex = static_cast<int>(cells.vertices.size());
             cells.vertices.push_back(node.place);
             divide(cells, undirected(from, edge.second), node.vertex);
@@ -328,7 +335,7 @@ std::vector<JointStep> joint_steps(PlanarCells& cells, const JointLine& joint, d
             straightener.move(
                 nodes[k].vertex, line.place(nodes[k].along), line.way_at(nodes[k].along));
     }
-    insert_crossings(cells, nodes, needed);
+    insert_crossings(cells, nodes, needed, least_edge * std::sqrt(mean_area));
     std::vector<JointStep> found;
     for (std::size_t k : steps)
         found.push_back({ nodes[k].vertex, nodes[k + 1].vertex });
