@@ -11,6 +11,9 @@ namespace fuzz {
 /// Discs and an outline to cells.
 void tessellate(const std::uint8_t* data, std::size_t size);
 
+/// Lines of joints through cells.
+void joints(const std::uint8_t* data, std::size_t size);
+
 /// Cells and options to an assembly and its first steps.
 void assemble(const std::uint8_t* data, std::size_t size);
 

@@ -34,6 +34,7 @@ int run_all(const char* name, Target target)
 TEST_CASE("What the fuzzers have found stays mended", "[fuzz]")
 {
     CHECK(run_all("tessellate", fuzz::tessellate) > 0);
+    CHECK(run_all("joints", fuzz::joints) > 0);
     CHECK(run_all("assemble", fuzz::assemble) > 0);
     CHECK(run_all("law", fuzz::law) > 0);
     CHECK(run_all("state", fuzz::state) > 0);

@@ -345,6 +345,7 @@ def test_pieces_have_the_mineral_of_their_grain(rectangle):
         ({"a": [(0.0101, 0.02), (0.0102, 0.02)]}, "joint a: contacts = 0, must cut a cell"),
         ({"a": [(0.0, 0.0)]}, "joint a = .* must be a line of two points"),
         ({"a": [(0.0, 0.01), (0.0, 0.01)]}, "must not be there twice"),
+        ({"a": [(0.0, 0.01), (1e286, 0.01)]}, "must lie within 1e6 sizes of the specimen"),
         ({"a": [(0.0, math.nan), (0.0, 0.01)]}, "must be a line of two points"),
         ({"a b": DIP}, "must be a name without spaces"),
         ({}, "must be lines by the name"),

@@ -174,7 +174,19 @@ private:
     }
 };
 
-void check_line(const JointLine& line, std::size_t number)
+/// Sizes of the specimen within which a line may reach: beyond, round-off shows in its places.
+constexpr double farthest = 1e6;
+
+double size_of(const Tessellation& t)
+{
+    double size = 0.0;
+    for (Point p : t.vertices)
+        size = std::max(size, norm(p - t.vertices.front()));
+    return size;
+}
+
+/// @param reach  how far from a vertex of the specimen its points may lie [m]
+void check_line(const JointLine& line, std::size_t number, Point vertex, double reach)
 {
     const std::string name = "joint line " + std::to_string(number);
     if (line.points.size() < 2) {
@@ -184,6 +196,10 @@ void check_line(const JointLine& line, std::size_t number)
     for (std::size_t k = 0; k < line.points.size(); ++k) {
         if (!is_finite(line.points[k]))
             refuse(name + ": point", place(line.points[k]), "must be finite; correct it");
+        if (!(norm(line.points[k] - vertex) <= reach)) {
+            refuse(name + ": point", place(line.points[k]),
+                "must lie within 1e6 sizes of the specimen; move it there");
+        }
         if (k > 0 && !(norm(line.points[k] - line.points[k - 1]) > 0.0))
             refuse(name + ": point", place(line.points[k]), "must not be there twice; remove one");
     }
@@ -200,8 +216,9 @@ Tiling cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>& 
         if (joints[e] >= 0) cells.joints[undirected(edge.vertex_0, edge.vertex_1)] = joints[e];
     }
     Cutter cutter(cells, enclosed_area(tessellation) / tessellation.cells());
+    const double reach = farthest * size_of(tessellation);
     for (std::size_t k = 0; k < lines.size(); ++k) {
-        check_line(lines[k], k);
+        check_line(lines[k], k, tessellation.vertices.front(), reach);
         cutter.cut(lines[k]);
     }
     remove_idle_vertices(cells, tessellation.vertices.size());

@@ -14,7 +14,7 @@ namespace flexpm {
 ///
 /// @param discs   of the cells
 /// @param joints  per shared edge: joint that it has already, -1: none; empty: none has one
-/// @throws std::invalid_argument  for a line of less than two points, or one that lies outside
+/// @throws std::invalid_argument  for a line of less than two points, one that lies outside, one longer than 1e6 sizes
 Tiling cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>& discs,
     const std::vector<int>& joints, const std::vector<JointLine>& lines);
 
