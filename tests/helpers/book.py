@@ -132,7 +132,7 @@ CASES = {
         "strip sheared by end moments",
         "M = sqrt(G_fs t B / 0.75)",
         "beams, Griffith",
-        *("arms of {:g} grains", (4,), (1,), False),
+        *("arms of {:g} grains", (4, 8), (1,), False),
     ),
 }
 

@@ -104,7 +104,7 @@ def open_strip(mode: str, grains: int, seed: int) -> Opened:
     on = np.isin(state.contact, np.flatnonzero(cut.edge_joints == 1))
     return Opened(
         rig.record["load"][-1] / (2.0 * critical),
-        _energy_of_area(state, on) / size.energy,
+        _energy_of_area(state, cut, on) / size.energy,
         _zone(state, on) / size.free,
         len(cut.discs),
     )
@@ -185,10 +185,14 @@ def _angle(state: Snapshot, place: float, across: tuple[float, float]) -> float:
     return -float(np.linalg.lstsq(terms, moved, rcond=None)[0][1])
 
 
-def _energy_of_area(state: Snapshot, on: FloatArray) -> float:
-    """That damage took in points of the line that have cracked, over their area [J/m2]."""
+def _energy_of_area(state: Snapshot, cut: flexpm.Specimen, on: FloatArray) -> float:
+    """That damage took in points of the line that have cracked, over their area [J/m2].
+
+    The area is that before they slid: faces that have cracked get new partners as they slide on.
+    """
     cracked = state.crack_step[on] >= 0
-    ends = state.contact_ends[on]
+    cells = cut.tessellation
+    ends = cells.vertices[cells.shared_edges[state.contact[on], 2:]]
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)[:, None]
     areas = THICKNESS * lengths * np.array(POINT_SHARES[cracked.shape[1]])
     assert state.crack_energy is not None
