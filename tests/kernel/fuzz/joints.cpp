@@ -61,14 +61,6 @@ std::vector<JointLine> draw_lines(Bytes& bytes)
     return lines;
 }
 
-std::vector<Point> polygon_of(const Tessellation& t, int cell)
-{
-    std::vector<Point> polygon;
-    for (int k = 0; k < t.vertices_of(cell); ++k)
-        polygon.push_back(t.vertices[t.cell_vertices[t.cell_offsets[cell] + k]]);
-    return polygon;
-}
-
 /// No sliver, no sharp corner, no edge without length, all edges seen from the centre of the disc.
 bool is_sound(const std::vector<Point>& polygon, const Disc& disc, double mean_area)
 {
@@ -85,7 +77,7 @@ bool is_sound(const std::vector<Point>& polygon, const Disc& disc, double mean_a
 bool all_sound(const Tessellation& t, const std::vector<Disc>& discs, double mean_area)
 {
     for (int c = 0; c < t.cells(); ++c)
-        if (!is_sound(polygon_of(t, c), discs[c], mean_area)) return false;
+        if (!is_sound(flexpm::cell_polygon(t, c), discs[c], mean_area)) return false;
     return true;
 }
 

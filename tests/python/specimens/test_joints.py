@@ -4,10 +4,12 @@
 import json
 import math
 import os
+import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
@@ -216,6 +218,13 @@ FOUND = [
 ]
 
 
+#: Lines that may begin and end outside, cross themselves and go back the same way.
+points = st.tuples(numbers(-0.001, WIDTH + 0.001), numbers(-0.001, HEIGHT + 0.001))
+polyline = st.lists(points, min_size=2, max_size=5)
+back_again = polyline.map(lambda line: line + line[-2::-1])
+polylines = st.lists(polyline | back_again, min_size=1, max_size=8)
+
+
 def require_cut(drawn, seed):
     """Cut a packing by joints of centres x, y, angle and half a length, and check the pieces."""
     uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
@@ -251,6 +260,19 @@ def test_a_line_may_turn_back_onto_itself(line):
 @given(joint_sets, st.integers(1, 5))
 def test_any_set_of_joints(drawn, seed):
     require_cut(drawn, seed)
+
+
+@settings(max_examples=_SETS, deadline=None, suppress_health_check=list(HealthCheck))
+@given(polylines, st.integers(1, 5))
+def test_any_set_of_polylines(drawn, seed):
+    uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
+    assume(all(a != b for line in drawn for a, b in pairwise(line)))
+    try:
+        cut = uncut.with_joints({"set": drawn})
+    except InputError as error:
+        assert re.search("must lie inside the specimen|contacts = 0, must cut a cell", str(error))
+        return
+    require_pieces(cut, uncut)
 
 
 def test_a_cut_specimen_is_loaded_to_the_bit(rectangle, tmp_path):
