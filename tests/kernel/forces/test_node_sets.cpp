@@ -20,7 +20,7 @@
 #include <cmath>
 
 using namespace flexpm;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
