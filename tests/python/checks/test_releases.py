@@ -14,8 +14,8 @@ from types import ModuleType
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[3]
-SCRIPT = ROOT / "scripts" / "checks" / "releases"
+REPOSITORY = Path(__file__).resolve().parents[3]
+SCRIPT = REPOSITORY / "scripts" / "checks" / "releases"
 
 
 @pytest.fixture
@@ -84,16 +84,16 @@ def test_the_steps_are_those_of_the_dockerfile(releases):
     assert text.count("\nRUN ") == len(build) + len(install)
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
-def test_both_roots_have_the_same_sources_whatever_is_edited_meanwhile(
-    releases, tmp_path, monkeypatch
-):
-    unpacked = []
+@pytest.fixture
+def roots(releases, tmp_path, monkeypatch):
+    """Roots that only note what is run in them, and the sources that each one gets."""
+    made = []
 
     class Root:
         def __init__(self, tarball: Path, sources: bytes, log: Path) -> None:
-            unpacked.append(sources)
-            self.path = tmp_path / f"root-{len(unpacked)}"
+            self.sources, self.commands = sources, []
+            made.append(self)
+            self.path = tmp_path / f"root-{len(made)}"
             (self.path / "src").mkdir(parents=True)
             (self.path / "out").mkdir()
             (self.path / "out" / "flexpm_1_amd64.deb").touch()
@@ -105,18 +105,50 @@ def test_both_roots_have_the_same_sources_whatever_is_edited_meanwhile(
             pass
 
         def run(self, command, must=True):
+            self.commands.append(command)
             (tmp_path / "it.py").write_text("edited")
-            facts = "2025.2.0 14.2.0 3.13.5" if "dpkg-query" in command else ""
-            return subprocess.CompletedProcess(command, 0, stdout=facts)
+            if "dpkg-query" in command:
+                text = "2025.2.0 14.2.0 3.13.5"
+            elif "scripts/test" in command:
+                text = "12 passed, 3 skipped in 1.0s\ntest: all passed"
+            elif "reference.py" in command:
+                text = "reference: 9 runs, no change"
+            else:
+                text = ""
+            return subprocess.CompletedProcess(command, 0, stdout=text)
 
     subprocess.run(["git", "init", "-q", tmp_path], check=True)
     (tmp_path / "it.py").write_text("first")
     monkeypatch.setattr(releases, "Root", Root)
     monkeypatch.setattr(releases, "bare_root", lambda *_: tmp_path / "root.tar")
-    assert releases.try_release("13")["result"].startswith("failed: reference commands")
-    first, second = unpacked
-    assert first == second
-    assert b"first" in first
+    return made
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_both_roots_have_the_same_sources_whatever_is_edited_meanwhile(releases, roots):
+    assert releases.try_release("13")["result"] == "passed"
+    first, second = roots
+    assert first.sources == second.sources
+    assert b"first" in first.sources
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_the_commands_of_the_readme_come_first_in_a_bare_root(releases, roots):
+    row = releases.try_release("13", brief=True)
+    assert roots[0].commands[:2] == list(releases.README_COMMANDS)
+    promised = (REPOSITORY / "README.md").read_text()
+    for command in releases.README_COMMANDS:
+        assert f"\n    {command.split()[0]} " in promised
+    assert (row["sources"], row["fast tests"], row["result"]) == ("12 passed", "-", "passed")
+    assert not any("scripts/test" in command for command in roots[1].commands)
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_a_clone_can_be_tried_without_a_package(releases, roots):
+    row = releases.try_release("12", clone=True)
+    (root,) = roots
+    assert not any("scripts/package" in command for command in root.commands)
+    assert (row["sources"], row["doctor"], row["result"]) == ("12 passed", "-", "passed")
 
 
 def test_wrong_names_of_releases_are_refused(releases, capsys):
