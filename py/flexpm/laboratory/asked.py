@@ -35,8 +35,11 @@ _UNITS = {
 #: Inputs that follow from test, model and material unless they are given.
 _FOLLOWING = ("start", "loading")
 _NESTED = ("specimen", "material")
-#: What stands for None.
-_OPEN = "by the reference strength"
+#: What stands for None: an input that the loading finds, and the first kind of control.
+_OPEN = {
+    **dict.fromkeys(("max_strain", "max_displacement"), "by the reference strength"),
+    "control": "displacement of the ends",
+}
 #: Entries of result.json that depend on the machine or the version.
 _SURROUNDINGS = ("flexpm", "yade", "step_time", "warnings", "inputs")
 
@@ -201,7 +204,7 @@ def _of_test(spec: RunSpec) -> Iterator[Input]:
             source = "default of the test"
         else:
             source = "default" if value == field.default else "given"
-        shown = _OPEN if value is None else value
+        shown = _OPEN.get(field.name, "-") if value is None else value
         yield Input(field.name, shown, _UNITS.get(field.name, ""), source)
 
 

@@ -30,7 +30,7 @@ from ..require import require_known
 from ..results.cracks import cracks_from_snapshot
 from ..results.emission import EventRule, event_rule
 from ..results.result import Result
-from ..results.vtu import write_vtu
+from ..results.vtu import read_vtu, write_vtu
 from ..specimens import given
 from ..specimens.specimen import Specimen
 from .asked import write_report
@@ -445,6 +445,14 @@ def write_files(folder: Path, result: Result) -> None:
         write_vtu(folder / "final.vtu", result.snapshot, _about(result.inputs))
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
-        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals)
+        cut = bool(result.material.get("joints"))
+        notches = _notches(folder / "specimen.vtu") if cut else []
+        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches)
         fragment_picture(folder / "fragments.png", result.snapshot, caption)
         emission_picture(folder / "events.png", result, caption)
+
+
+def _notches(specimen: Path) -> list[int]:
+    """Numbers of the contacts that are cut open in the file of a specimen before its test."""
+    before = read_vtu(specimen)
+    return [int(number) for number in before.contact[before.cuts]]

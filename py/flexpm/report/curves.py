@@ -23,6 +23,9 @@ from .words import words_of_test
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
 
+#: Share of the width near an axis in which the peak's label stands on the inner side of the peak.
+_MARGIN = 0.12
+
 
 def fits_a_picture(record: Curve) -> bool:
     """Whether there is no number that a picture has no room for; nan leaves a gap."""
@@ -56,7 +59,7 @@ def curve_picture(path: Path | str, result: Result) -> None:
         Path(path).unlink(missing_ok=True)  # of an earlier run
         return
     with rc_context(STYLE):
-        figure = Figure(figsize=(5.6, 3.9), layout="constrained")
+        figure = Figure(figsize=(5.6, 4.3), layout="constrained")
         axes = figure.add_subplot()
         record, names = result.curve, words_of_test(result.test)
         counts = axes.twinx()
@@ -66,13 +69,16 @@ def curve_picture(path: Path | str, result: Result) -> None:
         (line,) = axes.plot(names.x.of(record), names.y.of(record), color="black", lw=1.6)
         line.set_label(names.y.name)
         _draw_modulus(axes, result)
-        _draw_peak(axes, result)
         axes.set_xlabel(names.x.label)
         axes.set_ylabel(names.y.label)
         axes.set_xlim(left=0.0)
+        _draw_peak(axes, result)
         axes.set_ylim(bottom=0.0, top=1.18 * axes.get_ylim()[1])  # room for the peak's label
         handles = [*axes.get_legend_handles_labels()[0], *counts.get_legend_handles_labels()[0]]
-        axes.legend(handles=handles, loc="upper left", frameon=False)
+        # below the axes, where it covers neither the curve nor the peak's label
+        axes.legend(
+            handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2, frameon=False
+        )
         axes.set_title(_caption(result), fontsize=9.5, loc="left")
         save(figure, path)
 
@@ -104,7 +110,9 @@ def _draw_peak(axes: Axes, result: Result) -> None:
     if place is None:
         return
     axes.plot(*place, "o", ms=5.0, mfc="white", mec="black", mew=1.2)
-    axes.annotate(f"{place[1]:.1f} MPa", place, (0, 7), textcoords="offset points", ha="center")
+    along = place[0] / axes.get_xlim()[1]
+    side = "left" if along < _MARGIN else "right" if along > 1.0 - _MARGIN else "center"
+    axes.annotate(f"{place[1]:.1f} MPa", place, (0, 7), textcoords="offset points", ha=side)
 
 
 def _caption(result: Result) -> str:

@@ -23,7 +23,7 @@ from ..arrays import FloatArray, IntArray
 from ..results.cracks import ERASED, SHEAR, TENSILE
 from ..results.snapshot import POINT_SHARES, Snapshot
 from ..text import label_of
-from .style import COLOURS, MODE_NAMES, STYLE, can_be_drawn, save
+from .style import COLOURS, CUT, MODE_NAMES, STYLE, can_be_drawn, save
 
 if TYPE_CHECKING:
     from .._flexpm import GrainMeshes, Tessellation
@@ -73,6 +73,7 @@ def crack_picture(
     snapshot: Snapshot,
     caption: str = "",
     minerals: Sequence[str] = (),
+    notches: Sequence[int] = (),
 ) -> None:
     """Draw the deformed grains with their cracks; each point colours its share of a contact.
 
@@ -83,6 +84,7 @@ def crack_picture(
         snapshot: The state.
         caption: Line above the picture.
         minerals: Their names, for the legend.
+        notches: Numbers of contacts that were cut open before the test.
     """
     if not can_be_drawn(snapshot.positions):
         Path(path).unlink(missing_ok=True)  # of an earlier run
@@ -90,10 +92,13 @@ def crack_picture(
     with rc_context(STYLE):
         figure, axes = _map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
+        handles += _draw_notches(axes, snapshot, notches)
         handles += [
             Patch(facecolor=MINERALS[number % len(MINERALS)], edgecolor=_EDGE, label=label_of(name))
             for number, name in enumerate(minerals)
         ]
+        rows = math.ceil(len(handles) / 2)
+        figure.set_figheight(figure.get_figheight() + 0.2 * (rows - 1))
         axes.legend(
             handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False
         )
@@ -123,6 +128,15 @@ def draw_grains(axes: Axes, snapshot: Snapshot) -> None:
     """Draw the deformed grains and a scale bar below them [mm]."""
     _draw_rock(axes, snapshot)
     _draw_scale_bar(axes)
+
+
+def _draw_notches(axes: Axes, snapshot: Snapshot, notches: Sequence[int]) -> list[Line2D]:
+    """Draw what was cut open before the test; a handle if there is any."""
+    ends = snapshot.contact_ends[np.isin(snapshot.contact, notches)]
+    if len(ends) == 0:
+        return []
+    axes.add_collection(LineCollection(1e3 * ends, colors=CUT, linewidths=2.2))
+    return [Line2D([], [], color=CUT, lw=2.2, label="notch")]
 
 
 def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:

@@ -94,6 +94,7 @@ class Map:
     bar: tuple[int, str]  #: length of the scale bar and what it stands for
     rock: Sequence[tuple[str, str, str]]  #: mineral, colour, path of all its grains
     grains: Sequence[str]  #: path of each grain
+    notches: str  #: path of what was cut open before the test
     cracks: Sequence[tuple[str, int, str]]  #: mode, position from which on it is there, path
     fragments: Sequence[str]  #: at each position one letter a grain: its colour
     texts: Sequence[str]  #: what is said of each position

@@ -68,6 +68,7 @@ def crack_map(
         bar=_bar(scale, float(width)),
         rock=_rock(drawing, outlines, minerals),
         grains=outlines,
+        notches=_ways(_units(drawing.contact_ends[drawing.cuts], scale, corner)),
         cracks=_crack_paths(drawing, cracks, at, scale, corner),
         fragments=[_letters(one) for one in found],
         texts=[_text(result, row, len(one)) for row, one in zip(positions, found, strict=True)],
@@ -88,8 +89,8 @@ def _text(result: Result, row: int, fragments: int) -> str:
     )
     tensile, shear = (int(record[f"{mode}_cracks"][row]) for mode in ("tensile", "shear"))
     return (
-        f"step {int(record['step'][row])}: {strain}, {stress}, {tensile} points cracked in "
-        f"tension and {shear} in shear; fragments: {fragments}"
+        f"step {int(record['step'][row])}: {strain}, {stress}; cracked points: {tensile} in "
+        f"tension, {shear} in shear; fragments: {fragments}"
     )
 
 
@@ -182,6 +183,12 @@ def _rock(
     return found
 
 
+def _ways(ends: IntArray) -> str:
+    """Path along straight pieces, by the ends of each (K, 2, 2)."""
+    pieces = ends.reshape(-1, 4).tolist()
+    return "".join(f"M{x0} {y0}l{x1 - x0} {y1 - y0}" for x0, y0, x1, y1 in pieces)
+
+
 def _crack_paths(
     drawing: Snapshot,
     cracks: Sequence[Crack],
@@ -202,8 +209,7 @@ def _crack_paths(
             continue
         start, end = drawing.contact_ends[row]
         shares = bounds[[crack.point, crack.point + 1], None]
-        (x0, y0), (x1, y1) = _units(start + shares * (end - start), scale, corner).tolist()
-        step = f"M{x0} {y0}l{x1 - x0} {y1 - y0}"
+        step = _ways(_units(start + shares * (end - start), scale, corner))
         parts.setdefault((NAMES[crack.mode], position), []).append(step)
     return [(mode, position, "".join(steps)) for (mode, position), steps in parts.items()]
 

@@ -22,6 +22,8 @@ CYCLE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 #: Colours of the modes of cracks, and of what scripts have erased.
 COLOURS = {TENSILE: CYCLE[0], SHEAR: CYCLE[1], ERASED: "black"}
 MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks", ERASED: "erased bonds"}
+#: Colour of notches.
+CUT = "#1c1c1c"
 #: Settings of all pictures.
 STYLE = {
     "font.size": 9.0,

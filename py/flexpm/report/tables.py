@@ -15,6 +15,28 @@ if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
     from ..results.strength import Envelope
 
+#: Figures of a specimen: words, factor to the unit, unit. The rest is counts named by their keys.
+_FIGURES = {
+    "uncollapsed_contacts": ("contacts before short edges were removed", 1.0, ""),
+    "boundary_edges": ("edges on the outline", 1.0, ""),
+    "cell_vertices": ("corners of all grains", 1.0, ""),
+    "cell_area": ("area of all grains", 1e6, "mm2"),
+    "smallest_cell_area": ("area of the smallest grain", 1e6, "mm2"),
+    "edge_length": ("contact length, {}", 1e3, "mm"),
+    "coordination": ("contacts of a grain, mean", 1.0, ""),
+    "refined_nodes": ("nodes, refined mesh", 1.0, ""),
+    "refined_triangles": ("triangles, refined mesh", 1.0, ""),
+    "fan_nodes": ("nodes, fan", 1.0, ""),
+    "fan_triangles": ("triangles, fan", 1.0, ""),
+    "refined_smallest_angle": ("smallest angle, refined mesh", 1.0, "degrees"),
+    "fan_smallest_angle": ("smallest angle, fan", 1.0, "degrees"),
+    "flipped_meshes": ("refined meshes with an edge turned for a better angle", 1.0, ""),
+    "fan_fallbacks": ("grains with a fan in place of a refined mesh", 1.0, ""),
+    "moved_centres": ("grains with a centre node moved off the disc's centre", 1.0, ""),
+    "removed_discs": ("discs removed, hidden by others", 1.0, ""),
+    "mean_diameter": ("mean diameter of the discs", 1e3, "mm"),
+}
+
 
 def table(rows: Iterable[tuple[str, str]], title: str = "") -> str:
     """Two columns of text: names and values."""
@@ -112,7 +134,7 @@ def _events(result: Result) -> str:
     if result.events is None or result.b_value is None:
         return "-" if result.events is None else str(result.events)
     b, error = scaled(result.b_value, 1.0, "", 3), scaled(result.b_value_error, 1.0, "", 1)
-    return f"{result.events}, b = {b} +- {error}"
+    return f"{result.events}, b = {b} ± {error}"
 
 
 def _fragments(result: Result) -> str:
@@ -138,7 +160,7 @@ def columns(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str:
     """Cohesion, friction angle and Hoek-Brown constants, each with its standard error."""
-    header = ("criterion", "c [MPa]", "+-", "phi [deg]", "+-", "sigma_ci [MPa]", "+-", "m_i", "+-")
+    header = ("criterion", "c [MPa]", "±", "phi [deg]", "±", "sigma_ci [MPa]", "±", "m_i", "±")
     factors = {"cohesion": 1e-6, "friction_angle": 1.0, "sigma_ci": 1e-6, "m_i": 1.0}
     rows = []
     for one in envelopes:
@@ -155,14 +177,24 @@ def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str
 
 
 def statistics_table(found: Mapping[str, float | Mapping[str, float]]) -> str:
-    """Table of what can be counted and measured in a specimen, SI units and degrees."""
+    """Table of what can be counted and measured in a specimen: lengths in mm, angles in degrees."""
     rows = []
     for name, value in found.items():
+        words, factor, unit = _FIGURES.get(name, (words_of(name), 1.0, ""))
         if isinstance(value, Mapping):
-            rows += [(f"{name} {key}", f"{number:.4g}") for key, number in value.items()]
+            for share, number in value.items():
+                rows.append((words.format(_share(float(share))), scaled(number, factor, unit)))
+        elif isinstance(value, int):
+            rows.append((words, str(value)))
         else:
-            rows.append((name, str(value) if isinstance(value, int) else f"{value:.6g}"))
-    return table((words_of(name), value) for name, value in rows)
+            rows.append((words, scaled(value, factor, unit)))
+    return table(rows)
+
+
+def _share(share: float) -> str:
+    """Name of a quantile."""
+    names = {0.0: "shortest", 0.5: "median", 1.0: "longest"}
+    return names.get(share, f"{100.0 * share:g} % are shorter than")
 
 
 def elastic_table(found: dict[str, float]) -> str:

@@ -67,6 +67,15 @@ class Snapshot:
         areas = np.bincount(self.triangle_grain, weights=triangle_areas(self))
         return areas.astype(float, copy=False)
 
+    @property
+    def cuts(self) -> IntArray:
+        """Contacts that are open without having cracked, their rows: notches, before a test.
+
+        Later on grains that have come to touch are such contacts, too.
+        """
+        open_ones = np.all((self.point_damage >= 1.0) & (self.crack_mode == 0), axis=1)
+        return np.flatnonzero(open_ones)
+
 
 def triangle_areas(snapshot: Snapshot) -> FloatArray:
     """Undeformed area of each triangle, (M,) [m2]."""

@@ -37,7 +37,7 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
         mean, spread, error = (of(target.name) for of in (best.mean, best.spread, best.error))
         text = "-" if mean is None else f"{factor * mean:.4g}"
         if spread is not None and error is not None:
-            text += f" +- {factor * spread:.2g}, error of the mean {factor * error:.2g}"
+            text += f" ± {factor * spread:.2g}, error of the mean {factor * error:.2g}"
         verdict = "met" if outcome.met[target.name] else "NOT met"
         wanted = f"{factor * target.value:.4g} {unit}".rstrip()
         rows.append((words_of(target.name), f"{text}, target {wanted}: {verdict}"))

@@ -96,15 +96,16 @@ def _lines(axes: Axes, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]
     for number, group in drawn.groupby(numbers):
         label = ", ".join(_value(key, group[key].iloc[0]) for key in by)
         found = group.groupby(x)[y].agg(["mean", "std", "count"])
-        places = found.index
-        if pandas.api.types.is_numeric_dtype(group[x]):
-            places = np.asarray(places, dtype=float) * _shown(x)[0]
+        places, style = found.index, ""
+        if pandas.api.types.is_numeric_dtype(group[x]):  # names have nothing between them
+            places, style = np.asarray(places, dtype=float) * _shown(x)[0], "-"
         axes.errorbar(
             places,
             _shown(y)[0] * found["mean"].to_numpy(dtype=float),
             _shown(y)[0] * found["std"].fillna(0.0).to_numpy(dtype=float),
             color=_COLOURS[number % len(_COLOURS)],
             marker=_MARKERS[number % len(_MARKERS)],
+            ls=style,
             ms=4.0,
             lw=1.2,
             capsize=2.5,

@@ -145,12 +145,23 @@ def _study(folder: Path) -> Page:
         about="",
         versions=_versions(found),
         warnings=_warnings(found),
-        charts=_curves(found) if len(rows) <= _MOST_CURVES else [],
+        charts=_curves(_by_inputs(rows, found, asked)) if len(rows) <= _MOST_CURVES else [],
         tables=[_runs("Runs", rows, places, asked), *_about(found)],
         pictures=_pictures(folder),
         commands=[("A run of the table, by the name of its folder:", f"flexpm rerun {places[0]}")],
         cite=cite(__version__),
     )
+
+
+def _by_inputs(
+    rows: Sequence[Mapping[str, str]], found: Mapping[str, Result], asked: Sequence[str]
+) -> dict[str, Result]:
+    """Results of a study by the inputs that vary in it, which name no two runs alike."""
+    names = {
+        f"runs/{row['key']}": ", ".join(f"{words_of(key)} {_plain(row[key])}" for key in asked)
+        for row in rows
+    }
+    return {names[place] or place: one for place, one in found.items()}
 
 
 def _calibration(folder: Path) -> Page:

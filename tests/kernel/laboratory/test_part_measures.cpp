@@ -83,12 +83,10 @@ TEST_CASE("A support presses evenly on just its part of the outline, about its m
 TEST_CASE("A support needs an outline that faces it")
 {
     Assembly a = grains();
+    CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.02, 1e-3), {}), Catch::Contains("face it"));
     CHECK_THROWS_WITH(
-        add_patch_plate(a, patch(0.01, 0.02, 1e-3), {}), Catch::Matchers::Contains("face it"));
-    CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.0, 1e-3, { 0.0, -1.0 }), {}),
-        Catch::Matchers::Contains("face it"));
-    CHECK_THROWS_WITH(
-        add_patch_plate(a, patch(0.01, 0.0, 0.0), {}), Catch::Matchers::Contains("length"));
+        add_patch_plate(a, patch(0.01, 0.0, 1e-3, { 0.0, -1.0 }), {}), Catch::Contains("face it"));
+    CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.0, 0.0), {}), Catch::Contains("length"));
     CHECK(a.plates.empty());
 }
 
@@ -112,11 +110,10 @@ TEST_CASE("Gauges read what their nodes and plates move, each on its side of a n
     a.plates.resize(1);
     a.plates[0].displacement = { 2.0, 3.0 };
     CHECK(plate_way(a, 0, { 0.0, 1.0 }) == 3.0);
-    CHECK_THROWS_WITH(plate_way(a, 1, { 0.0, 1.0 }), Catch::Matchers::Contains("plate"));
+    CHECK_THROWS_WITH(plate_way(a, 1, { 0.0, 1.0 }), Catch::Contains("plate"));
     CHECK_THROWS_WITH(gauge_opening(a.grains.displacement, { 0, 1 << 30 }, { 1.0, 0.0 }),
-        Catch::Matchers::Contains("node"));
-    CHECK_THROWS_WITH(
-        gauge_points(a, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Matchers::Contains("length"));
+        Catch::Contains("node"));
+    CHECK_THROWS_WITH(gauge_points(a, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Contains("length"));
 }
 
 TEST_CASE("A section reads the mean way of the nodes in its band")
@@ -140,13 +137,10 @@ TEST_CASE("A section reads the mean way of the nodes in its band")
     a.grains.erased[gone] = 1;
     for (int n : section_at(a, 0.01, up, 0.002).nodes)
         CHECK(grain_node(a.grains, n).grain != gone);
-    CHECK_THROWS_WITH(section_at(a, 5.0, up, 0.001), Catch::Matchers::Contains("section"));
-    CHECK_THROWS_WITH(
-        mean_way(a.grains.displacement, {}, up), Catch::Matchers::Contains("at least 1"));
-    CHECK_THROWS_WITH(
-        mean_way(a.grains.displacement, { -1 }, up), Catch::Matchers::Contains("node"));
-    CHECK_THROWS_WITH(
-        mean_way(a.grains.displacement, { 1 << 30 }, up), Catch::Matchers::Contains("node"));
+    CHECK_THROWS_WITH(section_at(a, 5.0, up, 0.001), Catch::Contains("section"));
+    CHECK_THROWS_WITH(mean_way(a.grains.displacement, {}, up), Catch::Contains("at least 1"));
+    CHECK_THROWS_WITH(mean_way(a.grains.displacement, { -1 }, up), Catch::Contains("node"));
+    CHECK_THROWS_WITH(mean_way(a.grains.displacement, { 1 << 30 }, up), Catch::Contains("node"));
 }
 
 TEST_CASE("The scales of a bar between parts are those of its length and modulus")
@@ -163,9 +157,9 @@ TEST_CASE("The scales of a bar between parts are those of its length and modulus
     CHECK(scales.strength == 1e6);
     CHECK(part_scales(a, parts, 0.0, 1.0).strength > 0.0);
     CHECK_THROWS_WITH(
-        part_scales(a, { {}, {}, { 0, 1 }, 1, 1 }, 1e6, 1.0), Catch::Matchers::Contains("driven"));
-    CHECK_THROWS_WITH(part_scales(a, { { 7 }, {}, { 0, 1 }, 1, 1 }, 1e6, 1.0),
-        Catch::Matchers::Contains("part = 7"));
+        part_scales(a, { {}, {}, { 0, 1 }, 1, 1 }, 1e6, 1.0), Catch::Contains("driven"));
+    CHECK_THROWS_WITH(
+        part_scales(a, { { 7 }, {}, { 0, 1 }, 1, 1 }, 1e6, 1.0), Catch::Contains("part = 7"));
 }
 
 TEST_CASE("Load and reaction of parts agree, and their work is the specimen's energy")

@@ -142,6 +142,7 @@ def test_packings_and_studies_have_a_page_and_their_runs_none(tmp_path):
     parsed(tmp_path / "s" / page.FILE)
     text = (tmp_path / "s" / page.FILE).read_text()
     assert "<th>set.cohesion</th>" in text
+    assert '"label": "set.cohesion 2.8e+07"' in text  # a line has the name of its input
     assert "data:image/png;base64," in text
     assert len(list(tmp_path.rglob(page.FILE))) == 2
 
@@ -304,6 +305,12 @@ def test_a_specimen_with_a_joint_has_its_parts_from_the_start_and_is_run_again(t
     assert cli.main(command) == 3
     curves = [(tmp_path / name / "curve.csv").read_bytes() for name in ("first", "second")]
     assert curves[0] == curves[1]
+
+
+def test_what_nobody_has_asked_for_is_told_by_what_stands_for_it():
+    told = {one.name: one.value for one in asked.told(spec_of(["uniaxial"]))}
+    assert told["control"] == "displacement of the ends"
+    assert told["max_strain"] == "by the reference strength"
 
 
 def test_a_run_that_no_command_describes_has_none():

@@ -80,6 +80,36 @@ def test_cracks_appear_in_their_colours(tmp_path):
         assert (without_shear < both) == (mode == SHEAR)
 
 
+def test_a_notch_is_seen_and_later_touches_are_none(tmp_path):
+    snapshot = wall()
+    assert len(snapshot.cuts) == 0
+    damage, mode = snapshot.point_damage.copy(), snapshot.crack_mode.copy()
+    damage[[4, 6]], mode[[4, 6]] = 1.0, 0  # of these one was cut before the test
+    cut = dataclasses.replace(snapshot, point_damage=damage, crack_mode=mode)
+    assert cut.cuts.tolist() == [4, 6]
+    maps.crack_picture(tmp_path / "whole.png", cut)
+    maps.crack_picture(tmp_path / "cut.png", cut, notches=[cut.contact[4]])
+    plain = pixels_like(tmp_path / "whole.png", style.CUT)  # edges of the text
+    assert pixels_like(tmp_path / "cut.png", style.CUT) > 2 * plain + 500
+
+
+def test_the_peaks_label_stays_within_the_axes(tmp_path, monkeypatch):
+    figures = []
+    monkeypatch.setattr(curves, "save", lambda figure, _: figures.append(figure))
+    curves.curve_picture(
+        tmp_path / "late.png", result_with_peak([*np.linspace(0.0, 9.9e6, 40), 5e6])
+    )
+    (figure,) = figures
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    (label,) = (text for text in axes.texts if "MPa" in text.get_text())
+    inside, box = label.get_window_extent(), axes.get_window_extent()
+    assert box.x0 <= inside.x0
+    assert inside.x1 <= box.x1
+    legend = axes.get_legend().get_window_extent()
+    assert legend.y1 < box.y0  # below: over neither the curve nor the label
+
+
 def test_erased_bonds_are_black_lines_where_both_grains_are_left(tmp_path):
     snapshot = wall()
     maps.crack_picture(tmp_path / "whole.png", snapshot)
