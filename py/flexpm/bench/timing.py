@@ -21,7 +21,7 @@ from statistics import median
 
 import yade
 
-from ..files import write_text
+from ..files import require_writable, write_text
 from ..progress import Progress
 from ..specimens.specimen import Specimen
 from . import lammps_client, memory
@@ -109,8 +109,8 @@ def run(
         data["scaling"] = grow(plan, progress)
         rows += scaling_rows(data["scaling"])
     if json_file is not None:
-        write_text(Path(json_file), json.dumps(data, indent=2) + "\n")
-        if plan.scaling:
+        write_text(json_file, json.dumps(data, indent=2) + "\n")
+        if plan.scaling and require_writable(Path(json_file)):  # beside a device is no place
             scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
     return rows
 

@@ -23,7 +23,7 @@ from click.shell_completion import shell_complete
 
 from .._version import __version__
 from ..errors import InputError, SimulationError
-from ..files import json_text, output_folder, write_text
+from ..files import json_text, require_writable, write_text
 from ..materials.material import load
 from ..report import tables
 from ..require import nearest
@@ -140,7 +140,7 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     The others are YADE's JCFpm and CohFrict, and bpm/rotational and bpm/spring of LAMMPS.
     """
     if json_file is not None:
-        output_folder(json_file.parent)
+        require_writable(json_file)
     inputs.load_yade()
     from ..bench import timing
 
@@ -280,7 +280,7 @@ def _answer(error: BaseException) -> int:
         return _failed(error, 2)
     if isinstance(error, SimulationError):
         return _failed(error, 3)
-    if isinstance(error, BrokenPipeError):  # nobody reads the help
+    if isinstance(error, BrokenPipeError) and error.filename is None:  # nobody reads the help
         terminal.drop_output()
         return 0
     if isinstance(error, OSError):
