@@ -2,7 +2,7 @@
 """The command `flexpm` with its subcommands. SI units; one line for each error.
 
 Exit codes: 0 done, 1 the installation or the machine is not usable, 2 wrong input, 3 a simulation
-failed, 130 interrupted, 143 terminated.
+failed, 130 interrupted, 143 terminated (129 if its terminal was closed).
 """
 
 from __future__ import annotations
@@ -267,8 +267,10 @@ def _no_warnings() -> Iterator[None]:
 
 def _answer(error: BaseException) -> int:
     """Tell what has ended the command in one line and return the exit code."""
-    if isinstance(error, signals.Terminated) or signal.SIGTERM in signals.received:
-        return _failed("terminated; files that were written are whole", 143)
+    asked = [number for number in signals.received if number != signal.SIGINT]
+    if isinstance(error, signals.Terminated) or asked:
+        number = asked[0] if asked else signal.SIGTERM
+        return _failed("terminated; files that were written are whole", 128 + number)
     if isinstance(error, click.Abort | KeyboardInterrupt) or signals.received:
         return _failed("interrupted; files that were written are whole", 130)
     if isinstance(error, click.NoSuchOption):
