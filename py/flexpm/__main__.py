@@ -5,7 +5,7 @@ import sys
 
 from .cli import signals
 
-signals.block()  # until main answers them; an interrupted import gives a traceback
+signals.end_in_time()  # also blocks them until main answers: not within an import
 
 from .cli.main import main  # noqa: E402
 

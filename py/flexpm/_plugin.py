@@ -11,10 +11,12 @@ import pwd
 import sys
 import sysconfig
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
 _PRECISION = "yade-double"
+_WAITING = "OMP_WAIT_POLICY"
 REMEDY = "rebuild flexpm against the installed YADE (scripts/setup)"
 
 _classes: list[str] | None = None
@@ -55,7 +57,7 @@ def import_yade() -> ModuleType:
     if folder not in sys.path:
         sys.path.append(folder)
     try:
-        with contextlib.redirect_stdout(io.StringIO()):
+        with contextlib.redirect_stdout(io.StringIO()), _patient_threads():
             import yade
     except ImportError as error:
         raise ImportError(
@@ -64,6 +66,22 @@ def import_yade() -> ModuleType:
     # The program yade removes its temporary folder itself; plain Python needs this.
     atexit.register(yade.boot.finalize)
     return yade
+
+
+@contextlib.contextmanager
+def _patient_threads() -> Iterator[None]:
+    """Let threads of OpenMP, which is loaded now, sleep while they wait.
+
+    Else they keep the cores that those need for which they wait. What a user has set stays.
+    """
+    if _WAITING in os.environ:
+        yield
+        return
+    os.environ[_WAITING] = "passive"
+    try:
+        yield
+    finally:
+        del os.environ[_WAITING]  # programs that are started from here have their own
 
 
 def _give_home() -> None:

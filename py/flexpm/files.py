@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files: output is whole or absent, written under a temporary name, then renamed; TOML input.
+"""Files: output is whole or absent, input is read up to a largest size.
 
-A folder that a process writes to for long is locked, so that no second one does the same.
+Plain files are written under a temporary name, then renamed. A folder that a process writes to for
+long is locked, so that no second one does the same.
 """
 
 from __future__ import annotations
@@ -12,22 +13,28 @@ import errno
 import fcntl
 import io
 import json
+import math
 import os
 import secrets
+import shutil
+import stat
+import sys
 import tempfile
 import tomllib
 import weakref
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from .errors import BusyError, InputError
 
 #: A table of a TOML or JSON file: values, lists and tables.
 Table = dict[str, Any]
 
-#: Size of the largest TOML file [byte].
-_LARGEST_TOML = 10**7
+#: Size of the largest file of inputs, and of the largest table of a run [byte].
+_LARGEST, _LARGEST_TABLE = 64 * 10**6, 10**9
+#: Bytes that are read at a time.
+_CHUNK = 2**20
 #: Begins the name of each temporary file.
 _TEMPORARY = ".flexpm-"
 _LOCK = ".flexpm.lock"
@@ -39,29 +46,91 @@ _NO_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
 
 @contextlib.contextmanager
 def whole_file(path: Path | str) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; rename it to `path` if the block succeeds.
+    """Yield a temporary path; what the block has written there goes to `path` if it succeeds.
 
     The temporary name keeps the suffix of `path`, since some writers choose the format by it.
-    A reader never sees a part of a file, also when the process is killed while it writes.
+    A plain file is replaced, at the end of links that lead to it: a reader never sees a part of it,
+    also when the process is killed while it writes. Devices and pipes are written into.
 
     Args:
-        path: Final name of the file; its folder must exist.
+        path: Name of the file; its folder must exist.
+
+    Raises:
+        InputError: if it is a socket.
+        OSError: if it is a folder, or cannot be written.
     """
     path = Path(path)
-    if path.is_dir():
-        raise IsADirectoryError(errno.EISDIR, "is a folder, must be a file", str(path))
-    temporary = _new_file(path)
+    target = _replaced(path)
+    temporary = _new_file(target or Path(tempfile.gettempdir(), path.name))
     try:
         yield temporary
-        with temporary.open("rb") as written:
-            os.fsync(written.fileno())
-        temporary.replace(path)
+        if target is None:
+            _pour(temporary, path)
+        else:
+            with temporary.open("rb") as written:
+                os.fsync(written.fileno())
+            temporary.replace(target)
     except OSError as error:
         if error.filename is not None or error.errno is None:
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error  # a full disk, by name
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _replaced(path: Path) -> Path | None:
+    """The plain file, there or not yet, that takes what is written to `path`; None if none does."""
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        found = None
+    if found is None or (stat.S_ISREG(found.st_mode) and _stream_of(found) is None):
+        return Path(os.path.realpath(path)) if path.is_symlink() else path
+    if stat.S_ISDIR(found.st_mode):
+        raise IsADirectoryError(errno.EISDIR, "is a folder, must be a file", str(path))
+    if stat.S_ISSOCK(found.st_mode) and _stream_of(found) is None:
+        raise InputError(f"file = {str(path)!r}, is a socket, must be a file, a device or a pipe")
+    return None
+
+
+def _stream_of(found: os.stat_result) -> int | None:
+    """Standard output or error, if that is what a path leads to: it goes on where it is."""
+    for number in (1, 2):
+        with contextlib.suppress(OSError):
+            if os.path.samestat(os.fstat(number), found):
+                return number
+    return None
+
+
+def _pour(temporary: Path, path: Path) -> None:
+    """Write a file into a device, a pipe or a stream of this process."""
+    stream = _stream_of(path.stat())
+    if stream is None:
+        handle = os.open(path, os.O_WRONLY | os.O_NOCTTY)
+    else:
+        (sys.stdout if stream == 1 else sys.stderr).flush()
+        handle = os.dup(stream)
+    with temporary.open("rb") as written, os.fdopen(handle, "wb") as into:
+        shutil.copyfileobj(written, into)
+
+
+def remove_earlier(path: Path | str) -> None:
+    """Remove a file of an earlier run; what is no plain file stays."""
+    if Path(path).is_file():
+        Path(path).unlink(missing_ok=True)
+
+
+def require_writable(path: Path) -> bool:
+    """Check that a file can be written, before the work is done; whether it is a plain one.
+
+    Raises:
+        InputError: if it is a socket, or its folder refuses a file.
+        OSError: if it is a folder.
+    """
+    target = _replaced(path)
+    if target is not None:
+        output_folder(target.parent)
+    return target is not None
 
 
 def write_text(path: Path | str, text: str) -> None:
@@ -89,6 +158,45 @@ def csv_text(names: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
+def read_text(path: Path, largest: int = _LARGEST) -> str:
+    """Text of a file, which is read no further than its largest size.
+
+    Args:
+        path: The file; also a device or a pipe.
+        largest: Its largest size [byte].
+
+    Raises:
+        OSError: if it cannot be read.
+        ValueError: if it is larger, no UTF-8, or its name can be none.
+    """
+    content = bytearray()
+    with path.open("rb") as file:
+        while len(content) <= largest and (chunk := file.read(_CHUNK)):
+            content += chunk
+    if len(content) > largest:
+        raise ValueError(f"it is larger than {largest // 10**6} MB")
+    return content.decode()
+
+
+def read_json(path: Path) -> Any:
+    """Content of a JSON file; its numbers are finite.
+
+    Raises:
+        OSError: if it cannot be read.
+        ValueError, RecursionError: if it is no JSON.
+    """
+    return json.loads(read_text(path), parse_constant=_refuse_constant, parse_float=_finite)
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    raise ValueError(f"{name} is no number")
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    return number if math.isfinite(number) else _refuse_constant(text)
+
+
 def load_toml(path: Path, what: str) -> Table:
     """Read a TOML file.
 
@@ -100,11 +208,7 @@ def load_toml(path: Path, what: str) -> Table:
         InputError: if it cannot be read or is no valid TOML.
     """
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST_TOML + 1)
-        if len(content) > _LARGEST_TOML:
-            raise ValueError(f"it is larger than {_LARGEST_TOML // 10**6} MB")
-        return tomllib.loads(content.decode())
+        return tomllib.loads(read_text(path))
     except OSError as error:
         raise InputError(
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a TOML file"
@@ -122,8 +226,7 @@ def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
         InputError: if it cannot be read or a row has another length than the header.
     """
     try:
-        with path.open(encoding="utf-8", newline="") as file:
-            lines = list(csv.reader(file))
+        lines = list(csv.reader(io.StringIO(read_text(path, _LARGEST_TABLE), newline="")))
     except OSError as error:
         raise InputError(
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a file of flexpm"
@@ -132,11 +235,13 @@ def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
         raise InputError(f"{what} = {str(path)!r}, is no table: {error}") from None
     if not lines or any(len(line) != len(lines[0]) for line in lines):
         raise InputError(f"{what} = {str(path)!r}, must have rows as long as its header")
+    if len({*lines[0]}) < len(lines[0]):
+        raise InputError(f"{what} = {str(path)!r}, must have columns of different names")
     return lines[0], lines[1:]
 
 
 def load_json(path: Path, what: str) -> Table:
-    """Read a JSON file that holds a table.
+    """Read a JSON file that holds a table of finite numbers.
 
     Args:
         path: The file.
@@ -145,16 +250,17 @@ def load_json(path: Path, what: str) -> Table:
     Raises:
         InputError: if it cannot be read or holds something else.
     """
+    reason = ""
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = read_json(path)
     except OSError as error:
         raise InputError(
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a file of flexpm"
         ) from None
-    except (ValueError, RecursionError):
-        content = None
+    except (ValueError, RecursionError) as error:
+        content, reason = None, f" ({error})"
     if not isinstance(content, dict):
-        raise InputError(f"{what} = {str(path)!r}, is no JSON table; give a file of flexpm")
+        raise InputError(f"{what} = {str(path)!r}, is no JSON table{reason}; give a file of flexpm")
     return content
 
 

@@ -8,22 +8,20 @@ take turns, so that a change of the machine's speed meets all of them.
 
 from __future__ import annotations
 
-import ctypes
 import json
 import math
 import os
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
 import yade
 
-from ..files import write_text
+from ..files import require_writable, write_text
 from ..progress import Progress
 from ..specimens.specimen import Specimen
+from ..threads import for_scenes, limited
 from . import lammps_client, memory
 from .cases import BUILDERS
 from .report import (
@@ -109,8 +107,8 @@ def run(
         data["scaling"] = grow(plan, progress)
         rows += scaling_rows(data["scaling"])
     if json_file is not None:
-        write_text(Path(json_file), json.dumps(data, indent=2) + "\n")
-        if plan.scaling:
+        write_text(json_file, json.dumps(data, indent=2) + "\n")
+        if plan.scaling and require_writable(Path(json_file)):  # beside a device is no place
             scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
     return rows
 
@@ -163,8 +161,9 @@ def compare(
     """
     chunk = math.ceil(steps / TURNS)
     turns = math.ceil(steps / chunk)
-    with _threads(threads), lammps_client.workers(lammps, specimen) as workers:
-        yade.O.reset()
+    with limited(threads), lammps_client.workers(lammps, specimen) as workers:
+        with for_scenes():
+            yade.O.reset()
         try:
             cases = [
                 _case(name, specimen, threads)
@@ -179,7 +178,8 @@ def compare(
                         done = (turn * len(cases) + number + 1) * chunk
                         progress(done, turns * len(cases) * chunk, "timing")
         finally:
-            yade.O.reset()
+            with for_scenes():
+                yade.O.reset()
     described = {**specimen.dimensions, "seed": specimen.seed, **cases[0].counts}
     host = machine()
     for worker in workers.values():
@@ -210,7 +210,8 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
 def _case(name: str, specimen: Specimen, threads: int) -> Case:
     label, build = BUILDERS[name]
     omega = yade.O
-    scene = omega.addScene()
+    with for_scenes():
+        scene = omega.addScene()
     omega.switchToScene(scene)
     counts = build(specimen, threads)
     case = Case(name, label, scene, counts)
@@ -242,18 +243,6 @@ def _take_turn(case: Case, steps: int) -> None:
             engine.cracks()  # a look: no step of this turn waits for the next turn
     case.cpu_times.append((time.thread_time() - own) / steps)
     case.times.append((time.perf_counter() - wall) / steps)
-
-
-@contextmanager
-def _threads(count: int) -> Iterator[None]:
-    """Let YADE's own loops use `count` threads: not all of them obey their engine's number."""
-    openmp = ctypes.CDLL("libgomp.so.1")
-    before = openmp.omp_get_max_threads()
-    openmp.omp_set_num_threads(count)
-    try:
-        yield
-    finally:
-        openmp.omp_set_num_threads(before)
 
 
 def _disc(diameter: float, seed: int) -> Specimen:

@@ -2,7 +2,7 @@
 """The command `flexpm` with its subcommands. SI units; one line for each error.
 
 Exit codes: 0 done, 1 the installation or the machine is not usable, 2 wrong input, 3 a simulation
-failed, 130 interrupted, 143 terminated.
+failed, 130 interrupted, 143 terminated (129 if its terminal was closed).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from click.shell_completion import shell_complete
 
 from .._version import __version__
 from ..errors import InputError, SimulationError
-from ..files import json_text, output_folder, write_text
+from ..files import json_text, require_writable, write_text
 from ..materials.material import load
 from ..report import tables
 from ..require import nearest
@@ -140,7 +140,7 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     The others are YADE's JCFpm and CohFrict, and bpm/rotational and bpm/spring of LAMMPS.
     """
     if json_file is not None:
-        output_folder(json_file.parent)
+        require_writable(json_file)
     inputs.load_yade()
     from ..bench import timing
 
@@ -267,8 +267,10 @@ def _no_warnings() -> Iterator[None]:
 
 def _answer(error: BaseException) -> int:
     """Tell what has ended the command in one line and return the exit code."""
-    if isinstance(error, signals.Terminated) or signal.SIGTERM in signals.received:
-        return _failed("terminated; files that were written are whole", 143)
+    asked = [number for number in signals.received if number != signal.SIGINT]
+    if isinstance(error, signals.Terminated) or asked:
+        number = asked[0] if asked else signal.SIGTERM
+        return _failed("terminated; files that were written are whole", 128 + number)
     if isinstance(error, click.Abort | KeyboardInterrupt) or signals.received:
         return _failed("interrupted; files that were written are whole", 130)
     if isinstance(error, click.NoSuchOption):
@@ -280,7 +282,7 @@ def _answer(error: BaseException) -> int:
         return _failed(error, 2)
     if isinstance(error, SimulationError):
         return _failed(error, 3)
-    if isinstance(error, BrokenPipeError):  # nobody reads the help
+    if isinstance(error, BrokenPipeError) and error.filename is None:  # nobody reads the help
         terminal.drop_output()
         return 0
     if isinstance(error, OSError):

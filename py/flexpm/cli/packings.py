@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import click
 
 from ..errors import InputError, SimulationError
-from ..files import Table
+from ..files import Table, load_json
 from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
@@ -95,7 +94,7 @@ def _is_given(name: str) -> bool:
 
 def _tell_warnings(folder: Path, name: str) -> None:
     """Show the warnings of a run that have not been shown for its inputs."""
-    content = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    content = load_json(folder / "result.json", "result")
     known = doubts.of_inputs(content["inputs"])
     for line in content["warnings"]:
         if line not in known:

@@ -1,28 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Signals that end the command: Ctrl-C and SIGTERM become exceptions."""
+"""Signals that end the command: Ctrl-C, SIGTERM and SIGHUP become exceptions."""
 
 from __future__ import annotations
 
 import contextlib
+import os
+import select
 import signal
+import time
 from collections.abc import Iterator
 from types import FrameType
 
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+#: Signals that ask the process to end.
+_ENDS = (signal.SIGTERM, signal.SIGHUP)
+_SIGNALS = (signal.SIGINT, *_ENDS)
+#: Whether the process outlives its terminal: started by nohup.
+_KEPT = signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+#: Time that the process has to end when it is asked to [s]; batch systems allow 10 and more.
+_GRACE = 8.0
 
 #: Signals that have come; libraries may turn the exception into another one.
 received: list[int] = []
 
 
 class Terminated(BaseException):
-    """The process was asked to end (SIGTERM)."""
+    """The process was asked to end (SIGTERM, or SIGHUP as its terminal is gone)."""
 
 
 def catch_signals() -> None:
-    """Let Ctrl-C and SIGTERM raise KeyboardInterrupt and Terminated in the main thread.
+    """Let Ctrl-C raise KeyboardInterrupt, SIGTERM and SIGHUP Terminated in the main thread.
 
-    To be called again once YADE is loaded, which installs handlers of its own. Signals that were
-    blocked come now.
+    A SIGHUP that is ignored at the start stays so. To be called again once YADE is loaded, which
+    installs handlers of its own. Signals that were blocked come now.
     """
 
     def interrupt(number: int, frame: FrameType | None) -> None:
@@ -34,7 +43,9 @@ def catch_signals() -> None:
         raise Terminated
 
     signal.signal(signal.SIGINT, interrupt)
-    signal.signal(signal.SIGTERM, terminate)
+    for number in _ENDS:
+        kept = _KEPT and number == signal.SIGHUP
+        signal.signal(number, signal.SIG_IGN if kept else terminate)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
 
 
@@ -51,3 +62,45 @@ def waiting() -> Iterator[None]:
         yield
     finally:
         catch_signals()
+
+
+def end_in_time() -> None:
+    """Let a second process kill this one if it does not end when it is asked to.
+
+    A library that loops, or asks for memory for ever, lets no Python run, so no exception comes.
+    Python notes a signal in a pipe all the same, at once. Signals wait until they are caught.
+    """
+    block()
+    reading, writing = os.pipe()
+    watched = os.getpid()
+    try:
+        child = os.fork()
+    except OSError:  # no more processes; nobody watches
+        os.close(reading)
+        os.close(writing)
+        return
+    if child == 0:
+        # all other files belong to the watched one, whose end others wait for
+        os.closerange(0, reading)
+        os.closerange(reading + 1, os.sysconf("SC_OPEN_MAX"))
+        _watch(reading, watched)
+        os._exit(0)
+    os.close(reading)
+    os.set_blocking(writing, False)
+    signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
+
+
+def _watch(reading: int, watched: int) -> None:
+    """Wait for the end of a process; kill it a while after it was asked to end."""
+    latest = None
+    while True:
+        left = None if latest is None else max(0.0, latest - time.monotonic())
+        if not select.select([reading], [], [], left)[0]:
+            break
+        number = os.read(reading, 1)
+        if not number:
+            return  # it has ended
+        if latest is None and number[0] in _ENDS:
+            latest = time.monotonic() + _GRACE
+    if os.getppid() == watched:
+        os.kill(watched, signal.SIGKILL)

@@ -27,7 +27,7 @@ from .. import _plugin
 from .._flexpm import saved_state
 from .._version import __version__
 from ..errors import InputError
-from ..files import FolderLock, Table, json_text, whole_file, write_text
+from ..files import FolderLock, Table, json_text, read_json, whole_file, write_text
 from ..require import POSITIVE, require_number
 from .run_spec import RunSpec
 
@@ -36,7 +36,7 @@ INTERVAL = 30.0
 _NAME = "checkpoint.json"
 #: YADE's plain binary archive: compressing it takes longer than writing it.
 _SCENE = "checkpoint-{step}.bin"
-_SCENE_PATTERN = re.compile(r"checkpoint-\d{1,18}(\.1)?\.bin")
+_SCENE_PATTERN = re.compile(r"checkpoint-[0-9]{1,18}(\.1)?\.bin")
 _CHECKSUM = "sha256"
 #: Engines of YADE that models have beside those of flexpm; others could run any code.
 _ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "NewtonIntegrator")
@@ -204,7 +204,7 @@ def discard_unusable(folder: Path, spec: RunSpec) -> str:
 def _content(file: Path) -> Table:
     """What checkpoint.json holds."""
     try:
-        content = json.loads(file.read_text(encoding="utf-8"))
+        content = read_json(file)
     except (OSError, ValueError, RecursionError) as error:
         raise _no_checkpoint(file, error) from None
     if not isinstance(content, dict):

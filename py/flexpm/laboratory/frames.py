@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -18,6 +19,7 @@ import yade
 
 from ..errors import InputError
 from ..files import csv_text, load_csv, write_text
+from ..require import quoted
 from ..results.snapshot import Snapshot
 from ..results.vtu import write_vtu
 from .rig import TestRig
@@ -30,6 +32,8 @@ _GROWTH = 1.01
 _FALLS = (0.95, 0.8)
 #: Kinds of frames.
 _EVEN, _PEAK = "even", "peak"
+#: Names of frames, below the folder of the run.
+_FILE = re.compile(rf"{FOLDER}/frame-[0-9]+\.vtu")
 
 
 class Frame(NamedTuple):
@@ -161,10 +165,14 @@ def read(folder: Path) -> list[Frame]:
     try:
         if tuple(names) != Frame._fields:
             raise ValueError(f"columns {', '.join(names)}")
-        return [
+        found = [
             Frame(int(step), float(strain), float(stress), kind, file)
             for step, strain, stress, kind, file in rows
         ]
+        for one in found:  # a run removes files by these names
+            if not _FILE.fullmatch(one.file):
+                raise ValueError(f"file {quoted(one.file)} is no frame")
+        return found
     except ValueError as error:
         raise InputError(f"frames = {str(folder / TABLE)!r}, is no list: {error}") from None
 

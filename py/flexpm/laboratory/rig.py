@@ -22,6 +22,7 @@ from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..require import require_number
 from ..results.record import Curve
+from ..threads import limited
 from .loading_rate import Loading, Scales, Schedule, schedule
 from .runner import Runner, Span
 
@@ -249,13 +250,14 @@ class TestRig(ABC):
         if self.diverged or not self._runner.enter(begin):
             return False
         try:
-            self._runner.run(
-                self._step if self.watch is None else self._watched_step,
-                over,
-                lambda: text or self._standing(),
-                save=self.saves_anywhere,
-                foreseen=not text,
-            )
+            with limited(self.built.threads):
+                self._runner.run(
+                    self._step if self.watch is None else self._watched_step,
+                    over,
+                    lambda: text or self._standing(),
+                    save=self.saves_anywhere,
+                    foreseen=not text,
+                )
         except RuntimeError:
             if not self.diverged:
                 raise

@@ -12,6 +12,7 @@ import yade
 
 from ..errors import SimulationError
 from ..progress import Progress
+from ..threads import for_scenes
 from .checkpoint import Checkpoint, Position
 
 #: Name of YADE's scene in memory.
@@ -132,7 +133,8 @@ class Runner:
         """
         self.save()
         yade.O.saveTmp(_MARK, quiet=True)
-        yade.O.loadTmp(_MARK, quiet=True)
+        with for_scenes():
+            yade.O.loadTmp(_MARK, quiet=True)
 
     def save(self) -> None:
         """Save the present state."""

@@ -27,6 +27,7 @@ from ..require import Bounds, quoted, require_number, require_one_of, require_th
 from ..results.snapshot import Snapshot
 from ..specimens import inner_particles, mineral_map
 from ..specimens.specimen import Specimen
+from ..threads import limited
 from . import spheres
 from .collider import collider
 from .options import (
@@ -92,8 +93,9 @@ class Model:
             )
         self.solver.stepsToCome = steps
         try:
-            for _ in range(steps):
-                yade.O.step()
+            with limited(self.threads):
+                for _ in range(steps):
+                    yade.O.step()
         finally:
             self.solver.stepsToCome = 0
 
@@ -126,6 +128,11 @@ class Model:
     def set_threads(self, threads: int) -> None:
         """Threads of a step; results do not depend on it."""
         self.solver.ompThreads = threads
+
+    @property
+    def threads(self) -> int:
+        """Threads of a step."""
+        return int(self.solver.ompThreads)
 
     def rebind(self) -> None:
         """Take over the engines of a scene that has been loaded."""

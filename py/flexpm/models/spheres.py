@@ -28,6 +28,7 @@ from ..materials.mixing import description
 from ..require import require_one_of
 from ..results.snapshot import Snapshot
 from ..specimens.specimen import Specimen
+from ..threads import limited
 from .collider import collider
 from .options import SPHERE_MODELS
 from .sphere_bonds import Bonds, bonds_of, stiffness_bounds
@@ -56,6 +57,7 @@ class SphereModel:
         plates: Bodies of the plates.
         loads: Lasting force and moment on bodies, see :meth:`load`.
         memory: Plain values of a test that go with the scene.
+        threads: Threads of a step, see :meth:`set_threads`.
     """
 
     specimen: Specimen
@@ -70,6 +72,7 @@ class SphereModel:
     plates: list[int] = field(default_factory=list)
     loads: dict[int, tuple[float, float, float]] = field(default_factory=dict)
     memory: Table = field(default_factory=dict)
+    threads: int = 1
 
     def __post_init__(self) -> None:
         made = _make_bonds(self)
@@ -82,7 +85,9 @@ class SphereModel:
 
     def run(self, steps: int) -> None:
         """Advance by `steps` and wait for the end."""
-        yade.O.run(steps, True)
+        with limited(self.threads):
+            for _ in range(steps):
+                yade.O.step()  # O.run steps in a thread of its own, which no limit reaches
 
     def load(self, body: int, x: float, y: float, moment: float) -> None:
         """Let a force [N] and a moment [N m] act on a body until they are set anew."""
@@ -110,6 +115,7 @@ class SphereModel:
 
     def set_threads(self, threads: int) -> None:
         """Threads of a step."""
+        self.threads = threads
         for engine in self.engines:
             engine.ompThreads = threads
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
+from ..files import remove_earlier
 from ..results import measures
 from ..results.cracks import SHEAR, TENSILE
 from ..results.record import Curve
@@ -56,7 +57,7 @@ def curve_picture(path: Path | str, result: Result) -> None:
     A record with numbers beyond sense, of a run that has diverged, is not drawn.
     """
     if not fits_a_picture(result.curve):
-        Path(path).unlink(missing_ok=True)  # of an earlier run
+        remove_earlier(path)
         return
     with rc_context(STYLE):
         figure = Figure(figsize=(5.6, 4.3), layout="constrained")

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..arrays import FloatArray
+from ..files import remove_earlier
 from ..results.cracks import MODES, SHEAR, TENSILE
 from ..results.emission import BIN, Event, binned
 from ..results.result import Result
@@ -47,7 +48,7 @@ def emission_picture(path: Path | str, result: Result, caption: str = "") -> Non
     snapshot, events = result.snapshot, result.emission
     drawable = snapshot is not None and can_be_drawn(snapshot.positions)
     if snapshot is None or not events or not drawable or not fits_a_picture(result.curve):
-        Path(path).unlink(missing_ok=True)  # of an earlier run
+        remove_earlier(path)
         return
     with rc_context({**STYLE, "savefig.dpi": _DPI}):
         figure = Figure(figsize=(7.4, 4.6), layout="constrained")

@@ -20,6 +20,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..arrays import FloatArray, IntArray
+from ..files import remove_earlier
 from ..results.cracks import ERASED, SHEAR, TENSILE
 from ..results.snapshot import POINT_SHARES, Snapshot
 from ..text import label_of
@@ -87,7 +88,7 @@ def crack_picture(
         notches: Numbers of contacts that were cut open before the test.
     """
     if not can_be_drawn(snapshot.positions):
-        Path(path).unlink(missing_ok=True)  # of an earlier run
+        remove_earlier(path)
         return
     with rc_context(STYLE):
         figure, axes = _map_figure([snapshot.positions])
@@ -163,7 +164,7 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
         caption: Line above the number of fragments.
     """
     if not can_be_drawn(snapshot.positions):
-        Path(path).unlink(missing_ok=True)  # of an earlier run
+        remove_earlier(path)
         return
     found = snapshot.fragments
     colours = [

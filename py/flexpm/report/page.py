@@ -17,6 +17,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..files import write_text
+from ..text import printable
 
 #: Where Debian has the library of the curves.
 CHARTS = Path("/usr/share/javascript/chart.js/chart.min.js")
@@ -154,11 +155,18 @@ def rendered(name: str, **content: object) -> str:
     room = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_TEMPLATES),
         autoescape=True,
+        finalize=_shown,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
     return room.get_template(name).render(content)
+
+
+def _shown(value: object) -> object:
+    """A text without characters that are none in HTML; what is HTML already, as it is."""
+    plain = isinstance(value, str) and not hasattr(value, "__html__")
+    return printable(value, kept="\n\t") if plain else value
 
 
 def rows_to_draw(places: FloatArray, most: int, kept: Sequence[int] = ()) -> IntArray:

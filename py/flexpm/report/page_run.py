@@ -87,16 +87,16 @@ def write_page(
         The file.
     """
     chart, rows = stress_chart(result)
-    found = run_map(folder, result, "map", "Cracks and fragments", rows, chart.name)
+    maps, missing = maps_of(folder, result, "map", "Cracks and fragments", rows, chart.name)
     page = Page(
         title=test_text(result),
         about=size_text(result),
         versions=versions(result),
         status=STATUS.get(result.status),
         results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1]),
-        warnings=result.warnings,
+        warnings=[*result.warnings, *missing],
         charts=[chart, _energy_chart(result)] if len(rows) else [],
-        maps=[] if found is None else [found],
+        maps=maps,
         tables=[one for one in (emission_table(result), inputs_table(inputs)) if one],
         pictures=[
             Picture(title, folder / name)
@@ -154,15 +154,30 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
 def run_map(
     folder: Path, result: Result, name: str, title: str, rows: IntArray | None, chart: str = ""
 ) -> Map | None:
-    """Map of a run; None if its folder has no specimen or its record no row."""
+    """Map of a run; None if its record has no row.
+
+    Raises:
+        InputError: if specimen.vtu cannot be read, or is that of another run.
+    """
     if not len(result.curve):
         return None
-    try:
-        drawing = read_vtu(folder / "specimen.vtu")
-    except InputError:
-        return None
+    drawing = read_vtu(folder / "specimen.vtu")
     shown = rows if rows is not None and len(rows) else None
-    return crack_map(name, title, drawing, result, shown, chart)
+    try:
+        return crack_map(name, title, drawing, result, shown, chart)
+    except (LookupError, ValueError):
+        raise InputError("specimen.vtu = another one, must be that of cracks.csv") from None
+
+
+def maps_of(
+    folder: Path, result: Result, name: str, title: str, rows: IntArray | None, chart: str = ""
+) -> tuple[list[Map], list[str]]:
+    """Map of a run, or in one line why it is missing; arguments as for ``run_map``."""
+    try:
+        found = run_map(folder, result, name, title, rows, chart)
+    except InputError as error:
+        return [], [f"no map: {error}; repeat the run for it"]
+    return [] if found is None else [found], []
 
 
 def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:

@@ -8,6 +8,7 @@ from pathlib import Path
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from ..files import remove_earlier
 from ..results import waves
 from ..results.result import Result
 from .style import CYCLE, STYLE, save
@@ -23,7 +24,7 @@ def wave_picture(path: Path | str, result: Result) -> None:
     """Draw the velocities of both sections and when the centre of the pulse passes each."""
     record = result.curve
     if len(record) < 3:
-        Path(path).unlink(missing_ok=True)  # of an earlier run
+        remove_earlier(path)
         return
     with rc_context(STYLE):
         figure = Figure(figsize=(5.6, 3.9), layout="constrained")

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
     VTK_LINE,
@@ -23,12 +23,14 @@ from vtkmodules.vtkCommonDataModel import (
     vtkFieldData,
     vtkUnstructuredGrid,
 )
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import whole_file
+from ..text import printable
 from .snapshot import POINT_SHARES, Snapshot, triangle_areas
+from .vtu_reader import Arrays, Grid, grid_of, silence
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
 _FARTHEST = 1e100
@@ -86,7 +88,9 @@ def write_vtu(
 def _written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
     """What VTK writes, as a text: of a file it does not tell that a part of it was refused."""
     writer.SetWriteToOutputString(True)
-    if writer.Write() != 1:
+    with silence():
+        done = writer.Write()
+    if done != 1:
         raise MemoryError("VTK could not write a grid into memory")
     content: str = writer.GetOutputString()
     return content.encode()
@@ -98,20 +102,28 @@ def read_vtu(path: Path | str) -> Snapshot:
     Raises:
         InputError: if the file cannot be read or is no such file.
     """
-    path = Path(path)
-    if not path.is_file():
-        raise InputError(f"state = {str(path)!r}, cannot be read; give a .vtu file of a run")
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    cells, points = _arrays_of(grid.GetCellData()), _arrays_of(grid.GetPointData())
-    if not ({"kind", "grain", "point_damage"} <= cells.keys() and "displacement" in points):
-        raise InputError(f"state = {str(path)!r}, has no grains of flexpm; give that of a run")
-    places = vtk_to_numpy(grid.GetPoints().GetData())[:, :2]
-    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    name = f"state = {str(path)!r}"
+    try:
+        content = Path(path).read_bytes()
+    except (OSError, ValueError):
+        raise InputError(f"{name}, cannot be read; give a .vtu file of a run") from None
+    try:
+        return _snapshot_of(grid_of(content))
+    except (ValueError, LookupError, ElementTree.ParseError):
+        raise InputError(f"{name}, is damaged or has no grains of flexpm; give a run's") from None
+
+
+def _snapshot_of(grid: Grid) -> Snapshot:
+    """State of a grid.
+
+    Raises:
+        ValueError, LookupError: if it has no grains of flexpm.
+    """
+    cells, points, corners = grid.cells, grid.points, grid.corners
+    places = grid.places[:, :2]
     count = int(np.count_nonzero(cells["kind"] == GRAIN))
     nodes = len(places) - 2 * (len(cells["kind"]) - count)
+    _require_grid(cells, places, corners, count)
     grains = {name: values[:count] for name, values in cells.items()}
     contacts = {name: values[count:] for name, values in cells.items()}
     by_point = {
@@ -146,9 +158,25 @@ def read_vtu(path: Path | str) -> Snapshot:
     )
 
 
-def _arrays_of(data: vtkDataSetAttributes) -> dict[str, NDArray[Any]]:
-    arrays = (data.GetArray(number) for number in range(data.GetNumberOfArrays()))
-    return {array.GetName(): vtk_to_numpy(array) for array in arrays}
+def _require_grid(cells: Arrays, places: FloatArray, corners: IntArray, count: int) -> None:
+    """Refuse numbers of nodes and grains that are none, of a file that was changed."""
+    kinds, contacts = cells["kind"], len(cells["kind"]) - count
+    nodes, grains = len(places) - 2 * contacts, int(np.max(cells["grain"], initial=-1)) + 1
+    whole = np.array_equal(kinds, np.repeat([GRAIN, CONTACT], [count, contacts]))
+    whole = whole and count > 0 and len(corners) == 3 * count + 2 * contacts and nodes > 0
+    if not (whole and _are_numbers(corners[: 3 * count], nodes) and np.all(np.isfinite(places))):
+        raise ValueError("cells")
+    pairs = np.append(cells["grain_a"][count:], cells["grain_b"][count:])
+    if not (_are_numbers(cells["grain"][:count], count) and _are_numbers(pairs, grains)):
+        raise ValueError("grains")
+    if not (_are_numbers(cells["mineral"][:count], count) and np.ptp(places, axis=0).all()):
+        raise ValueError("minerals or places")
+    if cells["point_damage"].reshape(len(kinds), -1).shape[1] not in POINT_SHARES:
+        raise ValueError("points")
+
+
+def _are_numbers(values: IntArray, count: int) -> bool:
+    return bool(np.all((values >= 0) & (values < count)))
 
 
 def point_arrays(snapshot: Snapshot) -> dict[str, Named]:
@@ -339,8 +367,8 @@ def _describe(data: vtkFieldData, name: str, value: object) -> None:
         made = numpy_to_vtk(np.array([value]), deep=True)
     else:
         made = vtkStringArray()
-        made.InsertNextValue(str(value))
-    made.SetName(name)
+        made.InsertNextValue(printable(value))  # VTK reads no further than a NUL, or too far
+    made.SetName(printable(name))
     data.AddArray(made)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -12,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..files import read_text
 from ..require import quoted
 
 #: Columns of a file of joints.
@@ -29,12 +31,12 @@ def read(path: Path) -> Lines:
     """
     name = f"joints = {str(path)!r}"
     try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file, skipinitialspace=True))
-            columns = rows[0].keys() if rows else ()
+        text = read_text(path)
+        rows = list(csv.DictReader(io.StringIO(text, newline=""), skipinitialspace=True))
+        columns = rows[0].keys() if rows else ()
     except OSError as error:
         raise InputError(f"{name}, cannot be read ({error.strerror}); give a CSV file") from None
-    except (UnicodeDecodeError, csv.Error) as error:
+    except (ValueError, csv.Error) as error:  # also of a name that can be none
         raise InputError(f"{name}, is no CSV file: {error}") from None
     if set(columns) != {*COLUMNS}:
         raise InputError(f"{name}, must have rows and the columns {','.join(COLUMNS)}; correct it")

@@ -13,7 +13,6 @@ the next packing; bodies, engines, time and materials of the caller's ``O`` are 
 
 from __future__ import annotations
 
-import ctypes
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -26,6 +25,7 @@ from .._flexpm import Outline, insert_discs, set_engines
 from ..arrays import FloatArray, IntArray
 from ..errors import SimulationError
 from ..progress import Progress
+from ..threads import limited
 
 _SHRINK = 0.5  # radius at insertion, paper Sec. 3.1
 _DAMPING = 0.4  # local damping [-]
@@ -128,7 +128,8 @@ def _relax(
     frame: Frame, centres: FloatArray, radii: FloatArray, progress: Progress | None
 ) -> FloatArray:
     scene = wrapper.Omega()
-    with _one_thread(), _private_scene(scene):
+    # with more threads contacts come in another order, and sums with them
+    with limited(1), _private_scene(scene):
         loop = _fill_scene(scene, frame, centres, radii)
         _calm_start(scene)
         while True:
@@ -148,21 +149,6 @@ def _relax(
         relaxed = _positions(scene, len(radii))
     _require_inside(frame, relaxed)
     return relaxed
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Run YADE on one thread: with more, its contacts come in another order, and sums with them.
-
-    Engines have a number of threads each, but containers and the collider do not obey it.
-    """
-    openmp = ctypes.CDLL("libgomp.so.1")
-    threads = openmp.omp_get_max_threads()
-    openmp.omp_set_num_threads(1)
-    try:
-        yield
-    finally:
-        openmp.omp_set_num_threads(threads)
 
 
 @contextmanager

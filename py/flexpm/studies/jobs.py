@@ -7,7 +7,6 @@ SI units.
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -16,7 +15,7 @@ from pathlib import Path
 from subprocess import CompletedProcess
 
 from ..errors import InputError
-from ..files import Table, json_text, write_text
+from ..files import Table, json_text, read_json, write_text
 from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
@@ -157,7 +156,7 @@ def known(folder: Path, key: str | None = None) -> Table | None:
         key: Of the job; the outcome of another one does not count. None: of any.
     """
     try:
-        outcome: Table = json.loads((folder / _OUTCOME).read_text(encoding="utf-8"))
+        outcome: Table = read_json(folder / _OUTCOME)
         whole = outcome["exit_code"] in _FINAL and isinstance(outcome["message"], str)
         whole = whole and isinstance(outcome["result"], dict)
         return outcome if whole and key in (None, outcome.get("key", key)) else None
@@ -233,7 +232,7 @@ def _remove_checkpoint(folder: Path) -> None:
 
 def _measures(file: Path) -> Table:
     try:
-        content = json.loads(file.read_text(encoding="utf-8"))
+        content = read_json(file)
     except (OSError, ValueError, RecursionError):
         return {}
     if not isinstance(content, dict):

@@ -6,7 +6,6 @@ The runs are jobs, as those of a study; their folders are named by the seeds of 
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,7 +14,7 @@ from pathlib import Path
 import pandas
 
 from ..errors import InputError
-from ..files import Table, output_folder
+from ..files import Table, output_folder, read_json
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..materials.references import reference_of
@@ -249,7 +248,7 @@ def _curve(path: Path, names: Words) -> pandas.DataFrame | None:
 def _key_of(checkpoint: Path) -> str | None:
     """Key of the run that a checkpoint is of, None if it cannot be told."""
     try:
-        content = json.loads(checkpoint.read_text(encoding="utf-8"))
+        content = read_json(checkpoint)
         return RunSpec.from_json(content["inputs"]).key()
     except (OSError, ValueError, LookupError, TypeError, RecursionError, InputError):
         return None

@@ -13,17 +13,17 @@ import numpy as np
 
 from .._version import __version__
 from ..errors import InputError
-from ..files import load_csv
+from ..files import load_csv, read_text
 from ..laboratory.asked import told, write_report
 from ..laboratory.run_spec import RunSpec
 from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
 from ..report.page import write as write_page
-from ..report.page_run import STATUS, cite, inputs_table, run_map, versions
+from ..report.page_run import STATUS, cite, inputs_table, maps_of, versions
 from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_test
 from ..results.result import Result
-from ..text import name_of, words_of
+from ..text import name_of, printable, words_of
 from .jobs import place_of
 
 #: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
@@ -90,18 +90,17 @@ def _comparison(folder: Path) -> Page:
     found = _results(folder, places)
     names = {place: place.replace("/", " ") for place in places}
     first = next(iter(found.values()), None)
-    maps = [
-        made
-        for number, (place, one) in enumerate(found.items())
-        if number < _MOST_MAPS
-        and (made := run_map(folder / place, one, f"map-{number}", names[place], None)) is not None
-    ]
+    maps, missing = [], list[str]()
+    for number, (place, one) in enumerate([*found.items()][:_MOST_MAPS]):
+        made, why = maps_of(folder / place, one, f"map-{number}", names[place], None)
+        maps += made
+        missing += [f"{place}: {line}" for line in why]
     return Page(
         title=f"{rows[0]['test']}, {len(rows)} runs compared",
         about="" if first is None else size_text(first),
         versions=_versions(found),
         results=_runs("Results", rows, [names[place] for place in places], ("material",)),
-        warnings=_warnings(found),
+        warnings=[*_warnings(found), *missing],
         charts=_curves({names[place]: one for place, one in found.items()}),
         maps=maps,
         tables=[*_envelope(folder), *_about(found)],
@@ -175,11 +174,20 @@ def _calibration(folder: Path) -> Page:
         tables=[Rows("Sets of values", [words_of(name) for name in names], shown)],
         pictures=_pictures(folder),
         texts=[
-            (f"Material {file.name}", file.read_text(encoding="utf-8"))
+            (f"Material {name_of(file.name)}", text)
             for file in sorted(folder.glob("*.toml"))
+            if (text := _text_of(file))
         ],
         cite=cite(__version__),
     )
+
+
+def _text_of(file: Path) -> str:
+    """A file as it is, without what moves a cursor; empty if it cannot be read."""
+    try:
+        return printable(read_text(file), kept="\n\t")
+    except (OSError, ValueError):
+        return ""
 
 
 def _read(path: Path) -> list[dict[str, str]]:

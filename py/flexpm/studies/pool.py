@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Protocol, TypedDict
 from ..errors import InputError
 from ..files import Table
 from ..progress import Progress
-from ..require import require_known
+from ..require import Bounds, require_known, require_whole
 from . import jobs
 from .jobs import Job
 
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from distributed import Client
 
 _LOG = logging.getLogger("flexpm")
+#: Most runs at a time for each core of this machine.
+_MOST = 4
 
 
 class PoolOptions(TypedDict, total=False):
@@ -30,6 +32,20 @@ class PoolOptions(TypedDict, total=False):
     workers: int | None  #: runs at a time; None for one per core, or what the scheduler has
     scheduler: str | None  #: address of a running Dask scheduler
     cluster: str | None  #: kind of batch system
+
+
+def require_workers(workers: int, cores: int) -> None:
+    """Refuse more runs at a time than this machine can bear: each is a process of its own.
+
+    Raises:
+        InputError: if there are more than a few for each core.
+    """
+    require_whole("workers", workers, Bounds(at_least=1))
+    if workers > _MOST * cores:
+        raise InputError(
+            f"workers = {workers}, must be <= {_MOST * cores} on a machine of {cores} cores; take "
+            "fewer, or a cluster"
+        )
 
 
 class _Cluster(Protocol):
@@ -55,6 +71,8 @@ class Pool:
             raise InputError(
                 f"scheduler = {scheduler!r}, must not be given with cluster; leave one out"
             )
+        if workers is not None and scheduler is None and cluster is None:
+            require_workers(workers, len(os.sched_getaffinity(0)))
         self._folder, self._workers = folder.resolve(), workers
         self._scheduler, self._kind = scheduler, cluster
         self._client: Client | None = None

@@ -27,6 +27,7 @@ ENVIRONMENT = {
     "FLEXPM_DEFER": "1",
 }
 COMMAND = [sys.executable, "-P", "-m", "flexpm"]
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
 SOON = ["tension", *TINY, "--rate", "8", "--max-strain", "1e-5"]
 
@@ -34,7 +35,7 @@ SOON = ["tension", *TINY, "--rate", "8", "--max-strain", "1e-5"]
 @pytest.fixture(autouse=True)
 def handlers():
     """Give back the signal handlers of the test runner."""
-    saved = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    saved = {number: signal.getsignal(number) for number in SIGNALS}
     yield
     for number, handler in saved.items():
         signal.signal(number, handler)
@@ -237,3 +238,82 @@ def test_a_killed_process_leaves_no_temporary_folder_of_yade(tmp_path):
     process.kill()
     process.wait()
     assert not list((tmp_path / "tmp").glob("yade*"))
+
+
+def started(tmp_path, *before):
+    """A run that has begun to step."""
+    command = [*before, *COMMAND, "run", "uniaxial", *TINY, "--rate", "0.05", "--out", "out"]
+    process = subprocess.Popen(
+        command, env=ENVIRONMENT, cwd=tmp_path, stderr=subprocess.PIPE, text=True
+    )
+    while not (tmp_path / "out" / "specimen.vtu").exists():
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.01)
+    return process
+
+
+@pytest.mark.long
+def test_a_run_whose_terminal_is_closed_saves_its_state(tmp_path):
+    process = started(tmp_path)
+    process.send_signal(signal.SIGHUP)
+    errors = process.communicate(timeout=60)[1]
+    assert process.returncode == 129, errors
+    assert "terminated" in one_line(errors)
+    left = {file.name for file in (tmp_path / "out").iterdir()}
+    assert "checkpoint.json" in left
+    assert not [name for name in left if name.startswith(".flexpm")]
+
+
+@pytest.mark.long
+def test_a_run_that_ignores_its_terminal_goes_on(tmp_path):
+    process = started(tmp_path, "nohup")
+    process.send_signal(signal.SIGHUP)
+    time.sleep(1.0)
+    assert process.poll() is None
+    process.terminate()
+    assert process.wait(timeout=60) == 143
+
+
+STUCK = """
+import sys
+from flexpm.cli import signals
+signals.end_in_time()
+signals.catch_signals()
+print("ready", flush=True)
+sum(iter(int, 1))  # never comes back to Python's own loop
+"""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_process_in_a_library_that_loops_ends_within_ten_seconds(number):
+    process = subprocess.Popen(
+        [sys.executable, "-c", STUCK], env=ENVIRONMENT, stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(0.5)
+    process.send_signal(number)
+    begin = time.monotonic()
+    assert process.wait(timeout=60) == -signal.SIGKILL
+    assert time.monotonic() - begin < 10.0
+    assert process.stdout.read() == ""  # and nobody else holds it open
+
+
+def test_a_process_that_has_ended_leaves_nobody_who_watches(tmp_path):
+    script = "import os; from flexpm.cli import signals; signals.end_in_time(); print(os.getpid())"
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=ENVIRONMENT, capture_output=True, timeout=30
+    )
+    assert done.returncode == 0  # with its output closed, so that the watcher is gone, too
+
+
+@pytest.mark.parametrize("workers", ["0", "1000000", "20000"])
+@pytest.mark.parametrize("kind", ["run", "study"])
+def test_more_workers_than_the_machine_can_bear_are_refused(capsys, tmp_path, workers, kind):
+    plan = tmp_path / "plan.toml"
+    plan.write_text('[common]\ntest = "tension"\nwidth = 0.012\nheight = 0.024\n[grid]\nseed = [1]')
+    command = ["run", *SOON, "--seeds", "1-2"] if kind == "run" else ["study", str(plan)]
+    out = ["--out", str(tmp_path / "out"), "--workers", workers]
+    assert cli.main([*command, *out]) == 2
+    assert "workers" in one_line(capsys.readouterr().err)
+    assert not list(tmp_path.rglob("result.json"))

@@ -14,6 +14,7 @@ from PIL import Image
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import flexpm
+from flexpm import files
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.laboratory import frames, runner
@@ -291,3 +292,20 @@ def test_the_command_takes_frames(tmp_path):
     assert cli.main(command) == 3
     assert len(frames.read(tmp_path)) >= 2
     assert cli.main([*command[:-1], str(tmp_path / "x"), "--frames", "-3"]) == 2
+
+
+@pytest.mark.parametrize(
+    "name", ["../victim.vtu", "/tmp/victim.vtu", "frames/../../victim.vtu", "frames/frame-٣.vtu"]
+)
+def test_a_table_that_names_other_files_is_refused(tmp_path, name):
+    """A run removes files by the names that stand there."""
+    folder = tmp_path / "run"
+    (folder / frames.FOLDER).mkdir(parents=True)
+    rows = [(step, 1e-6 * step, 0.0, "even", name) for step in range(41)]
+    (folder / frames.TABLE).write_text(files.csv_text(frames.Frame._fields, rows))
+    (tmp_path / "victim.vtu").touch()
+    with pytest.raises(InputError, match="is no frame"):
+        frames.read(folder)
+    with pytest.raises(InputError, match="is no frame"):
+        frames.FrameWriter(folder, 2, {}, resumed_at=99)
+    assert (tmp_path / "victim.vtu").exists()
