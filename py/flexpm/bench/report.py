@@ -18,7 +18,6 @@ from .._version import __version__
 from ..files import Table
 from ..report.style import drawing
 from ..report.tables import scaled
-from .lammps_client import Worker
 
 #: Model to which the others are compared.
 REFERENCE = "jcfpm"
@@ -34,11 +33,10 @@ class Case:
 
     name: str
     label: str
-    scene: int | None  #: None: a process of its own
+    scene: int
     counts: Mapping[str, int]
     times: list[float] = field(default_factory=list)  #: wall time of a step, turn by turn [s]
     cpu_times: list[float] = field(default_factory=list)  #: of the calling thread alone [s]
-    worker: Worker | None = None  #: does the steps, if there is no scene
 
     @property
     def step_time(self) -> float:
@@ -129,8 +127,7 @@ def table_rows(timing: Timing) -> list[tuple[str, str]]:
 
 
 def _versions(host: dict[str, str | int]) -> str:
-    other = f", LAMMPS {host['lammps']}" if "lammps" in host else ""
-    return f"flexpm {host['flexpm']}, YADE {host['yade']}, Python {host['python']}{other}"
+    return f"flexpm {host['flexpm']}, YADE {host['yade']}, Python {host['python']}"
 
 
 def disc_rows(timing: Timing) -> list[tuple[str, str]]:

@@ -22,7 +22,7 @@ from ..files import require_writable, write_text
 from ..progress import Progress
 from ..specimens.specimen import Specimen
 from ..threads import for_scenes, limited
-from . import lammps_client, memory
+from . import memory
 from .cases import BUILDERS
 from .report import (
     Case,
@@ -61,7 +61,6 @@ class Plan:
         seed: Of the packing.
         threads: Threads of a step.
         scaling: Time the flexible model also with 10 and 40 times the grains.
-        lammps: Python that has LAMMPS; None: the present one, if it has.
     """
 
     steps: int = 2000
@@ -70,7 +69,6 @@ class Plan:
     seed: int = 1
     threads: int = 1
     scaling: bool = False
-    lammps: str | None = None
 
 
 def run(
@@ -86,13 +84,10 @@ def run(
     Returns:
         Rows (name, value) for a table.
     """
-    python = lammps_client.interpreter(plan.lammps)
     steps, threads = plan.steps, plan.threads
     specimen, setup = memory.timed_set_up(_PAPER, plan.width, plan.height, plan.seed, progress)
-    timing = compare(specimen, steps=steps, threads=threads, lammps=python, progress=progress)
+    timing = compare(specimen, steps=steps, threads=threads, progress=progress)
     data, rows = timing.as_dict(), table_rows(timing)
-    if python is None:
-        rows.append(("LAMMPS", f"not timed: this Python has none; {lammps_client.REMEDY}"))
     data["set_up"] = setup
     rows += size_rows(setup)
     disc = compare(
@@ -146,7 +141,6 @@ def compare(
     steps: int,
     threads: int = 1,
     names: tuple[str, ...] | None = None,
-    lammps: str | None = None,
     progress: Progress | None = None,
 ) -> Timing:
     """Time the models on one specimen in turns; the scenes are removed afterwards.
@@ -156,12 +150,11 @@ def compare(
         steps: Steps of each model.
         threads: Threads of a step.
         names: Models to time; None for all.
-        lammps: Python that runs LAMMPS' models, on one thread; None: without them.
         progress: Called with (steps done, steps expected, text).
     """
     chunk = math.ceil(steps / TURNS)
     turns = math.ceil(steps / chunk)
-    with limited(threads), lammps_client.workers(lammps, specimen) as workers:
+    with limited(threads):
         with for_scenes():
             yade.O.reset()
         try:
@@ -170,7 +163,6 @@ def compare(
                 for name in BUILDERS
                 if names is None or name in names
             ]
-            cases += [_lammps_case(name, worker) for name, worker in workers.items()]
             for turn in range(turns):
                 for number, case in enumerate(cases):
                     _take_turn(case, chunk)
@@ -181,10 +173,7 @@ def compare(
             with for_scenes():
                 yade.O.reset()
     described = {**specimen.dimensions, "seed": specimen.seed, **cases[0].counts}
-    host = machine()
-    for worker in workers.values():
-        host["lammps"] = worker.version
-    return Timing(host, described, threads, turns * chunk, cases)
+    return Timing(machine(), described, threads, turns * chunk, cases)
 
 
 def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
@@ -220,21 +209,10 @@ def _case(name: str, specimen: Specimen, threads: int) -> Case:
     return case
 
 
-def _lammps_case(name: str, worker: lammps_client.Worker) -> Case:
-    worker.step(_WARM_UP)
-    return Case(name, lammps_client.MODELS[name], None, worker.counts, worker=worker)
-
-
 def _take_turn(case: Case, steps: int) -> None:
     """Do and time the next steps of a model."""
-    if case.worker is not None:
-        wall, own = case.worker.step(steps)
-        case.times.append(wall)
-        case.cpu_times.append(own)
-        return
     omega = yade.O
-    if case.scene is not None:
-        omega.switchToScene(case.scene)
+    omega.switchToScene(case.scene)
     wall, own = time.perf_counter(), time.thread_time()
     for _ in range(steps):
         omega.step()  # in this thread, whose number of threads is known

@@ -128,16 +128,11 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     metavar="FILE",
     help="Write the times to this file, too.",
 )
-@click.option(
-    "--lammps",
-    metavar="PYTHON",
-    help="Python that has LAMMPS, to time it, too.  [default: this one, if it has]",
-)
 @cli_options.quiet_option
 def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
-    """Time a step of flexpm's models and of others' bonded spheres on the same specimen.
+    """Time a step of flexpm's models and of YADE's JCFpm and CohFrict on the same specimen.
 
-    The others are YADE's JCFpm and CohFrict, and bpm/rotational and bpm/spring of LAMMPS.
+    scripts/studies/lammps_bench.py times LAMMPS' bonded particles, too.
     """
     if json_file is not None:
         require_writable(json_file)

