@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import flexpm
 from flexpm.materials import mixing as minerals
+from flexpm.materials.interface import KEYS, Interface
 from flexpm.materials.material import Material, load
 from flexpm.specimens import mineral_map
 
@@ -283,3 +284,57 @@ def test_stepping_meets_the_elastic_solve_of_a_mixture():
         alike = flexpm.elastic(specimen, Material.from_dict(BASE), model)["youngs_modulus"]
         assert result.youngs_modulus == pytest.approx(solved, rel=tolerance)
         assert solved > 1.2 * alike
+
+
+PAIR = ("soft", "hard")
+WEAK = {"tensile_strength": 2e6, "cohesion": 5e6, "friction": 0.2, "tensile_fracture_energy": 10.0}
+
+
+def with_pair(**values):
+    return dataclasses.replace(
+        rock(), interfaces=[Interface(PAIR, values.pop("values", {}), values.pop("factors", {}))]
+    )
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_two_layers_part_at_the_strength_and_with_the_energy_of_their_pair(model):
+    specimen = grid(2, 2).with_minerals([0, 0, 1, 1])
+    material = with_pair(values=WEAK)
+    slow = {"loading": "constant", "start": "rest", "rate": 0.02, "stop_ratio": 1e-9}
+    slow["max_strain"] = 6e-3  # the pair is open by 1e-5 m at 2.5e-3, of centres of grains at 5e-3
+    result = flexpm.run("tension", specimen, material, model, **slow)
+    assert result.peak_stress == pytest.approx(2e6, rel=1e-3)
+    area = 2 * SIZE * specimen.thickness
+    if model == "flexible":  # a test of rigid grains ends as they swing back, just before
+        assert result.cracks_by_pair == {"hard/soft": {"tensile": 6, "shear": 0}}
+        assert {crack.pair for crack in result.cracks} == {"hard/soft"}
+    error = {"flexible": 1e-3, "rigid": 5e-3}[model]
+    assert result.curve["damage_energy"][-1] == pytest.approx(10.0 * area, rel=error)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_pair_that_is_a_thousand_times_as_strong_never_cracks(model, tmp_path):
+    specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=3)
+    strong = ("tensile_strength", "cohesion", "tensile_fracture_energy", "shear_fracture_energy")
+    factors = {key: 1e3 if "strength" in key or key == "cohesion" else 1e6 for key in strong}
+    result = flexpm.run(
+        "uniaxial", specimen, with_pair(factors=factors), model, out=tmp_path, report=False
+    )
+    counts = result.cracks_by_pair
+    assert "hard/soft" not in counts
+    for mode in ("tensile", "shear"):
+        number = sum(pair[mode] for pair in counts.values())
+        assert number == getattr(result, f"{mode}_cracks")
+    assert (tmp_path / "cracks.csv").read_text().splitlines()[0].endswith(",energy,pair")
+    assert flexpm.Result.read(tmp_path).cracks == result.cracks
+
+
+def test_factors_of_one_leave_all_bits():
+    specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=3)
+    keys = [key for key in KEYS if key != "softening"]
+    curves = [
+        flexpm.run("tension", specimen, material).curve.csv()
+        for material in (rock(), with_pair(factors=dict.fromkeys(keys, 1.0)))
+    ]
+    assert curves[0] == curves[1]

@@ -181,13 +181,15 @@ def _of_material(spec: RunSpec) -> Iterator[Input]:
     yield from _of_law("", spec.material, preset, f"preset {name}" if known else f"material {name}")
     for kind in spec.material.get("minerals", ()):
         yield from _of_law(f"{kind['name']}: ", kind, {}, f"material {name}")
+    for pair in spec.material.get("interfaces", ()):
+        yield from _of_law(f"{'/'.join(pair['pair'])}: ", pair, {}, f"material {name}")
     for joint in spec.material.get("joints", ()):
         yield from _of_law(f"joint {joint['name']}: ", joint, {}, f"material {name}")
 
 
 def _of_law(where: str, law: Table, preset: Table, source: str) -> Iterator[Input]:
     for key, value in law.items():
-        if key in ("name", "minerals", "joints") or value is None:
+        if key in ("name", "pair", "minerals", "interfaces", "joints") or value is None:
             continue
         changed = bool(preset) and preset.get(key) != value
         unit = (UNITS.get(key) or JOINT_UNITS.get(key) or "").removeprefix("-")

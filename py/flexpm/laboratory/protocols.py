@@ -27,7 +27,7 @@ from ..report.maps import crack_picture, fragment_picture
 from ..report.tables import size_text
 from ..report.waves import wave_picture
 from ..require import require_known
-from ..results.cracks import cracks_from_snapshot
+from ..results.cracks import count_by_pair, cracks_from_snapshot
 from ..results.emission import EventRule, event_rule
 from ..results.result import Result
 from ..results.vtu import read_vtu, write_vtu
@@ -399,7 +399,9 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     )
     result.inputs = spec.to_json()
     result.curve = rig.record
-    result.cracks = cracks_from_snapshot(snapshot, result.curve)
+    kinds = [kind["name"] for kind in result.material.get("minerals", ())]
+    result.cracks = cracks_from_snapshot(snapshot, result.curve, kinds)
+    result.cracks_by_pair = count_by_pair(result.cracks)
     result.measure(
         _largest_unbalanced(spec),
         waiting=spec.loading == "waiting",

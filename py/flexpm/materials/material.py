@@ -16,7 +16,8 @@ from ..errors import InputError
 from ..files import Table, load_toml
 from ..notebook import Shown
 from ..require import nearest, quoted, require_known, require_table, require_text
-from . import joint, mineral
+from . import interface, joint, mineral
+from .interface import Interface
 from .joint import Joint
 from .keys import (
     CHOICES,
@@ -86,6 +87,7 @@ class Material(Shown):
     plane: str = "stress"  #: plane stress or plane strain of the triangles
     minerals: tuple[Mineral, ...] = ()  #: kinds of grains; none: all grains alike
     joints: tuple[Joint, ...] = ()  #: laws of contacts along cuts
+    interfaces: tuple[Interface, ...] = ()  #: what contacts of pairs of minerals have of their own
 
     def __post_init__(self) -> None:
         for key in COMMON_KEYS:
@@ -102,14 +104,16 @@ class Material(Shown):
                     raise InputError(f"material {key} is missing; bilinear softening needs it")
         object.__setattr__(self, "minerals", mineral.checked(self.minerals))
         object.__setattr__(self, "joints", joint.checked(self.joints))
+        names = [kind.name for kind in self.minerals]
+        object.__setattr__(self, "interfaces", interface.checked(self.interfaces, names))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, object], name: str = "custom") -> Material:
         """Build a material from nested keys as they stand in a TOML file.
 
         Args:
-            data: Common keys, a table `elastic` of sets, a list `mineral` of tables if grains
-                differ, a table `joint` of joints if there are; `name` is optional.
+            data: Common keys, a table `elastic` of sets, lists `mineral` and `interface` of tables
+                if grains differ, a table `joint` of joints if there are; `name` is optional.
             name: Name if `data` holds none.
 
         Raises:
@@ -119,15 +123,17 @@ class Material(Shown):
         label = require_text("material name", common.pop("name", name))
         sets = require_table("material elastic", common.pop("elastic", {}))
         kinds, cuts = common.pop("mineral", ()), common.pop("joint", {})
+        pairs = common.pop("interface", ())
         for key in common:
-            require_known(
-                "material key", key, [*COMMON_KEYS, "name", "elastic", "mineral", "joint"]
-            )
+            tables = ("name", "elastic", "mineral", "interface", "joint")
+            require_known("material key", key, [*COMMON_KEYS, *tables])
         given = {set_name: _elastic_keys(set_name, values) for set_name, values in sets.items()}
         _refuse_missing(common, given)
         elastic = {set_name: ElasticSet(**values) for set_name, values in given.items()}
         laws = joint.checked(require_table("material joint", cuts))
-        return cls(name=label, elastic=elastic, minerals=kinds, joints=laws, **common)
+        return cls(
+            name=label, elastic=elastic, minerals=kinds, joints=laws, interfaces=pairs, **common
+        )
 
     def with_set(
         self,
@@ -141,6 +147,8 @@ class Material(Shown):
 
         ``MINERAL.KEY=VALUE`` changes a key of one mineral; otherwise what a mineral changes itself
         stays as it is. ``joint.NAME.KEY=VALUE`` changes a key of a joint, or makes one.
+        ``interface.MINERAL/MINERAL.KEY=VALUE`` and ``....factor.KEY=VALUE`` do the same for the
+        contacts of a pair of minerals, in any order.
 
         Choosing brittle softening drops fracture energies that came with the material, since
         brittle means that they equal the elastic energies. A stiffness or shear ratio given for
@@ -155,6 +163,9 @@ class Material(Shown):
         name = elastic_set_name(model)
         of_joints = {key: changes.pop(key) for key in list(changes) if joint.is_key(key)}
         cuts = joint.with_values(self.joints, of_joints)
+        of_pairs = {key: changes.pop(key) for key in list(changes) if interface.is_key(key)}
+        names = [kind.name for kind in self.minerals]
+        pairs = interface.with_values(self.interfaces, of_pairs, names)
         of_minerals = {key: changes.pop(key) for key in list(changes) if "." in key}
         kinds = mineral.with_values(self.minerals, of_minerals, name)
         elastic = dict(self.elastic)
@@ -165,7 +176,9 @@ class Material(Shown):
             elastic[name] = dataclasses.replace(self._elastic(model), **own)
         if changes.get("softening") == "brittle":
             changes = dict.fromkeys(ENERGY_KEYS) | changes
-        changed = dataclasses.replace(self, elastic=elastic, minerals=kinds, joints=cuts, **changes)
+        changed = dataclasses.replace(
+            self, elastic=elastic, minerals=kinds, joints=cuts, interfaces=pairs, **changes
+        )
         changed.law(model)
         return changed
 

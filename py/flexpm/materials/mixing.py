@@ -7,6 +7,8 @@ gives way first.
 
     K_n = 2 / (1 / K_nA + 1 / K_nB),  eta K_n in the same way,
     sigma_t, c, mu, G_fn, G_fs: the smaller of the two; brittle if one of them is.
+
+An interface of the material has the last word on the contacts of its pair.
 """
 
 from __future__ import annotations
@@ -18,8 +20,9 @@ from collections.abc import Mapping
 from ..errors import InputError
 from ..files import Table
 from ..require import require_known
+from .interface import KEYS, Interface
 from .keys import ELASTIC_KEYS, ENERGY_KEYS, elastic_set_name
-from .material import ENERGY_TOLERANCE, ElasticSet, Material
+from .material import ENERGY_TOLERANCE, ElasticSet, Law, Material
 from .mineral import Mineral
 
 #: Models that can have grains of several minerals.
@@ -37,8 +40,12 @@ def pair_materials(rock: Material, model: str) -> list[Material]:
     Raises:
         InputError: for a pair whose fracture energy lies below the elastic energy.
     """
-    grains = mineral_materials(rock)
-    pairs = [_pair(first, second, model) for first in grains for second in grains]
+    grains, own = mineral_materials(rock), {one.pair: one for one in rock.interfaces}
+    pairs = [
+        _with_interface(_pair(first, second, model), own.get(_names(first, second)), model)
+        for first in grains
+        for second in grains
+    ]
     for pair in pairs:
         try:
             pair.law(model)
@@ -64,13 +71,20 @@ def description(rock: Material, model: str = "flexible") -> Table:
             f"material = {rock.name!r} has minerals, model {model} takes one kind of grain; "
             f"use {' or '.join(MODELS)}"
         )
-    pair_materials(rock, model)
-    kinds = zip(rock.minerals, mineral_materials(rock), strict=True)
-    return values | {
-        "minerals": [
-            {"name": kind.name, "fraction": kind.fraction, **own.law(model)} for kind, own in kinds
+    pairs = pair_materials(rock, model)
+    grains = mineral_materials(rock)
+    values["minerals"] = [
+        {"name": kind.name, "fraction": kind.fraction, **own.law(model)}
+        for kind, own in zip(rock.minerals, grains, strict=True)
+    ]
+    if rock.interfaces:
+        number = {kind.name: place for place, kind in enumerate(rock.minerals)}
+        values["interfaces"] = [
+            {"pair": list(one.pair), **_contact_law(pairs[place].law(model))}
+            for one in rock.interfaces
+            for place in [number[one.pair[0]] * len(grains) + number[one.pair[1]]]
         ]
-    }
+    return values
 
 
 def from_description(described: Table, model: str) -> Material:
@@ -86,9 +100,11 @@ def from_description(described: Table, model: str) -> Material:
     values: Table = dict(described)
     kinds = [_as_in_a_file(kind, model) for kind in values.pop("minerals", ())]
     joints = {joint["name"]: _without_nulls(joint) for joint in values.pop("joints", ())}
+    pairs = list(values.pop("interfaces", ()))
     for kind in kinds:
         kind.pop("plane", None)  # the same for all
-    own = ({"mineral": kinds} if kinds else {}) | ({"joint": joints} if joints else {})
+    tables = {"mineral": kinds, "joint": joints, "interface": pairs}
+    own = {name: table for name, table in tables.items() if table}
     return Material.from_dict(_as_in_a_file(values, model) | own)
 
 
@@ -98,7 +114,8 @@ def is_brittle(described: Table) -> bool:
     Args:
         described: As ``description`` gives it; a key that is missing says nothing.
     """
-    return any(map(_breaks_at_once, described.get("minerals") or [described]))
+    contacts = [*(described.get("minerals") or [described]), *described.get("interfaces", ())]
+    return any(map(_breaks_at_once, contacts))
 
 
 def _as_in_a_file(law: Table, model: str) -> Table:
@@ -144,7 +161,9 @@ def _changed(rock: Material, mineral: Mineral) -> Material:
     if changes.get("softening") == "brittle":
         changes = dict.fromkeys(ENERGY_KEYS) | changes
     try:
-        return dataclasses.replace(rock, name=mineral.name, elastic=elastic, minerals=(), **changes)
+        return dataclasses.replace(
+            rock, name=mineral.name, elastic=elastic, minerals=(), interfaces=(), **changes
+        )
     except InputError as error:
         raise InputError(f"mineral {mineral.name}: {error}") from None
 
@@ -169,6 +188,33 @@ def _pair(first: Material, second: Material, model: str) -> Material:
         **weaker,
         **energies,
     )
+
+
+def _with_interface(pair: Material, own: Interface | None, model: str) -> Material:
+    """Contact of a pair with what its interface gives."""
+    if own is None:
+        return pair
+    name = elastic_set_name(model)
+    elastic = pair.elastic[name]
+    mixed = {key: getattr(elastic if key in ELASTIC_KEYS else pair, key) for key in KEYS}
+    changes = own.law_of(mixed)
+    springs = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
+    if changes.get("softening") == "brittle":
+        changes = dict.fromkeys(ENERGY_KEYS) | changes
+    try:
+        sets = {name: dataclasses.replace(elastic, **springs)}
+        return dataclasses.replace(pair, elastic=sets, **changes)
+    except InputError as error:
+        raise InputError(f"interface {own.name}: {error}") from None
+
+
+def _contact_law(law: Law) -> Table:
+    """What of a law is the contact's."""
+    return {key: value for key, value in law.items() if key in KEYS}
+
+
+def _names(first: Material, second: Material) -> tuple[str, str]:
+    return (min(first.name, second.name), max(first.name, second.name))
 
 
 def _in_series(first: ElasticSet, second: ElasticSet) -> ElasticSet:

@@ -97,7 +97,11 @@ def write_page(
         warnings=[*result.warnings, *missing],
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         maps=maps,
-        tables=[one for one in (emission_table(result), inputs_table(inputs)) if one],
+        tables=[
+            one
+            for one in (_pairs_table(result), emission_table(result), inputs_table(inputs))
+            if one
+        ],
         pictures=[
             Picture(title, folder / name)
             for name, title in _PICTURES.items()
@@ -187,6 +191,17 @@ def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:
     ]
     note = "All digits are in result.json, in SI units."
     return Rows(title, ("input", "value", "source"), rows, note)
+
+
+def _pairs_table(result: Result) -> Rows | None:
+    """Cracked points of each pair of minerals; None if grains are alike."""
+    if not result.cracks_by_pair:
+        return None
+    rows = [
+        (pair, str(counts["tensile"]), str(counts["shear"]))
+        for pair, counts in result.cracks_by_pair.items()
+    ]
+    return Rows("Cracked points by pair of minerals", ("pair", "tensile", "shear"), rows)
 
 
 def _energy_chart(result: Result) -> Chart:

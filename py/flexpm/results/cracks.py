@@ -37,18 +37,27 @@ class Crack(NamedTuple):
     contact: int  #: number of the contact, as in each snapshot
     point: int  #: index of the point in its contact
     energy: float = math.nan  #: that damage took until then [J]; nan where that is not known
+    pair: str = ""  #: minerals of both grains, with a slash between; empty if all are alike
+
+
+#: Columns of a table of cracks of grains that are alike.
+_COLUMNS = Crack._fields[:-1]
 
 
 def cracks_csv(cracks: Sequence[Crack]) -> str:
-    """Cracks as CSV text in the order given; numbers read back unchanged."""
+    """Cracks as CSV text in the order given; numbers read back unchanged.
+
+    The column ``pair`` is there if grains are of several minerals.
+    """
+    width = len(_COLUMNS) + any(one.pair for one in cracks)
     rows = (
         (
             *(int(one.step), *map(float, one[1:4])),
-            *(NAMES[one.mode], one.contact, one.point, float(one.energy)),
-        )
+            *(NAMES[one.mode], one.contact, one.point, float(one.energy), one.pair),
+        )[:width]
         for one in cracks
     )
-    return csv_text(Crack._fields, rows)
+    return csv_text(Crack._fields[:width], rows)
 
 
 def read_cracks(path: Path) -> list[Crack]:
@@ -60,26 +69,45 @@ def read_cracks(path: Path) -> list[Crack]:
     names, rows = load_csv(path, "cracks")
     modes = {name: mode for mode, name in NAMES.items()}
     try:
-        if tuple(names) not in (Crack._fields, Crack._fields[:-1]):
+        if tuple(names) not in (Crack._fields, _COLUMNS, _COLUMNS[:-1]):
             raise ValueError(f"columns {', '.join(names)}")
         return [
             Crack(
                 *(int(step), float(strain), float(x), float(y)),
                 *(modes[mode], int(at), int(point)),
-                float(energy[0]) if energy else math.nan,
+                float(others[0]) if others else math.nan,
+                "".join(others[1:]),
             )
-            for step, strain, x, y, mode, at, point, *energy in rows
+            for step, strain, x, y, mode, at, point, *others in rows
         ]
     except (ValueError, KeyError) as error:
         raise InputError(f"cracks = {str(path)!r}, holds no cracks: {error}") from None
 
 
-def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
+def count_by_pair(cracks: Sequence[Crack]) -> dict[str, dict[str, int]] | None:
+    """Cracked points of each pair of minerals by mode; None if all grains are alike."""
+    found: dict[str, dict[str, int]] = {}
+    for one in cracks:
+        if one.pair and one.mode in MODES:
+            counts = found.setdefault(one.pair, dict.fromkeys(MODES.values(), 0))
+            counts[MODES[one.mode]] += 1
+    return dict(sorted(found.items())) or None
+
+
+def cracks_from_snapshot(
+    snapshot: Snapshot, curve: Curve, minerals: Sequence[str] = ()
+) -> list[Crack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`.
 
     Those of erased bonds are among them, and what was erased of these.
+
+    Args:
+        snapshot: The state.
+        curve: Record of its test.
+        minerals: Their names, if grains differ.
     """
     numbers, steps, modes, places, energies = _records(snapshot)
+    pairs = _pairs(snapshot, minerals, len(numbers))
     rows, points = np.nonzero(steps >= 0)
     order = np.lexsort((points, numbers[rows], steps[rows, points]))
     rows, points = rows[order], points[order]
@@ -99,9 +127,21 @@ def cracks_from_snapshot(snapshot: Snapshot, curve: Curve) -> list[Crack]:
             numbers[rows].tolist(),
             points.tolist(),
             energies[rows, points].tolist(),
+            [pairs[row] for row in rows],
             strict=True,
         )
     ]
+
+
+def _pairs(snapshot: Snapshot, minerals: Sequence[str], count: int) -> list[str]:
+    """Names of both minerals of each bond with a record, in the order of ``_records``."""
+    if not minerals or snapshot.grain_mineral is None:
+        return [""] * count
+    grains = snapshot.contact_grains
+    if snapshot.erased_grains is not None:
+        grains = np.concatenate([grains, snapshot.erased_grains])
+    kinds = snapshot.grain_mineral[grains].tolist()
+    return ["/".join(sorted(minerals[kind] for kind in pair)) for pair in kinds]
 
 
 def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArray, FloatArray]:

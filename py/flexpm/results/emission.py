@@ -81,7 +81,7 @@ def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
     kept = [one for one in cracks if one.mode in MODES and math.isfinite(one.x + one.y)]
     if not kept:
         return []
-    table = np.array(kept, dtype=float)
+    table = np.array([one[:-1] for one in kept], dtype=float)  # all but the names of minerals
     steps, strains, modes, energies = table[:, 0], table[:, 1], table[:, 4], table[:, 7]
     places = table[:, 2:4]
     near = np.clip(places, -_FAR, _FAR)

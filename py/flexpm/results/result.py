@@ -55,6 +55,7 @@ class Result(Shown):
     step_time: float | None = None  #: median wall time of a step [s]
     tensile_cracks: int = 0  #: cracked points
     shear_cracks: int = 0  #: cracked points
+    cracks_by_pair: Table | None = None  #: tensile and shear ones of each pair of minerals
     unbalanced_ratio: float | None = None  #: largest up to the peak [-]
     end_mismatch: float | None = None  #: of both ends' reactions, largest up to the peak [-]
     energy_error: float | None = None  #: relative to the largest work [-]

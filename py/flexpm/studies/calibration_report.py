@@ -49,11 +49,15 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     assignments = [f"{key}={rounded(value)!r}" for key, value in outcome.best.values.items()]
     found = start.with_set(assignments, plan.model)
     content = _without_none(dataclasses.asdict(found)) | {"name": plan.name}
-    kinds, joints = content.pop("minerals"), content.pop("joints")
+    kinds, joints, pairs = (content.pop(key) for key in ("minerals", "joints", "interfaces"))
     if joints:
         content["joint"] = {one.pop("name"): _without_none(one) for one in map(dict, joints)}
     if kinds:
         content["mineral"] = [kind | kind.pop("changes") for kind in map(dict, kinds)]
+    if pairs:
+        content["interface"] = [
+            {"pair": list(one["pair"]), **one["values"], "factor": one["factors"]} for one in pairs
+        ]
     notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]
     packings = ", ".join(map(str, plan.verify.seeds))
     discs = ", ".join(map(str, plan.verify.disc_seeds))

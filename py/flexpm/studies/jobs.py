@@ -19,7 +19,7 @@ from ..files import Table, json_text, read_json, write_text
 from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
-from ..materials import joint
+from ..materials import interface, joint
 from ..materials.keys import UNITS
 from ..materials.material import load as load_material
 from ..require import require_known, require_text
@@ -106,7 +106,8 @@ def make(inputs: Table, base: Path) -> Job:
     used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
     changes = {key.removeprefix("set."): key for key in used if key.startswith("set.")}
     for key in used:
-        if not joint.is_key(key.removeprefix("set.")):
+        name = key.removeprefix("set.")
+        if not (joint.is_key(name) or interface.is_key(name)):
             require_known("study key", key, [*run_spec.OPTIONS, "material", *_FILES, *_CHANGES])
     for key in ("material", *_FILES):
         if key in used:

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Interfaces: contacts of a pair of minerals whose law is not the one of mixing. SI units.
+
+A boundary between two minerals is often weaker, or stiffer, than both. A table ``[[interface]]``
+names the pair, which may be one mineral twice, and gives values of the contact's law or factors of
+what the rule of mixing gives (Deviation D27). What it does not name stays as it is.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ..errors import InputError
+from ..files import Table
+from ..require import Bounds, quoted, require_known, require_number, require_table
+from .keys import ENERGY_KEYS
+from .keys import checked as checked_value
+
+#: Keys of a contact's law that an elastic set has.
+_ELASTIC = ("normal_stiffness", "shear_ratio")
+#: All keys of a contact's law; the others are of the grains.
+KEYS = (*_ELASTIC, "tensile_strength", "cohesion", "friction", *ENERGY_KEYS, "softening")
+#: What has no factor.
+_WORDS = ("softening",)
+_FACTOR = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
+#: Begins the key of a value on the command line.
+_PREFIX = "interface."
+
+
+@dataclass(frozen=True)
+class Interface:
+    """What the contacts of a pair of minerals have of their own."""
+
+    pair: tuple[str, str]  #: names of the minerals, in the order of the alphabet
+    values: Mapping[str, object] = field(default_factory=dict)  #: by key of the law
+    factors: Mapping[str, object] = field(default_factory=dict)  #: of what mixing gives [-], by key
+
+    @property
+    def name(self) -> str:
+        """Both minerals, as messages and options have them."""
+        return "/".join(self.pair)
+
+    def __post_init__(self) -> None:
+        where = f"interface {self.name}"
+        for key in (*self.values, *self.factors):
+            require_known(f"{where} key", key, list(KEYS))
+        for key in self.factors:
+            if key in _WORDS:
+                raise InputError(f"{where} factor.{key}, must not be given; give {key} itself")
+            if key in self.values:
+                raise InputError(
+                    f"{where} {key} = {self.values[key]!r}, must not be given beside "
+                    f"factor.{key} = {self.factors[key]!r}; leave out one of them"
+                )
+        values = {key: checked_value(key, value, where + " ") for key, value in self.values.items()}
+        factors = {
+            key: require_number(f"{where} factor.{key}", value, _FACTOR)
+            for key, value in self.factors.items()
+        }
+        object.__setattr__(self, "pair", _in_order(*self.pair))
+        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "factors", factors)
+
+    @classmethod
+    def from_dict(cls, data: object, number: int) -> Interface:
+        """Make an interface from a table ``[[interface]]``.
+
+        Args:
+            data: The table.
+            number: Its place, from 1, for messages.
+
+        Raises:
+            InputError: naming the key that is unknown, missing or out of range.
+        """
+        where = f"material [[interface]] {number}"
+        values = require_table(where, data)
+        if "pair" not in values:
+            raise InputError(f"{where} pair is missing; give the names of two minerals")
+        pair = values.pop("pair")
+        if not (
+            isinstance(pair, list | tuple)
+            and len(pair) == 2
+            and all(isinstance(one, str) for one in pair)
+        ):
+            raise InputError(f"{where} pair = {quoted(pair)}, must be the names of two minerals")
+        factors = require_table(f"{where} factor", values.pop("factor", {}))
+        return cls((pair[0], pair[1]), values, factors)
+
+    def law_of(self, mixed: Mapping[str, object]) -> Table:
+        """Values of the contact's law that differ from those of the rule of mixing.
+
+        Args:
+            mixed: Law by the rule of mixing; its energies are None for brittle softening.
+        """
+        changed: Table = dict(self.values)
+        for key, factor in self.factors.items():
+            value = mixed[key]
+            if value is None:
+                raise InputError(
+                    f"interface {self.name} factor.{key} = {factor!r}, has nothing to multiply, as "
+                    "the softening is brittle; leave it out, or give softening = bilinear and "
+                    f"{key}"
+                )
+            assert isinstance(value, float) and isinstance(factor, float)
+            changed[key] = factor * value
+        return changed
+
+
+def checked(interfaces: object, minerals: Sequence[str]) -> tuple[Interface, ...]:
+    """Interfaces from tables, or from interfaces.
+
+    Args:
+        interfaces: A list of them.
+        minerals: Names of the rock's minerals.
+
+    Raises:
+        InputError: for a mineral that the rock does not have, or a pair that is there twice.
+    """
+    if not isinstance(interfaces, list | tuple):
+        raise InputError(f"material interface = {quoted(interfaces)}, must be tables [[interface]]")
+    made = tuple(
+        table if isinstance(table, Interface) else Interface.from_dict(table, number)
+        for number, table in enumerate(interfaces, 1)
+    )
+    pairs = [one.pair for one in made]
+    for one in made:
+        if not minerals:
+            raise InputError(f"interface {one.name}: needs a material with [[mineral]] tables")
+        for name in one.pair:
+            require_known(f"interface {one.name}: mineral", name, list(minerals))
+        if pairs.count(one.pair) > 1:
+            raise InputError(f"interface = {one.name!r}, is there twice; give all keys in one")
+    return made
+
+
+def is_key(label: str) -> bool:
+    """Whether a key reads ``interface.MINERAL/MINERAL.KEY`` or ``...factor.KEY``."""
+    return label.startswith(_PREFIX) and "/" in label
+
+
+def with_values(
+    interfaces: Sequence[Interface], values: Mapping[str, object], minerals: Sequence[str]
+) -> tuple[Interface, ...]:
+    """Interfaces with changed values; a pair that is new makes one.
+
+    A value takes the place of a factor of the same key, and the other way round.
+
+    Args:
+        interfaces: The interfaces.
+        values: By ``interface.MINERAL/MINERAL.KEY`` or ``interface.MINERAL/MINERAL.factor.KEY``.
+        minerals: Names of the rock's minerals.
+
+    Raises:
+        InputError: for a mineral or a key that is unknown.
+    """
+    found = {one.pair: one for one in interfaces}
+    for label, value in values.items():
+        names, _, key = label.removeprefix(_PREFIX).rpartition(".")
+        is_factor = names.endswith(".factor")
+        pair = _split(label, names.removesuffix(".factor"), minerals)
+        old = found.get(pair, Interface(pair))
+        own, factors = dict[str, object](old.values), dict[str, object](old.factors)
+        own.pop(key, None)
+        factors.pop(key, None)
+        (factors if is_factor else own)[key] = value
+        found[pair] = dataclasses.replace(old, values=own, factors=factors)
+    return checked([*found.values()], minerals)
+
+
+def _split(label: str, names: str, minerals: Sequence[str]) -> tuple[str, str]:
+    """Minerals of a text MINERAL/MINERAL; a name may have a slash of its own."""
+    parts = names.split("/")
+    for place in range(1, len(parts)):
+        first, second = "/".join(parts[:place]), "/".join(parts[place:])
+        if first in minerals and second in minerals:
+            return _in_order(first, second)
+    if not minerals:
+        raise InputError(f"set {label}, needs a material with [[mineral]] tables")
+    raise InputError(
+        f"set {label}: {names!r}, must be two of the minerals {', '.join(minerals)}, with / between"
+    )
+
+
+def _in_order(first: str, second: str) -> tuple[str, str]:
+    return (first, second) if first <= second else (second, first)
