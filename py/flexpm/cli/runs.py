@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _discard_option = click.option(
     "--discard-checkpoint",
     is_flag=True,
-    help="Start again if the folder holds a checkpoint or results that are damaged or of another run.",
+    help="Start again if the folder holds results or a checkpoint of another run, or damaged ones.",
 )
 
 

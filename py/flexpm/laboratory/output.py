@@ -43,7 +43,7 @@ def refuse_other_kind(folder: Path, kind: str) -> None:
         InputError: if it holds some.
     """
     found = kind_of(folder) or ("run" if (folder / _BEGUN).is_file() else None)
-    if found not in (None, kind):
+    if found is not None and found != kind:
         raise InputError(
             f"out = {str(folder)!r}, holds results of {_SAID.get(found, found)}, must be free for "
             f"those of {_SAID.get(kind, kind)}; choose another folder"
