@@ -329,9 +329,9 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     for number, name in enumerate(names):
         if not largest_bend(lines[name], ends[tiling.edge_joints == number]) <= far:
             raise refuse(f"joint {name} = elsewhere, must lie on its lines")
-    if all(len(one) == 1 for one in lines.values()) and len(names) <= _MOST_JOINTS:
-        if spec.joints not in _checksums(lines):
-            raise refuse("lines = others, must be those that spec names")
+    known = all(len(one) == 1 for one in lines.values()) and len(names) <= _MOST_JOINTS
+    if known and spec.joints not in _checksums(lines):
+        raise refuse("lines = others, must be those that spec names")
 
 
 def _checksums(lines: joint_lines.Lines) -> Iterable[str]:

@@ -12,7 +12,8 @@ from typing import Any
 from ..errors import InputError
 from ..files import Table, load_json, write_text
 from . import joint_lines
-from .file_checks import require_sense, require_types, spec_of
+from .file_checks import require_sense, require_types
+from .file_checks import spec_of as spec_of
 
 _FORMAT = "flexpm specimen 1"
 

@@ -59,15 +59,25 @@ def write(folder: Path) -> Path:
         InputError: if the folder holds no such results.
     """
     kind = kind_of(require_results(folder))
-    if kind == "run":
-        return write_report(folder, Result.read(folder))
-    page = {
-        "compare": _comparison,
-        "packings": _packings,
-        "study": _study,
-        "calibrate": _calibration,
-    }[str(kind)](folder)
-    write_page(folder / FILE, page)
+    try:
+        if kind == "run":
+            return write_report(folder, Result.read(folder))
+        page = {
+            "compare": _comparison,
+            "packings": _packings,
+            "study": _study,
+            "calibrate": _calibration,
+        }[str(kind)](folder)
+        write_page(folder / FILE, page)
+    except InputError:
+        raise
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        # each file is a table of a run; what they say does not fit together
+        about = " ".join(str(error).split())[:80]
+        raise InputError(
+            f"report: folder = {str(folder)!r}, holds files that were changed or do not fit each "
+            f"other ({about}); repeat the run"
+        ) from error
     return folder / FILE
 
 
@@ -179,6 +189,8 @@ def _results(folder: Path, places: Iterable[str]) -> dict[str, Result]:
     """Results of runs by their folder; those that left none are left out."""
     found = {}
     for place in places:
+        if Path(place).is_absolute() or ".." in Path(place).parts:
+            raise InputError(f"report: run = {place!r}, must lie in {folder}; correct its table")
         if (folder / place / "curve.csv").is_file():
             found[place] = Result.read(folder / place)
     return found

@@ -130,9 +130,9 @@ def change(content, kind):
     return content
 
 
-CHANGES = """vertex|swapped|far|wrapped|side|other side|no sides|vertex of a side|outline|two points|holes
-    |width|thickness|strengths|a strength|joints|number of a joint|names|lines|minerals|grains
-    |checksum|seed of none|not finite"""
+CHANGES = """vertex|swapped|far|wrapped|side|other side|no sides|vertex of a side|outline
+    |two points|holes|width|thickness|strengths|a strength|joints|number of a joint|names|lines
+    |minerals|grains|checksum|seed of none|not finite"""
 #: What makes another specimen that is as good as the one before: no file says that it is not.
 AS_GOOD = {("hole", "vertex"), ("half-disc", "vertex"), ("cut", "vertex")}
 
