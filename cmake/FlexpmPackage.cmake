@@ -10,6 +10,8 @@ install(FILES ${package_docs}/changelog.gz ${package_docs}/NEWS.gz ${PROJECT_SOU
     DESTINATION share/doc/flexpm)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/tutorials ${PROJECT_SOURCE_DIR}/scripts/yade-check
     DESTINATION share/doc/flexpm/examples PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/studies DESTINATION share/doc/flexpm/examples
+    FILES_MATCHING PATTERN "*.toml" PATTERN "*.table" PATTERN "cohesion_batch.py" PATTERN "__pycache__" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian/lintian-overrides DESTINATION share/lintian/overrides RENAME flexpm)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/python/flexpm/vendor DESTINATION ${site_dir}/flexpm
     PATTERN "__pycache__" EXCLUDE PATTERN "bin" EXCLUDE)

@@ -8,14 +8,18 @@ import contextlib
 import io
 import os
 import pwd
+import re
 import sys
 import sysconfig
 import tempfile
 from collections.abc import Iterator
+from importlib import metadata
 from pathlib import Path
 from types import ModuleType
 
 _PRECISION = "yade-double"
+#: Where Debian has the packages of Python.
+_DEBIAN = Path("/usr/lib/python3/dist-packages")
 _WAITING = "OMP_WAIT_POLICY"
 REMEDY = "rebuild flexpm against the installed YADE (scripts/setup)"
 
@@ -52,6 +56,7 @@ def import_yade() -> ModuleType:
     """
     if "yade" in sys.modules:
         return sys.modules["yade"]
+    require_debian()
     _give_home()
     folder = str(yade_folder() / "py")
     if folder not in sys.path:
@@ -82,6 +87,38 @@ def _patient_threads() -> Iterator[None]:
         yield
     finally:
         del os.environ[_WAITING]  # programs that are started from here have their own
+
+
+def require_debian() -> None:
+    """Check that this Python is Debian's, for which YADE is built, and sees its packages.
+
+    Raises:
+        ImportError: if it is another one, or a numpy of its own hides Debian's.
+    """
+    if not yade_folder().is_dir():
+        return  # nothing is installed, which the import says
+    if Path(sys.base_prefix) != Path("/usr") or _DEBIAN not in map(Path, sys.path):
+        raise ImportError(
+            f"flexpm: python = {sys.executable} ({sys.version.split()[0]}), must be Debian's, "
+            "which sees its packages; use /usr/bin/python3, or a venv with --system-site-packages"
+        )
+    known = {one.version for one in metadata.distributions(name="numpy", path=[str(_DEBIAN)])}
+    first = next(iter(metadata.distributions(name="numpy")), None)
+    if first is None or not known or first.version in known:
+        return
+    theirs = known.pop()
+    # other packages of Debian are built for its numpy and later ones of the same number
+    if _numbers(first.version)[0] != _numbers(theirs)[0] or (
+        _numbers(first.version) < _numbers(theirs)
+    ):
+        raise ImportError(
+            f"flexpm: numpy = {first.version} in {first.locate_file('')}, must be Debian's "
+            f"{theirs}, for which YADE and scipy are built; remove it from there"
+        )
+
+
+def _numbers(version: str) -> list[int]:
+    return [int(part) for part in re.findall(r"[0-9]+", version)[:2]]
 
 
 def _give_home() -> None:

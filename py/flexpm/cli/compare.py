@@ -96,7 +96,7 @@ def compare(
         }
         packings.carry_out(placed, several, options, out=out, quiet=quiet)
         return
-    folder = inputs.locked_folder(out)
+    folder = inputs.locked_folder(out, "compare")
     inputs.load_yade()
     from ..studies import comparison
 

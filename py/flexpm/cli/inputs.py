@@ -13,6 +13,7 @@ import click
 from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
+from ..laboratory.output import refuse_other_kind
 from ..laboratory.run_spec import PACKING, RunSpec, shape_of
 from ..materials.material import Material, load
 from ..materials.mixing import description
@@ -39,12 +40,21 @@ def load_yade() -> None:
             Path(yade.O.tmpFilename()).parent.rmdir()
 
 
-def locked_folder(path: Path) -> Path:
+def locked_folder(path: Path, kind: str = "") -> Path:
     """Make the folder of the command's files and keep other processes out until the command ends.
 
     What killed processes have left there half written is removed.
+
+    Args:
+        path: The folder.
+        kind: Of the results that go there, see ``KINDS``; empty for none.
+
+    Raises:
+        InputError: if it cannot be made, or holds results of another kind.
     """
     folder = output_folder(path)
+    if kind:
+        refuse_other_kind(folder, kind)
     # at the end of the command, not when nothing refers to it: frames of a picture may, for a while
     click.get_current_context().find_root().call_on_close(FolderLock(folder).release)
     return folder

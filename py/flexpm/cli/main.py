@@ -152,7 +152,7 @@ def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: An
     from ..studies import study as studies
 
     plan = studies.read(file)
-    folder = inputs.locked_folder(out or Path(file.stem))
+    folder = inputs.locked_folder(out or Path(file.stem), "study")
     with terminal.Progress(quiet, unit="runs") as progress:
         rows = studies.run(plan, folder, progress=progress, **options)
     pictures = figures.draw(plan, rows, folder)
@@ -175,7 +175,7 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
 
     plan = calibration_problem.read(file)
     start = load(plan.material_file, plan.model)
-    folder = inputs.locked_folder(out or Path(file.stem))
+    folder = inputs.locked_folder(out or Path(file.stem), "calibrate")
     with terminal.Progress(quiet, unit="sets") as progress:
         found = calibration_search.run(
             plan, folder, start=start.law(plan.model), progress=progress, **options

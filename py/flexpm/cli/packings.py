@@ -46,7 +46,7 @@ def carry_out(
     Raises:
         SimulationError: if a run failed.
     """
-    folder = inputs.locked_folder(out)
+    folder = inputs.locked_folder(out, "packings")
     from ..studies import packings
 
     given = _given(options)

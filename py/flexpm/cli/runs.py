@@ -13,7 +13,7 @@ from .._version import __version__
 from ..errors import SimulationError
 from ..files import Table, json_text, load_json, write_text
 from ..laboratory.asked import differences, read_inputs
-from ..laboratory.output import Output
+from ..laboratory.output import Output, refuse_other_result
 from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
 from ..materials.material import Material
 from ..report import tables
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _discard_option = click.option(
     "--discard-checkpoint",
     is_flag=True,
-    help="Start again if the folder holds a checkpoint that is damaged or of another run.",
+    help="Start again if the folder holds results or a checkpoint of another run, or damaged ones.",
 )
 
 
@@ -78,7 +78,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
         packings.carry_out({"": spec}, several, asked, out=out, quiet=quiet)
         return
     options |= {"quiet": quiet, "discard_checkpoint": discard_checkpoint}
-    folder = inputs.locked_folder(out)
+    folder = inputs.locked_folder(out, "run")
     _simulate(
         spec, chosen, lambda shown: inputs.made(spec.specimen, options, shown), folder, options
     )
@@ -108,7 +108,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
     file = file / "result.json" if file.is_dir() else file
     spec, chosen = read_inputs(file)
     before = load_json(file, "result")
-    folder = inputs.locked_folder(out)
+    folder = inputs.locked_folder(out, "run")
 
     def specimen(shown: terminal.Progress) -> Specimen:
         inputs.load_yade()
@@ -142,7 +142,7 @@ def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
     chosen = inputs.material(options)
     spec = inputs.run_spec(ELASTIC, options, chosen)
-    folder = None if out is None else inputs.locked_folder(out)
+    folder = None if out is None else inputs.locked_folder(out, "run")
     quiet = options["quiet"]
     _solve(spec, chosen, lambda shown: inputs.made(spec.specimen, options, shown), folder, quiet)
 
@@ -215,6 +215,8 @@ def _solve(
     quiet: bool,
 ) -> None:
     """Find the elastic constants and tell them; arguments as for a simulation."""
+    if folder is not None:
+        refuse_other_result(folder, spec)
     inputs.load_yade()
     from ..models import grains
     from ..specimens import given

@@ -29,6 +29,7 @@ from .._version import __version__
 from ..errors import InputError
 from ..files import FolderLock, Table, json_text, read_json, whole_file, write_text
 from ..require import POSITIVE, require_number
+from .output import RESULT, is_of_flexpm, refuse_other_result
 from .run_spec import RunSpec
 
 #: Wall time between two checkpoints [s].
@@ -182,6 +183,8 @@ class Checkpoint:
 def discard_unusable(folder: Path, spec: RunSpec) -> str:
     """Remove a checkpoint that a run cannot go on from: damaged, of other inputs or another build.
 
+    Results of another run are removed, too; those of another program stay.
+
     YADE's scene is empty afterwards if there was one to go on from.
 
     Returns:
@@ -190,6 +193,7 @@ def discard_unusable(folder: Path, spec: RunSpec) -> str:
     Raises:
         BusyError: if another process uses the folder.
     """
+    why = ""
     try:
         there = Checkpoint(folder, spec)
         if there.found:  # only who reads the scene knows whether it can
@@ -197,8 +201,14 @@ def discard_unusable(folder: Path, spec: RunSpec) -> str:
             yade.O.reset()
     except InputError as error:
         (folder / _NAME).unlink(missing_ok=True)
-        return str(error)
-    return ""
+        why = str(error)
+    try:
+        refuse_other_result(folder, spec)
+    except InputError as error:
+        if is_of_flexpm(folder / RESULT):
+            (folder / RESULT).unlink()
+            why = why or str(error)
+    return why
 
 
 def _content(file: Path) -> Table:

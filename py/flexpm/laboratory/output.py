@@ -1,17 +1,83 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run writes beside its results; no result depends on it."""
+"""What a run writes beside its results, and folders that hold others'; no result depends on it."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from ..errors import InputError
+from ..files import read_json
 from ..require import Bounds, require_one_of, require_whole
+from .run_spec import RunSpec
 
 #: Kinds of films: a picture that moves, and a film that needs ffmpeg.
 FILMS = ("gif", "mp4")
 #: Frames of a film if no number is given; more than the most are a mistake.
 FILM_FRAMES, MOST_FRAMES = 40, 1000
+#: Name of the file with the numbers of a run.
+RESULT = "result.json"
+#: Files by which a folder is known, and what has left them.
+KINDS = {
+    RESULT: "run",
+    "compare.csv": "compare",
+    "means.csv": "packings",
+    "table.csv": "study",
+    "history.csv": "calibrate",
+}
+_SAID = {"packings": "several packings"}
+#: A file of a run that has begun.
+_BEGUN = "checkpoint.json"
+
+
+def kind_of(folder: Path) -> str | None:
+    """What has left its results in a folder; None: nothing has."""
+    return next((kind for name, kind in KINDS.items() if (folder / name).is_file()), None)
+
+
+def refuse_other_kind(folder: Path, kind: str) -> None:
+    """Refuse a folder with results of another kind, whose pages and tables would be replaced.
+
+    Raises:
+        InputError: if it holds some.
+    """
+    found = kind_of(folder) or ("run" if (folder / _BEGUN).is_file() else None)
+    if found is not None and found != kind:
+        raise InputError(
+            f"out = {str(folder)!r}, holds results of {_SAID.get(found, found)}, must be free for "
+            f"those of {_SAID.get(kind, kind)}; choose another folder"
+        )
+
+
+def is_of_flexpm(result: Path) -> bool:
+    """Whether a result.json is flexpm's, or was one before it was damaged."""
+    try:
+        content = read_json(result)
+    except (OSError, ValueError, RecursionError):
+        return True
+    return isinstance(content, Mapping) and {"flexpm", "inputs"} <= content.keys()
+
+
+def refuse_other_result(folder: Path, spec: RunSpec) -> None:
+    """Refuse a folder with the result.json of another run, or of another program.
+
+    Raises:
+        InputError: if it holds one.
+    """
+    file = folder / RESULT
+    if not file.exists():
+        return
+    try:
+        same = RunSpec.from_json(read_json(file)["inputs"]).key() == spec.key()
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        same = False
+    if not same:
+        whose = "another run" if is_of_flexpm(file) else "another program"
+        raise InputError(
+            f"out = {str(folder)!r}, holds a {RESULT} of {whose}, which would be replaced; choose "
+            "another folder"
+        )
 
 
 @dataclass(frozen=True)

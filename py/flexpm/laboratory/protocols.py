@@ -37,7 +37,7 @@ from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint
 from .frames import COLLECTION, STATE, TABLE, FrameWriter
 from .loading_rate import Loading, default_stop_ratio, quasistatic_ratio
-from .output import Output
+from .output import Output, refuse_other_result
 from .part_rig import PartRig
 from .part_tests import measure, part_rig, prepared
 from .rig import TestRig
@@ -226,6 +226,8 @@ def plan_run(
     if folder is not None:
         refuse_folders(folder, FILES)
     checkpoint = None if folder is None else Checkpoint(folder, spec, checkpoint_interval)
+    if folder is not None:
+        refuse_other_result(folder, spec)
     if folder is not None and checkpoint is not None and checkpoint.found:
         _require_frames(folder, output)
     return Plan(spec, specimen, material, folder, checkpoint, output)

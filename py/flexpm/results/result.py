@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError
 from ..files import Table, json_text, load_json, output_folder, write_text
 from ..notebook import Shown
 from . import doubts, measures, waves
 from .cracks import MODES, Crack, cracks_csv, read_cracks
 from .emission import Event, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
+from .result_checks import require_sense
 from .snapshot import Snapshot
 
 #: Statuses that mean that a simulation has failed.
@@ -242,18 +242,7 @@ class Result(Shown):
         folder = Path(folder)
         content = load_json(folder / "result.json", "result")
         given = {key: value for key, value in content.items() if key in cls.__dataclass_fields__}
-        required = [one.name for one in fields(cls) if _is_required(one)]
-        if missing := [name for name in required if name not in given]:
-            raise InputError(
-                f"result = {str(folder / 'result.json')!r}, lacks {', '.join(missing)}; give that "
-                "of a test"
-            )
-        for one in fields(cls):
-            if one.name in given and not _fits(one, given[one.name]):
-                raise InputError(
-                    f"result = {str(folder / 'result.json')!r}, has {one.name} = "
-                    f"{str(given[one.name])[:80]}; give that of a test"
-                )
+        require_sense(folder / "result.json", given, fields(cls))
         result = cls(**given)
         result.curve = Curve.read(folder / "curve.csv")
         result.cracks = read_cracks(folder / "cracks.csv")
@@ -271,24 +260,6 @@ class Result(Shown):
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", self.snapshot.fragments.csv())
         write_text(folder / "result.json", json_text(self.as_dict()))
-
-
-def _fits(one: Field[object], value: object) -> bool:
-    """Whether a value of result.json is of the type that the field is said to have."""
-    named = str(one.type).split(" | ")
-    if value is None or isinstance(value, bool):
-        return value is None and "None" in named
-    kinds: dict[str, tuple[type, ...]] = {
-        "int": (int,),
-        "float": (int, float),
-        "str": (str,),
-        "Table": (dict,),
-    }
-    return any(isinstance(value, kinds.get(name, ())) for name in named)
-
-
-def _is_required(one: Field[object]) -> bool:
-    return one.default is MISSING and one.default_factory is MISSING
 
 
 def _plain(value: object) -> object:

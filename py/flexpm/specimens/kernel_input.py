@@ -12,6 +12,7 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from .._flexpm import Tessellation
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 
@@ -39,6 +40,12 @@ def checksum(given: FloatArray | IntArray | Circle) -> str:
     plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
     values = np.ascontiguousarray(plain, dtype=float)
     return hashlib.sha256(values.tobytes()).hexdigest()[:16]
+
+
+def cells_checksum(cells: Tessellation) -> str:
+    """Short hash of the shapes of all cells."""
+    parts = (cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices)
+    return checksum(np.concatenate(parts).astype(float))
 
 
 def call(

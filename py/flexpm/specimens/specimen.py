@@ -31,7 +31,7 @@ from ..require import require_flag
 from . import joint_bend, joint_lines, packed, packing, specimen_file, statistics
 from . import strengths as contact_strengths
 from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
-from .kernel_input import Circle, call, checksum, columns, disc_rows, rows
+from .kernel_input import Circle, call, cells_checksum, checksum, columns, disc_rows, rows
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
@@ -328,7 +328,7 @@ class Specimen(Shown):
             short_edge=0.0,
             discs=checksum(tiling.discs),
             outline=checksum(np.vstack(rings)),
-            cells=_cells_checksum(tiling.tessellation),
+            cells=cells_checksum(tiling.tessellation),
         )
         return cls._of_tiling(tiling, rings[0], rings[1:], spec)
 
@@ -626,9 +626,3 @@ class Specimen(Shown):
             "removed_discs": self.removed_discs,
             "mean_diameter": self.mean_diameter,
         }
-
-
-def _cells_checksum(cells: Tessellation) -> str:
-    """Short hash of the shapes of all cells."""
-    parts = (cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices)
-    return checksum(np.concatenate(parts).astype(float))

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping
@@ -12,9 +11,9 @@ from typing import Any
 
 from ..errors import InputError
 from ..files import Table, load_json, write_text
-from ..require import require_known
 from . import joint_lines
-from .spec import SpecimenSpec
+from .file_checks import require_sense, require_types
+from .file_checks import spec_of as spec_of
 
 _FORMAT = "flexpm specimen 1"
 
@@ -36,7 +35,8 @@ def read(path: Path) -> Table:
     """Read the content of a file; nothing heavy is loaded.
 
     Raises:
-        InputError: if it cannot be read, is no specimen, or was changed.
+        InputError: if it cannot be read, is no specimen, or was changed, or a value is none of a
+            specimen.
     """
     name = f"specimen = {str(path)!r}"
     content = load_json(path, "specimen")
@@ -47,25 +47,16 @@ def read(path: Path) -> Table:
         raise InputError(
             f"{name}, was changed since it was saved; make own cells by Specimen.from_polygons"
         )
+    require_types(content)
     return content
 
 
-def spec_of(content: Table) -> SpecimenSpec:
-    """What the specimen of a file was made from."""
-    values: object = content["spec"]
-    if not isinstance(values, Mapping):
-        raise InputError("specimen file: spec must be a table; save the specimen again")
-    known = [field.name for field in dataclasses.fields(SpecimenSpec)]
-    for name in values:
-        require_known("specimen file: spec", name, known)
-    plain = dict(values)
-    if plain.get("diameters") is not None:
-        plain["diameters"] = tuple(plain["diameters"])
-    return SpecimenSpec(**plain)
-
-
 def parts(content: Table) -> Table:
-    """Arguments of Specimen, from the content of a file."""
+    """Arguments of Specimen, from the content of a file.
+
+    Raises:
+        InputError: if they are no specimen: see ``file_checks``.
+    """
     import numpy as np
 
     from .._flexpm import cells_of_file
@@ -74,33 +65,35 @@ def parts(content: Table) -> Table:
     def integers(key: str, columns: int) -> Any:
         return np.array(content[key], dtype=np.int32).reshape(-1, columns)
 
-    discs = np.array(content["discs"], dtype=float)
+    discs, sides = np.array(content["discs"], dtype=float), integers("sides", 3)
     tiling = call(
         cells_of_file,
         np.array(content["vertices"], dtype=float),
         [np.array(cell, dtype=np.int32) for cell in content["cells"]],
-        integers("sides", 3),
+        sides,
         integers("joints", 3),
         np.ascontiguousarray(discs[:, :2]),
         np.ascontiguousarray(discs[:, 2]),
     )
     outline = content["outline"]
+    given = {key: content[key] for key in ("minerals", "grains") if content[key] is not None}
     found: Table = {
         "discs": discs,
-        "outline": Circle(**outline) if isinstance(outline, Mapping) else np.array(outline),
+        "outline": (
+            Circle(**outline) if isinstance(outline, Mapping) else np.array(outline, dtype=float)
+        ),
         "tessellation": tiling.tessellation,
         "spec": spec_of(content),
         "removed_discs": content["removed_discs"],
-        "holes": tuple(np.array(hole) for hole in content["holes"]),
+        "holes": tuple(np.array(hole, dtype=float) for hole in content["holes"]),
         "joints": joint_lines.checked(content["lines"]) if content.get("lines") else {},
     }
-    for key in ("minerals", "grains"):
-        if content[key] is not None:
-            found[key] = np.array(content[key], dtype=np.int32)
+    found |= {key: np.array(values, dtype=np.int32) for key, values in given.items()}
     if content["strengths"] is not None:
-        found["strengths"] = np.array(content["strengths"])
+        found["strengths"] = np.array(content["strengths"], dtype=float)
     if content["joints"]:
         found["edge_joints"] = tiling.edge_joints
+    require_sense(found, sides, len(content["joints"]), tiling)
     for array in (*found.values(), *found["holes"]):
         if isinstance(array, np.ndarray):
             array.setflags(write=False)

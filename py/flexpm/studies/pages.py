@@ -15,6 +15,7 @@ from .._version import __version__
 from ..errors import InputError
 from ..files import load_csv, read_text
 from ..laboratory.asked import told, write_report
+from ..laboratory.output import KINDS, kind_of
 from ..laboratory.run_spec import RunSpec
 from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
 from ..report.page import write as write_page
@@ -30,14 +31,6 @@ from .jobs import place_of
 _MOST_MAPS = 6
 #: Runs whose curves a page shows, points of each, and rows of a table.
 _MOST_CURVES, _POINTS, _MOST_ROWS = 30, 400, 300
-#: Files by which a folder is known, and what has left them.
-_KINDS = {
-    "result.json": "run",
-    "compare.csv": "compare",
-    "means.csv": "packings",
-    "table.csv": "study",
-    "history.csv": "calibrate",
-}
 #: Columns of a run that stand in each table of runs.
 _MORE = ("fragments", "status")
 
@@ -48,9 +41,9 @@ def require_results(folder: Path) -> Path:
     Raises:
         InputError: if it is no folder of run, compare, study or calibrate.
     """
-    if _kind(folder) is None:
+    if kind_of(folder) is None:
         raise InputError(
-            f"report: folder = {str(folder)!r}, holds none of {', '.join(_KINDS)}; give the folder "
+            f"report: folder = {str(folder)!r}, holds none of {', '.join(KINDS)}; give the folder "
             "of a run, compare, study or calibrate"
         )
     return folder
@@ -65,21 +58,27 @@ def write(folder: Path) -> Path:
     Raises:
         InputError: if the folder holds no such results.
     """
-    kind = _kind(require_results(folder))
-    if kind == "run":
-        return write_report(folder, Result.read(folder))
-    page = {
-        "compare": _comparison,
-        "packings": _packings,
-        "study": _study,
-        "calibrate": _calibration,
-    }[str(kind)](folder)
-    write_page(folder / FILE, page)
+    kind = kind_of(require_results(folder))
+    try:
+        if kind == "run":
+            return write_report(folder, Result.read(folder))
+        page = {
+            "compare": _comparison,
+            "packings": _packings,
+            "study": _study,
+            "calibrate": _calibration,
+        }[str(kind)](folder)
+        write_page(folder / FILE, page)
+    except InputError:
+        raise
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        # each file is a table of a run; what they say does not fit together
+        about = " ".join(str(error).split())[:80]
+        raise InputError(
+            f"report: folder = {str(folder)!r}, holds files that were changed or do not fit each "
+            f"other ({about}); repeat the run"
+        ) from error
     return folder / FILE
-
-
-def _kind(folder: Path) -> str | None:
-    return next((kind for name, kind in _KINDS.items() if (folder / name).is_file()), None)
 
 
 def _comparison(folder: Path) -> Page:
@@ -201,6 +200,8 @@ def _results(folder: Path, places: Iterable[str]) -> dict[str, Result]:
     """Results of runs by their folder; those that left none are left out."""
     found = {}
     for place in places:
+        if Path(place).is_absolute() or ".." in Path(place).parts:
+            raise InputError(f"report: run = {place!r}, must lie in {folder}; correct its table")
         if (folder / place / "curve.csv").is_file():
             found[place] = Result.read(folder / place)
     return found

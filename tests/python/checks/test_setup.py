@@ -130,3 +130,35 @@ def test_flexpm_is_installed_below_any_prefix_and_removed_again(
     subprocess.run(removal, check=True, capture_output=True)
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
     assert subprocess.run(removal, capture_output=True).returncode != 0
+
+
+def test_a_package_is_not_compiled_without_its_optimiser(tmp_path: Path) -> None:
+    """PyPI is asked before the compiler, which takes ten minutes, and no folder is configured."""
+    surroundings = {
+        **os.environ,
+        "FLEXPM_BUILD_DIR": str(tmp_path / "build"),
+        "FLEXPM_NEEDS_OPTIMISER": "1",
+        "PIP_INDEX_URL": "http://127.0.0.1:9/simple",
+        "PIP_RETRIES": "0",
+        "PIP_NO_CACHE_DIR": "1",
+    }
+    done = subprocess.run(
+        [str(ROOT / "scripts/setup")], env=surroundings, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 1
+    assert "setup: optimiser = DFO-LS" in done.stderr.splitlines()[-1]
+    assert not (tmp_path / "build" / "CMakeCache.txt").exists()
+    assert "FLEXPM_NEEDS_OPTIMISER=1" in (ROOT / "scripts/package").read_text()
+
+
+def test_a_package_has_the_study_files_that_pages_name() -> None:
+    rules = (ROOT / "cmake" / "FlexpmPackage.cmake").read_text()
+    (rule,) = re.findall(r"install\(DIRECTORY [^)]*scripts/studies[^)]*\)", rules)
+    patterns = [one for one in re.findall(r'PATTERN "([^"]*)"', rule) if one != "__pycache__"]
+    pages = "".join(page.read_text() for page in (ROOT / "doc").glob("*.rst"))
+    named = set(re.findall(r"scripts/studies/([\w.]+\.(?:toml|table))", pages))
+    named |= {"cohesion.table", "cohesion_batch.py"}
+    assert {"augig_flexible.toml", "cohesion.toml"} <= named
+    for name in named:
+        assert (ROOT / "scripts" / "studies" / name).is_file()
+        assert any(Path(name).match(pattern) for pattern in patterns), name

@@ -317,3 +317,35 @@ def test_more_workers_than_the_machine_can_bear_are_refused(capsys, tmp_path, wo
     assert cli.main([*command, *out]) == 2
     assert "workers" in one_line(capsys.readouterr().err)
     assert not list(tmp_path.rglob("result.json"))
+
+
+@pytest.mark.parametrize("program", [["-P", "-m", "flexpm", "elastic"], ["-c", "import flexpm"]])
+@pytest.mark.parametrize("kind", ["bare", "numpy"])
+def test_a_python_that_is_not_debians_is_named(tmp_path, program, kind):
+    options = [] if kind == "bare" else ["--system-site-packages"]
+    subprocess.run(
+        ["/usr/bin/python3", "-m", "venv", "--without-pip", *options, tmp_path], check=True
+    )
+    if kind == "numpy":
+        (packages,) = tmp_path.glob("lib/python3*/site-packages")
+        for name, file, text in (
+            ("numpy", "__init__.py", "raise AttributeError('_ARRAY_API not found')"),
+            ("numpy-9.1.0.dist-info", "METADATA", "Metadata-Version: 2.1\nName: numpy"),
+        ):
+            (packages / name).mkdir()
+            (packages / name / file).write_text(text + "\nVersion: 9.1.0\n" * (name != "numpy"))
+    surroundings = dict(ENVIRONMENT)
+    if "-c" in program:
+        del surroundings["FLEXPM_DEFER"]
+    done = subprocess.run(
+        [tmp_path / "bin" / "python3", *program], env=surroundings, capture_output=True, text=True
+    )
+    assert done.returncode == 1
+    line = done.stderr.splitlines()[-1]
+    if "-m" in program:
+        one_line(done.stderr)
+    if kind == "bare":
+        assert "use /usr/bin/python3, or a venv with --system-site-packages" in line
+    else:
+        assert "numpy = 9.1.0 in " in line
+        assert "remove it from there" in line

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import numpy as np
 import pytest
+from fuzz_child import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from sample_snapshot import read_vtu as read_by_vtk
@@ -15,6 +17,7 @@ from sample_snapshot import wall
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu, write_vtu
 from flexpm.results.vtu_reader import grid_of
 
@@ -125,3 +128,93 @@ def test_the_page_says_that_a_map_is_missing(capfd, tmp_path):
         assert cli.main(["report", str(tmp_path)]) == 0
         assert "no map: state = " in (tmp_path / "report.html").read_text()
         assert capfd.readouterr().err == ""
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory) -> dict[str, str]:
+    """Files of a run by name, as texts."""
+    folder = tmp_path_factory.mktemp("finished")
+    size = ["--width", "0.012", "--height", "0.016", "--quiet", "--rate", "8"]
+    assert cli.main(["run", "tension", *size, "--out", str(folder)]) == 0
+    names = ("result.json", "curve.csv", "cracks.csv", "events.csv")
+    return {name: (folder / name).read_text() for name in names}
+
+
+def reported(capsys, folder, files) -> None:
+    """`flexpm report` of files: done, or one line of wrong input."""
+    folder.mkdir(exist_ok=True)
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    capsys.readouterr()
+    code = cli.main(["report", str(folder)])
+    errors = capsys.readouterr().err
+    assert code in (0, 2), errors
+    assert errors.count("\n") == (code != 0), errors
+
+
+MINERALS = [None, {}, [{}], [{"name": 1}], "a", [None]]
+
+
+@pytest.mark.parametrize(
+    ("way", "value"),
+    [
+        (("inputs", "rate"), "absent"),
+        (("inputs", "material"), "absent"),
+        (("inputs",), {}),
+        (("inputs", "specimen"), []),
+        *((("material", "minerals"), value) for value in MINERALS),
+        *((("inputs", "material", "joints"), value) for value in MINERALS),
+        (("status",), "fine"),
+        (("test",), "nothing"),
+        (("grains",), -1),
+        (("largest_fragment",), 1.5),
+        (("step_time",), -1.0),
+        (("peak_stress",), [1.0]),
+    ],
+)
+def test_a_result_of_no_run_is_one_line(capsys, tmp_path, finished, way, value):
+    content = json.loads(finished["result.json"])
+    table = content
+    for name in way[:-1]:
+        table = table[name]
+    if value == "absent":
+        del table[way[-1]]
+    else:
+        table[way[-1]] = value
+    reported(capsys, tmp_path, {**finished, "result.json": json.dumps(content)})
+    try:
+        assert isinstance(Result.read(tmp_path).warnings, list)
+    except InputError as error:
+        assert "\n" not in str(error)
+
+
+ODD = st.sampled_from([None, True, -1, 0, 5, 2**63, 1e300, "", "a", "nan", [], {}, [0], [{}]])
+WAYS = st.lists(st.floats(0.0, 1.0, exclude_max=True), min_size=1, max_size=4)
+
+
+@given(name=st.sampled_from(["curve.csv", "cracks.csv", "events.csv"]), change=changes())
+@settings(max_examples=examples(60), suppress_health_check=list(HealthCheck))
+def test_tables_that_were_changed_are_reported_or_refused(
+    capsys, tmp_path_factory, finished, name, change
+):
+    text = changed(finished[name].encode(), (*change[:3], "1")) if change[0] != "number" else b""
+    files = {**finished, name: text.decode(errors="replace")}
+    reported(capsys, tmp_path_factory.getbasetemp() / "tables", files)
+
+
+@given(way=WAYS, value=ODD)
+@settings(max_examples=examples(120), suppress_health_check=list(HealthCheck))
+def test_numbers_that_were_changed_are_reported_or_refused(
+    capsys, tmp_path_factory, finished, way, value
+):
+    content = json.loads(finished["result.json"])
+    here, place, key = content, None, None
+    for share in way:
+        if not isinstance(here, dict | list) or not here:
+            break
+        keys = [*here] if isinstance(here, dict) else range(len(here))
+        place, key = here, keys[int(share * len(keys))]
+        here = here[key]
+    place[key] = value
+    files = {**finished, "result.json": json.dumps(content)}
+    reported(capsys, tmp_path_factory.getbasetemp() / "numbers", files)

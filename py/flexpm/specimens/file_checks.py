@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether what a specimen file holds is a specimen: types, numbers, geometry. Lengths in metres.
+
+A checksum tells that a file is as it was written, not that what was written has a sense.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, TypeGuard
+
+from ..errors import InputError
+from ..files import Table
+from ..require import quoted
+from . import joint_lines
+from .spec import SpecimenSpec
+
+if TYPE_CHECKING:
+    from .._flexpm import Tiling
+    from ..arrays import FloatArray, IntArray
+
+#: Distances below this share of the mean diameter are round-off, and that of areas [-].
+_ROUND_OFF, _AREA = 1e-5, 1e-9
+#: A reference point may lie out of its cell by this share of its radius [-].
+_OUTSIDE = 0.75
+#: Farthest contacts of a joint from its lines, in mean diameters [-].
+_FARTHEST = 3.0
+#: Most joints of which all ways are tried in which they may have been cut.
+_MOST_JOINTS = 10
+
+_Rule = Callable[[object], bool]
+
+
+def refuse(what: str) -> InputError:
+    """Error of a file whose content has no sense."""
+    return InputError(f"specimen file: {what}; save the specimen again")
+
+
+def _is_count(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e9
+
+
+def _is_positive(value: object) -> bool:
+    return _is_number(value) and value > 0.0
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)
+
+
+def _list(rule: _Rule, least: int = 0, most: float = math.inf) -> _Rule:
+    def holds(value: object) -> bool:
+        return isinstance(value, list) and least <= len(value) <= most and all(map(rule, value))
+
+    return holds
+
+
+def _or_none(rule: _Rule) -> _Rule:
+    return lambda value: value is None or rule(value)
+
+
+def _row(columns: int, rule: _Rule = _is_number) -> _Rule:
+    return _list(rule, columns, columns)
+
+
+def _is_outline(value: object) -> bool:
+    if isinstance(value, Mapping):
+        whole = value.keys() == {"x", "y", "radius"} and all(map(_is_number, value.values()))
+        return whole and value["radius"] > 0.0
+    return _RING(value)
+
+
+_RING = _list(_row(2), 3)
+#: What each key of a file holds.
+_KEYS: dict[str, _Rule] = {
+    "spec": lambda value: isinstance(value, Mapping),
+    "outline": _is_outline,
+    "holes": _list(_RING),
+    "removed_discs": _is_count,
+    "minerals": _or_none(_list(_is_count, 1)),
+    "vertices": _list(_row(2), 3),
+    "cells": _list(_list(_is_count, 3), 1),
+    "discs": _list(_row(3), 1),
+    "sides": _list(_row(3, _is_count)),
+    "joints": _list(_row(3, _is_count)),
+    "lines": lambda value: isinstance(value, Mapping),
+    "strengths": _or_none(_list(_is_positive)),
+    "grains": _or_none(_list(_is_count, 1)),
+}
+#: Keys that files of earlier versions lack.
+_LATER = ("lines",)
+#: What each field of the spec holds; sizes and numbers of a packing it checks itself.
+_SPEC: dict[str, _Rule] = {
+    "kind": _is_text,
+    "diameters": _or_none(_row(2)),
+    "joint_names": _or_none(_list(_is_text, 1)),
+    **dict.fromkeys(
+        ("discs", "outline", "minerals", "cells", "joints", "strengths"), _or_none(_is_text)
+    ),
+}
+
+
+def require_types(content: Table) -> None:
+    """Check that each key is there and of its type, and that lists are as long as each other.
+
+    Raises:
+        InputError: for the first that is not.
+    """
+    for name, holds in _KEYS.items():
+        if name not in content:
+            if name in _LATER:
+                continue
+            raise refuse(f"{name} is missing")
+        if not holds(content[name]):
+            raise refuse(f"{name} = {quoted(content[name])}, is none")
+    cells = len(content["cells"])
+    for name in ("discs", "minerals", "grains"):
+        if content[name] is not None and len(content[name]) != cells:
+            raise refuse(f"{name} = {len(content[name])}, must be one for each of {cells} cells")
+    if not all(row[2] > 0.0 for row in content["discs"]):
+        raise refuse("radius of a disc <= 0 m, must be > 0")
+    vertices = len(content["vertices"])
+    for ring in (*content["cells"], *(row[:2] for key in _EDGES for row in content[key])):
+        if max(ring) >= vertices:
+            raise refuse(f"vertex = {max(ring)}, must be below their number {vertices}")
+
+
+#: Keys with edges: two vertices and the number of a side or of a joint.
+_EDGES = ("sides", "joints")
+
+
+def spec_of(content: Table) -> SpecimenSpec:
+    """What the specimen of a file was made from.
+
+    Raises:
+        InputError: for a field that is unknown, of another type or out of range.
+    """
+    values = dict(content["spec"])
+    known = [field.name for field in dataclasses.fields(SpecimenSpec)]
+    for name, value in values.items():
+        if name not in known:
+            raise refuse(f"spec {quoted(name)}, is unknown")
+        if name in _SPEC and not _SPEC[name](value):
+            raise refuse(f"spec {name} = {quoted(value)}, is none")
+    if values.get("diameters") is not None:
+        values["diameters"] = tuple(values["diameters"])
+    return SpecimenSpec(**values)
+
+
+def require_sense(found: Table, sides: IntArray, joints: int, tiling: Tiling) -> None:
+    """Check that arguments of Specimen that a file gave fit each other.
+
+    Args:
+        found: The arguments.
+        sides: Rows start, end, side of the edges on the outline.
+        joints: Number of edges that are on joints.
+        tiling: The cells.
+
+    Raises:
+        InputError: for what does not fit.
+    """
+    _require_outline(found)
+    _require_sides(found, sides)
+    _require_cells(found)
+    _require_joints(found, joints, tiling)
+    _require_factors(found)
+
+
+def _require_outline(found: Table) -> None:
+    """Shape, sizes and holes are those that the spec names."""
+    import numpy as np
+
+    from . import outlines, packed
+    from .kernel_input import Circle, checksum
+
+    spec, outline, holes = found["spec"], found["outline"], found["holes"]
+    rings = outline if isinstance(outline, Circle) else np.vstack((outline, *holes))
+    if spec.outline is not None:
+        kind, sizes = outlines.kind_of(outline)
+        same = spec.outline == checksum(rings) and (kind, sizes) == (spec.kind, spec.sizes)
+    elif spec.kind == "half-disc":
+        corners = outlines.half_disc_corners(spec.sizes["diameter"], 0.5 * sum(spec.diameters))
+        same = not holes and not isinstance(outline, Circle) and np.array_equal(outline, corners)
+    else:
+        usual = packed.outline_of(spec)
+        same = not holes and type(outline) is type(usual)
+        same = same and (
+            outline == usual if isinstance(usual, Circle) else np.array_equal(outline, usual)
+        )
+    if not same:
+        raise refuse(f"outline = another one, must be the {spec.kind} that spec names")
+
+
+def _require_sides(found: Table, sides: IntArray) -> None:
+    """Edges on the outline are those of one cell alone, each on the side whose number it has."""
+    import numpy as np
+
+    from .kernel_input import Circle
+
+    cells, outline = found["tessellation"], found["outline"]
+    rim = np.sort(cells.boundary_edges[:, 1:3], axis=1)
+    given = np.sort(sides[:, :2], axis=1)
+    if len(given) != len(rim) or {*map(tuple, rim.tolist())} != {*map(tuple, given.tolist())}:
+        raise refuse("sides = edges, must be those that belong to one cell alone")
+    ends, number = cells.vertices[sides[:, :2]], sides[:, 2]
+    least = _ROUND_OFF * 2.0 * float(np.mean(found["discs"][:, 2]))
+    if isinstance(outline, Circle):
+        centre = np.array([outline.x, outline.y])
+        off = np.abs(np.hypot(*np.moveaxis(ends - centre, -1, 0)) - outline.radius)
+        whole, area = not number.any(), math.pi * outline.radius**2
+    else:
+        rings = (outline, *found["holes"])
+        starts = np.vstack(rings)
+        along = np.vstack([np.roll(ring, -1, axis=0) for ring in rings]) - starts
+        whole, area = bool(np.all(number < len(starts))), sum(map(_area, rings))
+        number = np.minimum(number, len(starts) - 1)
+        off = _off(ends, starts[number], along[number])
+    if not (whole and np.all(off <= least)):
+        raise refuse("sides = edges, must lie on the sides of the outline")
+    covered = float(np.sum(cells.cell_areas))
+    if isinstance(outline, Circle):
+        whole = 0.5 * area < covered <= area * (1.0 + _AREA)
+    else:
+        whole = abs(covered - area) <= _AREA * area
+    if not whole:
+        raise refuse(f"area of the cells = {covered:.9g} m2, must be {area:.9g} m2 of the outline")
+
+
+def _area(ring: FloatArray) -> float:
+    import numpy as np
+
+    x, y = (ring - ring[0]).T
+    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def _off(points: FloatArray, starts: FloatArray, along: FloatArray) -> FloatArray:
+    """Distances (n, 2) of two points each from segments."""
+    import numpy as np
+
+    from_start = points - starts[:, None]
+    share = (
+        np.einsum("nkc,nc->nk", from_start, along) / np.einsum("nc,nc->n", along, along)[:, None]
+    )
+    foot = np.clip(share, 0.0, 1.0)[..., None] * along[:, None]
+    distance: FloatArray = np.hypot(*np.moveaxis(from_start - foot, -1, 0))
+    return distance
+
+
+def _require_cells(found: Table) -> None:
+    """Cells are those of their discs, or those whose checksum the spec has."""
+    import numpy as np
+
+    from . import packed
+    from .kernel_input import cells_checksum, checksum
+
+    spec, cells, discs = found["spec"], found["tessellation"], found["discs"]
+    cut = spec.joints is not None
+    if spec.discs is not None and not cut and spec.discs != checksum(discs):
+        raise refuse("discs = others, must be those that spec names")
+    if spec.cells is not None and not cut and spec.cells != cells_checksum(cells):
+        raise refuse("cells = others, must be those that spec names")
+    sawn = spec.kind == "half-disc" or (spec.outline is not None and spec.discs is None)
+    if not (cut or sawn or spec.cells is not None):
+        least = _ROUND_OFF * 2.0 * float(np.mean(discs[:, 2]))
+        there = packed.tessellated(discs, found["outline"], spec.short_edge, drop_hidden=True)[1]
+        same = np.array_equal(there.cell_vertices, cells.cell_vertices)
+        same = same and np.array_equal(there.cell_offsets, cells.cell_offsets)
+        if not (same and np.allclose(there.vertices, cells.vertices, rtol=0.0, atol=least)):
+            raise refuse("cells = others, must be those of the discs")
+    elif not (cut and spec.discs is not None and spec.cells is None):
+        # discs that were given may lie anywhere, even far out of their cells
+        _require_points(cells.vertices, cells.cell_vertices, cells.cell_offsets, discs)
+
+
+def _require_points(
+    vertices: FloatArray, corners: IntArray, offsets: IntArray, discs: FloatArray
+) -> None:
+    """Reference points lie in their cells, or hardly out of them."""
+    import numpy as np
+
+    sizes = np.diff(offsets)
+    cell = np.repeat(np.arange(len(sizes)), sizes)
+    following = np.arange(1, len(corners) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    starts, ends = vertices[corners], vertices[corners[following]]
+    along, away = ends - starts, discs[cell, :2] - starts
+    inward = (along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) / np.hypot(*along.T)
+    outside = np.maximum.reduceat(-inward / discs[cell, 2], offsets[:-1])
+    bad = np.flatnonzero(~(outside <= _OUTSIDE))
+    if len(bad):
+        raise refuse(f"disc {bad[0]} = elsewhere, must lie in its cell")
+
+
+def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
+    """So many joints are those of the spec, on edges between cells, near their lines."""
+    import numpy as np
+
+    from .joint_bend import largest_bend
+
+    spec, lines, grains = found["spec"], found["joints"], found.get("grains")
+    names = spec.joint_names or ()
+    if (spec.joints is None) is not (grains is None) or bool(names) is (spec.joints is None):
+        raise refuse("joints, joint_names and grains = some, must be all there or none")
+    if grains is not None:
+        count = int(np.max(grains)) + 1
+        if not np.array_equal(grains[:count], np.arange(count)):
+            raise refuse("grains = others, must be numbers of cells, whole grains first")
+        # what a cut has parted meets at the cut, but for the few cells that had to be split
+        pairs = found["tessellation"].shared_edges[:, :2]
+        parted = grains[pairs[:, 0]] == grains[pairs[:, 1]]
+        if 2 * np.count_nonzero(parted & (tiling.edge_joints >= 0)) < np.count_nonzero(parted):
+            raise refuse("grains = others, must be parted by joints alone")
+    used = tiling.edge_joints[tiling.edge_joints >= 0]
+    if len(used) != joints or {*used.tolist()} != {*range(len(names))}:
+        raise refuse("joints = edges, must be some of each joint that spec names")
+    if not lines:
+        return  # of an earlier version
+    if [*lines] != [*names]:
+        raise refuse(f"lines = {quoted([*lines])}, must be of the joints that spec names")
+    far = _FARTHEST * 2.0 * float(np.mean(found["discs"][:, 2]))
+    cells = found["tessellation"]
+    ends = cells.vertices[cells.shared_edges[:, 2:]]
+    for number, name in enumerate(names):
+        if not largest_bend(lines[name], ends[tiling.edge_joints == number]) <= far:
+            raise refuse(f"joint {name} = elsewhere, must lie on its lines")
+    known = all(len(one) == 1 for one in lines.values()) and len(names) <= _MOST_JOINTS
+    if known and spec.joints not in _checksums(lines):
+        raise refuse("lines = others, must be those that spec names")
+
+
+def _checksums(lines: joint_lines.Lines) -> Iterable[str]:
+    """Checksums of joints that may have been cut one after the other, or some at a time."""
+    names = [*lines]
+    reached: dict[int, set[str | None]] = {0: {None}}
+    for end in range(1, len(names) + 1):
+        reached[end] = {
+            joint_lines.checksum({name: lines[name] for name in names[first:end]}, before)
+            for first in range(end)
+            for before in reached[first]
+        }
+    return {one for one in reached[len(names)] if one is not None}
+
+
+def _require_factors(found: Table) -> None:
+    """Strengths and minerals are those that the spec names."""
+    from . import strengths as contact_strengths
+    from .kernel_input import checksum
+
+    spec, strengths, minerals = found["spec"], found.get("strengths"), found.get("minerals")
+    if (spec.strengths is None) is not (strengths is None):
+        raise refuse("strengths = some, must be there if spec names them")
+    if strengths is not None:
+        contact_strengths.checked(strengths, len(found["tessellation"].shared_edges))
+        if checksum(strengths) != spec.strengths:
+            raise refuse("strengths = others, must be those that spec names")
+    if (spec.minerals is None) is not (minerals is None):
+        raise refuse("minerals = some, must be there if spec names them")
+    if minerals is not None:
+        grains = found.get("grains")
+        whole = minerals if grains is None else minerals[: int(grains.max()) + 1]
+        if spec.minerals not in (checksum(minerals), checksum(whole)):
+            raise refuse("minerals = others, must be those that spec names")
