@@ -93,6 +93,9 @@ def parts(content: Table) -> Table:
         "removed_discs": content["removed_discs"],
         "holes": tuple(np.array(hole) for hole in content["holes"]),
         "joints": joint_lines.checked(content["lines"]) if content.get("lines") else {},
+        "joint_cuts": {
+            name: joint_lines.Cut(**cut) for name, cut in content.get("cuts", {}).items()
+        },
     }
     for key in ("minerals", "grains"):
         if content[key] is not None:
