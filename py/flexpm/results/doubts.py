@@ -7,8 +7,10 @@ A doubt stops nothing: the numbers are computed as they were asked for.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from ..files import Table
+from ..specimens import joint_lines
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -29,6 +31,10 @@ _USUAL: dict[str, tuple[float, float, str]] = {
 LARGEST_MISMATCH = 0.05
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
+#: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
+LARGEST_TAKEN = 0.1
+#: Joints that one warning names.
+_NAMED_JOINTS = 5
 #: Of a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
@@ -87,6 +93,26 @@ def of_bend(bend: float) -> str:
         f"joint_bend = {bend:.3g} m, a joint bends to the grains and catches as it slides; take "
         "another seed or smaller grains"
     )
+
+
+def of_cuts(cuts: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """What lines of joints that are not cut say, in one line.
+
+    Args:
+        cuts: Per joint what came of its lines, as result.json has it.
+    """
+    told = [joint_lines.Cut(**cut) for cut in cuts.values()]
+    found = []
+    for name, cut in zip(cuts, told, strict=True):
+        inside = cut.length - cut.outside
+        if not cut.idle and not cut.taken > LARGEST_TAKEN * inside:
+            continue
+        what = f"{cut.idle} of {cut.lines} lines cut nothing, {1e3 * cut.missing:.3g} of "
+        found.append(f"joint {name}: {what}{1e3 * inside:.3g} mm in the specimen; {cut.reason}")
+    if len(found) > _NAMED_JOINTS:
+        rest = len(found) - _NAMED_JOINTS
+        found = [*found[:_NAMED_JOINTS], f"and {rest} more joints, see joint_cuts"]
+    return [". ".join(found)] if found else []
 
 
 def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A grid of squares holds the boxes of cells; a cell that has grown is put into more of them, none is taken out.
+/// @file  A grid of squares holds the boxes of cells.
 #include <flexpm/kernel/tiling/cell_index.hpp>
 
 #include <flexpm/kernel/geometry/polygon.hpp>
@@ -15,16 +15,8 @@ namespace {
 constexpr double square_share = 0.25;
 constexpr int most_squares = 4096;
 
-struct Extent {
-    Point low, high;
-
-    explicit Extent(Point p) : low(p), high(p) { }
-    void add(Point p)
-    {
-        low = { std::min(low.x, p.x), std::min(low.y, p.y) };
-        high = { std::max(high.x, p.x), std::max(high.y, p.y) };
-    }
-};
+Point lower(Point a, Point b) { return { std::min(a.x, b.x), std::min(a.y, b.y) }; }
+Point upper(Point a, Point b) { return { std::max(a.x, b.x), std::max(a.y, b.y) }; }
 
 }  // namespace
 
@@ -34,9 +26,9 @@ CellIndex::CellIndex(PlanarCells& c) :
     owners({}),
     low(c.vertices.front())
 {
-    Extent box(low);
+    Box box { low, low };
     for (Point p : cells.vertices)
-        box.add(p);
+        box = { lower(box.low, p), upper(box.high, p) };
     low = box.low;
     const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
     square = std::max(square_share * std::sqrt(width * height / cells.cells.size()),
@@ -90,12 +82,23 @@ std::vector<int> CellIndex::near(Point a, Point b, double within) const
             for (int cell : in_square[static_cast<std::size_t>(row) * columns + column]) {
                 if (seen[cell] == search) continue;
                 seen[cell] = search;
-                found.push_back(cell);
+                if (is_close(boxes[cell], a, b, margin)) found.push_back(cell);
             }
         }
     }
     std::sort(found.begin(), found.end());
     return found;
+}
+
+bool CellIndex::is_close(const Box& box, Point a, Point b, double within) const
+{
+    const Point least = lower(a, b), most = upper(a, b);
+    if (box.low.x > most.x + within || box.high.x < least.x - within
+        || box.low.y > most.y + within || box.high.y < least.y - within)
+        return false;
+    const Point way = b - a, middle = 0.5 * (box.low + box.high);
+    const double room = 0.5 * norm(box.high - box.low) + within;
+    return std::abs(cross(way, middle - a)) <= room * norm(way);
 }
 
 bool CellIndex::is_in_a_cell(Point p) const
@@ -117,6 +120,7 @@ bool CellIndex::is_in_a_cell(Point p) const
 
 void CellIndex::split(int cell, Loop first, Loop second)
 {
+    take_out_of_squares(cell);
     owners.remove(cells.cells[cell]);
     for (int v : cells.cells[cell]) {
         auto& at = around[v];
@@ -175,6 +179,7 @@ void CellIndex::move(int vertex, Point place)
 {
     cells.vertices[vertex] = place;
     for (int cell : around[vertex]) {
+        take_out_of_squares(cell);
         place_in_squares(cell);
         const Loop& loop = cells.cells[cell];
         const std::size_t n = loop.size(),
@@ -193,23 +198,35 @@ void CellIndex::add(int cell)
         at.insert(std::lower_bound(at.begin(), at.end(), cell), cell);
         note_length(loop[k], loop[(k + 1) % loop.size()]);
     }
-    if (seen.size() <= static_cast<std::size_t>(cell)) seen.resize(cell + 1, 0);
+    if (seen.size() <= static_cast<std::size_t>(cell)) {
+        seen.resize(cell + 1, 0);
+        boxes.resize(cell + 1);
+    }
     place_in_squares(cell);
 }
 
 void CellIndex::place_in_squares(int cell)
 {
     const Loop& loop = cells.cells[cell];
-    Extent box(cells.vertices[loop.front()]);
+    const Point first = cells.vertices[loop.front()];
+    Box box { first, first };
     for (int v : loop)
-        box.add(cells.vertices[v]);
+        box = { lower(box.low, cells.vertices[v]), upper(box.high, cells.vertices[v]) };
+    boxes[cell] = box;
     diagonal = std::max(diagonal, norm(box.high - box.low));
+    for (int row = row_of(box.low.y), top = row_of(box.high.y); row <= top; ++row)
+        for (int column = column_of(box.low.x), end = column_of(box.high.x); column <= end; ++column)
+            in_square[static_cast<std::size_t>(row) * columns + column].push_back(cell);
+}
+
+void CellIndex::take_out_of_squares(int cell)
+{
+    const Box box = boxes[cell];
     for (int row = row_of(box.low.y), top = row_of(box.high.y); row <= top; ++row) {
         for (int column = column_of(box.low.x), end = column_of(box.high.x); column <= end;
              ++column) {
             auto& there = in_square[static_cast<std::size_t>(row) * columns + column];
-            if (std::find(there.rbegin(), there.rend(), cell) == there.rend())
-                there.push_back(cell);
+            there.erase(std::find(there.begin(), there.end(), cell));
         }
     }
 }

@@ -44,7 +44,11 @@ private:
     EdgeOwners owners;
     std::priority_queue<Edge> lengths;
     double diagonal = 0.0;
-    // squares of one size over the box around all cells, each with the cells whose boxes meet it, or once have
+    // squares of one size over the box around all cells, each with the cells whose boxes meet it
+    struct Box {
+        Point low, high;
+    };
+    std::vector<Box> boxes;  ///< of the cells
     Point low;
     double square = 0.0;
     int columns = 1, rows = 1;
@@ -54,6 +58,8 @@ private:
 
     void add(int cell);
     void place_in_squares(int cell);
+    void take_out_of_squares(int cell);
+    bool is_close(const Box& box, Point a, Point b, double within) const;
     void note_length(int u, int v);
     int column_of(double x) const;
     int row_of(double y) const;

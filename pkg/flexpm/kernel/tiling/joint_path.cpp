@@ -135,34 +135,46 @@ void add_crossing(
     nodes.push_back({ line.along(k, of_a / (of_a - of_b)), -1, edge, u + share * e });
 }
 
-/// All places of a line, along it.
-std::vector<Node> nodes_of(const CellIndex& index, const LongLine& line, double reach, double snap)
+template <class T> void make_unique(std::vector<T>& values)
+{
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// All places of a line, along it, and of what goes on so far before and after it.
+std::vector<Node> nodes_of(
+    const CellIndex& index, const LongLine& line, double before, double after, double snap)
 {
     const PlanarCells& cells = index.cells;
-    std::map<int, Nearest> used;
-    std::set<std::pair<VertexPair, int>> close;  // edges and the segments near to them
+    std::vector<std::pair<int, int>> close;             // vertices and the segments near to them
+    std::vector<std::pair<VertexPair, int>> close_edges;  // the same of edges
     const int last = line.segments() - 1;
     for (int k = 0; k <= last; ++k) {
-        const auto [from, to] = line.stretch(k, reach);
+        const auto [from, to] = line.stretch(k, k == 0 ? before : after);
         for (int cell : index.near(from, to, snap)) {
             const Loop& loop = cells.cells[cell];
             for (std::size_t i = 0; i < loop.size(); ++i) {
-                const int v = loop[i];
-                const auto [at, added] = used.try_emplace(v, line.nearest(cells.vertices[v], 0));
-                at->second = nearer(at->second, line.nearest(cells.vertices[v], k));
-                close.insert({ undirected(v, loop[(i + 1) % loop.size()]), k });
+                close.push_back({ loop[i], k });
+                close_edges.push_back({ undirected(loop[i], loop[(i + 1) % loop.size()]), k });
             }
         }
     }
+    make_unique(close);
+    make_unique(close_edges);
     std::vector<Node> nodes;
     std::set<int> on_line;
-    for (auto& [v, found] : used) {
-        found = nearer(found, line.nearest(cells.vertices[v], last));
+    for (std::size_t i = 0; i < close.size();) {
+        const int v = close[i].first;
+        const Point p = cells.vertices[v];
+        Nearest found = line.nearest(p, 0);
+        for (; i < close.size() && close[i].first == v; ++i)
+            found = nearer(found, line.nearest(p, close[i].second));
+        found = nearer(found, line.nearest(p, last));
         if (found.distance > snap) continue;
         on_line.insert(v);
-        nodes.push_back({ found.along, v, {}, cells.vertices[v] });
+        nodes.push_back({ found.along, v, {}, p });
     }
-    for (const auto& [edge, k] : close)
+    for (const auto& [edge, k] : close_edges)
         if (!on_line.count(edge.first) && !on_line.count(edge.second))
             add_crossing(cells, edge, line, k, nodes);
     std::stable_sort(
@@ -290,15 +302,25 @@ double beyond(CellIndex& index)
     return std::max(10.0 * index.longest_edge(), 2.0 * index.largest_cell());
 }
 
+/// How far from an end of a line the end of its cell may lie, and a vertex that stands for it [m].
+double reach(CellIndex& index, Point end, double snap)
+{
+    if (!index.is_in_a_cell(end)) return index.largest_cell() + index.longest_edge() + snap;
+    double farthest = 0.0;
+    for (int cell : index.near(end, end, snap))
+        for (int v : index.cells.cells[cell])
+            farthest = std::max(farthest, norm(index.cells.vertices[v] - end));
+    return farthest + snap;
+}
+
 }  // namespace
 
 std::vector<JointStep> joint_steps(CellIndex& index, const JointLine& joint, double mean_area)
 {
     const double snap = snap_distance * 2.0 * std::sqrt(mean_area / pi);
     const LongLine line(joint, beyond(index));
-    // the end of a cell, and a vertex that stands for it
-    const double reach = index.largest_cell() + index.longest_edge() + snap;
-    std::vector<Node> nodes = nodes_of(index, line, reach, snap);
+    std::vector<Node> nodes = nodes_of(index, line, reach(index, joint.points.front(), snap),
+        reach(index, joint.points.back(), snap), snap);
     std::vector<bool> needed(nodes.size(), false);
     std::vector<std::size_t> steps;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
