@@ -7,10 +7,8 @@ A doubt stops nothing: the numbers are computed as they were asked for.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from ..files import Table
-from ..specimens import joint_lines
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -95,20 +93,21 @@ def of_bend(bend: float) -> str:
     )
 
 
-def of_cuts(cuts: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def of_cuts(cuts: Table) -> list[str]:
     """What lines of joints that are not cut say, in one line.
 
     Args:
         cuts: Per joint what came of its lines, as result.json has it.
     """
-    told = [joint_lines.Cut(**cut) for cut in cuts.values()]
     found = []
-    for name, cut in zip(cuts, told, strict=True):
-        inside = cut.length - cut.outside
-        if not cut.idle and not cut.taken > LARGEST_TAKEN * inside:
-            continue
-        what = f"{cut.idle} of {cut.lines} lines cut nothing, {1e3 * cut.missing:.3g} of "
-        found.append(f"joint {name}: {what}{1e3 * inside:.3g} mm in the specimen; {cut.reason}")
+    for name, cut in cuts.items():
+        inside = cut["length"] - cut["outside"]
+        if cut["idle"] or cut["taken"] > LARGEST_TAKEN * inside:
+            missing = max(inside - cut["cut"], 0.0)
+            found.append(
+                f"joint {name}: {cut['idle']} of {cut['lines']} lines cut nothing, "
+                f"{1e3 * missing:.3g} of {1e3 * inside:.3g} mm in the specimen; {cut['reason']}"
+            )
     if len(found) > _NAMED_JOINTS:
         rest = len(found) - _NAMED_JOINTS
         found = [*found[:_NAMED_JOINTS], f"and {rest} more joints, see joint_cuts"]

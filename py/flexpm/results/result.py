@@ -73,7 +73,9 @@ class Result(Shown):
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
-    joint_cuts: Table | None = None  #: what came of the lines of each joint, by its name; lengths [m]
+    joint_cuts: Table | None = (
+        None  #: what came of the lines of each joint, by its name; lengths [m]
+    )
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]

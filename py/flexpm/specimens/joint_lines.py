@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..files import Table
 from ..require import quoted
 
 #: Columns of a file of joints.
@@ -28,7 +29,8 @@ _FARTHEST = 1e6
 #: Share of a length that is round-off.
 _NOTHING = 1e-9
 _NOT_IN_NAMES = set(". =,\"'")
-Line = list[tuple[float, float]]
+Point = tuple[float, float]
+Line = list[Point]
 #: Lines of each joint, by its name.
 Lines = dict[str, list[Line]]
 
@@ -160,6 +162,8 @@ class Cut:
         taken: Where they lie on contacts that a joint had before [m].
         outside: Outside of the specimen [m]. What is left ends within grains.
         on: The joint on which most of `taken` lies; None: nothing was taken.
+
+    Of what is cut, up to a tenth of a grain at the outline may count as left.
     """
 
     lines: int
@@ -192,15 +196,20 @@ class Cut:
         sums = {key: getattr(self, key) + getattr(more, key) for key in _SUMS}
         return Cut(**sums, on=self.on if self.taken >= more.taken else more.on)
 
-    def to_json(self) -> dict[str, Any]:
-        """As plain values."""
-        return asdict(self)
+    def to_json(self) -> Table:
+        """As plain values, with the reason."""
+        return {**asdict(self), "reason": self.reason}
+
+    @classmethod
+    def from_json(cls, values: Table) -> Cut:
+        """From plain values."""
+        return cls(**{key: value for key, value in values.items() if key != "reason"})
 
 
 _SUMS = ("lines", "idle", "length", "cut", "taken", "outside")
 
 
-def require_within(lines: Lines, low: tuple[float, float], high: tuple[float, float]) -> None:
+def require_within(lines: Lines, low: Point, high: Point) -> None:
     """Refuse lines that cannot be cut: far from a specimen's box, or too many of them within it.
 
     Raises:
@@ -224,7 +233,7 @@ def require_within(lines: Lines, low: tuple[float, float], high: tuple[float, fl
         )
 
 
-def require_any(cuts: Mapping[str, Cut], lines: Lines, low: object, high: object) -> None:
+def require_any(cuts: Mapping[str, Cut], lines: Lines, low: Point, high: Point) -> None:
     """Refuse a set of lines none of which cuts anything.
 
     Args:
@@ -236,20 +245,21 @@ def require_any(cuts: Mapping[str, Cut], lines: Lines, low: object, high: object
     if any(one.cut > 0.0 for one in cuts.values()):
         return
     places = [point for given in lines.values() for line in given for point in line]
-    ends = [tuple(pick(axis) for axis in zip(*places, strict=True)) for pick in (min, max)]
+    x, y = zip(*places, strict=True)
     first, one = next(iter(cuts.items()))
     raise InputError(
         f"joints: lines that cut a cell = 0 of {sum(one.lines for one in cuts.values())}, must be "
-        f">= 1 (joint {first} {one.reason}); they lie from {_place(ends[0])} to {_place(ends[1])}, "
-        f"the specimen from {_place(low)} to {_place(high)}: move or lengthen them"
+        f">= 1 (joint {first} {one.reason}); they lie from {_place((min(x), min(y)))} to "
+        f"{_place((max(x), max(y)))}, the specimen from {_place(low)} to {_place(high)}: move or "
+        "lengthen them"
     )
 
 
-def _place(point: Any) -> str:
+def _place(point: Point) -> str:
     return f"({point[0]:.6g}, {point[1]:.6g}) m"
 
 
-def _meets(a: Any, b: Any, low: tuple[float, float], high: tuple[float, float]) -> bool:
+def _meets(a: Point, b: Point, low: Point, high: Point) -> bool:
     """Whether the box of a segment meets another box."""
     return all(
         max(a[axis], b[axis]) >= low[axis] and min(a[axis], b[axis]) <= high[axis]

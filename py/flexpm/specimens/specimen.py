@@ -25,6 +25,7 @@ from .._flexpm import (
 )
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
+from ..files import Table
 from ..notebook import Shown
 from ..progress import Progress
 from ..require import require_flag
@@ -439,9 +440,7 @@ class Specimen(Shown):
         )
         return cls(discs, outline, cells, spec, removed_discs=len(given) - len(discs))
 
-    def with_joints(
-        self, joints: Mapping[str, Any], progress: Progress | None = None
-    ) -> Specimen:
+    def with_joints(self, joints: Mapping[str, Any], progress: Progress | None = None) -> Specimen:
         """Return the specimen cut by joints, whose laws the material has (D35 to D37).
 
         What lies outside, ends within a grain or lies on an earlier joint cuts nothing:
@@ -655,7 +654,7 @@ class Specimen(Shown):
         centres, radii = columns(self.discs)
         return call(grain_meshes, self.tessellation, centres, radii, mesh)
 
-    def statistics(self) -> dict[str, Any]:
+    def statistics(self) -> Table:
         """Count and measure grains, contacts, cells, meshes and joints.
 
         Returns:

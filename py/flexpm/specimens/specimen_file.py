@@ -94,7 +94,7 @@ def parts(content: Table) -> Table:
         "holes": tuple(np.array(hole) for hole in content["holes"]),
         "joints": joint_lines.checked(content["lines"]) if content.get("lines") else {},
         "joint_cuts": {
-            name: joint_lines.Cut(**cut) for name, cut in content.get("cuts", {}).items()
+            name: joint_lines.Cut.from_json(cut) for name, cut in content.get("cuts", {}).items()
         },
     }
     for key in ("minerals", "grains"):

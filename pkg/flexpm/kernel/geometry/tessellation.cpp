@@ -29,7 +29,8 @@ int count_shared_edges(const PowerDiagram& diagram)
 constexpr std::size_t named = 20;
 
 /// @param hidden  numbers of the discs without a cell
-[[noreturn]] void refuse_hidden(const std::vector<Disc>& discs, const std::vector<std::size_t>& hidden)
+[[noreturn]] void refuse_hidden(
+    const std::vector<Disc>& discs, const std::vector<std::size_t>& hidden)
 {
     const Disc& first = discs[hidden.front()];
     if (hidden.size() == 1) {
@@ -41,7 +42,8 @@ constexpr std::size_t named = 20;
     for (std::size_t k = 0; k < std::min(hidden.size(), named); ++k)
         numbers += (k > 0 ? ", " : "") + std::to_string(hidden[k]);
     refuse("tessellate: hidden discs",
-        std::to_string(hidden.size()) + " (" + numbers + (hidden.size() > named ? ", ..." : "") + ")",
+        std::to_string(hidden.size()) + " (" + numbers + (hidden.size() > named ? ", ..." : "")
+            + ")",
         "must have a cell, the first at " + place(first.centre) + "; remove, move or drop them");
 }
 
@@ -120,8 +122,7 @@ Tessellation tessellate(
                 "must be enough to span an area in a circle; add discs or use a polygon");
         }
         // of discs in nearly one place some may keep no area
-        if (!any || is_sliver || (cell.empty() && !options.allow_hidden))
-            hidden.push_back(i);
+        if (!any || is_sliver || (cell.empty() && !options.allow_hidden)) hidden.push_back(i);
     }
     if (!hidden.empty()) refuse_hidden(discs, hidden);
     const int uncollapsed = count_shared_edges(diagram);

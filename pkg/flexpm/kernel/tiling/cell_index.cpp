@@ -49,8 +49,8 @@ double CellIndex::longest_edge()
 {
     while (!lengths.empty()) {
         const auto [length, u, v] = lengths.top();
-        const bool is_there = owners.left_of(u, v) != EdgeOwners::none
-            || owners.left_of(v, u) != EdgeOwners::none;
+        const bool is_there =
+            owners.left_of(u, v) != EdgeOwners::none || owners.left_of(v, u) != EdgeOwners::none;
         if (is_there && norm(cells.vertices[v] - cells.vertices[u]) == length) return length;
         lengths.pop();
     }
@@ -93,8 +93,8 @@ std::vector<int> CellIndex::near(Point a, Point b, double within) const
 bool CellIndex::is_close(const Box& box, Point a, Point b, double within) const
 {
     const Point least = lower(a, b), most = upper(a, b);
-    if (box.low.x > most.x + within || box.high.x < least.x - within
-        || box.low.y > most.y + within || box.high.y < least.y - within)
+    if (box.low.x > most.x + within || box.high.x < least.x - within || box.low.y > most.y + within
+        || box.high.y < least.y - within)
         return false;
     const Point way = b - a, middle = 0.5 * (box.low + box.high);
     const double room = 0.5 * norm(box.high - box.low) + within;
@@ -103,8 +103,8 @@ bool CellIndex::is_close(const Box& box, Point a, Point b, double within) const
 
 bool CellIndex::is_in_a_cell(Point p) const
 {
-    const auto& candidates
-        = in_square[static_cast<std::size_t>(row_of(p.y)) * columns + column_of(p.x)];
+    const auto& candidates =
+        in_square[static_cast<std::size_t>(row_of(p.y)) * columns + column_of(p.x)];
     return std::any_of(candidates.begin(), candidates.end(), [&](int cell) {
         const Loop& loop = cells.cells[cell];
         bool inside = false;
@@ -136,8 +136,8 @@ void CellIndex::split(int cell, Loop first, Loop second)
 void CellIndex::divide(VertexPair edge, int vertex)
 {
     if (around.size() <= static_cast<std::size_t>(vertex)) around.resize(vertex + 1);
-    for (int cell : { owners.left_of(edge.first, edge.second),
-             owners.left_of(edge.second, edge.first) }) {
+    for (int cell :
+        { owners.left_of(edge.first, edge.second), owners.left_of(edge.second, edge.first) }) {
         if (cell == EdgeOwners::none) continue;
         Loop& loop = cells.cells[cell];
         owners.remove(loop);
@@ -215,7 +215,8 @@ void CellIndex::place_in_squares(int cell)
     boxes[cell] = box;
     diagonal = std::max(diagonal, norm(box.high - box.low));
     for (int row = row_of(box.low.y), top = row_of(box.high.y); row <= top; ++row)
-        for (int column = column_of(box.low.x), end = column_of(box.high.x); column <= end; ++column)
+        for (int column = column_of(box.low.x), end = column_of(box.high.x); column <= end;
+             ++column)
             in_square[static_cast<std::size_t>(row) * columns + column].push_back(cell);
 }
 

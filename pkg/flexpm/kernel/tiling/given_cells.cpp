@@ -250,7 +250,8 @@ int holder_of(const PlanarCells& cells, const Loop& ring)
 /// Cells around a cell's holes in place of it.
 void open_cell(PlanarCells& cells, int cell, std::vector<Loop> holes)
 {
-    std::vector<std::pair<Loop, std::vector<Loop>>> open { { cells.cells[cell], std::move(holes) } };
+    std::vector<std::pair<Loop, std::vector<Loop>>> open { { cells.cells[cell],
+        std::move(holes) } };
     bool first = true;
     while (!open.empty()) {
         auto [rim, inside] = std::move(open.back());

@@ -65,8 +65,7 @@ public:
         const double outside = length_outside(index, line);
         for (const JointStep& step : joint_steps(index, line, mean_area))
             connect(step, line.joint);
-        found.outside
-            = std::max(std::min(outside, found.length - found.cut - found.taken), 0.0);
+        found.outside = std::max(std::min(outside, found.length - found.cut - found.taken), 0.0);
         const auto most = std::max_element(taken_by.begin(), taken_by.end(),
             [](const auto& a, const auto& b) { return a.second < b.second; });
         if (most != taken_by.end()) found.on = most->first;

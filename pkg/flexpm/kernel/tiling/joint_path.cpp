@@ -122,8 +122,8 @@ Nearest nearest(const LongLine& line, Point p)
 }
 
 /// Crossing of an edge and a segment of the line, if there is one.
-void add_crossing(
-    const PlanarCells& cells, VertexPair edge, const LongLine& line, int k, std::vector<Node>& nodes)
+void add_crossing(const PlanarCells& cells, VertexPair edge, const LongLine& line, int k,
+    std::vector<Node>& nodes)
 {
     const Point u = cells.vertices[edge.first], e = cells.vertices[edge.second] - u;
     const Point a = line.from(k), b = line.from(k + 1), w = b - a;
@@ -146,7 +146,7 @@ std::vector<Node> nodes_of(
     const CellIndex& index, const LongLine& line, double before, double after, double snap)
 {
     const PlanarCells& cells = index.cells;
-    std::vector<std::pair<int, int>> close;             // vertices and the segments near to them
+    std::vector<std::pair<int, int>> close;               // vertices and the segments near to them
     std::vector<std::pair<VertexPair, int>> close_edges;  // the same of edges
     const int last = line.segments() - 1;
     for (int k = 0; k <= last; ++k) {
@@ -357,11 +357,11 @@ double length_outside(const CellIndex& index, const JointLine& line)
             const Loop& loop = cells.cells[cell];
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 const int v = loop[k], next = loop[(k + 1) % loop.size()];
-                if (!index.is_boundary(v, next)) continue;
                 const Point u = cells.vertices[v], e = cells.vertices[next] - u;
                 const double of_u = cross(w, u - a), of_v = cross(w, u + e - a);
                 const double share = cross(u - a, e) / cross(w, e);
-                if ((of_u > 0.0) != (of_v > 0.0) && share > 0.0 && share < 1.0)
+                if ((of_u > 0.0) != (of_v > 0.0) && share > 0.0 && share < 1.0
+                    && index.is_boundary(v, next))
                     shares.push_back(share);
             }
         }
