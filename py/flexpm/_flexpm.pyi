@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The compiled module: what of it is no class of YADE. SI units."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from enum import IntEnum
 from typing import TypedDict
 
@@ -171,7 +171,8 @@ def cut_by_joints(
     joints: IntArray,
     lines: list[FloatArray],
     numbers: IntArray,
-) -> Tiling: ...
+    tell: Callable[[int], None],
+) -> tuple[Tiling, FloatArray, IntArray]: ...
 def cells_of_file(
     vertices: FloatArray,
     cells: list[IntArray],

@@ -78,21 +78,36 @@ def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
         refuse_packing()
         specimen = specimen_file.spec_of(specimen_file.read(options["specimen_file"]))
     if options["joints_file"] is not None:
-        specimen = specimen.with_joints(joint_lines.read(options["joints_file"]))
+        specimen = specimen.with_joints(_joints(options["joints_file"]))
     spec = RunSpec.from_options(test, given, chosen, specimen)
-    told = click.get_current_context().meta.setdefault("flexpm.doubts", set())
     for line in doubts.of_inputs(spec.to_json()):
-        if line not in told:
-            told.add(line)
-            terminal.say(f"warning: {line}")
+        _warn(line)
     return spec
+
+
+def _joints(path: Path) -> joint_lines.Lines:
+    """Lines of a file of joints, which a command reads once: it may be a pipe."""
+    read: dict[Path, joint_lines.Lines]
+    read = click.get_current_context().find_root().meta.setdefault("flexpm.joints", {})
+    if path not in read:
+        read[path] = joint_lines.read(path)
+    return read[path]
+
+
+def _warn(line: str) -> None:
+    """Show a warning, once in a command."""
+    told = click.get_current_context().meta.setdefault("flexpm.doubts", set())
+    if line not in told:
+        told.add(line)
+        terminal.say(f"warning: {line}")
 
 
 def tell_warnings(result: Result, name: str = "") -> None:
     """Show the warnings of a result that have not been shown for its inputs."""
     known = doubts.of_inputs(result.inputs) if result.inputs is not None else []
+    told = click.get_current_context().meta.get("flexpm.doubts", ())
     for line in result.warnings:
-        if line not in known:
+        if line not in known and line not in told:
             terminal.say(f"warning: {name}{line}")
 
 
@@ -117,7 +132,12 @@ def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Spe
     plain = replace(spec, joints=None, joint_names=None)
     specimen = Specimen.pack(plain, progress) if file is None else Specimen.load(file)
     cuts = options.get("joints_file")
-    return specimen if cuts is None else specimen.with_joints(joint_lines.read(cuts))
+    if cuts is None:
+        return specimen
+    cut = specimen.with_joints(_joints(cuts), progress)
+    for line in doubts.of_cuts({name: one.to_json() for name, one in cut.joint_cuts.items()}):
+        _warn(line)
+    return cut
 
 
 def refuse_packing() -> None:

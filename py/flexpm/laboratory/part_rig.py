@@ -416,13 +416,15 @@ class PartRig(GrainRig):
     def warnings(self) -> list[str]:
         """What makes the record doubtful.
 
-        Load and reactions that differ, a bad energy balance, a joint that bends.
+        Load and reactions that differ, a bad energy balance, a joint that bends or is not cut.
         """
         record = self.record
         error = measures.energy_error(record, self.initial_energy)
         bend = self.built.joint_bend
+        cuts = {name: cut.to_json() for name, cut in self.built.specimen.joint_cuts.items()}
         return [
             *([doubts.of_bend(bend)] if bend else []),
+            *doubts.of_cuts(cuts),
             *doubts.of_result("", error, measures.median_end_mismatch(record), None),
         ]
 

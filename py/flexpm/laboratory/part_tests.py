@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import InputError, SimulationError
 from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
@@ -20,8 +21,11 @@ from .rig import BOTTOM, TOP
 from .run_spec import RunSpec
 from .runner import Runner
 
-#: Joint that a notch is.
+#: Joint that a notch is, in these tests.
 _NOTCH = "notch"
+_BENDING = ("bending", "scb")
+#: Share of the height that is round-off.
+_TOUCHES = 1e-9
 
 
 @dataclass(frozen=True)
@@ -42,8 +46,11 @@ def prepared(spec: RunSpec, specimen: Specimen, material: Material) -> tuple[Spe
     """The specimen and the material of a test, with its notch if it has one.
 
     Raises:
-        InputError: for a notch that cuts the specimen through.
+        InputError: for a notch that cuts the specimen through, or a joint of the specimen that has
+            its name and is none.
     """
+    if spec.test in _BENDING and _NOTCH in (specimen.spec.joint_names or ()):
+        _require_notch(spec, specimen, material)
     if not spec.notch:
         return specimen, material
     box = _box(specimen)
@@ -87,11 +94,38 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
 
 def notch_depth(specimen: Specimen) -> float:
     """How far the notch has been cut from the bottom [m]; 0 without one. Deviation D35."""
+    bottom = _box(specimen).bottom
+    return float(np.max(_notch(specimen)[..., 1], initial=bottom)) - bottom
+
+
+def _notch(specimen: Specimen) -> FloatArray:
+    """Ends (n, 2, 2) [m] of the contacts of the notch."""
     names = specimen.spec.joint_names or ()
-    if _NOTCH not in names:
-        return 0.0
-    ends = specimen.joint_lines()[names.index(_NOTCH)]
-    return float(np.max(ends[..., 1])) - _box(specimen).bottom
+    return specimen.joint_lines()[names.index(_NOTCH)] if _NOTCH in names else np.empty((0, 2, 2))
+
+
+def _require_notch(spec: RunSpec, specimen: Specimen, material: Material) -> None:
+    """Refuse a joint named as the notch that is none: strong, or elsewhere."""
+    box, ends = _box(specimen), _notch(specimen)
+    law = next(law for law in material.joint_laws(spec.model) if law["name"] == _NOTCH)
+    strength = max(law["cohesion"], law["tensile_strength"])
+    x, y = (np.array(ends[..., axis]) for axis in (0, 1))
+    aside = float(np.max(np.abs(x - box.middle), initial=0.0))
+    above = float(np.min(y, initial=box.top)) - box.bottom
+    if spec.notch:
+        what = f"comes beside the notch of {spec.notch:g} m that the run cuts"
+    elif strength > 0.0:
+        what = f"strength = {strength:g} Pa"
+    elif above > _TOUCHES * (box.top - box.bottom):
+        what = f"begins {above:.3g} m above the bottom"
+    elif aside > specimen.mean_diameter:
+        what = f"is {aside:.3g} m beside the middle"
+    else:
+        return
+    raise InputError(
+        f"joint notch: {what}, must be open and go up from the bottom in the middle to be the "
+        f"notch of {spec.test}, and the only one; give it another name"
+    )
 
 
 def _bend(rig: PartRig, spec: RunSpec) -> None:
@@ -153,7 +187,8 @@ def _shear(rig: PartRig, spec: RunSpec) -> None:
 def _shear_strength(built: Model, pressure: float) -> float:
     """The least c + mu sigma_n [Pa] of the rock and of the specimen's joints."""
     rock = _mean(built, lambda law: law["cohesion"] + law["friction"] * pressure)
-    there = built.specimen.spec.joint_names or ()
+    joints = zip(built.specimen.spec.joint_names or (), built.specimen.joint_lines(), strict=True)
+    there = [name for name, contacts in joints if len(contacts)]
     laws = built.material.joint_laws(built.name)
     weak = [law["cohesion"] + law["friction"] * pressure for law in laws if law["name"] in there]
     return float(min([rock, *weak]))
@@ -166,7 +201,7 @@ def _mean(built: Model, value: Callable[[Law], float]) -> float:
 
 
 _LAYOUTS: dict[str, Callable[[PartRig, RunSpec], None]] = {
-    **dict.fromkeys(("bending", "scb"), _bend),
+    **dict.fromkeys(_BENDING, _bend),
     "shear": _shear,
 }
 

@@ -422,6 +422,8 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.measure_fragments(snapshot)
     if isinstance(rig.built, Model):
         result.joint_bend = rig.built.joint_bend
+        cuts = rig.built.specimen.joint_cuts.items()
+        result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
     return result
 
 

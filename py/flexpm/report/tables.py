@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from ..files import Table
 from ..materials.references import Reference
 from ..text import name_of, words_of
 from .words import words_of_test
@@ -176,12 +177,17 @@ def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str
     return columns(header, rows)
 
 
-def statistics_table(found: Mapping[str, float | Mapping[str, float]]) -> str:
+def statistics_table(found: Table) -> str:
     """Table of what can be counted and measured in a specimen: lengths in mm, angles in degrees."""
     rows = []
     for name, value in found.items():
         words, factor, unit = _FIGURES.get(name, (words_of(name), 1.0, ""))
-        if isinstance(value, Mapping):
+        if name == "joints":
+            for joint, cut in value.items():
+                lines = f"{cut['lines'] - cut['idle']} of {cut['lines']}"
+                length = f"{1e3 * cut['cut']:.4g} of {1e3 * cut['length']:.4g} mm"
+                rows.append((f"joint {joint}: lines that cut, length", f"{lines}, {length}"))
+        elif isinstance(value, Mapping):
             for share, number in value.items():
                 rows.append((words.format(_share(float(share))), scaled(number, factor, unit)))
         elif isinstance(value, int):

@@ -29,6 +29,10 @@ _USUAL: dict[str, tuple[float, float, str]] = {
 LARGEST_MISMATCH = 0.05
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
+#: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
+LARGEST_TAKEN = 0.1
+#: Joints that one warning names.
+_NAMED_JOINTS = 5
 #: Of a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
@@ -87,6 +91,27 @@ def of_bend(bend: float) -> str:
         f"joint_bend = {bend:.3g} m, a joint bends to the grains and catches as it slides; take "
         "another seed or smaller grains"
     )
+
+
+def of_cuts(cuts: Table) -> list[str]:
+    """What lines of joints that are not cut say, in one line.
+
+    Args:
+        cuts: Per joint what came of its lines, as result.json has it.
+    """
+    found = []
+    for name, cut in cuts.items():
+        inside = cut["length"] - cut["outside"]
+        if cut["idle"] or cut["taken"] > LARGEST_TAKEN * inside:
+            missing = max(inside - cut["cut"], 0.0)
+            found.append(
+                f"joint {name}: {cut['idle']} of {cut['lines']} lines cut nothing, "
+                f"{1e3 * missing:.3g} of {1e3 * inside:.3g} mm in the specimen; {cut['reason']}"
+            )
+    if len(found) > _NAMED_JOINTS:
+        rest = len(found) - _NAMED_JOINTS
+        found = [*found[:_NAMED_JOINTS], f"and {rest} more joints, see joint_cuts"]
+    return [". ".join(found)] if found else []
 
 
 def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:

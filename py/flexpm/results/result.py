@@ -74,6 +74,9 @@ class Result(Shown):
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
+    joint_cuts: Table | None = (
+        None  #: what came of the lines of each joint, by its name; lengths [m]
+    )
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
@@ -111,6 +114,7 @@ class Result(Shown):
             found.append(doubts.NO_PULSE)
         if self.joint_bend:
             found.append(doubts.of_bend(self.joint_bend))
+        found += doubts.of_cuts(self.joint_cuts or {})
         return found + doubts.of_result(self.status, self.energy_error, mismatch, rate)
 
     def measure(

@@ -6,19 +6,29 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
+import itertools
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..files import read_text
+from ..files import Table, read_text
 from ..require import quoted
 
 #: Columns of a file of joints.
 COLUMNS = ("x1", "y1", "x2", "y2", "name")
-Line = list[tuple[float, float]]
+#: Most segments in a specimen.
+MOST_SEGMENTS = 20_000
+#: Sizes of the specimen within which a point may lie: beyond, round-off shows in its place.
+_FARTHEST = 1e6
+#: Share of a length that is round-off.
+_NOTHING = 1e-9
+_NOT_IN_NAMES = set(". =,\"'")
+Point = tuple[float, float]
+Line = list[Point]
 #: Lines of each joint, by its name.
 Lines = dict[str, list[Line]]
 
@@ -26,31 +36,68 @@ Lines = dict[str, list[Line]]
 def read(path: Path) -> Lines:
     """Read the segments of a CSV file; those of one name that follow each other are one line.
 
+    A row without length repeats a point of its line, which counts once.
+
     Raises:
         InputError: if it cannot be read, or a row is no segment.
     """
     name = f"joints = {str(path)!r}"
-    try:
-        text = read_text(path)
-        rows = list(csv.DictReader(io.StringIO(text, newline=""), skipinitialspace=True))
-        columns = rows[0].keys() if rows else ()
-    except OSError as error:
-        raise InputError(f"{name}, cannot be read ({error.strerror}); give a CSV file") from None
-    except (ValueError, csv.Error) as error:  # also of a name that can be none
-        raise InputError(f"{name}, is no CSV file: {error}") from None
-    if set(columns) != {*COLUMNS}:
-        raise InputError(f"{name}, must have rows and the columns {','.join(COLUMNS)}; correct it")
     found: Lines = {}
-    for number, row in enumerate(rows, 2):
-        where = f"{name}, line {number}"
+    first_rows: dict[str, list[int]] = {}
+    for number, row in _rows(name, path):
+        label = (row[4] if len(row) > 4 else "").strip()
+        where = f"{name}, line {number}, joint {quoted(label)}"
+        if len(row) > len(COLUMNS):
+            raise InputError(
+                f"{where}: cells = {len(row)}, must be {len(COLUMNS)}, one for each column; "
+                "take out what is too much"
+            )
+        _check_name(label, f"{where}: name")
         start, end = _ends(where, row)
-        label = (row["name"] or "").strip()
         lines = found.setdefault(label, [])
         if lines and lines[-1][-1] == start:
             lines[-1].append(end)
         else:
             lines.append([start, end])
+            first_rows.setdefault(label, []).append(number)
+    for label, lines in found.items():
+        for line, number in zip(lines, first_rows[label], strict=True):
+            if all(point == line[0] for point in line):
+                raise InputError(
+                    f"{name}, line {number}, joint {quoted(label)}: x2, y2 = {line[0]} m, must not "
+                    "be the start; remove the line"
+                )
     return checked(found)
+
+
+def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Line numbers and cells of rows, these in the order of ``COLUMNS``, then what is too much."""
+    try:
+        text = read_text(path)
+        rows = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True)
+        columns = next(rows, [])
+        if sorted(columns) != sorted(COLUMNS):
+            raise InputError(
+                f"{name}: columns = {quoted(','.join(columns))}, must have rows and the columns "
+                f"{','.join(COLUMNS)}, each once; correct it"
+            )
+        places = [columns.index(column) for column in COLUMNS]
+        begun = False
+        for row in rows:
+            if row:
+                begun = True
+                cells = [row[place] if place < len(row) else "" for place in places]
+                yield rows.line_num, cells + row[len(COLUMNS) :]
+        if not begun:
+            raise InputError(
+                f"{name}, must have rows and the columns {','.join(COLUMNS)}; correct it"
+            )
+    except OSError as error:
+        raise InputError(f"{name}, cannot be read ({error.strerror}); give a CSV file") from None
+    except InputError:
+        raise
+    except (ValueError, csv.Error) as error:  # also of a name that can be none
+        raise InputError(f"{name}, is no CSV file: {error}") from None
 
 
 def checked(joints: object) -> Lines:
@@ -63,11 +110,7 @@ def checked(joints: object) -> Lines:
         raise InputError(f"joints = {quoted(joints)}, must be lines by the name of their joint")
     found: Lines = {}
     for name, given in joints.items():
-        if not isinstance(name, str) or not name or set(name) & set(". =,\"'"):
-            raise InputError(
-                f"joint = {quoted(name)}, must be a name without spaces, dots, commas, quotes and "
-                "equals signs"
-            )
+        _check_name(name, "joint")
         lines = _plain(given)
         if _is_line(lines):
             lines = [lines]
@@ -76,8 +119,146 @@ def checked(joints: object) -> Lines:
                 f"joint {name} = {quoted(given)}, must be a line of two points x, y or more, or a "
                 "list of lines"
             )
-        found[name] = [[(float(x), float(y)) for x, y in line] for line in lines]
+        found[name] = [_without_repeats(name, line) for line in lines]
     return found
+
+
+def _check_name(name: object, where: str) -> None:
+    """Refuse what is no printable word."""
+    if not isinstance(name, str) or not name.isprintable() or not name or set(name) & _NOT_IN_NAMES:
+        raise InputError(
+            f"{where} = {quoted(name)}, must be a name without spaces, dots, commas, quotes, "
+            "equals signs and what cannot be printed"
+        )
+
+
+def _without_repeats(name: str, line: Sequence[Sequence[float]]) -> Line:
+    """A line whose points that are there twice in a row count once."""
+    points = [(float(x), float(y)) for x, y in line]
+    found = points[:1] + [b for a, b in itertools.pairwise(points) if a != b]
+    if len(found) < 2:
+        raise InputError(
+            f"joint {name}: point = {found[0]} m, must not be there twice in a line without "
+            "length; remove the line"
+        )
+    return found
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What came of the lines of a joint.
+
+    Attributes:
+        lines: That were asked for.
+        idle: Of these, the ones that cut nothing.
+        length: Of all lines as they were asked for [m].
+        cut: Where they have made contacts of the joint [m].
+        taken: Where they lie on contacts that a joint had before [m].
+        outside: Outside of the specimen [m]. What is left ends within grains.
+        on: The joint on which most of `taken` lies; None: nothing was taken.
+
+    Of what is cut, up to a tenth of a grain at the outline may count as left.
+    """
+
+    lines: int
+    idle: int
+    length: float
+    cut: float
+    taken: float
+    outside: float
+    on: str | None = None
+
+    @property
+    def missing(self) -> float:
+        """Length inside the specimen that is not cut [m]."""
+        return max(self.length - self.outside - self.cut, 0.0)
+
+    @property
+    def reason(self) -> str:
+        """Why not more of it is cut, by the largest part."""
+        within = self.length - self.cut - self.taken - self.outside
+        if self.taken > 0.0 and self.taken >= within:
+            return f"lies on joint {self.on}, which was cut first"
+        if within > _NOTHING * self.length:
+            return "ends within grains"
+        return "lies outside the specimen"
+
+    def and_(self, more: Cut | None) -> Cut:
+        """The same joint with more lines."""
+        if more is None:
+            return self
+        sums = {key: getattr(self, key) + getattr(more, key) for key in _SUMS}
+        return Cut(**sums, on=self.on if self.taken >= more.taken else more.on)
+
+    def to_json(self) -> Table:
+        """As plain values, with the reason."""
+        return {**asdict(self), "reason": self.reason}
+
+    @classmethod
+    def from_json(cls, values: Table) -> Cut:
+        """From plain values."""
+        return cls(**{key: value for key, value in values.items() if key != "reason"})
+
+
+_SUMS = ("lines", "idle", "length", "cut", "taken", "outside")
+
+
+def require_within(lines: Lines, low: Point, high: Point) -> None:
+    """Refuse lines that cannot be cut: far from a specimen's box, or too many of them within it.
+
+    Raises:
+        InputError: for a point further away than 1e6 sizes, or more than 20 000 segments.
+    """
+    size = math.hypot(high[0] - low[0], high[1] - low[1])
+    inside = 0
+    for name, given in lines.items():
+        for number, line in enumerate(given):
+            for x, y in line:
+                if not math.hypot(x - low[0], y - low[1]) <= _FARTHEST * size:
+                    raise InputError(
+                        f"joint {name}: line {number} from {line[0]} m: point = ({x:.12g}, "
+                        f"{y:.12g}) m, must lie within 1e6 sizes of the specimen; move it there"
+                    )
+            inside += sum(_meets(a, b, low, high) for a, b in itertools.pairwise(line))
+    if inside > MOST_SEGMENTS:
+        raise InputError(
+            f"joints: segments in the specimen = {inside}, must be <= {MOST_SEGMENTS}; leave some "
+            "out, or make longer ones"
+        )
+
+
+def require_any(cuts: Mapping[str, Cut], lines: Lines, low: Point, high: Point) -> None:
+    """Refuse a set of lines none of which cuts anything.
+
+    Args:
+        cuts: What came of the lines.
+        lines: The lines, by joint.
+        low: Lower left corner of the specimen's box [m].
+        high: Upper right one [m].
+    """
+    if any(one.cut > 0.0 for one in cuts.values()):
+        return
+    places = [point for given in lines.values() for line in given for point in line]
+    x, y = zip(*places, strict=True)
+    first, one = next(iter(cuts.items()))
+    raise InputError(
+        f"joints: lines that cut a cell = 0 of {sum(one.lines for one in cuts.values())}, must be "
+        f">= 1 (joint {first} {one.reason}); they lie from {_place((min(x), min(y)))} to "
+        f"{_place((max(x), max(y)))}, the specimen from {_place(low)} to {_place(high)}: move or "
+        "lengthen them"
+    )
+
+
+def _place(point: Point) -> str:
+    return f"({point[0]:.6g}, {point[1]:.6g}) m"
+
+
+def _meets(a: Point, b: Point, low: Point, high: Point) -> bool:
+    """Whether the box of a segment meets another box."""
+    return all(
+        max(a[axis], b[axis]) >= low[axis] and min(a[axis], b[axis]) <= high[axis]
+        for axis in (0, 1)
+    )
 
 
 def checksum(lines: Lines, before: str | None = None) -> str:
@@ -86,20 +267,17 @@ def checksum(lines: Lines, before: str | None = None) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def _ends(where: str, row: Mapping[str | Any, str | Any]) -> Line:
+def _ends(where: str, row: Sequence[str]) -> Line:
     values = []
-    for key in COLUMNS[:4]:
+    for key, cell in zip(COLUMNS[:4], row, strict=False):
         try:
-            value = float(row[key])
-        except (TypeError, ValueError):
+            value = float(cell)
+        except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            raise InputError(f"{where}: {key} = {quoted(row[key])} m, must be a number; correct it")
+            raise InputError(f"{where}: {key} = {quoted(cell)} m, must be a number; correct it")
         values.append(value)
-    start, end = (values[0], values[1]), (values[2], values[3])
-    if start == end:
-        raise InputError(f"{where}: x2, y2 = {end} m, must not be the start; remove the line")
-    return [start, end]
+    return [(values[0], values[1]), (values[2], values[3])]
 
 
 def _plain(given: object) -> Any:

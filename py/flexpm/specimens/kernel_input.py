@@ -91,3 +91,9 @@ def rows(name: str, values: npt.ArrayLike) -> FloatArray:
     if found.ndim != 2 or found.shape[1] != 2:
         raise InputError(f"{name} = array of shape {found.shape}, must be rows x, y; correct it")
     return found
+
+
+def ring(name: str, values: npt.ArrayLike) -> FloatArray:
+    """Corners x, y of a polygon; the first one again at the end, as in GeoJSON, is left out."""
+    found = rows(name, values)
+    return found[:-1] if len(found) > 1 and np.array_equal(found[0], found[-1]) else found

@@ -13,7 +13,7 @@ from .._flexpm import PolygonOutline
 from ..arrays import FloatArray
 from ..errors import InputError
 from ..require import quoted
-from .kernel_input import Circle, call, rows
+from .kernel_input import Circle, call, ring
 
 
 def polygon_outline(
@@ -27,15 +27,15 @@ def polygon_outline(
     Raises:
         InputError: for a ring that crosses itself or another one, or is no ring.
     """
-    ring = rows(f"{where}: corners", corners)
-    box = box_of(ring)
-    for given in (ring, ring[::-1]) if len(ring) == 4 else ():
+    outer = ring(f"{where}: corners", corners)
+    box = box_of(outer)
+    for given in (outer, outer[::-1]) if len(outer) == 4 else ():
         if any(np.array_equal(np.roll(given, first, axis=0), box) for first in range(4)):
-            ring = box
+            outer = box
     if isinstance(holes, str) or not isinstance(holes, Sequence | np.ndarray):
         raise InputError(f"{where}: holes = {quoted(holes)}, must be a list of polygons")
-    inner = [rows(f"{where}: hole {number}", hole) for number, hole in enumerate(holes)]
-    return call(PolygonOutline, ring, inner)
+    inner = [ring(f"{where}: hole {number}", hole) for number, hole in enumerate(holes)]
+    return call(PolygonOutline, outer, inner)
 
 
 def box_of(corners: FloatArray) -> FloatArray:

@@ -25,13 +25,14 @@ from .._flexpm import (
 )
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
+from ..files import Table
 from ..notebook import Shown
 from ..progress import Progress
 from ..require import require_flag
 from . import joint_bend, joint_lines, packed, packing, specimen_file, statistics
 from . import strengths as contact_strengths
 from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
-from .kernel_input import Circle, call, cells_checksum, checksum, columns, disc_rows, rows
+from .kernel_input import Circle, call, cells_checksum, checksum, columns, disc_rows, ring
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
@@ -52,11 +53,12 @@ class Specimen(Shown):
         outline: Corners, counter-clockwise, (n, 2) [m], or a circle.
         tessellation: Cells of the grains; cell i belongs to disc i.
         spec: What it was made from.
-        removed_discs: Generated discs that had no cell and were left out.
+        removed_discs: Discs that had no cell and were left out.
         minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
         holes: Corners of each hole of the outline, clockwise, (n, 2) [m].
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
         joints: Lines of each joint as they were asked for, by its name [m].
+        joint_cuts: What came of the lines of each joint, by its name.
         grains: Per cell the grain before joints cut it; None: each cell is a grain.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
     """
@@ -72,6 +74,7 @@ class Specimen(Shown):
     grains: IntArray | None = None
     strengths: FloatArray | None = None
     joints: joint_lines.Lines = field(default_factory=dict)
+    joint_cuts: dict[str, joint_lines.Cut] = field(default_factory=dict)
 
     @classmethod
     def rectangle(
@@ -239,7 +242,8 @@ class Specimen(Shown):
         their cells. A rectangle along x and y, with holes or without, can be tested as such.
 
         Args:
-            corners: Of a simple polygon, convex or not, in any sense [m].
+            corners: Of a simple polygon, convex or not, in any sense [m]; the first one may come
+                again at the end, here and wherever corners are given.
             thickness: Out of plane [m].
             diameters: Smallest and largest disc diameter [m].
             porosity: Sets the number of discs only [-]; the cells leave no pores.
@@ -257,8 +261,7 @@ class Specimen(Shown):
         """
         where = "Specimen.polygon"
         outline = polygon_outline(where, corners, holes)
-        ring = outline.rings[0]
-        kind, sizes = kind_of(ring)
+        kind, sizes = kind_of(outline.rings[0])
         spec = SpecimenSpec(
             kind,
             width=sizes.get("width"),
@@ -277,15 +280,15 @@ class Specimen(Shown):
         cls, where: str, spec: SpecimenSpec, outline: PolygonOutline, progress: Progress | None
     ) -> Specimen:
         """Saw an outline out of a packing of the box around it."""
-        ring, *inner = outline.rings
-        width, height = map(float, np.ptp(ring, axis=0))
+        outer, *inner = outline.rings
+        width, height = map(float, np.ptp(outer, axis=0))
         require_diameters(where, spec.diameters, min(width, height))
         frame = packing.Frame(width=width, height=height)
         block = packed.packed_discs(where, spec, frame, width * height, progress)
         length = spec.short_edge * 2.0 * float(np.mean(block[:, 2]))
-        centres, radii = columns(block + np.append(ring.min(axis=0), 0.0))
+        centres, radii = columns(block + np.append(outer.min(axis=0), 0.0))
         tiling = call(cells_in_outline, centres, radii, outline, length)
-        return cls._of_tiling(tiling, ring, inner, spec)
+        return cls._of_tiling(tiling, outer, inner, spec)
 
     @classmethod
     def from_polygons(
@@ -314,7 +317,7 @@ class Specimen(Shown):
         where = "Specimen.from_polygons"
         require_length(where, "thickness", thickness)
         require_flag(f"{where}: holes", holes)
-        given = [rows(f"{where}: polygon {number}", one) for number, one in enumerate(polygons)]
+        given = [ring(f"{where}: polygon {number}", one) for number, one in enumerate(polygons)]
         tiling, rings = call(cells_of_polygons, given, holes)
         kind, sizes = kind_of(rings[0])
         spec = SpecimenSpec(
@@ -381,6 +384,7 @@ class Specimen(Shown):
             "sides": cells.boundary_edges[:, 1:].tolist(),
             "joints": joints[found >= 0].tolist(),
             "lines": self.joints,
+            "cuts": {name: cut.to_json() for name, cut in self.joint_cuts.items()},
             "strengths": None if self.strengths is None else self.strengths.tolist(),
             "grains": None if self.grains is None else self.grains.tolist(),
         }
@@ -395,6 +399,7 @@ class Specimen(Shown):
         thickness: float,
         *,
         short_edge: float = SHORT_EDGE,
+        drop_hidden: bool = False,
     ) -> Specimen:
         """Make a specimen of given discs; every disc must have a cell.
 
@@ -404,6 +409,7 @@ class Specimen(Shown):
             outline: Corners of a convex polygon, counter-clockwise [m], or a circle.
             thickness: Out of plane [m].
             short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
+            drop_hidden: Leave out discs that others hide, and count them in ``removed_discs``.
 
         Returns:
             The specimen, grains in the order of the discs.
@@ -413,10 +419,11 @@ class Specimen(Shown):
         """
         require_length("Specimen.from_discs", "thickness", thickness)
         require_short_edge(short_edge)
-        discs = disc_rows(centres, radii)
+        require_flag("Specimen.from_discs: drop_hidden", drop_hidden)
+        given = disc_rows(centres, radii)
         if not isinstance(outline, Circle):
-            outline = rows("Specimen.from_discs: outline", outline)
-        discs, cells = packed.tessellated(discs, outline, short_edge, drop_hidden=False)
+            outline = ring("Specimen.from_discs: outline", outline)
+        discs, cells = packed.tessellated(given, outline, short_edge, drop_hidden=drop_hidden)
         kind, sizes = kind_of(outline)
         spec = SpecimenSpec(
             kind,
@@ -431,19 +438,24 @@ class Specimen(Shown):
             discs=checksum(discs),
             outline=checksum(outline),
         )
-        return cls(discs, outline, cells, spec)
+        return cls(discs, outline, cells, spec, removed_discs=len(given) - len(discs))
 
-    def with_joints(self, joints: Mapping[str, Any]) -> Specimen:
+    def with_joints(self, joints: Mapping[str, Any], progress: Progress | None = None) -> Specimen:
         """Return the specimen cut by joints, whose laws the material has (D35 to D37).
+
+        What lies outside, ends within a grain or lies on an earlier joint cuts nothing:
+        ``joint_cuts`` says how much. A joint none of whose lines cuts has no contacts.
 
         Args:
             joints: By the name of the joint a line, rows x, y [m], or a list of lines.
+            progress: Called with (lines done, lines, text).
 
         Returns:
             Cells in their order, second parts of cut cells last.
 
         Raises:
-            InputError: for a line outside the specimen, or a joint that cuts nothing.
+            InputError: if no line cuts anything, for a point that is not finite or further away
+                than 1e6 sizes of the specimen, and for more than 20 000 segments within it.
         """
         lines = joint_lines.checked(joints)
         if self.strengths is not None:
@@ -451,23 +463,12 @@ class Specimen(Shown):
                 f"Specimen.with_joints: strengths = {len(self.strengths)}, belong to other "
                 "contacts; cut first, then give strengths"
             )
+        places = self.tessellation.vertices
+        low, high = tuple(places.min(axis=0).tolist()), tuple(places.max(axis=0).tolist())
+        joint_lines.require_within(lines, low, high)
         spec = self.spec.with_joints(lines)
-        numbers = {name: number for number, name in enumerate(spec.joint_names or ())}
-        before = np.full(len(self.tessellation.shared_edges), -1, dtype=np.int32)
-        tiling = call(
-            cut_by_joints,
-            self.tessellation,
-            *columns(self.discs),
-            before if self.edge_joints is None else self.edge_joints,
-            [np.array(line) for given in lines.values() for line in given],
-            np.array([numbers[name] for name in lines for _ in lines[name]], dtype=np.int32),
-        )
-        for name in lines:
-            if numbers[name] not in tiling.edge_joints:
-                raise InputError(
-                    f"joint {name}: contacts = 0, must cut a cell; lengthen its lines or take "
-                    "smaller grains"
-                )
+        tiling, cuts = self._cut(lines, spec.joint_names or (), progress)
+        joint_lines.require_any(cuts, lines, low, high)
         origin, discs, edge_joints = tiling.origin, tiling.discs, tiling.edge_joints
         minerals = None if self.minerals is None else self.minerals[origin]
         grains = origin if self.grains is None else self.grains[origin]
@@ -486,7 +487,47 @@ class Specimen(Shown):
                 name: [*self.joints.get(name, ()), *lines.get(name, ())]
                 for name in spec.joint_names or ()
             },
+            joint_cuts=self.joint_cuts
+            | {name: cut.and_(self.joint_cuts.get(name)) for name, cut in cuts.items()},
         )
+
+    def _cut(
+        self, lines: joint_lines.Lines, names: Sequence[str], progress: Progress | None
+    ) -> tuple[Tiling, dict[str, joint_lines.Cut]]:
+        """Cells cut by lines of joints, which are numbered by `names`, and what came of them."""
+        numbers = {name: number for number, name in enumerate(names)}
+        of_lines = [numbers[name] for name in lines for _ in lines[name]]
+        before = np.full(len(self.tessellation.shared_edges), -1, dtype=np.int32)
+
+        def tell(done: int) -> None:
+            if progress is not None:
+                progress(done, len(of_lines), "cutting joints")
+
+        tiling, lengths, counts = call(
+            cut_by_joints,
+            self.tessellation,
+            *columns(self.discs),
+            before if self.edge_joints is None else self.edge_joints,
+            [np.array(line) for given in lines.values() for line in given],
+            np.array(of_lines, dtype=np.int32),
+            tell,
+        )
+        cuts, first = {}, 0
+        for name in lines:
+            own = slice(first, first + len(lines[name]))
+            first = own.stop
+            length, cut, taken, outside = map(math.fsum, lengths[own].T)
+            on = counts[own, 1][np.argmax(lengths[own, 2])] if taken > 0.0 else -1
+            cuts[name] = joint_lines.Cut(
+                lines=len(lines[name]),
+                idle=int((counts[own, 0] == 0).sum()),
+                length=length,
+                cut=cut,
+                taken=taken,
+                outside=outside,
+                on=None if on < 0 else names[on],
+            )
+        return tiling, cuts
 
     def with_strengths(self, factors: Sequence[float] | FloatArray) -> Specimen:
         """Return the specimen with contacts of different strength (D38).
@@ -613,16 +654,18 @@ class Specimen(Shown):
         centres, radii = columns(self.discs)
         return call(grain_meshes, self.tessellation, centres, radii, mesh)
 
-    def statistics(self) -> dict[str, float | int | dict[str, float]]:
-        """Count and measure grains, contacts, cells and meshes.
+    def statistics(self) -> Table:
+        """Count and measure grains, contacts, cells, meshes and joints.
 
         Returns:
             Counts, areas [m^2], lengths [m], angles [degree]; see the keys.
         """
+        joints = {name: cut.to_json() for name, cut in self.joint_cuts.items()}
         meshes = self.meshes("refined"), self.meshes("fan")
         return {
             **statistics.of_cells(self.tessellation),
             **statistics.of_meshes(*meshes),
             "removed_discs": self.removed_discs,
             "mean_diameter": self.mean_diameter,
+            **({"joints": joints} if joints else {}),
         }

@@ -94,12 +94,20 @@ void joints(const std::uint8_t* data, std::size_t size)
         const Tessellation cells = flexpm::tessellate(discs, square, {});
         const double mean_area = 1.0 / cells.cells();
         if (!all_sound(cells, discs, mean_area)) return;
-        const flexpm::Tiling cut = flexpm::cut_by_joints(cells, discs, {}, lines);
+        const flexpm::JointCut made = flexpm::cut_by_joints(cells, discs, {}, lines);
+        const flexpm::Tiling& cut = made.tiling;
         require(all_sound(cut.cells, cut.discs, mean_area), "pieces are sound");
         double area = 0.0;
         for (int c = 0; c < cut.cells.cells(); ++c)
             area += flexpm::cell_area(cut.cells, c);
         require(std::abs(area - 1.0) < 1e-12, "the whole area is there");
+        for (const flexpm::LineCut& line : made.lines) {
+            const double sum = line.cut + line.taken + line.outside;
+            require(line.cut >= 0.0 && line.taken >= 0.0 && line.outside >= 0.0
+                    && sum <= (1.0 + 1e-9) * line.length,
+                "parts of a line are no longer than the line");
+            require(line.contacts > 0 || line.cut == 0.0, "what is cut has a contact");
+        }
     } catch (const std::invalid_argument&) {
     }
 }

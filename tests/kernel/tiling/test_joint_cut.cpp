@@ -22,7 +22,7 @@ flexpm::Tiling cut_grid(int columns, int rows, const std::vector<std::vector<Poi
     std::vector<flexpm::JointLine> all;
     for (const auto& points : lines)
         all.push_back({ points, static_cast<int>(all.size()) });
-    return flexpm::cut_by_joints(grid.cells, grid.discs, {}, all);
+    return flexpm::cut_by_joints(grid.cells, grid.discs, {}, all).tiling;
 }
 
 double joint_length(const flexpm::Tiling& tiling, int joint)

@@ -188,6 +188,45 @@ def test_the_notch_is_as_deep_as_it_was_cut(beam):
     assert notch_depth(beam) == 0.0
 
 
+LAW = {"normal_stiffness": 1.8e14, "shear_stiffness": 5e13, "friction": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("line", "law", "notch", "message"),
+    [
+        ([(0.03, 0.003), (0.036, 0.006)], {**LAW, "cohesion": 2.9e7}, None, "strength = 2.9e"),
+        ([(0.03, 0.003), (0.036, 0.006)], LAW, None, "begins .* m above the bottom"),
+        ([(0.036, 0.0), (0.036, 0.006)], {"open": True}, None, "m beside the middle"),
+        ([(0.03, 0.012), (0.03, 0.006)], {"open": True}, None, "begins .* m above the bottom"),
+        ([(0.03, 0.0), (0.03, 0.005)], {"open": True}, 0.004, "comes beside the notch of 0.004 m"),
+    ],
+)
+def test_a_joint_named_notch_that_is_none_is_refused(beam, line, law, notch, message):
+    """Its depth and the toughness were those of whatever bore the name."""
+    rock = flexpm.materials.load("augig-table7")
+    rock = rock.with_set({f"joint.notch.{key}": value for key, value in law.items()}, "flexible")
+    cut = beam.with_joints({"notch": line})
+    with pytest.raises(InputError, match=f"joint notch: {message}") as refused:
+        flexpm.run("bending", cut, rock, span=SPAN, notch=notch)
+    assert "give it another name" in str(refused.value)
+    # elsewhere it is a name like any other
+    assert flexpm.build(cut, rock).counts()["contacts"] > 0
+
+
+def test_an_open_joint_from_the_bottom_in_the_middle_is_a_notch(beam):
+    rock = flexpm.materials.load("augig-table7").with_set({"joint.notch.open": True}, "flexible")
+    middle = 0.5 * beam.dimensions["width"]
+    cut = beam.with_joints({"notch": [(middle, -0.001), (middle, 0.4 * HEIGHT)]})
+    spec = dataclasses.replace(
+        spec_of(beam, "flexible", span=SPAN),
+        specimen=cut.spec,
+        material=described(rock, "flexible"),
+    )
+    same, _ = prepared(spec, cut, rock)
+    assert same is cut
+    assert notch_depth(cut) == pytest.approx(0.4 * HEIGHT, abs=0.5 * beam.mean_diameter)
+
+
 def test_a_bending_test_that_was_interrupted_has_the_same_bits(beam, tmp_path, monkeypatch):
     options = {"model": "rigid", "span": SPAN, "notch": 0.4 * HEIGHT, "rate": 4.0}
     whole = flexpm.run("bending", beam, **options)

@@ -61,6 +61,7 @@ KEYS = [
     "peak_load",
     "notch_depth",
     "joint_bend",
+    "joint_cuts",
     "fracture_toughness",
     "residual_strength",
     "fracture_energy",

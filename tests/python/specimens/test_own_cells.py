@@ -67,6 +67,89 @@ def test_a_bent_cell_is_split():
     assert specimen.kind == "rectangle"
 
 
+SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10)]
+
+
+def square_at(x, y, half=1.0):
+    return [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        [square_at(5, 5)],
+        [square_at(5, 5)[::-1]],
+        # two grains side by side, and one within a grain within a grain
+        [square_at(4, 5), square_at(6, 5)],
+        [square_at(5, 5, 3), square_at(5, 5)],
+        [square_at(2, 5), square_at(5, 5), square_at(8, 5)],
+        [square_at(x, y, 0.7) for x in (2, 5, 8) for y in (2, 5, 8)],
+    ],
+)
+def test_a_grain_within_a_grain(inside):
+    """The grain around goes round in parts; all of its rim and of theirs are contacts."""
+    specimen = Specimen.from_polygons(scaled([SQUARE, *inside]), 0.01)
+    cells = specimen.tessellation
+    assert math.fsum(cells.cell_areas) == pytest.approx(1e-4, rel=1e-12)
+    assert specimen.kind == "rectangle"
+    assert specimen.holes == ()
+    assert len(cells.boundary_edges) == 4
+    for number, polygon in enumerate(cell_polygons(cells)[1 : len(inside) + 1], 1):
+        # all sides of what has nothing inside are contacts
+        own = (cells.shared_edges[:, :2] == number).any(axis=1)
+        assert own.sum() >= 4, polygon
+    flexpm.elastic(specimen)
+
+
+def test_what_overlaps_is_no_grain_within_a_grain():
+    with pytest.raises(InputError, match=r"polygons: boundary at|polygon 1: corner = "):
+        Specimen.from_polygons(scaled([SQUARE, square_at(9.5, 5)]), 0.01)
+    with pytest.raises(InputError, match="polygon 0") as refused:
+        Specimen.from_polygons(scaled([SQUARE, [(12, 0), (13, 0), (13, 1)]]), 0.01)
+    assert "polygon 1 at (0.012, 0) m" in str(refused.value)
+    # over two cells that have no boundary there
+    with pytest.raises(InputError, match=r"polygon 3: corner = .* must not cross the sides of"):
+        Specimen.from_polygons(scaled([*BRICKS, square_at(1.1, 1.5, 0.2)]), 0.01)
+
+
+def closed(ring):
+    return [*ring, ring[0]]
+
+
+def test_closed_rings_are_open_ones():
+    """GeoJSON, shapefiles and shapely give the first corner twice."""
+    closed_bricks = [closed(ring) for ring in BRICKS]
+    require_same(
+        Specimen.from_polygons(scaled(closed_bricks), 0.01),
+        Specimen.from_polygons(scaled(BRICKS), 0.01),
+    )
+    outline = [(0.0, 0.0), (0.02, 0.0), (0.02, 0.03), (0.0, 0.03)]
+    hole = [(0.008, 0.01), (0.012, 0.01), (0.012, 0.02), (0.008, 0.02)]
+    require_same(
+        Specimen.polygon(closed(outline), 0.01, holes=[closed(hole)]),
+        Specimen.polygon(outline, 0.01, holes=[hole]),
+    )
+    packed = Specimen.rectangle(0.02, 0.03, 0.01)
+    given = packed.centres, packed.radii
+    require_same(
+        Specimen.from_discs(*given, closed(outline), 0.01),
+        Specimen.from_discs(*given, outline, 0.01),
+    )
+    assert Specimen.polygon(closed(outline), 0.01).kind == "rectangle"
+
+
+def test_hidden_discs_are_dropped_or_all_told():
+    centres = np.array([(x, y) for x in (1.0, 3.0, 5.0) for y in (1.0, 3.0)]) * 1e-3
+    outline = 1e-3 * np.array([(0, 0), (6, 0), (6, 4), (0, 4)])
+    hidden = centres[[0, 3]] + 1e-5
+    every = np.vstack((centres, hidden)), np.array([1e-3] * 6 + [1e-4] * 2)
+    with pytest.raises(InputError, match=r"hidden discs = 2 \(6, 7\), must have a cell"):
+        Specimen.from_discs(*every, outline, 0.01)
+    kept = Specimen.from_discs(*every, outline, 0.01, drop_hidden=True)
+    assert kept.removed_discs == 2
+    require_same(kept, Specimen.from_discs(centres, every[1][:6], outline, 0.01))
+
+
 def two_contacts_of_a_pair():
     """A cell around a corner of another: they share two edges."""
     corner = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
@@ -111,7 +194,14 @@ def test_a_hole_is_meant_or_refused():
     [
         ([], "polygons = 0, must be >= 1"),
         ([BRICKS[0], [(0, 0.9), (2, 0.9), (2, 2), (0, 2)]], "overlap"),
-        ([*BRICKS, [(0.2, 0.2), (0.5, 0.2), (0.5, 0.5)]], "parts that hang together = 2"),
+        (
+            [*BRICKS, [(0.2, 0.2), (0.5, 0.2), (0.5, 1.5)]],
+            r"polygon 0 at .*|polygons: boundary|polygon 3: corner",
+        ),
+        (
+            [*BRICKS, [(3, 0), (4, 0), (4, 1)]],
+            r"= 2, must be 1; polygon 3 at \(0.003, 0\) m does not reach polygon 0 at \(0, 0\) m",
+        ),
         ([*BRICKS, BRICKS[1]], "must not overlap polygon 1"),
         ([BRICKS[0], [(0, 1.1), (2, 1.1), (2, 2), (0, 2)]], "parts that hang together = 2"),
         (

@@ -25,10 +25,26 @@ int count_shared_edges(const PowerDiagram& diagram)
     return twice / 2;
 }
 
-[[noreturn]] void refuse_hidden(const Disc& d, int i)
+/// Discs that a message names by their numbers.
+constexpr std::size_t named = 20;
+
+/// @param hidden  numbers of the discs without a cell
+[[noreturn]] void refuse_hidden(
+    const std::vector<Disc>& discs, const std::vector<std::size_t>& hidden)
 {
-    refuse("tessellate: disc " + std::to_string(i) + ": radius", d.radius, "m",
-        "is hidden by others at " + place(d.centre) + ", must have a cell; remove or move it");
+    const Disc& first = discs[hidden.front()];
+    if (hidden.size() == 1) {
+        refuse("tessellate: disc " + std::to_string(hidden.front()) + ": radius", first.radius, "m",
+            "is hidden by others at " + place(first.centre)
+                + ", must have a cell; remove, move or drop it");
+    }
+    std::string numbers;
+    for (std::size_t k = 0; k < std::min(hidden.size(), named); ++k)
+        numbers += (k > 0 ? ", " : "") + std::to_string(hidden[k]);
+    refuse("tessellate: hidden discs",
+        std::to_string(hidden.size()) + " (" + numbers + (hidden.size() > named ? ", ..." : "")
+            + ")",
+        "must have a cell, the first at " + place(first.centre) + "; remove, move or drop them");
 }
 
 void add_edges(Tessellation& t, const std::vector<CellEdge>& cell, int index,
@@ -97,6 +113,7 @@ Tessellation tessellate(
     // a disc that holds all of a circle has no corner
     const bool any = std::any_of(diagram.cells.begin(), diagram.cells.end(),
         [](const std::vector<CellEdge>& cell) { return !cell.empty(); });
+    std::vector<std::size_t> hidden;
     for (std::size_t i = 0; i < discs.size(); ++i) {
         auto& cell = diagram.cells[i];
         const bool is_sliver = !cell.empty() && cell.size() < 3;
@@ -105,9 +122,9 @@ Tessellation tessellate(
                 "must be enough to span an area in a circle; add discs or use a polygon");
         }
         // of discs in nearly one place some may keep no area
-        if (!any || is_sliver || (cell.empty() && !options.allow_hidden))
-            refuse_hidden(discs[i], static_cast<int>(i));
+        if (!any || is_sliver || (cell.empty() && !options.allow_hidden)) hidden.push_back(i);
     }
+    if (!hidden.empty()) refuse_hidden(discs, hidden);
     const int uncollapsed = count_shared_edges(diagram);
     const auto merged = collapse_edges(diagram, outline, options.short_edge, 0.0);
     Tessellation t = number_cells(diagram, merged);

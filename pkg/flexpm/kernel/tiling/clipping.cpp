@@ -182,7 +182,15 @@ private:
                     static_cast<double>(part.number_of_holes()), "",
                     "must be at most 1; choose smaller grains");
             }
-            open_ring(rim, loop_of(rounded_ring(*part.holes_begin())), cell);
+            const Loop hole = loop_of(rounded_ring(*part.holes_begin()));
+            const std::vector<Loop> around = open_ring(cells.vertices, rim, hole, {});
+            if (around.empty()) {
+                refuse("polygon: hole inside the cell of one grain, at",
+                    place(cells.vertices[hole.front()]),
+                    "must be seen from the cell's corners; choose smaller grains");
+            }
+            for (const Loop& one : around)
+                cells.add_cell(one, cell, false);
         }
     }
 
@@ -192,76 +200,6 @@ private:
         for (const ExactPoint& p : polygon)
             ring.push_back(rounded(p));
         return ring;
-    }
-
-    /// Cut a ring of a rim and a hole (clockwise) into two cells, from the corners of the hole furthest left and right to
-    /// the nearest corners of the rim on either side of its middle.
-    void open_ring(const Loop& rim, const Loop& hole, int cell)
-    {
-        const auto x = [&](int v) { return cells.vertices[v].x; };
-        const auto by_x = [&](int u, int v) { return x(u) < x(v); };
-        const int n = static_cast<int>(rim.size()), m = static_cast<int>(hole.size());
-        const int left =
-            static_cast<int>(std::min_element(hole.begin(), hole.end(), by_x) - hole.begin());
-        const int right =
-            static_cast<int>(std::max_element(hole.begin(), hole.end(), by_x) - hole.begin());
-        double best = std::numeric_limits<double>::infinity();
-        int to_left = -1, to_right = -1;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < n; ++j) {
-                if (i == j || !is_clear(rim, hole, hole[left], rim[i])
-                    || !is_clear(rim, hole, hole[right], rim[j]))
-                    continue;
-                const double length = norm(cells.vertices[hole[left]] - cells.vertices[rim[i]])
-                    + norm(cells.vertices[hole[right]] - cells.vertices[rim[j]]);
-                if (length < best && !meet(hole[left], rim[i], hole[right], rim[j]))
-                    best = length, to_left = i, to_right = j;
-            }
-        }
-        if (to_left < 0) {
-            refuse("polygon: hole inside the cell of one grain, at",
-                place(cells.vertices[hole[left]]),
-                "must be seen from the cell's corners; choose smaller grains");
-        }
-        const auto stretch = [](const Loop& loop, int from, int to, int size) {
-            Loop part;
-            for (int k = from;; k = (k + 1) % size) {
-                part.push_back(loop[k]);
-                if (k == to) return part;
-            }
-        };
-        // below the hole: along the rim from the left cut to the right one, and back along the hole
-        for (const auto& [from, to, back_from, back_to] :
-            { std::array { to_left, to_right, right, left },
-                std::array { to_right, to_left, left, right } }) {
-            Loop part = stretch(rim, from, to, n);
-            const Loop back = stretch(hole, back_from, back_to, m);
-            part.insert(part.end(), back.begin(), back.end());
-            cells.add_cell(part, cell, false);
-        }
-    }
-
-    /// Whether the segments between two pairs of vertices have a point in common.
-    bool meet(int a, int b, int c, int d) const
-    {
-        const auto segment = [&](int u, int v) {
-            const Point p = cells.vertices[u], q = cells.vertices[v];
-            return Kernel::Segment_2({ p.x, p.y }, { q.x, q.y });
-        };
-        return CGAL::do_intersect(segment(a, b), segment(c, d));
-    }
-
-    /// Whether the segment from a corner of a hole to one of the rim meets both in no other point.
-    bool is_clear(const Loop& rim, const Loop& hole, int from, int to) const
-    {
-        for (const Loop* loop : { &rim, &hole }) {
-            for (std::size_t k = 0; k < loop->size(); ++k) {
-                const int u = (*loop)[k], v = (*loop)[(k + 1) % loop->size()];
-                if (u == from || v == from || u == to || v == to) continue;
-                if (meet(from, to, u, v)) return false;
-            }
-        }
-        return true;
     }
 
     /// Boundary edges lie on the side nearest to their middle.
@@ -292,7 +230,114 @@ private:
     }
 };
 
+/// Cuts from a hole to the rim around it.
+class RingOpener {
+public:
+    RingOpener(const std::vector<Point>& v, const Loop& rim_, const Loop& hole_,
+        const std::vector<Loop>& other_holes) :
+        vertices(v),
+        rim(rim_),
+        hole(hole_),
+        others(other_holes)
+    {
+    }
+
+    /// Two cells between a hole and a rim, with cuts from two corners of the hole; none if these see no corners of the rim.
+    std::vector<Loop> open(int left, int right) const
+    {
+        const int n = static_cast<int>(rim.size()), m = static_cast<int>(hole.size());
+        double best = std::numeric_limits<double>::infinity();
+        int to_left = -1, to_right = -1;
+        const std::vector<bool> from_left = seen_from(left), from_right = seen_from(right);
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+                if (i == j || !from_left[i] || !from_right[j]) continue;
+                const double length = norm(vertices[hole[left]] - vertices[rim[i]])
+                    + norm(vertices[hole[right]] - vertices[rim[j]]);
+                if (length < best && !meet(hole[left], rim[i], hole[right], rim[j]))
+                    best = length, to_left = i, to_right = j;
+            }
+        }
+        if (to_left < 0) return {};
+        const auto stretch = [](const Loop& loop, int from, int to, int size) {
+            Loop part;
+            for (int k = from;; k = (k + 1) % size) {
+                part.push_back(loop[k]);
+                if (k == to) return part;
+            }
+        };
+        // below the hole: along the rim from the left cut to the right one, and back along the hole
+        std::vector<Loop> parts;
+        for (const auto& [from, to, back_from, back_to] :
+            { std::array { to_left, to_right, right, left },
+                std::array { to_right, to_left, left, right } }) {
+            parts.push_back(stretch(rim, from, to, n));
+            const Loop back = stretch(hole, back_from, back_to, m);
+            parts.back().insert(parts.back().end(), back.begin(), back.end());
+        }
+        return parts;
+    }
+
+private:
+    const std::vector<Point>& vertices;
+    const Loop &rim, &hole;
+    const std::vector<Loop>& others;
+
+    /// Whether the segments between two pairs of vertices have a point in common.
+    bool meet(int a, int b, int c, int d) const
+    {
+        const auto segment = [&](int u, int v) {
+            const Point p = vertices[u], q = vertices[v];
+            return Kernel::Segment_2({ p.x, p.y }, { q.x, q.y });
+        };
+        return CGAL::do_intersect(segment(a, b), segment(c, d));
+    }
+
+    /// Corners of the rim to which the segment from a corner of the hole meets nothing else.
+    std::vector<bool> seen_from(int corner) const
+    {
+        std::vector<bool> seen;
+        for (int to : rim)
+            seen.push_back(is_clear(hole[corner], to));
+        return seen;
+    }
+
+    bool is_clear(int from, int to) const
+    {
+        const Box box({ vertices[from], vertices[to] });
+        const auto is_in_the_way = [&](const Loop& loop) {
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                const int u = loop[k], v = loop[(k + 1) % loop.size()];
+                if (u == from || v == from || u == to || v == to) continue;
+                if (box.meets(Box({ vertices[u], vertices[v] })) && meet(from, to, u, v))
+                    return true;
+            }
+            return false;
+        };
+        return !is_in_the_way(rim) && !is_in_the_way(hole)
+            && std::none_of(others.begin(), others.end(), is_in_the_way);
+    }
+};
+
 }  // namespace
+
+std::vector<Loop> open_ring(const std::vector<Point>& vertices, const Loop& rim, const Loop& hole,
+    const std::vector<Loop>& others)
+{
+    const RingOpener opener(vertices, rim, hole, others);
+    const auto by_x = [&](int u, int v) { return vertices[u].x < vertices[v].x; };
+    const int left =
+        static_cast<int>(std::min_element(hole.begin(), hole.end(), by_x) - hole.begin());
+    const int right =
+        static_cast<int>(std::max_element(hole.begin(), hole.end(), by_x) - hole.begin());
+    std::vector<Loop> parts = opener.open(left, right);
+    // other holes may be in the way: any two corners, as far apart along the hole as can be
+    const int m = static_cast<int>(hole.size());
+    for (int apart = m / 2; apart > 0 && parts.empty() && !others.empty(); --apart)
+        for (int k = 0; k < m && parts.empty(); ++k)
+            parts = opener.open(k, (k + apart) % m);
+    return parts;
+}
 
 SidePair crossing_sides(const std::vector<Ring>& rings)
 {

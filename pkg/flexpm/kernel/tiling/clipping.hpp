@@ -28,6 +28,15 @@ struct PolygonOutline {
 /// @throws std::invalid_argument  if a cell has two holes
 PlanarCells clip_cells(const Tessellation& tessellation, const PolygonOutline& outline);
 
+/// Two cells that a hole in a cell leaves around it, cut from the corners of the hole furthest left and right to the nearest
+/// corners of the rim on either side of its middle. Deviation D32.
+/// @param rim     counter-clockwise
+/// @param hole    clockwise
+/// @param others  more holes, which no cut meets; from other corners if these are in the way
+/// @return        none if the corners do not see the rim
+std::vector<Loop> open_ring(const std::vector<Point>& vertices, const Loop& rim, const Loop& hole,
+    const std::vector<Loop>& others);
+
 /// Whether a ring of corners neither crosses nor touches itself.
 bool is_simple_ring(const std::vector<Point>& ring);
 

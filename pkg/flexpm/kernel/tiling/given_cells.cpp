@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -203,9 +204,103 @@ std::vector<Loop> boundary_rings(const PlanarCells& cells)
     return rings;
 }
 
-/// Check that the rings are one body: the outer ring comes first.
-void check_rings(
-    const PlanarCells& cells, std::vector<Loop>& rings, double least_hole, bool with_holes)
+/// Name of a polygon that has an edge of a ring.
+std::string name_at(const PlanarCells& cells, const Loop& ring)
+{
+    const int cell = EdgeOwners(cells.cells).left_of(ring[0], ring[1]);
+    return name_of(static_cast<std::size_t>(cells.origin[cell]));
+}
+
+bool is_inside(const Ring& polygon, Point p)
+{
+    bool inside = false;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Point a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
+            inside = !inside;
+    }
+    return inside;
+}
+
+/// The smallest cell around a ring of others, -1: none.
+int holder_of(const PlanarCells& cells, const Loop& ring)
+{
+    int holder = -1;
+    double least = 0.0;
+    const Point p = cells.vertices[ring.front()];
+    for (std::size_t c = 0; c < cells.cells.size(); ++c) {
+        const Loop& loop = cells.cells[c];
+        if (std::find(loop.begin(), loop.end(), ring.front()) != loop.end()) continue;
+        const Ring polygon = polygon_of(cells, loop);
+        if (!is_inside(polygon, p)) continue;
+        const double area = polygon_shape(polygon).area;
+        if (holder < 0 || area < least) holder = static_cast<int>(c), least = area;
+    }
+    if (holder < 0) return holder;
+    const Ring places = polygon_of(cells, ring), around = polygon_of(cells, cells.cells[holder]);
+    const SidePair crossing = crossing_sides({ around, places });
+    if (crossing.first >= 0) {
+        refuse(name_at(cells, ring) + ": corner", place(p),
+            "must not cross the sides of " + name_of(static_cast<std::size_t>(cells.origin[holder]))
+                + " near " + place(around[crossing.first]) + "; correct one of them");
+    }
+    return holder;
+}
+
+/// Cells around a cell's holes in place of it.
+void open_cell(PlanarCells& cells, int cell, std::vector<Loop> holes)
+{
+    std::vector<std::pair<Loop, std::vector<Loop>>> open { { cells.cells[cell],
+        std::move(holes) } };
+    bool first = true;
+    while (!open.empty()) {
+        auto [rim, inside] = std::move(open.back());
+        open.pop_back();
+        if (inside.empty()) {
+            if (!first) {
+                cells.add_cell(rim, cells.origin[cell], false);
+                continue;
+            }
+            cells.cells[cell] = rim;
+            first = false;
+            continue;
+        }
+        std::vector<Loop> parts, others;
+        for (std::size_t k = 0; k < inside.size() && parts.empty(); ++k) {
+            others = inside;
+            others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+            parts = open_ring(cells.vertices, rim, inside[k], others);
+        }
+        if (parts.empty()) {
+            refuse(name_of(static_cast<std::size_t>(cells.origin[cell])) + ": grain inside at",
+                place(cells.vertices[inside.front().front()]),
+                "must be seen from its corners; divide the polygon around it");
+        }
+        for (Loop& part : parts) {
+            std::vector<Loop> its;
+            const Ring polygon = polygon_of(cells, part);
+            std::copy_if(others.begin(), others.end(), std::back_inserter(its),
+                [&](const Loop& hole) { return is_inside(polygon, cells.vertices[hole.front()]); });
+            open.push_back({ std::move(part), std::move(its) });
+        }
+    }
+}
+
+/// Join cells that lie inside of others to these. Deviation D62.
+void join_islands(PlanarCells& cells, const std::vector<Loop>& rings)
+{
+    std::map<int, std::vector<Loop>> holes;
+    for (const Loop& ring : rings) {
+        if (!(polygon_shape(polygon_of(cells, ring)).area > 0.0)) continue;
+        const int holder = holder_of(cells, ring);
+        if (holder >= 0) holes[holder].emplace_back(ring.rbegin(), ring.rend());
+    }
+    for (auto& [cell, inside] : holes)
+        open_cell(cells, cell, std::move(inside));
+}
+
+/// Corners of rings, which must not cross.
+std::vector<Ring> places_of(const PlanarCells& cells, const std::vector<Loop>& rings)
 {
     std::vector<Ring> places;
     for (const Loop& ring : rings)
@@ -218,6 +313,14 @@ void check_rings(
         refuse("polygons: boundary at", place(places[ring][side]),
             "must not cross itself; the polygons overlap there, correct them");
     }
+    return places;
+}
+
+/// Check that the rings are one body: the outer ring comes first.
+void check_rings(
+    const PlanarCells& cells, std::vector<Loop>& rings, double least_hole, bool with_holes)
+{
+    const std::vector<Ring> places = places_of(cells, rings);
     std::vector<Loop> outer, holes;
     for (std::size_t i = 0; i < rings.size(); ++i) {
         const PolygonShape shape = polygon_shape(places[i]);
@@ -229,7 +332,10 @@ void check_rings(
     }
     if (outer.size() != 1) {
         refuse("polygons: parts that hang together", static_cast<double>(outer.size()), "",
-            "must be 1; join them, or take out what lies on others");
+            "must be 1; " + name_at(cells, outer[1]) + " at "
+                + place(cells.vertices[outer[1].front()]) + " does not reach "
+                + name_at(cells, outer[0]) + " at " + place(cells.vertices[outer[0].front()])
+                + ": join them, or take out what lies on others");
     }
     rings = std::move(outer);
     rings.insert(rings.end(), holes.begin(), holes.end());
@@ -270,6 +376,11 @@ GivenCells cells_of_polygons(const std::vector<Ring>& polygons, bool with_holes)
     }
     PlanarCells cells = Joiner(polygons, snap * 2.0 * std::sqrt(area / pi)).cells;
     std::vector<Loop> rings = boundary_rings(cells);
+    if (rings.size() > 1) {
+        places_of(cells, rings);
+        join_islands(cells, rings);
+        rings = boundary_rings(cells);
+    }
     check_rings(cells, rings, least_piece * area, with_holes);
     GivenCells given;
     int sides = 0;

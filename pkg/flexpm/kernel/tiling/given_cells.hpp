@@ -17,6 +17,7 @@ struct GivenCells {
 
 /// Cells from polygons, corners in any sense. Corners closer than 1e-6 of the mean diameter become one vertex, a corner
 /// as close to an edge divides it (Deviation D34). A polygon whose edges are not all seen from one point is split.
+/// Polygons that lie inside of another one are grains within it: it goes around them in parts (Deviation D62).
 ///
 /// The outline's sides begin at its lowest corner, of these the one furthest left.
 ///

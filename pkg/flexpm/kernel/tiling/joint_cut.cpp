@@ -18,18 +18,17 @@ namespace flexpm {
 namespace {
 
 /// Take out vertices on a straight edge between two cells that have the same joint on both sides of the vertex.
-void remove_idle_vertices(PlanarCells& cells, std::size_t first)
+void remove_idle_vertices(CellIndex& index, std::size_t first)
 {
-    std::map<int, std::vector<std::size_t>> cells_at;
-    for (std::size_t c = 0; c < cells.cells.size(); ++c)
-        for (int v : cells.cells[c])
-            if (v >= static_cast<int>(first)) cells_at[v].push_back(c);
+    PlanarCells& cells = index.cells;
     const auto joint_of = [&](VertexPair edge) {
         const auto at = cells.joints.find(edge);
         return at == cells.joints.end() ? -1 : at->second;
     };
-    for (const auto& [vertex, around] : cells_at) {
-        if (around.size() > 2) continue;
+    for (int vertex = static_cast<int>(first); vertex < static_cast<int>(cells.vertices.size());
+         ++vertex) {
+        const std::vector<int>& around = index.cells_at(vertex);
+        if (around.empty() || around.size() > 2) continue;
         const Loop& loop = cells.cells[around[0]];
         const std::size_t n = loop.size(),
                           k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
@@ -47,66 +46,92 @@ void remove_idle_vertices(PlanarCells& cells, std::size_t first)
             labels->erase(before);
             labels->erase(after);
         }
-        for (std::size_t c : around) {
-            Loop& changed = cells.cells[c];
-            changed.erase(std::find(changed.begin(), changed.end(), vertex));
-        }
+        index.remove(vertex);
     }
 }
 
 class Cutter {
 public:
-    Cutter(PlanarCells& c, double mean) : cells(c), mean_area(mean) { }
+    Cutter(CellIndex& i, double mean) : index(i), cells(i.cells), mean_area(mean) { }
 
-    void cut(const JointLine& line)
+    LineCut cut(const JointLine& line)
     {
         const std::size_t first = cells.vertices.size();
+        found = {};
+        taken_by.clear();
         laid.clear();
-        const std::vector<JointStep> steps = joint_steps(cells, line, mean_area);
-        for (const JointStep& step : steps)
-            connect(step.from, step.to, line.joint);
-        if (around.empty()) return;
+        for (std::size_t k = 0; k + 1 < line.points.size(); ++k)
+            found.length += norm(line.points[k + 1] - line.points[k]);
+        const double outside = length_outside(index, line);
+        for (const JointStep& step : joint_steps(index, line, mean_area))
+            connect(step, line.joint);
+        found.outside = std::max(std::min(outside, found.length - found.cut - found.taken), 0.0);
+        const auto most = std::max_element(taken_by.begin(), taken_by.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+        if (most != taken_by.end()) found.on = most->first;
+        if (around.empty()) return found;
         // places where it would have crossed are in the way
-        remove_idle_vertices(cells, first);
-        straighten(cells, line, around, laid, mean_area);
+        remove_idle_vertices(index, first);
+        straighten(index, line, around, laid, mean_area);
         around.clear();
+        return found;
     }
 
 private:
+    CellIndex& index;
     PlanarCells& cells;
     double mean_area;
-    std::vector<int> around;    ///< vertices where the line goes along edges
-    std::set<VertexPair> laid;  ///< edges of the line
+    std::vector<int> around;         ///< vertices where the line goes along edges
+    std::set<VertexPair> laid;       ///< edges of the line
+    LineCut found;                   ///< what came of the line
+    std::map<int, double> taken_by;  ///< length that lies on edges of each joint [m]
 
-    /// Lay a joint between two vertices.
-    void connect(int from, int to, int joint)
+    /// Lay a joint along a step.
+    void connect(const JointStep& step, int joint)
     {
-        if (from == to || split_between(from, to, joint)) return;
-        const Loop way = way_along_edges(from, to);
+        if (step.from == step.to) return;
+        if (split_between(step.from, step.to, joint)) {
+            found.cut += step.length;
+            ++found.contacts;
+            return;
+        }
+        const Loop way = way_along_edges(step.from, step.to);
         around.insert(around.end(), way.begin(), way.end());
-        const EdgeOwners owners(cells.cells);
+        double length = 0.0, fresh = 0.0;
+        std::map<int, double> old;
         for (std::size_t k = 0; k + 1 < way.size(); ++k) {
-            const bool inner = owners.left_of(way[k], way[k + 1]) != EdgeOwners::none
-                && owners.left_of(way[k + 1], way[k]) != EdgeOwners::none;
-            if (inner) lay({ way[k], way[k + 1] }, joint);
+            const double edge = norm(cells.vertices[way[k + 1]] - cells.vertices[way[k]]);
+            length += edge;
+            if (index.is_boundary(way[k], way[k + 1])) continue;
+            const int owner = lay({ way[k], way[k + 1] }, joint);
+            (owner < 0 ? fresh : old[owner]) += edge;
+            found.contacts += owner < 0;
+        }
+        if (!(length > 0.0)) return;
+        found.cut += step.length * (fresh / length);
+        for (const auto& [owner, part] : old) {
+            found.taken += step.length * (part / length);
+            taken_by[owner] += step.length * (part / length);
         }
     }
 
-    /// An edge keeps the joint that it has.
-    void lay(VertexPair ends, int joint)
+    /// An edge keeps the joint that it has, which is returned; -1: it had none.
+    int lay(VertexPair ends, int joint)
     {
         const VertexPair edge = undirected(ends.first, ends.second);
-        if (cells.joints.emplace(edge, joint).second) laid.insert(edge);
+        const auto [at, added] = cells.joints.emplace(edge, joint);
+        if (added) laid.insert(edge);
+        return added ? -1 : at->second;
     }
 
     /// Split the cell of which two vertices are the ends of a diagonal that leaves sound parts.
     bool split_between(int from, int to, int joint)
     {
-        for (std::size_t c = 0; c < cells.cells.size(); ++c) {
+        for (int c : index.cells_at(from)) {
             const Loop& loop = cells.cells[c];
             const auto at = std::find(loop.begin(), loop.end(), from),
                        other = std::find(loop.begin(), loop.end(), to);
-            if (at == loop.end() || other == loop.end()) continue;
+            if (other == loop.end()) continue;
             const int i = static_cast<int>(at - loop.begin()),
                       j = static_cast<int>(other - loop.begin());
             const int n = static_cast<int>(loop.size());
@@ -114,9 +139,7 @@ private:
                 continue;
             Loop first = part_of(loop, i, j), second = part_of(loop, j, i);
             if (!is_sound(first) || !is_sound(second)) continue;
-            cells.cells[c] = std::move(first);
-            cells.whole[c] = 0;
-            cells.add_cell(std::move(second), cells.origin[c], false);
+            index.split(c, std::move(first), std::move(second));
             lay({ from, to }, joint);
             return true;
         }
@@ -132,17 +155,23 @@ private:
             && angle_at(polygon, polygon.size() - 1) >= least_angle && reference_point(polygon);
     }
 
+    /// Vertices at the other ends of the edges of a vertex, some twice.
+    std::vector<int> next_to(int vertex) const
+    {
+        std::vector<int> next;
+        for (int c : index.cells_at(vertex)) {
+            const Loop& loop = cells.cells[c];
+            const std::size_t n = loop.size(),
+                              k = std::find(loop.begin(), loop.end(), vertex) - loop.begin();
+            next.push_back(loop[(k + n - 1) % n]);
+            next.push_back(loop[(k + 1) % n]);
+        }
+        return next;
+    }
+
     /// Vertices of the shortest way along edges; what lies off the straight line counts twice.
     Loop way_along_edges(int from, int to) const
     {
-        std::map<int, std::vector<int>> next;
-        for (const Loop& loop : cells.cells) {
-            for (std::size_t k = 0; k < loop.size(); ++k) {
-                const int u = loop[k], v = loop[(k + 1) % loop.size()];
-                next[u].push_back(v);
-                next[v].push_back(u);
-            }
-        }
         const Point a = cells.vertices[from], way = cells.vertices[to] - a;
         // a cost that is no number would never end the search
         const double square = std::max(dot(way, way), std::numeric_limits<double>::min());
@@ -158,19 +187,20 @@ private:
             const auto [cost, u] = open.top();
             open.pop();
             if (cost > best.at(u).first) continue;
-            for (int v : next[u]) {
+            for (int v : next_to(u)) {
                 const double longer = cost + norm(cells.vertices[v] - cells.vertices[u])
                     + 2.0 * off(0.5 * (cells.vertices[u] + cells.vertices[v]));
-                const auto found = best.find(v);
-                if (found != best.end() && found->second.first <= longer) continue;
+                const auto known = best.find(v);
+                if (known != best.end() && known->second.first <= longer) continue;
                 best[v] = { longer, u };
                 open.push({ longer, v });
             }
         }
-        Loop found;
+        Loop vertices;
         for (int v = to; v >= 0 && best.count(v); v = best.at(v).second)
-            found.insert(found.begin(), v);
-        return found;
+            vertices.push_back(v);
+        std::reverse(vertices.begin(), vertices.end());
+        return vertices;
     }
 };
 
@@ -207,27 +237,33 @@ void check_line(const JointLine& line, std::size_t number, Point vertex, double 
 
 }  // namespace
 
-Tiling cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>& discs,
-    const std::vector<int>& joints, const std::vector<JointLine>& lines)
+JointCut cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>& discs,
+    const std::vector<int>& joints, const std::vector<JointLine>& lines,
+    const std::function<void(std::size_t)>& tell)
 {
     PlanarCells cells = planar_cells(tessellation);
     for (std::size_t e = 0; e < joints.size(); ++e) {
         const SharedEdge& edge = tessellation.shared_edges[e];
         if (joints[e] >= 0) cells.joints[undirected(edge.vertex_0, edge.vertex_1)] = joints[e];
     }
-    Cutter cutter(cells, enclosed_area(tessellation) / tessellation.cells());
     const double reach = farthest * size_of(tessellation);
-    for (std::size_t k = 0; k < lines.size(); ++k) {
+    for (std::size_t k = 0; k < lines.size(); ++k)
         check_line(lines[k], k, tessellation.vertices.front(), reach);
-        cutter.cut(lines[k]);
+    CellIndex index(cells);
+    Cutter cutter(index, enclosed_area(tessellation) / tessellation.cells());
+    JointCut made;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        made.lines.push_back(cutter.cut(lines[k]));
+        if (tell) tell(k + 1);
     }
-    remove_idle_vertices(cells, tessellation.vertices.size());
+    remove_idle_vertices(index, tessellation.vertices.size());
     // a vertex that was moved onto a line may be out of sight of the disc's centre
     for (std::size_t c = 0; c < cells.cells.size(); ++c) {
         const Point centre = discs[cells.origin[c]].centre;
         if (!(clearance(polygon_of(cells, cells.cells[c]), centre) > 0.0)) cells.whole[c] = 0;
     }
-    return make_tiling(cells, discs);
+    made.tiling = make_tiling(cells, discs);
+    return made;
 }
 
 }  // namespace flexpm

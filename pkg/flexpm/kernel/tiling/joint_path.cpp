@@ -29,6 +29,17 @@ struct Node {
     Point place;
 };
 
+/// The place of a line nearest to a point [m].
+struct Nearest {
+    double distance, along;
+};
+
+/// The nearer one, of two alike the first.
+Nearest nearer(Nearest first, Nearest second)
+{
+    return second.distance < first.distance ? second : first;
+}
+
 /// A line that goes on straight beyond both ends.
 class LongLine {
 public:
@@ -52,6 +63,23 @@ public:
         return at[segment] + share * (at[segment + 1] - at[segment]);
     }
 
+    Nearest nearest(Point p, int segment) const
+    {
+        const Point e = way(segment);
+        const double share = std::clamp(dot(p - from(segment), e) / dot(e, e), 0.0, 1.0);
+        return { norm(p - (from(segment) + share * e)), along(segment, share) };
+    }
+
+    /// Ends of a segment; of those beyond the ends of the line, the part within a distance.
+    std::pair<Point, Point> stretch(int segment, double reach) const
+    {
+        const Point a = from(segment), b = from(segment + 1);
+        const double share = std::min(reach / norm(b - a), 1.0);
+        if (segment == 0) return { b + share * (a - b), b };
+        if (segment == segments() - 1) return { a, a + share * (b - a) };
+        return { a, b };
+    }
+
     Point way_at(double along) const { return way(segment_at(along)); }
     Point place(double along) const
     {
@@ -60,11 +88,17 @@ public:
             + ((along - at[segment]) / (at[segment + 1] - at[segment])) * way(segment);
     }
 
+    /// Length that the line itself covers of a stretch.
+    double overlap(double first, double last) const
+    {
+        return std::max(std::min(last, end) - std::max(first, start), 0.0);
+    }
+
     /// Part of a stretch that the line itself covers.
     double covered(double first, double last) const
     {
         if (!(last > first)) return first >= start && first <= end ? 1.0 : 0.0;
-        return std::max(std::min(last, end) - std::max(first, start), 0.0) / (last - first);
+        return overlap(first, last) / (last - first);
     }
 
 private:
@@ -79,89 +113,70 @@ private:
     }
 };
 
-struct Nearest {
-    double distance;
-    double along;
-};
-
 Nearest nearest(const LongLine& line, Point p)
 {
-    Nearest best { std::numeric_limits<double>::infinity(), 0.0 };
-    for (int k = 0; k < line.segments(); ++k) {
-        const Point e = line.way(k);
-        const double share = std::clamp(dot(p - line.from(k), e) / dot(e, e), 0.0, 1.0);
-        const double distance = norm(p - (line.from(k) + share * e));
-        if (distance < best.distance) best = { distance, line.along(k, share) };
-    }
+    Nearest best = line.nearest(p, 0);
+    for (int k = 1; k < line.segments(); ++k)
+        best = nearer(best, line.nearest(p, k));
     return best;
 }
 
-bool is_inside(const std::vector<Point>& polygon, Point p)
-{
-    bool inside = false;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Point a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
-            inside = !inside;
-    }
-    return inside;
-}
-
-bool is_in_a_cell(const PlanarCells& cells, Point p)
-{
-    return std::any_of(cells.cells.begin(), cells.cells.end(),
-        [&](const Loop& loop) { return is_inside(polygon_of(cells, loop), p); });
-}
-
-std::set<VertexPair> edges_of(const PlanarCells& cells)
-{
-    std::set<VertexPair> edges;
-    for (const Loop& loop : cells.cells)
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            edges.insert(undirected(loop[k], loop[(k + 1) % loop.size()]));
-    return edges;
-}
-
-double longest_edge(const PlanarCells& cells, const std::set<VertexPair>& edges)
-{
-    double longest = 0.0;
-    for (const auto& [u, v] : edges)
-        longest = std::max(longest, norm(cells.vertices[v] - cells.vertices[u]));
-    return longest;
-}
-
-void add_crossings(
-    const PlanarCells& cells, VertexPair edge, const LongLine& line, std::vector<Node>& nodes)
+/// Crossing of an edge and a segment of the line, if there is one.
+void add_crossing(const PlanarCells& cells, VertexPair edge, const LongLine& line, int k,
+    std::vector<Node>& nodes)
 {
     const Point u = cells.vertices[edge.first], e = cells.vertices[edge.second] - u;
-    for (int k = 0; k < line.segments(); ++k) {
-        const Point a = line.from(k), b = line.from(k + 1), w = b - a;
-        const double of_u = cross(w, u - a), of_v = cross(w, u + e - a);
-        // the first end of a segment belongs to it, the last to the next, which must have the same numbers
-        const double of_a = cross(e, a - u), of_b = cross(e, b - u);
-        if (!((of_u > 0.0) != (of_v > 0.0) && (of_a >= 0.0) != (of_b >= 0.0))) continue;
-        const double share = of_u / (of_u - of_v);
-        nodes.push_back({ line.along(k, of_a / (of_a - of_b)), -1, edge, u + share * e });
-    }
+    const Point a = line.from(k), b = line.from(k + 1), w = b - a;
+    const double of_u = cross(w, u - a), of_v = cross(w, u + e - a);
+    // the first end of a segment belongs to it, the last to the next, which must have the same numbers
+    const double of_a = cross(e, a - u), of_b = cross(e, b - u);
+    if (!((of_u > 0.0) != (of_v > 0.0) && (of_a >= 0.0) != (of_b >= 0.0))) return;
+    const double share = of_u / (of_u - of_v);
+    nodes.push_back({ line.along(k, of_a / (of_a - of_b)), -1, edge, u + share * e });
 }
 
-/// All places of a line, along it.
-std::vector<Node> nodes_of(
-    const PlanarCells& cells, const LongLine& line, const std::set<VertexPair>& edges, double snap)
+template <class T> void make_unique(std::vector<T>& values)
 {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// All places of a line, along it, and of what goes on so far before and after it.
+std::vector<Node> nodes_of(
+    const CellIndex& index, const LongLine& line, double before, double after, double snap)
+{
+    const PlanarCells& cells = index.cells;
+    std::vector<std::pair<int, int>> close;               // vertices and the segments near to them
+    std::vector<std::pair<VertexPair, int>> close_edges;  // the same of edges
+    const int last = line.segments() - 1;
+    for (int k = 0; k <= last; ++k) {
+        const auto [from, to] = line.stretch(k, k == 0 ? before : after);
+        for (int cell : index.near(from, to, snap)) {
+            const Loop& loop = cells.cells[cell];
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                close.push_back({ loop[i], k });
+                close_edges.push_back({ undirected(loop[i], loop[(i + 1) % loop.size()]), k });
+            }
+        }
+    }
+    make_unique(close);
+    make_unique(close_edges);
     std::vector<Node> nodes;
-    std::set<int> used, on_line;
-    for (const auto& [u, v] : edges)
-        used.insert({ u, v });
-    for (int v : used) {
-        const Nearest found = nearest(line, cells.vertices[v]);
+    std::set<int> on_line;
+    for (std::size_t i = 0; i < close.size();) {
+        const int v = close[i].first;
+        const Point p = cells.vertices[v];
+        Nearest found = line.nearest(p, 0);
+        for (; i < close.size() && close[i].first == v; ++i)
+            found = nearer(found, line.nearest(p, close[i].second));
+        found = nearer(found, line.nearest(p, last));
         if (found.distance > snap) continue;
         on_line.insert(v);
-        nodes.push_back({ found.along, v, {}, cells.vertices[v] });
+        nodes.push_back({ found.along, v, {}, p });
     }
-    for (const VertexPair& edge : edges)
+    for (const auto& [edge, k] : close_edges)
         if (!on_line.count(edge.first) && !on_line.count(edge.second))
-            add_crossings(cells, edge, line, nodes);
+            add_crossing(cells, edge, line, k, nodes);
     std::stable_sort(
         nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.along < b.along; });
     return nodes;
@@ -170,36 +185,35 @@ std::vector<Node> nodes_of(
 /// Moves vertices onto a line where the cells around them stay sound.
 class Straightener {
 public:
-    /// @param rails   joints along which their vertices may go
-    Straightener(PlanarCells& c, double mean, const std::set<VertexPair>& joints) :
-        cells(c),
+    /// @param own_edges  of the line itself; other joints stay straight
+    Straightener(CellIndex& i, double mean, const std::set<VertexPair>& own_edges) :
+        index(i),
+        cells(i.cells),
         mean_area(mean),
-        rails(joints)
+        own(own_edges)
     {
-        for (std::size_t i = 0; i < cells.cells.size(); ++i)
-            for (int v : cells.cells[i])
-                around[v].push_back(i);
     }
 
     /// Move a vertex to the line that runs through `on_line` along `way`.
     void move(int vertex, Point on_line, Point way)
     {
         Point target = on_line;
-        if (!around.count(vertex) || !stays_on_rail(vertex, way, target)) return;
+        if (index.cells_at(vertex).empty() || !stays_on_rail(vertex, way, target)) return;
         const Point before = cells.vertices[vertex];
         cells.vertices[vertex] = target;
-        for (std::size_t cell : around[vertex]) {
+        for (int cell : index.cells_at(vertex)) {
             if (is_sound(cells.cells[cell], vertex)) continue;
             cells.vertices[vertex] = before;
             return;
         }
+        index.move(vertex, target);
     }
 
 private:
+    CellIndex& index;
     PlanarCells& cells;
     double mean_area;
-    std::map<int, std::vector<std::size_t>> around;
-    const std::set<VertexPair>& rails;
+    const std::set<VertexPair>& own;
 
     /// A vertex on a side or on a straight joint goes to where the line crosses it; a corner has no such place.
     bool stays_on_rail(int vertex, Point way, Point& target) const
@@ -207,12 +221,12 @@ private:
         std::vector<VertexPair> on_side;
         std::set<VertexPair> on_joint;
         std::set<int> sides;
-        for (std::size_t cell : around.at(vertex)) {
+        for (int cell : index.cells_at(vertex)) {
             const Loop& loop = cells.cells[cell];
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 const VertexPair edge = undirected(loop[k], loop[(k + 1) % loop.size()]);
                 if (edge.first != vertex && edge.second != vertex) continue;
-                if (rails.count(edge)) on_joint.insert(edge);
+                if (cells.joints.count(edge) && !own.count(edge)) on_joint.insert(edge);
                 const auto side = cells.sides.find(edge);
                 if (side == cells.sides.end()) continue;
                 on_side.push_back(edge);
@@ -253,31 +267,12 @@ private:
     }
 };
 
-/// Divide an edge by a vertex in all cells that have it.
-void divide(PlanarCells& cells, VertexPair edge, int vertex)
-{
-    for (Loop& loop : cells.cells) {
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            if (undirected(loop[k], loop[(k + 1) % loop.size()]) != edge) continue;
-            loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(k) + 1, vertex);
-            break;
-        }
-    }
-    for (auto* labels : { &cells.sides, &cells.joints }) {
-        const auto at = labels->find(edge);
-        if (at == labels->end()) continue;
-        const int label = at->second;
-        labels->erase(at);
-        labels->emplace(undirected(edge.first, vertex), label);
-        labels->emplace(undirected(vertex, edge.second), label);
-    }
-}
-
 /// Make vertices of the crossings among the nodes that are needed. Several may lie on one edge; closer together than
 /// `least` they are one vertex, as where a line turns back onto itself.
 void insert_crossings(
-    PlanarCells& cells, std::vector<Node>& nodes, const std::vector<bool>& needed, double least)
+    CellIndex& index, std::vector<Node>& nodes, const std::vector<bool>& needed, double least)
 {
+    PlanarCells& cells = index.cells;
     std::map<VertexPair, std::vector<std::pair<double, std::size_t>>> on_edge;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         if (!needed[k] || nodes[k].vertex >= 0) continue;
@@ -295,64 +290,98 @@ void insert_crossings(
             }
             node.vertex = static_cast<int>(cells.vertices.size());
             cells.vertices.push_back(node.place);
-            divide(cells, undirected(from, edge.second), node.vertex);
+            index.divide(undirected(from, edge.second), node.vertex);
             from = node.vertex;
         }
     }
 }
 
+/// How far a line is followed beyond its ends: through the cells that they lie in [m].
+double beyond(CellIndex& index)
+{
+    return std::max(10.0 * index.longest_edge(), 2.0 * index.largest_cell());
+}
+
+/// How far from an end of a line the end of its cell may lie, and a vertex that stands for it [m].
+double reach(CellIndex& index, Point end, double snap)
+{
+    if (!index.is_in_a_cell(end)) return index.largest_cell() + index.longest_edge() + snap;
+    double farthest = 0.0;
+    for (int cell : index.near(end, end, snap))
+        for (int v : index.cells.cells[cell])
+            farthest = std::max(farthest, norm(index.cells.vertices[v] - end));
+    return farthest + snap;
+}
+
 }  // namespace
 
-std::vector<JointStep> joint_steps(PlanarCells& cells, const JointLine& joint, double mean_area)
+std::vector<JointStep> joint_steps(CellIndex& index, const JointLine& joint, double mean_area)
 {
     const double snap = snap_distance * 2.0 * std::sqrt(mean_area / pi);
-    const std::set<VertexPair> edges = edges_of(cells);
-    // beyond its ends a line is followed through the cells that they lie in
-    const LongLine line(joint, 10.0 * longest_edge(cells, edges));
-    std::vector<Node> nodes = nodes_of(cells, line, edges, snap);
+    const LongLine line(joint, beyond(index));
+    std::vector<Node> nodes = nodes_of(index, line, reach(index, joint.points.front(), snap),
+        reach(index, joint.points.back(), snap), snap);
     std::vector<bool> needed(nodes.size(), false);
     std::vector<std::size_t> steps;
-    bool touched = false;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const double first = nodes[k].along, last = nodes[k + 1].along,
-                     covered = line.covered(first, last);
-        if (covered == 0.0 || !is_in_a_cell(cells, line.place(0.5 * (first + last)))) continue;
-        touched = true;
-        if (covered < 0.5) continue;
+        const double first = nodes[k].along, last = nodes[k + 1].along;
+        if (line.covered(first, last) < 0.5) continue;
+        if (!index.is_in_a_cell(line.place(0.5 * (first + last)))) continue;
         steps.push_back(k);
         needed[k] = needed[k + 1] = true;
     }
-    if (!touched) {
-        refuse("joint from", place(joint.points.front()),
-            "must lie inside the specimen; move or remove it");
-    }
-    std::set<VertexPair> rails;
-    for (const auto& entry : cells.joints)
-        rails.insert(entry.first);
-    Straightener straightener(cells, mean_area, rails);
+    const std::set<VertexPair> none;  // nothing is laid yet
+    Straightener straightener(index, mean_area, none);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
         if (needed[k] && nodes[k].vertex >= 0)
             straightener.move(
                 nodes[k].vertex, line.place(nodes[k].along), line.way_at(nodes[k].along));
     }
-    insert_crossings(cells, nodes, needed, least_edge * std::sqrt(mean_area));
+    insert_crossings(index, nodes, needed, least_edge * std::sqrt(mean_area));
     std::vector<JointStep> found;
-    for (std::size_t k : steps)
-        found.push_back({ nodes[k].vertex, nodes[k + 1].vertex });
+    for (std::size_t k : steps) {
+        found.push_back({ nodes[k].vertex, nodes[k + 1].vertex,
+            line.overlap(nodes[k].along, nodes[k + 1].along) });
+    }
     return found;
 }
 
-void straighten(PlanarCells& cells, const JointLine& joint, const std::vector<int>& vertices,
+double length_outside(const CellIndex& index, const JointLine& line)
+{
+    const PlanarCells& cells = index.cells;
+    double outside = 0.0;
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+        const Point a = line.points[i], w = line.points[i + 1] - a;
+        std::vector<double> shares { 0.0, 1.0 };
+        for (int cell : index.near(a, line.points[i + 1], 0.0)) {
+            const Loop& loop = cells.cells[cell];
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                const int v = loop[k], next = loop[(k + 1) % loop.size()];
+                const Point u = cells.vertices[v], e = cells.vertices[next] - u;
+                const double of_u = cross(w, u - a), of_v = cross(w, u + e - a);
+                const double share = cross(u - a, e) / cross(w, e);
+                if ((of_u > 0.0) != (of_v > 0.0) && share > 0.0 && share < 1.0
+                    && index.is_boundary(v, next))
+                    shares.push_back(share);
+            }
+        }
+        std::sort(shares.begin(), shares.end());
+        for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
+            if (!index.is_in_a_cell(a + 0.5 * (shares[k] + shares[k + 1]) * w))
+                outside += (shares[k + 1] - shares[k]) * norm(w);
+        }
+    }
+    return outside;
+}
+
+void straighten(CellIndex& index, const JointLine& joint, const std::vector<int>& vertices,
     const std::set<VertexPair>& laid, double mean_area)
 {
-    std::set<VertexPair> rails;
-    for (const auto& entry : cells.joints)
-        if (!laid.count(entry.first)) rails.insert(entry.first);
     const double least = round_off * std::sqrt(mean_area);
-    const LongLine line(joint, 10.0 * longest_edge(cells, edges_of(cells)));
-    Straightener straightener(cells, mean_area, rails);
+    const LongLine line(joint, beyond(index));
+    Straightener straightener(index, mean_area, laid);
     for (int v : vertices) {
-        const Nearest found = nearest(line, cells.vertices[v]);
+        const Nearest found = nearest(line, index.cells.vertices[v]);
         if (found.distance > least)
             straightener.move(v, line.place(found.along), line.way_at(found.along));
     }

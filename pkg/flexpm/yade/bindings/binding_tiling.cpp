@@ -91,8 +91,14 @@ namespace {
 		return std::make_shared<Tiling>(flexpm::cells_of_file(stored));
 	}
 
-	std::shared_ptr<Tiling>
-	cutByJoints(const flexpm::Tessellation& tessellation, py::object centres, py::object radii, py::object joints, py::list lines, py::object numbers)
+	py::tuple cutByJoints(
+	        const flexpm::Tessellation& tessellation,
+	        py::object                  centres,
+	        py::object                  radii,
+	        py::object                  joints,
+	        py::list                    lines,
+	        py::object                  numbers,
+	        py::object                  tell)
 	{
 		const InputArray<int> ofEdges(joints, 1, "joints"), ofLines(numbers, 1, "numbers");
 		const Rings           places = rings(lines, "joint");
@@ -101,8 +107,15 @@ namespace {
 		std::vector<flexpm::JointLine> all;
 		for (std::size_t i = 0; i < places.size(); ++i)
 			all.push_back({ places[i], ofLines.data()[i] });
-		return std::make_shared<Tiling>(
-		        flexpm::cut_by_joints(tessellation, discs(centres, radii), { ofEdges.data(), ofEdges.data() + ofEdges.size(0) }, all));
+		const flexpm::JointCut made = flexpm::cut_by_joints(
+		        tessellation, discs(centres, radii), { ofEdges.data(), ofEdges.data() + ofEdges.size(0) }, all, [&](std::size_t done) { tell(done); });
+		std::vector<double> lengths;
+		std::vector<int>    counts;
+		for (const flexpm::LineCut& line : made.lines) {
+			lengths.insert(lengths.end(), { line.length, line.cut, line.taken, line.outside });
+			counts.insert(counts.end(), { line.contacts, line.on });
+		}
+		return py::make_tuple(std::make_shared<Tiling>(made.tiling), copied(lengths, 4), copied(counts, 2));
 	}
 
 	/// Part of the whole, which it keeps alive.
@@ -146,8 +159,9 @@ void register_tiling_bindings()
 	        "Checked tiling of polygons, each (n, 2) [m], and the rings of its outline.");
 	py::def("cut_by_joints",
 	        cutByJoints,
-	        (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("joints"), py::arg("lines"), py::arg("numbers")),
-	        "Cells cut by lines, each (n, 2) [m], of joints with numbers; joints has those that shared edges have already, -1 without.");
+	        (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("joints"), py::arg("lines"), py::arg("numbers"), py::arg("tell")),
+	        "Cells cut by lines, each (n, 2) [m], of joints with numbers; joints has those that shared edges have already, -1 without. "
+	        "tell takes the number of lines done. Also rows length, cut, taken, outside [m] and contacts, joint that has taken, one per line.");
 	py::def("cells_of_file",
 	        cellsOfFile,
 	        (py::arg("vertices"), py::arg("cells"), py::arg("sides"), py::arg("joints"), py::arg("centres"), py::arg("radii")),
