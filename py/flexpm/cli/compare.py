@@ -23,8 +23,8 @@ from .options import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (
-    *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "loading"),
-    *("span", "notch", "normal_stress", "max_displacement", "wave", "control"),
+    *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start"),
+    *("loading", "span", "notch", "normal_stress", "max_displacement", "wave", "control"),
 )
 
 if TYPE_CHECKING:

@@ -393,6 +393,13 @@ loading_options = combined(
         help="Acceleration downwards, with --dynamic only [m/s2].",
     ),
     click.option(
+        "--damping",
+        type=Quantity("", Bounds(at_least=0.0, below=1.0)),
+        metavar="A",
+        help="Local damping of the loading [-]; what falls freely gains (1 - A) g.  [default: 0.7; "
+        "0 with --dynamic]",
+    ),
+    click.option(
         "--start",
         type=Name(*STARTS),
         metavar="rest|static",

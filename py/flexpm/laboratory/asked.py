@@ -33,7 +33,7 @@ _UNITS = {
     "gravity": "m/s2",
 }
 #: Inputs that follow from test, model and material unless they are given.
-_FOLLOWING = ("start", "loading")
+_FOLLOWING = ("start", "loading", "damping")
 _NESTED = ("specimen", "material")
 #: What stands for None.
 _OPEN = "by the reference strength"
@@ -201,6 +201,8 @@ def _of_test(spec: RunSpec) -> Iterator[Input]:
             source = "default of the test"
         else:
             source = "default" if value == field.default else "given"
+        if field.name == "damping":
+            value = spec.local_damping
         shown = _OPEN if value is None else value
         yield Input(field.name, shown, _UNITS.get(field.name, ""), source)
 
@@ -209,7 +211,7 @@ def _follows(spec: RunSpec, name: str) -> bool:
     """Whether an input has the value that follows from test, model and material."""
     if name not in _FOLLOWING:
         return False
-    plain = replace(spec, start="", loading="")
+    plain = replace(spec, start="", loading="", damping=None)
     return bool(getattr(plain, name) == getattr(spec, name))
 
 

@@ -423,6 +423,7 @@ class PartRig(GrainRig):
         bend = self.built.joint_bend
         return [
             *([doubts.of_bend(bend)] if bend else []),
+            *doubts.of_gravity(self.built.gravity, self.built.damping),
             *doubts.of_result("", error, measures.median_end_mismatch(record), None),
         ]
 

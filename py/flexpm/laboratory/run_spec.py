@@ -17,11 +17,13 @@ from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
 from ..models.options import (
+    DAMPING,
     GRAIN_MODELS,
     INNER_MODELS,
     MODELS,
     SPHERE_MODELS,
     check_options,
+    local_damping,
 )
 from ..require import (
     Bounds,
@@ -109,13 +111,12 @@ _UNUSED: dict[str, tuple[str, ...]] = {
     "bending": ("width", "diameter", "confinement", "start"),
     "shear": ("diameter", "confinement", "start", "stop_ratio", "max_strain"),
     "scb": ("width", "height", "confinement", "start"),
-    SONIC: (
-        *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
-        *("dynamic", "gravity", "start", "loading"),
-    ),
-    ELASTIC: (
-        *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
-        *("dynamic", "gravity", "start", "loading"),
+    **dict.fromkeys(
+        (SONIC, ELASTIC),
+        (
+            *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
+            *("dynamic", "gravity", "damping", "start", "loading"),
+        ),
     ),
 }
 #: Options that a test has no use for.
@@ -145,7 +146,7 @@ _GRAVITY = Bounds(at_least=0.0, at_most=1e12)
 PACKING = ("thickness", "diameters", "porosity", "seed")
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
-    *("dynamic", "gravity", "start", "loading", "span", "notch"),
+    *("dynamic", "gravity", "damping", "start", "loading", "span", "notch"),
     *("normal_stress", "max_displacement"),
     *("wave", "control"),
 )
@@ -189,6 +190,9 @@ class RunSpec:
             multiple of that at its reference strength, and for other tests.
         wave: Of ``sonic``, one of ``WAVES``; empty: ``p``. None for other tests.
         control: What grows at the rate, one of ``CONTROLS``; None: the way of the ends.
+        damping: Local damping alpha [-] of the loading; None: 0.7, as always before it could be
+            chosen. With real masses it is 0 unless it is given; a specimen is settled under its
+            confinement with 0.7 at least. None for ``sonic``, which has none, and ``elastic``.
     """
 
     test: str
@@ -211,6 +215,7 @@ class RunSpec:
     max_displacement: float | None = None
     wave: str | None = None
     control: str | None = None
+    damping: float | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
@@ -229,6 +234,7 @@ class RunSpec:
         self._check_beam()
         self._check_shear()
         self._check_control()
+        self._check_damping()
         self._set("points", int(self.points))
         self._set("material", dict(self.material))
 
@@ -280,6 +286,8 @@ class RunSpec:
             if name not in content:
                 raise InputError(f"inputs {name} is missing; give that of the run")
         plain = _known(cls, content)
+        if plain.get("dynamic") and plain.get("test") != SONIC:
+            plain.setdefault("damping", DAMPING)  # of a run before it could be chosen
         return cls(**plain | {"specimen": SpecimenSpec(**_known(SpecimenSpec, plain["specimen"]))})
 
     def to_json(self) -> Table:
@@ -291,6 +299,17 @@ class RunSpec:
     def results(self) -> int:
         """Number of the results, see ``results_number``."""
         return results_number(self.test, self.model)
+
+    @property
+    def local_damping(self) -> float:
+        """Local damping of the loading [-]."""
+        return local_damping(self.damping, dynamic=self.test == SONIC)
+
+    @property
+    def settling_damping(self) -> float:
+        """Local damping under which the specimen comes to rest before it is loaded [-]."""
+        settles = self.test in ("biaxial", "shear")
+        return max(self.local_damping, DAMPING if settles else 0.0)
 
     def key(self, results: int | None = None) -> str:
         """Name of the run: a short hash of what differs from the defaults.
@@ -493,6 +512,16 @@ class RunSpec:
             raise InputError(
                 f"run: start = static, must be rest with control = {self.control}; leave it out"
             )
+
+    def _check_damping(self) -> None:
+        if "damping" in UNUSED[self.test]:
+            if self.damping is not None:
+                raise InputError(
+                    f"run: damping = {self.damping}, must not be given for {self.test}"
+                )
+            return
+        damping = local_damping(self.damping, dynamic=self.dynamic)
+        self._set("damping", None if damping == DAMPING and not self.dynamic else damping)
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -88,6 +88,7 @@ def specs(draw) -> RunSpec:
         gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded else 0.0,
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
+        damping=draw(st.none() | st.floats(0.0, 0.99)) if loaded and test != ELASTIC else None,
     )
 
 
