@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError, SimulationError
-from ..laboratory.run_spec import TESTS
+from ..laboratory.run_spec import PRESSED, TESTS
 from ..materials.material import COMPARED
 from ..models.options import MODELS
 from ..report import tables
@@ -79,8 +79,7 @@ def compare(
     require_known("test", test, TESTS)
     if test != "biaxial" and any(confinements):
         raise InputError(
-            f"confinements = {max(confinements):g} Pa, must be 0 for {test}"
-            f"{'' if test == 'brazilian' else '; use biaxial'}"
+            f"confinements = {max(confinements):g} Pa, must be 0 for {test}{PRESSED.get(test, '')}"
         )
     options["material"] = options["material"] or COMPARED
     chosen = {model: inputs.material(options, model) for model in models}

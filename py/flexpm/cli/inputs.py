@@ -13,7 +13,7 @@ import click
 from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
-from ..laboratory.run_spec import PACKING, RunSpec, shape_of
+from ..laboratory.run_spec import PACKING, UNUSED, RunSpec, shape_of, with_unit
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
@@ -70,6 +70,7 @@ def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
     if options["joints_file"] is not None:
         specimen = specimen.with_joints(joint_lines.read(options["joints_file"]))
     spec = RunSpec.from_options(test, given, chosen, specimen)
+    refuse_unused(test)
     told = click.get_current_context().meta.setdefault("flexpm.doubts", set())
     for line in doubts.of_inputs(spec.to_json()):
         if line not in told:
@@ -113,12 +114,21 @@ def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Spe
 def refuse_packing() -> None:
     """Refuse options of a packing beside a specimen that is read from a file."""
     context = click.get_current_context()
-    for name in (*SIZES["rectangle"], *SIZES["disc"], *PACKING, "seeds"):
+    for name in (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, "seeds"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             raise InputError(
                 f"{name} = {context.params.get(name)}, must not be given with specimen, which has "
                 "its own; leave one out"
             )
+
+
+def refuse_unused(test: str) -> None:
+    """Refuse options that a test has no use for, whatever their values are."""
+    context = click.get_current_context()
+    for name in UNUSED[test]:
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            told = with_unit(name, context.params.get(name))
+            raise InputError(f"{told}, must not be given for {test}; leave it out")
 
 
 def refuse_other_sizes(shape: str) -> None:

@@ -443,7 +443,8 @@ frames_options = combined(
         type=Count(0, MOST_FRAMES),
         default=0,
         metavar="N",
-        help="Write the state at N even strains at least, and around the peak, for ParaView.",
+        help="Write the state at even strains, N up to the strain of the reference strength, and "
+        "around the peak, for ParaView; fewer if the test ends before or has fewer rows.",
     ),
     click.option(
         "--film",

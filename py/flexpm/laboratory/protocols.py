@@ -158,7 +158,8 @@ def run(
         progress: Called with (steps done, steps expected, text).
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
         report: Write report.html, too.
-        frames: Write the state at this many even strains at least, and around the peak; 0: none.
+        frames: Write the state at even strains, this many up to the strain of the reference
+            strength, and around the peak; fewer if the test ends before or has fewer rows. 0: none.
         film: ``gif`` or ``mp4``: write a film of the frames, too.
 
     Returns:
