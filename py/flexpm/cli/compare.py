@@ -12,6 +12,7 @@ import click
 
 from ..errors import InputError, SimulationError
 from ..laboratory.run_spec import PRESSED, TESTS
+from ..materials.keys import is_used
 from ..materials.material import COMPARED
 from ..models.options import MODELS
 from ..report import tables
@@ -82,6 +83,7 @@ def compare(
             f"confinements = {max(confinements):g} Pa, must be 0 for {test}{PRESSED.get(test, '')}"
         )
     options["material"] = options["material"] or COMPARED
+    _require_use(options["assignments"], models)
     chosen = {model: inputs.material(options, model) for model in models}
     specs = [
         inputs.run_spec(test, options | {"model": model}, material)
@@ -123,6 +125,14 @@ def compare(
             inputs.tell_warnings(case.result, f"{case.name}: ")
     terminal.say(f"  files  {folder}/")
     _report_failures(found.cases)
+
+
+def _require_use(assignments: Sequence[str], models: Sequence[str]) -> None:
+    """Refuse changes of the material that none of the models uses."""
+    for one in assignments:
+        key = one.partition("=")[0].strip()
+        if not any(is_used(key, model) for model in models):
+            raise InputError(f"set {one}, is used by none of {', '.join(models)}; leave it out")
 
 
 def _report_failures(cases: Sequence[Case]) -> None:

@@ -14,6 +14,7 @@ from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
 from ..laboratory.run_spec import PACKING, UNUSED, RunSpec, shape_of, with_unit
+from ..materials.keys import is_used
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
@@ -51,9 +52,19 @@ def locked_folder(path: Path) -> Path:
 
 
 def material(options: Table, model: str | None = None) -> Material:
-    """The material with its changes, checked for the model."""
-    model = model or options["model"]
-    chosen = load(options["material"], model).with_set(options["assignments"], model)
+    """The material with its changes, checked for the model.
+
+    Args:
+        options: Of the command.
+        model: One of several that are compared, which leave out what only others use; None for
+            the one of the options.
+    """
+    assignments = options["assignments"]
+    if model is None:
+        model = options["model"]
+    else:
+        assignments = [one for one in assignments if is_used(one.partition("=")[0].strip(), model)]
+    chosen = load(options["material"], model).with_set(assignments, model)
     description(chosen, model)
     return chosen
 
