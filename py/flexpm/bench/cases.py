@@ -12,6 +12,7 @@ import yade
 from ..laboratory.loading_rate import Loading
 from ..laboratory.rigs import rig
 from ..models import grains, spheres
+from ..models.options import DAMPING
 from ..specimens.specimen import Specimen
 
 #: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.
@@ -30,7 +31,7 @@ def build_own(
 
 def _build_yade(specimen: Specimen, threads: int, model: str) -> Mapping[str, int]:
     """Bonded spheres squeezed at about the same rate, without plates and record."""
-    built = spheres.build(specimen, None, model, damping=grains.DAMPING, threads=threads)
+    built = spheres.build(specimen, None, model, damping=DAMPING, threads=threads)
     heights = specimen.centres[:, 1]
     rate = 1e-8 / np.ptp(heights)
     for body, height in zip(built.ids, heights.tolist(), strict=True):

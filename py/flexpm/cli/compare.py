@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError, SimulationError
-from ..laboratory.run_spec import TESTS
+from ..laboratory.run_spec import PRESSED, TESTS
+from ..materials.keys import is_used
 from ..materials.material import COMPARED
 from ..models.options import MODELS
 from ..report import tables
@@ -23,8 +24,8 @@ from .options import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (
-    *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "start", "loading"),
-    *("span", "notch", "normal_stress", "max_displacement", "wave", "control"),
+    *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start"),
+    *("loading", "span", "notch", "normal_stress", "max_displacement", "wave", "control"),
 )
 
 if TYPE_CHECKING:
@@ -79,10 +80,10 @@ def compare(
     require_known("test", test, TESTS)
     if test != "biaxial" and any(confinements):
         raise InputError(
-            f"confinements = {max(confinements):g} Pa, must be 0 for {test}"
-            f"{'' if test == 'brazilian' else '; use biaxial'}"
+            f"confinements = {max(confinements):g} Pa, must be 0 for {test}{PRESSED.get(test, '')}"
         )
     options["material"] = options["material"] or COMPARED
+    _require_use(options["assignments"], models)
     chosen = {model: inputs.material(options, model) for model in models}
     specs = [
         inputs.run_spec(test, options | {"model": model}, material)
@@ -124,6 +125,14 @@ def compare(
             inputs.tell_warnings(case.result, f"{case.name}: ")
     terminal.say(f"  files  {folder}/")
     _report_failures(found.cases)
+
+
+def _require_use(assignments: Sequence[str], models: Sequence[str]) -> None:
+    """Refuse changes of the material that none of the models uses."""
+    for one in assignments:
+        key = one.partition("=")[0].strip()
+        if not any(is_used(key, model) for model in models):
+            raise InputError(f"set {one}, is used by none of {', '.join(models)}; leave it out")
 
 
 def _report_failures(cases: Sequence[Case]) -> None:

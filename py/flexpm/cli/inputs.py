@@ -14,7 +14,8 @@ from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
 from ..laboratory.output import refuse_other_kind
-from ..laboratory.run_spec import PACKING, RunSpec, shape_of
+from ..laboratory.run_spec import PACKING, UNUSED, RunSpec, shape_of, with_unit
+from ..materials.keys import is_used
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
@@ -61,9 +62,19 @@ def locked_folder(path: Path, kind: str = "") -> Path:
 
 
 def material(options: Table, model: str | None = None) -> Material:
-    """The material with its changes, checked for the model."""
-    model = model or options["model"]
-    chosen = load(options["material"], model).with_set(options["assignments"], model)
+    """The material with its changes, checked for the model.
+
+    Args:
+        options: Of the command.
+        model: One of several that are compared, which leave out what only others use; None for
+            the one of the options.
+    """
+    assignments = options["assignments"]
+    if model is None:
+        model = options["model"]
+    else:
+        assignments = [one for one in assignments if is_used(one.partition("=")[0].strip(), model)]
+    chosen = load(options["material"], model).with_set(assignments, model)
     description(chosen, model)
     return chosen
 
@@ -80,6 +91,7 @@ def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
     if options["joints_file"] is not None:
         specimen = specimen.with_joints(_joints(options["joints_file"]))
     spec = RunSpec.from_options(test, given, chosen, specimen)
+    refuse_unused(test)
     for line in doubts.of_inputs(spec.to_json()):
         _warn(line)
     return spec
@@ -143,12 +155,21 @@ def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Spe
 def refuse_packing() -> None:
     """Refuse options of a packing beside a specimen that is read from a file."""
     context = click.get_current_context()
-    for name in (*SIZES["rectangle"], *SIZES["disc"], *PACKING, "seeds"):
+    for name in (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, "seeds"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             raise InputError(
                 f"{name} = {context.params.get(name)}, must not be given with specimen, which has "
                 "its own; leave one out"
             )
+
+
+def refuse_unused(test: str) -> None:
+    """Refuse options that a test has no use for, whatever their values are."""
+    context = click.get_current_context()
+    for name in UNUSED[test]:
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            told = with_unit(name, context.params.get(name))
+            raise InputError(f"{told}, must not be given for {test}; leave it out")
 
 
 def refuse_other_sizes(shape: str) -> None:

@@ -393,6 +393,13 @@ loading_options = combined(
         help="Acceleration downwards, with --dynamic only [m/s2].",
     ),
     click.option(
+        "--damping",
+        type=Quantity("", Bounds(at_least=0.0, below=1.0)),
+        metavar="A",
+        help="Local damping of the loading [-]; what falls freely gains (1 - A) g.  [default: 0.7; "
+        "0 with --dynamic]",
+    ),
+    click.option(
         "--start",
         type=Name(*STARTS),
         metavar="rest|static",
@@ -436,7 +443,8 @@ frames_options = combined(
         type=Count(0, MOST_FRAMES),
         default=0,
         metavar="N",
-        help="Write the state at N even strains at least, and around the peak, for ParaView.",
+        help="Write the state at even strains, N up to the strain of the reference strength, and "
+        "around the peak, for ParaView; fewer if the test ends before or has fewer rows.",
     ),
     click.option(
         "--film",

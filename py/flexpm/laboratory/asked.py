@@ -20,20 +20,13 @@ from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
 from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
-from .run_spec import ELASTIC, UNUSED, RunSpec, described
+from .run_spec import ELASTIC, INPUT_UNITS, UNUSED, RunSpec, described
 
 if TYPE_CHECKING:
     from ..results.result import Result
 
-#: Units of inputs that have one.
-_UNITS = {
-    **dict.fromkeys(("width", "height", "diameter", "thickness", "diameters"), "m"),
-    **dict.fromkeys(("span", "notch"), "m"),
-    "confinement": "Pa",
-    "gravity": "m/s2",
-}
 #: Inputs that follow from test, model and material unless they are given.
-_FOLLOWING = ("start", "loading")
+_FOLLOWING = ("start", "loading", "damping")
 _NESTED = ("specimen", "material")
 #: What stands for None: an input that the loading finds, and the first kind of control.
 _OPEN = {
@@ -170,7 +163,7 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         elif name == "kind":
             source = "by the test"
         label = "shape" if name == "kind" else name
-        yield Input(label, value, _UNITS.get(name, ""), source)
+        yield Input(label, value, INPUT_UNITS.get(name, ""), source)
 
 
 def _of_material(spec: RunSpec) -> Iterator[Input]:
@@ -206,15 +199,17 @@ def _of_test(spec: RunSpec) -> Iterator[Input]:
             source = "default of the test"
         else:
             source = "default" if value == field.default else "given"
+        if field.name == "damping":
+            value = spec.local_damping
         shown = _OPEN.get(field.name, "-") if value is None else value
-        yield Input(field.name, shown, _UNITS.get(field.name, ""), source)
+        yield Input(field.name, shown, INPUT_UNITS.get(field.name, ""), source)
 
 
 def _follows(spec: RunSpec, name: str) -> bool:
     """Whether an input has the value that follows from test, model and material."""
     if name not in _FOLLOWING:
         return False
-    plain = replace(spec, start="", loading="")
+    plain = replace(spec, start="", loading="", damping=None)
     return bool(getattr(plain, name) == getattr(spec, name))
 
 

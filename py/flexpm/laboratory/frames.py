@@ -56,7 +56,8 @@ class FrameWriter:
 
         Args:
             folder: Of the run.
-            wanted: Number of frames at even strains, > 0; up to twice as many are written.
+            wanted: Number of frames at even strains up to the reference strain, > 0; twice as many
+                are kept at most, fewer if the test ends before or has fewer rows.
             about: What each file says of the run.
             resumed_at: Step from which an earlier start goes on, None for none.
         """

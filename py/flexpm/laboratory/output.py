@@ -86,7 +86,8 @@ class Output:
 
     Attributes:
         report: Write report.html.
-        frames: Write the state at this many even strains at least, and around the peak; 0: none.
+        frames: Write the state at even strains, this many up to the strain of the reference
+            strength, and around the peak; fewer if the test ends before or has fewer rows. 0: none.
         film: ``gif`` or ``mp4``, made of the frames; None for none.
     """
 

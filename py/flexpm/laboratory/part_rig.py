@@ -425,6 +425,7 @@ class PartRig(GrainRig):
         return [
             *([doubts.of_bend(bend)] if bend else []),
             *doubts.of_cuts(cuts),
+            *doubts.of_gravity(self.built.gravity, self.built.damping),
             *doubts.of_result("", error, measures.median_end_mismatch(record), None),
         ]
 

@@ -17,7 +17,7 @@ from ..files import Table, output_folder, refuse_folders
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import is_brittle
-from ..models.grains import DAMPING, Model, build
+from ..models.grains import Model, build
 from ..models.options import SPHERE_MODELS
 from ..models.spheres import SphereModel
 from ..progress import Progress
@@ -90,6 +90,7 @@ def run(
     max_displacement: float | None = None,
     wave: str | None = None,
     control: str | None = None,
+    damping: float | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -149,12 +150,16 @@ def run(
             the ends go at it; ``lateral``: the lateral strain does, and the ends go back where the
             specimen snaps back. ``bending`` and ``scb``: ``displacement``, or ``cmod``: the opening
             of the notch. None: the first.
+        damping: Local damping alpha of the loading [-], 0 <= alpha < 1, not for ``sonic``; None:
+            0.7 with scaled masses, 0 with `dynamic`. Confining pressures act on a specimen that is
+            damped with 0.7 at least, until it is at rest.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
         report: Write report.html, too.
-        frames: Write the state at this many even strains at least, and around the peak; 0: none.
+        frames: Write the state at even strains, this many up to the strain of the reference
+            strength, and around the peak; fewer if the test ends before or has fewer rows. 0: none.
         film: ``gif`` or ``mp4``: write a film of the frames, too.
 
     Returns:
@@ -186,6 +191,7 @@ def run(
         max_displacement=max_displacement,
         wave=wave,
         control=control,
+        damping=damping,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval, output)
     return carry_out(plan, threads=threads, progress=progress)
@@ -280,7 +286,7 @@ def carry_out(
         spec.model,
         points=spec.points,
         mesh=spec.mesh,
-        damping=0.0 if spec.test == SONIC else DAMPING,
+        damping=spec.settling_damping,
         dynamic=spec.dynamic,
         gravity=spec.gravity,
         threads=threads,
@@ -345,6 +351,7 @@ def _about(inputs: Table | None) -> Table:
 
 def _confine(rig: TestRig, spec: RunSpec) -> None:
     rig.confine(spec.confinement)
+    rig.built.damping = spec.local_damping
 
 
 def _load(rig: TestRig, spec: RunSpec) -> None:
@@ -356,6 +363,7 @@ def _load(rig: TestRig, spec: RunSpec) -> None:
 def _press(rig: TestRig, spec: RunSpec) -> None:
     assert spec.normal_stress is not None
     rig.confine(spec.normal_stress)
+    rig.built.damping = spec.local_damping
 
 
 def _slide(rig: TestRig, spec: RunSpec) -> None:

@@ -300,9 +300,11 @@ class TestRig(ABC):
     def _require_rest(self) -> None:
         """Refuse a confinement under which the forces are not in balance."""
         if not self._at_rest():
+            damped = self.built.damping > 0.0
             raise SimulationError(
                 f"confine: unbalanced-force ratio = {self.unbalanced():.2g} under the pressure, "
-                f"must fall below {_AT_REST}; lower the confinement"
+                f"must fall below {_AT_REST}; "
+                f"{'lower the confinement' if damped else 'build with damping, then lower it'}"
             )
 
     def _is_over(self) -> bool:

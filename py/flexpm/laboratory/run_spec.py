@@ -10,6 +10,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields, replace
+from numbers import Number
 
 from ..errors import InputError
 from ..files import Table
@@ -17,14 +18,17 @@ from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
 from ..models.options import (
+    DAMPING,
     GRAIN_MODELS,
     INNER_MODELS,
     MODELS,
     SPHERE_MODELS,
     check_options,
+    local_damping,
 )
 from ..require import (
     Bounds,
+    quoted,
     require_flag,
     require_known,
     require_number,
@@ -109,13 +113,12 @@ _UNUSED: dict[str, tuple[str, ...]] = {
     "bending": ("width", "diameter", "confinement", "start"),
     "shear": ("diameter", "confinement", "start", "stop_ratio", "max_strain"),
     "scb": ("width", "height", "confinement", "start"),
-    SONIC: (
-        *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
-        *("dynamic", "gravity", "start", "loading"),
-    ),
-    ELASTIC: (
-        *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
-        *("dynamic", "gravity", "start", "loading"),
+    **dict.fromkeys(
+        (SONIC, ELASTIC),
+        (
+            *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
+            *("dynamic", "gravity", "damping", "start", "loading"),
+        ),
     ),
 }
 #: Options that a test has no use for.
@@ -123,6 +126,20 @@ UNUSED: dict[str, tuple[str, ...]] = {
     test: (*unused, *(name for name, tests in _OWN.items() if test not in tests))
     for test, unused in _UNUSED.items()
 }
+#: What serves a user who wants a confinement of other tests than biaxial.
+PRESSED = {
+    **dict.fromkeys(("uniaxial", "tension"), "; use biaxial"),
+    "shear": "; give normal_stress, a run for each",
+}
+#: Units of inputs that have one.
+INPUT_UNITS = {
+    **dict.fromkeys(("width", "height", "length", "diameter", "thickness", "diameters"), "m"),
+    **dict.fromkeys(("span", "notch", "max_displacement"), "m"),
+    **dict.fromkeys(("confinement", "normal_stress"), "Pa"),
+    "gravity": "m/s2",
+}
+#: Inputs that tests have all the same, or that have rules of their own.
+_ALWAYS = ("start", "loading", "confinement")
 #: Sizes of a test's specimen that are others than those of its shape [m].
 _OTHER_SIZES: dict[str, dict[str, float]] = {
     "bending": {"width": 0.18, "height": 0.04},
@@ -145,7 +162,7 @@ _GRAVITY = Bounds(at_least=0.0, at_most=1e12)
 PACKING = ("thickness", "diameters", "porosity", "seed")
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
-    *("dynamic", "gravity", "start", "loading", "span", "notch"),
+    *("dynamic", "gravity", "damping", "start", "loading", "span", "notch"),
     *("normal_stress", "max_displacement"),
     *("wave", "control"),
 )
@@ -189,6 +206,9 @@ class RunSpec:
             multiple of that at its reference strength, and for other tests.
         wave: Of ``sonic``, one of ``WAVES``; empty: ``p``. None for other tests.
         control: What grows at the rate, one of ``CONTROLS``; None: the way of the ends.
+        damping: Local damping alpha [-] of the loading; None: 0.7, as always before it could be
+            chosen. With real masses it is 0 unless it is given; a specimen is settled under its
+            confinement with 0.7 at least. None for ``sonic``, which has none, and ``elastic``.
     """
 
     test: str
@@ -211,9 +231,11 @@ class RunSpec:
     max_displacement: float | None = None
     wave: str | None = None
     control: str | None = None
+    damping: float | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
+        self._check_unused()
         self._check_wave()
         self._check_numbers()
         check_options(
@@ -229,6 +251,7 @@ class RunSpec:
         self._check_beam()
         self._check_shear()
         self._check_control()
+        self._check_damping()
         self._set("points", int(self.points))
         self._set("material", dict(self.material))
 
@@ -280,6 +303,8 @@ class RunSpec:
             if name not in content:
                 raise InputError(f"inputs {name} is missing; give that of the run")
         plain = _known(cls, content)
+        if plain.get("dynamic") and plain.get("test") != SONIC:
+            plain.setdefault("damping", DAMPING)  # of a run before it could be chosen
         return cls(**plain | {"specimen": SpecimenSpec(**_known(SpecimenSpec, plain["specimen"]))})
 
     def to_json(self) -> Table:
@@ -291,6 +316,17 @@ class RunSpec:
     def results(self) -> int:
         """Number of the results, see ``results_number``."""
         return results_number(self.test, self.model)
+
+    @property
+    def local_damping(self) -> float:
+        """Local damping of the loading [-]."""
+        return local_damping(self.damping, dynamic=self.test == SONIC)
+
+    @property
+    def settling_damping(self) -> float:
+        """Local damping under which the specimen comes to rest before it is loaded [-]."""
+        settles = self.test in ("biaxial", "shear")
+        return max(self.local_damping, DAMPING if settles else 0.0)
 
     def key(self, results: int | None = None) -> str:
         """Name of the run: a short hash of what differs from the defaults.
@@ -342,6 +378,18 @@ class RunSpec:
             return "waiting"
         # brittle contacts crack before damage takes work: an adaptive rate would fall too late
         return "constant" if is_brittle(self.material) else "adaptive"
+
+    def _check_unused(self) -> None:
+        """Refuse options that the test has no use for, unless they are as if not given."""
+        for field in fields(self):
+            name, value = field.name, getattr(self, field.name)
+            if name in _ALWAYS or name not in UNUSED[self.test]:
+                continue
+            usual = value is None or (isinstance(value, Number | str) and value == field.default)
+            if not usual and (name, self.test) != ("dynamic", SONIC):
+                raise InputError(
+                    f"run: {with_unit(name, value)}, must not be given for {self.test}"
+                )
 
     def _check_numbers(self) -> None:
         self._set("rate", require_number("run: rate", self.rate, RATE))
@@ -413,14 +461,10 @@ class RunSpec:
         if self.test != "biaxial" and self.confinement != 0.0:
             raise InputError(
                 f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}"
-                f"{'; use biaxial' if shape == 'rectangle' else ''}"
+                f"{PRESSED.get(self.test, '')}"
             )
 
     def _check_beam(self) -> None:
-        for name in ("span", "notch"):
-            value = getattr(self, name)
-            if self.test not in _NOTCHED and value is not None:
-                raise InputError(f"run: {name} = {value} m, must not be given for {self.test}")
         if self.test == "scb":
             self._check_half_disc()
         if self.test != "bending":
@@ -445,10 +489,6 @@ class RunSpec:
         require_half_disc(self.span or 0.0, 0.5 * diameter, self.notch or 0.0)
 
     def _check_shear(self) -> None:
-        for name, unit in (("normal_stress", "Pa"), ("max_displacement", "m")):
-            value = getattr(self, name)
-            if self.test != "shear" and value is not None:
-                raise InputError(f"run: {name} = {value} {unit}, must not be given for {self.test}")
         if self.test != "shear":
             return
         stress = NORMAL_STRESS if self.normal_stress is None else self.normal_stress
@@ -461,15 +501,9 @@ class RunSpec:
 
     def _check_wave(self) -> None:
         if self.test != SONIC:
-            if self.wave is not None:
-                raise InputError(f"run: wave = {self.wave}, must not be given for {self.test}")
             return
         self._set("wave", self.wave or WAVES[0])
         require_one_of("run: wave", self.wave, WAVES)
-        for name in ("rate", "max_strain", "gravity"):
-            value, usual = getattr(self, name), getattr(RunSpec, name)
-            if value != usual:
-                raise InputError(f"run: {name} = {value}, must not be given for {SONIC}")
         self._set("dynamic", True)  # a wave in scaled masses has another speed
         if self.specimen.diameters is not None:
             require_pulse(self.specimen.height or 0.0, float(sum(self.specimen.diameters)) / 2.0)
@@ -477,8 +511,6 @@ class RunSpec:
     def _check_control(self) -> None:
         if self.control is None:
             return
-        if self.test not in CONTROLS:
-            raise InputError(f"run: control = {self.control}, must not be given for {self.test}")
         require_one_of("run: control", self.control, CONTROLS[self.test])
         first = CONTROLS[self.test][0]
         if self.control == first:
@@ -493,6 +525,12 @@ class RunSpec:
             raise InputError(
                 f"run: start = static, must be rest with control = {self.control}; leave it out"
             )
+
+    def _check_damping(self) -> None:
+        if "damping" in UNUSED[self.test]:
+            return
+        damping = local_damping(self.damping, dynamic=self.dynamic)
+        self._set("damping", None if damping == DAMPING and not self.dynamic else damping)
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
@@ -512,6 +550,12 @@ def require_pulse(height: float, diameter: float) -> None:
             f"{_FEWEST_GRAINS:g}: it is {PULSE:g} heights; take a height of "
             f"{_FEWEST_GRAINS / PULSE:g} diameters, or smaller grains"
         )
+
+
+def with_unit(name: str, value: object) -> str:
+    """An input and its value with its unit, for a message."""
+    shown = value if isinstance(value, str) and len(value) < 80 else quoted(value)
+    return f"{name} = {shown} {INPUT_UNITS.get(name, '')}".rstrip()
 
 
 def results_number(test: str, model: str) -> int:

@@ -33,6 +33,9 @@ ELASTIC_SET = {
     "jcfpm": "rigid",
     "cohfrict": "rigid",
 }
+#: Keys that are of the triangles, which other models do not have; a rock's E and nu are what the
+#: stiffness of inner particles is fitted to.
+_OF_TRIANGLES = {"flexible": (), "inner": ("plane",), "rigid": ("young", "poisson", "plane")}
 
 
 def _around(magnitude: float) -> Bounds:
@@ -89,6 +92,14 @@ def checked(key: str, value: object, where: str = "") -> float | str:
         return str(value)
     unit = (UNITS[key] or "").removeprefix("-")
     return require_number(f"material {where}{key}", value, _BOUNDS[key], unit)
+
+
+def is_used(key: str, model: str) -> bool:
+    """Whether a key, of the rock or ``MINERAL.KEY``, has a meaning for a model.
+
+    Fracture energies of YADE's models, which break at once, have one: they bound the strengths.
+    """
+    return key.rpartition(".")[2] not in _OF_TRIANGLES[elastic_set_name(model)]
 
 
 def elastic_set_name(model: str) -> str:

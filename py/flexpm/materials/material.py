@@ -28,6 +28,7 @@ from .keys import (
     UNITS,
     checked,
     elastic_set_name,
+    is_used,
 )
 from .mineral import Mineral
 
@@ -155,12 +156,18 @@ class Material(Shown):
         inner particles drops the constants that these would be fitted to.
 
         Raises:
-            InputError: for a malformed assignment, an unknown key or a value out of range.
+            InputError: for a malformed assignment, an unknown key, one that `model` does not use,
+                or a value out of range.
         """
         changes: Table = {**_assigned(assignments), **_assigned(values)}
         if not changes:
             return self
         name = elastic_set_name(model)
+        for key, value in changes.items():
+            if not joint.is_key(key) and not is_used(key, model):
+                raise InputError(
+                    f"set {key} = {quoted(value)}, is not used by model {model}; leave it out"
+                )
         of_joints = {key: changes.pop(key) for key in list(changes) if joint.is_key(key)}
         cuts = joint.with_values(self.joints, of_joints)
         of_pairs = {key: changes.pop(key) for key in list(changes) if interface.is_key(key)}

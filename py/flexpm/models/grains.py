@@ -23,7 +23,7 @@ from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import description, mineral_materials, pair_materials
-from ..require import Bounds, quoted, require_number, require_one_of, require_threads
+from ..require import quoted, require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..specimens import inner_particles, mineral_map
 from ..specimens.specimen import Specimen
@@ -37,12 +37,10 @@ from .options import (
     POINTS,
     SPHERE_MODELS,
     check_options,
+    local_damping,
 )
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
-
-#: Local damping of all tests [-], paper Sec. 4.1.
-DAMPING = 0.7
 
 
 @dataclass
@@ -125,6 +123,15 @@ class Model:
         """The first engine of a class, which the scene must have."""
         return next(engine for engine in self.engines if isinstance(engine, kind))
 
+    @property
+    def damping(self) -> float:
+        """Local damping alpha [-]; at most that with which the specimen was built."""
+        return self.solver.damping
+
+    @damping.setter
+    def damping(self, value: float) -> None:
+        self.solver.damping = value
+
     def set_threads(self, threads: int) -> None:
         """Threads of a step; results do not depend on it."""
         self.solver.ompThreads = threads
@@ -172,7 +179,7 @@ def build(
     *,
     points: int = 3,
     mesh: str = "refined",
-    damping: float = DAMPING,
+    damping: float | None = None,
     dynamic: bool = False,
     gravity: float = 0.0,
     threads: int = 1,
@@ -188,7 +195,8 @@ def build(
             ``cohfrict``.
         points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have one.
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
-        damping: Local damping alpha [-], 0 <= alpha < 1.
+        damping: Local damping alpha [-], 0 <= alpha < 1; None: 0.7 with scaled masses, 0 with real
+            ones. What moves freely under gravity g gains (1 - alpha) g.
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
         gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         threads: Threads of a step; results do not depend on it.
@@ -201,7 +209,7 @@ def build(
     """
     check_options(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
     points = int(points)  # numpy's integers are no integers for the kernel
-    damping = require_number("build: damping", damping, Bounds(at_least=0.0, below=1.0))
+    damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
     if not isinstance(specimen, Specimen):
         raise InputError(f"build: specimen = {quoted(specimen)}, must be a Specimen")

@@ -4,7 +4,14 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..require import NOT_NEGATIVE, require_flag, require_number, require_one_of, require_whole
+from ..require import (
+    NOT_NEGATIVE,
+    Bounds,
+    require_flag,
+    require_number,
+    require_one_of,
+    require_whole,
+)
 
 #: Grains of inner particles: normals between grains from the discs' centres, or of the edge.
 INNER_MODELS = ("inner", "inner-un")
@@ -17,6 +24,25 @@ MODELS = (*GRAIN_MODELS, *SPHERE_MODELS)
 MESHES = ("refined", "fan")
 #: Points in each contact.
 POINTS = (1, 2, 3)
+#: Local damping with scaled masses, unless told otherwise [-], paper Sec. 4.1.
+DAMPING = 0.7
+_DAMPING = Bounds(at_least=0.0, below=1.0)
+
+
+def local_damping(damping: float | None, *, dynamic: bool) -> float:
+    """Local damping alpha that is in effect [-].
+
+    Args:
+        damping: As asked for [-]; None: 0.7 with scaled masses, 0 with real ones, on whose motion
+            under gravity it would drag.
+        dynamic: Real masses and time.
+
+    Raises:
+        InputError: for one out of range.
+    """
+    if damping is None:
+        return 0.0 if dynamic else DAMPING
+    return require_number("build: damping", damping, _DAMPING)
 
 
 def check_options(

@@ -113,6 +113,15 @@ class SphereModel:
         self.cracks.rebind(self.law, _find_bonds(self))
         self.cracks.recall(self.memory["cracks"])
 
+    @property
+    def damping(self) -> float:
+        """Local damping alpha [-]; at most that with which the specimen was built."""
+        return float(_newton(self.engines).damping)
+
+    @damping.setter
+    def damping(self, value: float) -> None:
+        _newton(self.engines).damping = value
+
     def set_threads(self, threads: int) -> None:
         """Threads of a step."""
         self.threads = threads
@@ -322,6 +331,11 @@ def _engines(
 def _loop(engines: list[wrapper.Engine]) -> wrapper.InteractionLoop:
     """The engine that holds the functors."""
     return next(engine for engine in engines if isinstance(engine, wrapper.InteractionLoop))
+
+
+def _newton(engines: list[wrapper.Engine]) -> wrapper.NewtonIntegrator:
+    """The engine that moves the spheres."""
+    return next(engine for engine in engines if isinstance(engine, wrapper.NewtonIntegrator))
 
 
 def _make_bonds(built: SphereModel) -> list[wrapper.Interaction]:

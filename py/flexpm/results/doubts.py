@@ -25,6 +25,8 @@ _USUAL: dict[str, tuple[float, float, str]] = {
     "diameter": (1e-6, 5.0, "m; 80 mm is 0.08"),
     "thickness": (1e-6, 5.0, "m; 80 mm is 0.08"),
 }
+#: Local damping that lets what moves under gravity be told from it [-].
+LARGEST_DAMPING = 0.2
 #: Difference of both ends' reactions that is none [-], the median up to the peak.
 LARGEST_MISMATCH = 0.05
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
@@ -41,7 +43,7 @@ NO_PULSE = (
 
 
 def of_inputs(inputs: Table) -> list[str]:
-    """Inputs of a run that are surely in other units.
+    """Inputs of a run that are surely in other units, and damping that gravity works against.
 
     Args:
         inputs: As result.json has them.
@@ -50,7 +52,24 @@ def of_inputs(inputs: Table) -> list[str]:
     tables = [("", {**inputs, **inputs["specimen"]}), ("", material)]
     tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
     tables += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
-    return [line for where, values in tables for line in _of_values(where, values)]
+    lines = [line for where, values in tables for line in _of_values(where, values)]
+    damping = inputs.get("damping")  # 0.7 before it could be chosen
+    return lines + of_gravity(inputs.get("gravity") or 0.0, 0.7 if damping is None else damping)
+
+
+def of_gravity(gravity: float, damping: float) -> list[str]:
+    """What local damping does to motion under gravity.
+
+    Args:
+        gravity: Acceleration [m/s2].
+        damping: Local damping alpha [-].
+    """
+    if not gravity or not damping > LARGEST_DAMPING:
+        return []
+    return [
+        f"damping = {damping:g}, is above {LARGEST_DAMPING:g} with gravity: what falls or slides "
+        f"gains {1.0 - damping:.3g} of its acceleration, and slopes hold; take 0 for motion"
+    ]
 
 
 def of_result(

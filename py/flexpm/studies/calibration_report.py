@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 import tomli_w
 
 from ..files import Table, write_text
+from ..materials.keys import elastic_set_name
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..report.style import drawing
@@ -50,10 +52,15 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     found = start.with_set(assignments, plan.model)
     content = _without_none(dataclasses.asdict(found)) | {"name": plan.name}
     kinds, joints, pairs = (content.pop(key) for key in ("minerals", "joints", "interfaces"))
+    # other models' sets are those of the rock that the search started from
+    content["elastic"] = _only_of(plan.model, content["elastic"])
     if joints:
         content["joint"] = {one.pop("name"): _without_none(one) for one in map(dict, joints)}
     if kinds:
         content["mineral"] = [kind | kind.pop("changes") for kind in map(dict, kinds)]
+        for kind in content["mineral"]:
+            if "elastic" in kind:
+                kind["elastic"] = _only_of(plan.model, kind["elastic"])
     if pairs:
         content["interface"] = [
             {"pair": list(one["pair"]), **one["values"], "factor": one["factors"]} for one in pairs
@@ -70,6 +77,12 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     ]
     write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))
     return load_material(path)
+
+
+def _only_of(model: str, sets: Mapping[str, Table]) -> Table:
+    """The elastic set of a model alone."""
+    name = elastic_set_name(model)
+    return {name: sets[name]} if name in sets else {}
 
 
 def rounded(value: float) -> float:

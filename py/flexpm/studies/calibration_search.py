@@ -29,6 +29,7 @@ from .._vendor import on_path
 from ..arrays import FloatArray
 from ..errors import InputError, SimulationError
 from ..files import Table, output_folder
+from ..materials.keys import is_used
 from ..progress import Progress
 from . import jobs
 from .calibration_problem import Calibration, Runs, Target
@@ -359,6 +360,8 @@ def _optimiser() -> ModuleType:
 
 
 def _started(plan: Calibration, key: str, start: Mapping[str, object]) -> float:
+    if not is_used(key, plan.model):
+        raise InputError(f"calibration [free] {key}, is not used by model {plan.model}; remove it")
     low, high = plan.free[key]
     value = start.get(key)
     if not isinstance(value, int | float) or not low <= value <= high:

@@ -20,8 +20,9 @@ from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..materials import interface, joint
-from ..materials.keys import UNITS
+from ..materials.keys import UNITS, is_used
 from ..materials.material import load as load_material
+from ..models.options import MODELS
 from ..require import require_known, require_text
 from ..specimens import joint_lines, specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
@@ -103,7 +104,11 @@ def make(inputs: Table, base: Path) -> Job:
     test = given.pop("test")
     require_known("study test", test, _TESTS)
     output = Output(False, **{key: given.pop(key) for key in _OUTPUTS if key in given})
-    used = {key: value for key, value in given.items() if key not in run_spec.UNUSED[test]}
+    used = {
+        key: value
+        for key, value in given.items()
+        if has_use(key, test, given.get("model", RunSpec.model))
+    }
     changes = {key.removeprefix("set."): key for key in used if key.startswith("set.")}
     for key in used:
         name = key.removeprefix("set.")
@@ -121,6 +126,13 @@ def make(inputs: Table, base: Path) -> Job:
     if test == run_spec.ELASTIC:
         output = Output(report=False)  # nothing moves
     return Job({"test": test, **used}, tuple(arguments(test, used)), spec, output=output)
+
+
+def has_use(key: str, test: str, model: object) -> bool:
+    """Whether an option, or ``set.KEY``, means something for a test on a model."""
+    if not key.startswith("set.") or joint.is_key(key.removeprefix("set.")):
+        return key not in run_spec.UNUSED[test]
+    return model not in MODELS or is_used(key, str(model))
 
 
 def _specimen(test: str, used: Table) -> SpecimenSpec:

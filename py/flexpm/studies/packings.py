@@ -52,9 +52,11 @@ def plan(
     found = []
     for seed in seeds:
         inputs: Table = {**about, **given, **about, "seed": seed}
-        options = {key: value for key, value in inputs.items() if key != "test"}
-        if spec.test != "biaxial":
-            del options["confinement"]
+        options = {
+            key: value
+            for key, value in inputs.items()
+            if key != "test" and jobs.has_use(key, spec.test, spec.model)
+        }
         packed = replace(spec, specimen=replace(spec.specimen, seed=seed))
         folder = str(Path(place) / f"seed-{seed}")
         arguments = tuple(jobs.arguments(spec.test, options))

@@ -64,7 +64,9 @@ def read(path: Path | str) -> Study:
     for key, text in about.items():
         require_known("study [study] key", key, _STUDY_KEYS)
         require_text(f"study [study] {key}", text)
-    made = [jobs.make(inputs, path.parent) for inputs in combinations(content)]
+    asked_for = list(combinations(content))
+    made = [jobs.make(inputs, path.parent) for inputs in asked_for]
+    _require_use(asked_for, made)
     distinct = {job.key: job for job in made}
     asked = require_tables("study [[picture]]", content.get("picture", []))
     inputs = {key for job in distinct.values() for key in job.inputs}
@@ -102,6 +104,13 @@ def run(
     rows = table(study.jobs, outcomes)
     write_table(rows, folder / "table")
     return rows
+
+
+def _require_use(asked: Sequence[Table], made: Sequence[Job]) -> None:
+    """Refuse changes of the material that no run uses."""
+    given = {key for inputs in asked for key in inputs if key.startswith("set.")}
+    for key in sorted(given.difference(*(job.inputs for job in made))):
+        raise InputError(f"study {key}, is used by no model of the study; leave it out")
 
 
 def combinations(content: Table) -> Iterator[Table]:

@@ -100,6 +100,17 @@ def finished(*arguments, **options):
         ("run uniaxial --out /proc/flexpm", "must be a folder that can be written to"),
         ("elastic --set poisson=0.5", "poisson = 0.5"),
         ("specimen rectangle --out /dev/null/x", "must be a folder that can be written to"),
+        ("run uniaxial --model rigid --set young=60e9", "is not used by model rigid"),
+        ("elastic --model inner --set plane=strain", "is not used by model inner"),
+        ("run shear --max-strain 1e-9", "max_strain = 1e-09, must not be given for shear"),
+        ("run shear --stop-ratio 0.5", "stop_ratio = 0.5, must not be given for shear"),
+        ("run uniaxial --length 0.5", "length = 0.5 m, must not be given for uniaxial"),
+        ("run scb --length 0.5", "length = 0.5 m, must not be given for scb"),
+        ("run bending --width 0.09", "width = 0.09 m, must not be given for bending"),
+        ("run sonic --dynamic", "dynamic = True, must not be given for sonic"),
+        ("compare shear --max-strain 1e-4", "max_strain = 0.0001, must not be given for shear"),
+        ("compare shear --confinements 0,1e6", "give normal_stress, a run for each"),
+        ("compare tension --confinements 1e6", "use biaxial"),
         ("bench --steps 0", "steps = 0, must be >= 1"),
         ("doctor --quick", "option = '--quick', unknown"),
     ],
@@ -205,3 +216,46 @@ def test_numbers_in_tables():
 
 def test_models_of_the_command_are_those_of_the_materials(capsys):
     assert ", ".join(ELASTIC_SET) in refused(capsys, "elastic", "--model", "none")
+
+
+def test_a_size_beside_a_specimen_is_refused(capsys):
+    told = refused(capsys, "run", "bending", "--specimen", "beam.json", "--length", "0.1")
+    assert "length = 0.1, must not be given with specimen" in told
+
+
+def test_the_help_tells_how_far_apart_frames_are(capsys):
+    assert cli.main(["run", "--help"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "N up to the strain of the reference strength" in told
+    assert "fewer if the test ends before or has fewer rows" in told
+
+
+def test_a_comparison_gives_each_model_the_keys_that_it_uses(capsys, tmp_path):
+    compare = [
+        "compare",
+        "uniaxial",
+        "--width",
+        "0.01",
+        "--height",
+        "0.012",
+        "--max-strain",
+        "1e-5",
+    ]
+    compare += ["--rate", "50", "--quiet", "--no-report", "--set", "young=6e10"]
+    assert cli.main([*compare, "--out", str(tmp_path)]) == 3  # no peak within the strain
+    found = {
+        model: json.loads((tmp_path / model / "result.json").read_text())["material"]
+        for model in ("flexible", "rigid")
+    }
+    assert (found["flexible"]["young"], found["rigid"]["young"]) == (6e10, None)
+    capsys.readouterr()
+    told = refused(capsys, *compare, "--models", "rigid,jcfpm")
+    assert "set young=6e10, is used by none of rigid, jcfpm" in told
+
+
+def test_packings_give_each_model_the_keys_that_it_uses(tmp_path):
+    compare = ["compare", "uniaxial", "--width", "0.01", "--height", "0.012", "--rate", "50"]
+    compare += ["--quiet", "--no-report", "--set", "young=6e10", "--seeds", "1", "--workers", "1"]
+    cli.main([*compare, "--out", str(tmp_path)])
+    for model in ("flexible", "rigid"):
+        assert (tmp_path / model / "seed-1" / "result.json").is_file(), model

@@ -20,6 +20,7 @@ from flexpm.laboratory.run_spec import (
     ELASTIC,
     SONIC,
     TESTS,
+    UNUSED,
     RunSpec,
     described,
     models_of,
@@ -61,7 +62,8 @@ def specs(draw) -> RunSpec:
     model = draw(st.sampled_from(models_of(test)))
     grains = model in GRAIN_MODELS
     loaded = test != SONIC
-    dynamic = not loaded or draw(st.booleans())
+    unused = UNUSED[test]
+    dynamic = not loaded or ("dynamic" not in unused and draw(st.booleans()))
     cohesion = draw(st.floats(1e7, 3e7))
     material = materials.load(None, model).with_set([f"cohesion={cohesion!r}"], model)
     starts = ["", "rest"]
@@ -81,13 +83,14 @@ def specs(draw) -> RunSpec:
         points=draw(st.sampled_from(POINTS)) if grains else 3,
         mesh=draw(st.sampled_from(MESHES)) if grains else "refined",
         confinement=draw(st.floats(0.0, 1e9)) if test == "biaxial" else 0.0,
-        rate=draw(POSITIVE) if loaded else 1.0,
-        max_strain=draw(st.none() | POSITIVE) if loaded else None,
-        stop_ratio=draw(st.floats(0.01, LARGEST_STOP_RATIO)),
+        rate=1.0 if "rate" in unused else draw(POSITIVE),
+        max_strain=None if "max_strain" in unused else draw(st.none() | POSITIVE),
+        stop_ratio=0.5 if "stop_ratio" in unused else draw(st.floats(0.01, LARGEST_STOP_RATIO)),
         dynamic=dynamic,
         gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded else 0.0,
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
+        damping=None if "damping" in unused else draw(st.none() | st.floats(0.0, 0.99)),
     )
 
 
@@ -284,6 +287,12 @@ def test_the_key_of_a_run_is_that_of_its_loading_and_those_of_earlier_defaults_a
         ({"start": "static", "model": "rigid"}, "start = static, must be rest"),
         ({"loading": "fast"}, "loading = 'fast', must be one of constant, adaptive, waiting"),
         ({"loading": "adaptive", "dynamic": True}, "must be constant for model flexible with real"),
+        ({"test": "shear", "max_strain": 1e-9}, "max_strain = 1e-09, must not be given for shear"),
+        ({"test": "shear", "stop_ratio": 0.3}, "stop_ratio = 0.3, must not be given for shear"),
+        ({"test": ELASTIC, "rate": 2.0}, "rate = 2.0, must not be given for elastic"),
+        ({"test": ELASTIC, "dynamic": True}, "dynamic = True, must not be given for elastic"),
+        ({"span": 0.1}, "span = 0.1 m, must not be given for uniaxial"),
+        ({"wave": "p"}, "wave = p, must not be given for uniaxial"),
     ],
 )
 def test_inputs_out_of_range_are_refused_in_one_line(changes, message):

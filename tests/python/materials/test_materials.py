@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from flexpm import materials
 from flexpm.errors import InputError
-from flexpm.materials.keys import ELASTIC_SET, UNITS
+from flexpm.materials.keys import ELASTIC_SET, UNITS, is_used
 from flexpm.materials.material import Material
 
 NUMBERS = [key for key, unit in UNITS.items() if unit is not None]
@@ -229,3 +229,18 @@ def test_the_flexible_model_needs_its_triangles(key):
     )
     with pytest.raises(InputError, match=f"{key} is missing"):
         material.law("flexible")
+
+
+@pytest.mark.parametrize("model", ["rigid", "inner", "jcfpm", "cohfrict"])
+@pytest.mark.parametrize("key", ["young", "poisson", "plane", "cohesion"])
+def test_a_key_that_a_model_does_not_use_is_refused(model, key):
+    rock = materials.load("augig-table7")
+    value = {"young": 6e10, "poisson": 0.2, "plane": "strain", "cohesion": 3.1e7}[key]
+    if is_used(key, model):
+        changed = rock.with_set({key: value}, model)
+        assert changed.law(model) != rock.law(model)
+        return
+    with pytest.raises(InputError, match=f"set {key} = .*, is not used by model {model}"):
+        rock.with_set({key: value}, model)
+    with pytest.raises(InputError, match="is not used by model"):
+        rock.with_set({f"quartz.{key}": value}, model)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import os
 import signal
@@ -148,6 +149,8 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     preset = write_preset(tmp_path / "known.toml", materials.load("augig-table7"), plan, found)
     assert preset.law()["cohesion"] == pytest.approx(found.best.values["cohesion"], rel=1e-3)
     assert preset.law()["friction"] == start["friction"]
+    with pytest.raises(InputError, match=r"no elastic set for model rigid; add a table"):
+        preset.law("rigid")  # that of the start is another rock's
     assert all("met" in text for _, text in table_rows(plan, found))
     picture(tmp_path / "known.png", plan, found)
     assert (tmp_path / "known.png").stat().st_size > 10_000
@@ -256,3 +259,22 @@ def test_known_parameters_are_recovered_also_after_a_kill(tmp_path, package_pare
     assert all(file.stat().st_mtime_ns == at for file, at in finished.items())
     law = materials.load(out / "synthetic.toml").law()
     assert {key: law[key] for key in KNOWN} == pytest.approx(KNOWN, rel=0.05)
+
+
+def test_a_preset_keeps_no_other_models_sets_of_its_minerals(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", MadeUp)
+    plan = plan_of(tmp_path)
+    plain = materials.load("augig-table7")
+    sets = {"flexible": {"young": 50e9}, "rigid": {"normal_stiffness": 1e14}}
+    kinds = [{"name": "a", "fraction": 0.5, "elastic": sets}, {"name": "b", "fraction": 0.5}]
+    start = dataclasses.replace(plain, minerals=kinds)
+    found = calibration_search.run(plan, tmp_path, start=start.law())
+    preset = write_preset(tmp_path / "known.toml", start, plan, found)
+    assert list(preset.elastic) == ["flexible"]
+    assert dict(preset.minerals[0].changes) == {"elastic": {"flexible": {"young": 50e9}}}
+
+
+def test_a_free_key_that_the_model_does_not_use_is_refused(tmp_path):
+    plan = dataclasses.replace(plan_of(tmp_path), model="rigid", free={"young": (1e9, 1e11)})
+    with pytest.raises(InputError, match=r"\[free\] young, is not used by model rigid"):
+        calibration_search.run(plan, tmp_path, start={"young": 3e10})

@@ -410,3 +410,11 @@ def test_yade_batch_does_the_runs_of_the_study(tmp_path, package_parent):
 def test_the_papers_study_files_are_valid(path):
     assert len(study.read(path).jobs) > 10
     assert (path.with_suffix(".py")).exists()
+
+
+def test_keys_of_other_models_are_left_out_and_those_of_none_refused(tmp_path):
+    both = '[common]\ntest = "uniaxial"\nset.young = 6e10\n[grid]\nmodel = ["flexible", "rigid"]\n'
+    made = study.read(file_of(tmp_path, both)).jobs
+    assert [job.inputs.get("set.young") for job in made] == [6e10, None]
+    with pytest.raises(InputError, match=r"study set.young, is used by no model of the study"):
+        study.read(file_of(tmp_path, both.replace('"flexible", ', "")))

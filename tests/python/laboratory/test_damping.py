@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Local damping: its defaults, motion under gravity without it, and runs that take it or not."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.errors import InputError, SimulationError
+from flexpm.laboratory.part_rig import PartRig
+from flexpm.laboratory.run_spec import ELASTIC, RunSpec, described
+from flexpm.materials import load
+from flexpm.results import doubts
+from flexpm.specimens.spec import SpecimenSpec
+
+GRAVITY = 9.81
+SIDE = 0.012
+#: Of the block and what it lies on [m], and of the joint between them.
+WIDTH, HEIGHT, FRICTION = 0.016, 0.016, 0.5
+ANGLE = math.atan(FRICTION) + math.radians(10.0)
+#: So soft that no point opens as the sudden weight swings: points that rattle slide more easily.
+JOINT = {
+    "joint.slope.normal_stiffness": 1e12,
+    "joint.slope.shear_stiffness": 1e12,
+    "joint.slope.friction": FRICTION,
+    "joint.slope.cohesion": 0.0,
+    "joint.slope.tensile_strength": 0.0,
+}
+
+
+def spec_of(test: str = "uniaxial", model: str = "flexible", **options) -> RunSpec:
+    material = described(load("augig-table7"), model)
+    return RunSpec(test, SpecimenSpec("rectangle"), material, model, **options)
+
+
+@pytest.fixture(scope="module")
+def square() -> flexpm.Specimen:
+    return flexpm.Specimen.rectangle(SIDE, SIDE, thickness=0.01, seed=1)
+
+
+def fallen(square: flexpm.Specimen, model: str, **options) -> float:
+    """Velocity of an unheld specimen over g t."""
+    yade.O.reset()
+    built = flexpm.build(square, model=model, dynamic=True, gravity=GRAVITY, **options)
+    built.run(1000)
+    speeds = [yade.O.bodies[body].state.vel[1] for body in built.solver.bodyIds]
+    return -float(np.mean(speeds)) / (GRAVITY * yade.O.iter * yade.O.dt)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_what_falls_freely_gains_g(square, model):
+    assert fallen(square, model) == pytest.approx(1.0, abs=1e-3)
+    assert fallen(square, model, damping=0.7) == pytest.approx(0.3, abs=1e-3)
+
+
+def slid(model: str, **options) -> tuple[float, float]:
+    """How far a block slides down a joint in 2 ms, and a t^2 / 2 of a free one [m]."""
+    yade.O.reset()
+    slope = math.tan(ANGLE)
+    low, beside, drop = 0.25 * HEIGHT, 1e-3, WIDTH * slope
+    specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT + drop, thickness=0.01, seed=3)
+    ends = [[x, low + x * slope] for x in (-beside, WIDTH + beside)]
+    built = flexpm.build(
+        specimen.with_joints({"slope": [ends]}),
+        load(None, model).with_set(JOINT, model),
+        model,
+        mesh="fan",
+        dynamic=True,
+        gravity=GRAVITY,
+        **options,
+    )
+
+    def below(x, y):
+        return y < low + x * slope - 1e-6
+
+    PartRig(built).hold(where=below)
+    states = [yade.O.bodies[number].state for number in built.solver.bodyIds]
+    block = [one for one in states if not below(one.pos[0], one.pos[1])]
+    start = middle_of(block)
+    built.run(math.ceil(0.002 / yade.O.dt))
+    way = float((start - middle_of(block)) @ [math.cos(ANGLE), math.sin(ANGLE)])
+    gain = GRAVITY * (math.sin(ANGLE) - FRICTION * math.cos(ANGLE))
+    return way, 0.5 * gain * (yade.O.iter * yade.O.dt) ** 2
+
+
+def middle_of(block: list) -> np.ndarray:
+    """Mean place of bodies [m]."""
+    return np.mean([[one.pos[0], one.pos[1]] for one in block], axis=0)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_block_slides_down_a_joint_steeper_than_its_friction(model):
+    way, free = slid(model)
+    assert way == pytest.approx(free, rel=1e-3)
+
+
+def test_damping_holds_a_block_on_a_joint_steeper_than_its_friction():
+    way, free = slid("flexible", damping=0.7)
+    assert way < 0.3 * free
+
+
+def test_the_default_follows_from_the_masses_in_run_and_build_alike(square):
+    for dynamic, expected in ((False, 0.7), (True, 0.0)):
+        assert spec_of(dynamic=dynamic).local_damping == expected
+        for model in ("flexible", "jcfpm"):
+            yade.O.reset()
+            assert flexpm.build(square, model=model, dynamic=dynamic).damping == expected
+
+
+@pytest.mark.parametrize("test", ["sonic", ELASTIC])
+def test_tests_without_damping_refuse_it(test):
+    with pytest.raises(InputError, match=f"damping = 0.0, must not be given for {test}"):
+        spec_of(test, damping=0.0)
+
+
+@pytest.mark.parametrize("value", [-0.1, 1.0, math.nan, "a", True])
+def test_damping_out_of_range_is_refused(value):
+    with pytest.raises(InputError, match="damping = "):
+        spec_of(damping=value)
+
+
+def test_keys_of_before_stay_and_runs_with_real_masses_have_others():
+    plain = spec_of()
+    assert plain == spec_of(damping=0.7)
+    assert "damping" not in {name for name, value in plain.to_json().items() if value is not None}
+    assert plain.key() == RunSpec.from_json(without_damping(plain)).key()
+    real = spec_of(dynamic=True)
+    before = RunSpec.from_json(without_damping(real))
+    assert (before.local_damping, real.local_damping) == (0.7, 0.0)
+    assert before.key() != real.key()
+    assert before == spec_of(dynamic=True, damping=0.7)
+
+
+def without_damping(spec: RunSpec) -> dict:
+    """Inputs as a version wrote them in which damping could not be chosen."""
+    return {name: value for name, value in spec.to_json().items() if name != "damping"}
+
+
+def test_gravity_against_damping_is_a_doubt():
+    real = spec_of(dynamic=True, gravity=9.81, damping=0.3)
+    assert "damping = 0.3, is above 0.2 with gravity" in doubts.of_inputs(real.to_json())[0]
+    for quiet in (spec_of(dynamic=True, gravity=9.81), spec_of(dynamic=True, damping=0.7)):
+        assert doubts.of_inputs(quiet.to_json()) == []
+
+
+def test_a_rig_tells_of_gravity_against_damping(square):
+    yade.O.reset()
+    rig = PartRig(flexpm.build(square, dynamic=True, gravity=9.81, damping=0.7))
+    low = rig.hold(where=lambda x, y: y < 0.1 * SIDE)
+    top = rig.hold(where=lambda x, y: y > 0.9 * SIDE)
+    rig.drive([top], (0.0, -1.0), against=[low])
+    rig.strain_to(1e-7, rate=10.0)
+    assert any("with gravity" in line for line in rig.warnings)
+
+
+def test_a_confined_run_with_real_masses_settles_damped_and_is_loaded_undamped(square):
+    options = {"confinement": 4e6, "dynamic": True, "rate": 2.0, "max_strain": 1e-4}
+    found = flexpm.run("biaxial", square, "augig-table7", "rigid", **options)
+    assert found.curve["axial_stress"][0] == pytest.approx(4e6, rel=0.1)
+    assert np.all(np.diff(found.curve["damping_energy"]) == 0.0)
+    assert found.curve["axial_stress"][-1] > 5e6
+
+
+def test_confining_without_damping_is_refused_with_its_remedy(square):
+    yade.O.reset()
+    rig = flexpm.rig(flexpm.build(square, "augig-table7", "rigid", dynamic=True))
+    with pytest.raises(SimulationError, match="build with damping, then lower it"):
+        rig.confine(4e6)
