@@ -28,6 +28,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructured
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import whole_file
+from ..require import quoted
 from .snapshot import POINT_SHARES, Snapshot, triangle_areas
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
@@ -62,7 +63,15 @@ def write_vtu(
         path: Name of the file, ending in .vtu.
         snapshot: The state.
         about: Field data: what the state is of, by name; numbers and texts, None is left out.
+
+    Raises:
+        InputError: for what is no state, as the plain arrays of ``solver.snapshot()``.
     """
+    if not isinstance(snapshot, Snapshot):
+        raise InputError(
+            f"write_vtu: snapshot = {quoted(snapshot)}, must be that of `built.snapshot()`, behind "
+            "the name of the file"
+        )
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
     for name, array in point_arrays(snapshot).items():
