@@ -177,6 +177,7 @@ class PartRig(GrainRig, PartLayout):
         for part in moved:
             if isinstance(part, HeldNodes):
                 _require_along(part, unit)
+        self._require_fixed("drive")
         self._load_by(
             "drive",
             driven=numbers(moved, Part),
@@ -223,6 +224,7 @@ class PartRig(GrainRig, PartLayout):
             raise InputError("turn: parts = none, must be at least 1")
         require_apart("turn: part", sets, others)
         pivot = None if about is None else require_vector("turn: about", about)
+        self._require_fixed("turn", () if about is not None else (*sets, *others))
         self._load_by(
             "turn",
             driven=[],
@@ -326,13 +328,18 @@ class PartRig(GrainRig, PartLayout):
                     f"{call}: {name} = {value}, must be as the record has begun, {now}; make the "
                     "same calls, or a new rig"
                 )
-        turning = any(one["floats"] for one in self.built.solver.nodeSets())
-        if turning and not self._begun:
+        if not self._begun:
+            for name, value in asked.items():
+                setattr(recorder, name, value)
+
+    def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
+        """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""
+        sets = self.built.solver.nodeSets()
+        floating = {number for number, one in enumerate(sets) if one["floats"]}
+        if not self._begun and floating - {part.number for part in free}:
             raise InputError(
                 f"{call}: parts = others after turn, must be given once; make a new rig"
             )
-        for name, value in asked.items():
-            setattr(recorder, name, value)
 
     def _turn_about(self, part: HeldNodes, pivot: tuple[float, float, float] | None) -> None:
         if not self._begun:

@@ -12,9 +12,9 @@ from ..models.grains import Model
 from ..require import (
     NOT_NEGATIVE,
     POSITIVE,
+    quoted,
     require_flag,
     require_number,
-    require_one_of,
     require_whole,
 )
 from .parts import HeldNodes, Part, RigPart
@@ -128,7 +128,8 @@ class PartLayout:
         Raises:
             InputError: for a region without nodes, or with nodes that another part has.
         """
-        require_one_of("hold: axes", axes, ("x", "y", "xy"))
+        if not (isinstance(axes, str) and axes in ("x", "y", "xy")):
+            raise InputError(f"hold: axes = {quoted(axes)}, must be x, y or xy")
         self._require_scene("hold")
         solver = self.built.solver
         nodes, places = solver.nodePlaces(bonded=True)
@@ -140,27 +141,25 @@ class PartLayout:
             ]
             number = self._take(HeldNodes, "hold", alike[0] if alike else -1)
         else:
-            number = self._laid("hold", lambda: solver.addNodeSet(chosen, "x" in axes, "y" in axes))
+            number = self._asked(
+                "hold", lambda: solver.addNodeSet(chosen, "x" in axes, "y" in axes)
+            )
         return HeldNodes(self, solver, "held nodes", number)
 
     def _plate(self, kind: str, find: Callable[[], int], lay: Callable[[], int]) -> Part:
         """A plate: laid now, or found in a scene that is taken up again."""
         self._require_scene(kind)
-        try:
-            number = self._take(Part, kind, find()) if self._found[Part] else None
-        except ValueError as error:
-            raise InputError(
-                str(error) if isinstance(error, InputError) else f"{kind}: {error}"
-            ) from None
-        if number is None:
-            number = self._laid(kind, lay)
+        if self._found[Part]:
+            number = self._take(Part, kind, self._asked(kind, find))
+        else:
+            number = self._asked(kind, lay)
             self.built.set_masses()
         return Part(self, self.built.solver, kind, number)
 
-    def _laid(self, kind: str, lay: Callable[[], int]) -> int:
-        """Number of what is laid now."""
+    def _asked(self, kind: str, call: Callable[[], int]) -> int:
+        """What the kernel says to a call, its refusal in the name of the kind."""
         try:
-            return lay()
+            return call()
         except ValueError as error:
             raise InputError(f"{kind}: {error}") from None
 
