@@ -151,6 +151,7 @@ def quoted(value: object) -> str:
         text = repr(value)
     except Exception:  # the largest whole numbers have no text, and other people's classes may fail
         text = f"<{type(value).__name__}>"
+    text = " ".join(line.strip() for line in text.splitlines())  # arrays have many lines
     return text if len(text) <= _QUOTED else f"{text[:_QUOTED]}..."
 
 

@@ -115,6 +115,7 @@ class Script:
 
         self._flexpm, self._yade, self._specimens = flexpm, yade, {}
         self._folder = tempfile.TemporaryDirectory()
+        self._strange: list[Any] = []  # parts of rigs that are gone
         self._begin()
 
     def _begin(self) -> None:
@@ -123,6 +124,7 @@ class Script:
         self._rig: Any = None
         self._solver: Any = None
         self._views: list[Any] = []
+        self._held: list[Any] = []
         self._erased = False  # something, since the last step
 
     def __call__(self, calls: list[list[Any]]) -> list[dict[str, Any]]:
@@ -183,8 +185,18 @@ class Script:
         """The specimen between parts, once something is built."""
         if self._rig is None and self._built is not None:
             self._rig = self._flexpm.PartRig(self._built)
-            self._held: list[Any] = []
+            self._strange += self._held
+            self._held = []
         return self._rig
+
+    def _picked(self, picks: list[Any]) -> Any:
+        """Parts by number; those of other rigs and scenes from 100 on; all else as it is."""
+        found = []
+        for pick in picks:
+            own = isinstance(pick, int) and not isinstance(pick, bool)
+            parts = self._strange if own and pick >= 100 else self._held
+            found.append(parts[pick % 100 % len(parts)] if own and parts else pick)
+        return found[0] if len(found) == 1 else found
 
     def do_support(self, x: float, y: float, length: float, bonded: bool) -> None:
         if rig := self._parts():
@@ -198,17 +210,34 @@ class Script:
         if rig := self._parts():
             self._held.append(rig.hold(disc=((x, y), radius), axes=axes))
 
-    def do_drive(self, along: float, across: float) -> None:
+    def do_drive(self, way: list[Any], parts: list[Any], against: list[Any]) -> None:
         if rig := self._parts():
-            rig.drive(self._held[:1], (across, along), against=self._held[1:])
+            rig.drive(self._picked(parts), way, against=self._picked(against))
 
-    def do_turn(self, about: bool) -> None:
+    def do_turn(self, about: Any, parts: list[Any], back: list[Any]) -> None:
         if rig := self._parts():
-            rig.turn(self._held[:1], self._held[1:], about=(0.006, 0.008) if about else None)
+            rig.turn(self._picked(parts), self._picked(back), about=about)
 
-    def do_press(self, pressure: float) -> None:
-        if (rig := self._parts()) and self._held:
-            rig.press(self._held[0], pressure)
+    def do_press(self, part: list[Any], pressure: float) -> None:
+        if rig := self._parts():
+            rig.press(self._picked(part), pressure)
+
+    def do_move(self, part: list[Any], along: float, across: float) -> None:
+        if hasattr(held := self._picked(part), "move"):
+            held.move((across, along))
+
+    def do_again(self) -> None:
+        self._rig = None  # the next call takes the scene up
+
+    def do_names(self, name: Any, column: Any, part: list[Any]) -> None:
+        if rig := self._parts():
+            rig.also(name, column)
+            rig.way_of(name, self._picked(part), (0.0, 1.0))
+
+    def do_read(self, column: Any) -> None:
+        if rig := self._parts():
+            assert all("\n" not in line for line in rig.warnings)
+            rig.record[column]
 
     def do_start(self, rate: float) -> None:
         if rig := self._parts():
@@ -218,9 +247,9 @@ class Script:
         if rig := self._parts():
             rig.finish()
 
-    def do_gauge(self, x: float, y: float) -> None:
+    def do_gauge(self, name: Any, x: float, y: float) -> None:
         if rig := self._parts():
-            rig.gauge("opening", (x, y), (y, x))
+            rig.gauge(name, (x, y), (y, x))
 
     def do_set_nodes(self, first: int, count: int) -> None:
         nodes = self._solver.nodePlaces()[0][max(first, 0) :][:count].tolist()

@@ -17,6 +17,8 @@ from yade import wrapper
 
 from ..errors import InputError
 from ..models.grains import Model
+from ..require import nearest, quoted
+from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from .loading_rate import SLOWEST_WAIT, Scales, Schedule
 from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
@@ -62,6 +64,21 @@ class GrainRig(TestRig):
         return Curve.from_columns(names, self._recorder.rows, own)
 
     @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful, see `TestRig.warnings`."""
+        record, recorder = self.record, self._recorder
+        lines = super().warnings
+        if bend := self.built.joint_bend:
+            lines.append(doubts.of_bend(bend))
+        cuts = {name: cut.to_json() for name, cut in self.built.specimen.joint_cuts.items()}
+        lines += doubts.of_cuts(cuts)
+        lines += doubts.of_gravity(self.built.gravity, self.built.damping)
+        if recorder.controlled:
+            missed = measures.set_point_missed(record, recorder.controlled)
+            lines += doubts.of_set_point(recorder.controlled, missed)
+        return lines + [doubts.of_lost_gauge(name) for name in recorder.lostGauges()]
+
+    @property
     def confinement(self) -> float | None:
         """Lateral pressure that was asked for [Pa], None without."""
         pressing = self._pressing()
@@ -95,6 +112,10 @@ class GrainRig(TestRig):
             raise InputError(
                 f"load: {error}; what is driven must be held against by what is not cut off from it"
             ) from None
+        except RuntimeError as error:  # a piece of the specimen is free to move
+            raise InputError(
+                f"load: {error}, or lay parts that the loading does not lift"
+            ) from None
 
     def unbalanced(self) -> float:
         """Largest unbalanced force over the mean contact force [-], at the last measured step."""
@@ -106,11 +127,11 @@ class GrainRig(TestRig):
 
     def _drive(self, plan: Schedule) -> None:
         recorder, factor = self._recorder, 1.0
+        self._require_measure(plan.control)
         recorder.stopRatio, recorder.leastPeak = plan.stop_ratio, plan.least_peak
         recorder.minStrain, recorder.maxStrain = plan.min_strain, plan.max_strain
         recorder.state, recorder.peak = TestState.running, 0.0
         self._end_servo()
-        self._require_measure(plan.control)
         if recorder.loading is None:
             recorder.controlled = plan.control
             self._begin_record()
@@ -150,9 +171,9 @@ class GrainRig(TestRig):
         """Refuse control of what is no measure, or not of the one that the record began with."""
         possible = self._measures()
         if control and control not in possible:
-            raise InputError(
-                f"Loading: control = {control!r}, must be one of {', '.join(possible) or 'none'}"
-            )
+            rule = f"must be one of {', '.join(possible)}" if possible else "must be left out here"
+            hint = nearest(control, possible)
+            raise InputError(f"Loading: control = {quoted(control)}{hint}, {rule}")
         first = self._recorder
         if control and first.loading is not None and control != first.controlled:
             raise InputError(

@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..require import Bounds, require_number, require_one_of
+from ..require import Bounds, require_flag, require_number, require_one_of, require_text
 
 #: Factors on the default loading rate that a test may have [-].
 RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
@@ -170,6 +170,8 @@ class Loading:
         bounds = Bounds(at_least=0.0, at_most=LARGEST_STOP_RATIO)
         require_number("Loading: stop_ratio", self.stop_ratio, bounds)
         require_one_of("Loading: kind", self.kind, LOADINGS)
+        require_flag("Loading: static", self.static)
+        require_text("Loading: control", self.control)
         if self.control and self.static:
             raise InputError(
                 f"Loading: static = True, must be False under control of {self.control}"

@@ -9,136 +9,40 @@ within its friction. Nodes are held, moved or turned as one, wherever they lie.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import astuple, dataclass
+from collections.abc import Sequence
+from dataclasses import astuple
 
 import numpy as np
 from yade import wrapper
 
-from ..arrays import BoolArray, FloatArray
 from ..errors import InputError, SimulationError
-from ..files import Table
 from ..models.grains import Model
-from ..require import POSITIVE, require_number
-from ..results import doubts, measures
+from ..require import NOT_NEGATIVE, POSITIVE, require_flag, require_known, require_number
 from ..results.record import COLUMNS, Curve
+from ..rigs.layout import PartLayout
+from ..rigs.parts import (
+    HeldNodes,
+    Part,
+    RigPart,
+    numbers,
+    require_apart,
+    require_part,
+    require_parts,
+)
+from ..rigs.places import Place, require_column, require_direction, require_vector
 from .grain_rig import GrainRig
-from .loading_rate import Scales, rate_constant
+from .loading_rate import Scales, Schedule, rate_constant
 from .runner import Runner
-
-#: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
-#: turn with a beam, which would rest on the inner end of a long one.
-_SUPPORT = 0.5
-#: Friction of a part that is pinned: it does not slide as long as it presses [-].
-_NO_SLIDING = 1e6
 
 #: Part of a pressing force that the other parts may fail to bear while a specimen swings, before
 #: it has come to rest [-].
 _SHORT = 0.5
 
-_Place = Sequence[float]
-#: Tells of places, by arrays of their x and y [m], which of them a region has.
-_Where = Callable[[FloatArray, FloatArray], BoolArray]
+#: Least cosine between a plate's normal and its way at which it still pushes [-].
+_PUSHES = 1e-9
 
 
-@dataclass(frozen=True)
-class Part:
-    """A plate of a rig. What it says is of the last step."""
-
-    solver: wrapper.GrainSolver
-    number: int  #: of the plate
-
-    @property
-    def force(self) -> tuple[float, float]:
-        """On the specimen, x and y [N]."""
-        return _pair(self._now["force"])
-
-    @property
-    def work(self) -> float:
-        """Done on the specimen so far [J]."""
-        return float(self._now["work"])
-
-    @property
-    def place(self) -> tuple[float, float]:
-        """Of a point of its face, x and y [m]."""
-        return _pair(self._now["place"])
-
-    @property
-    def displacement(self) -> tuple[float, float]:
-        """Since it was laid, x and y [m]."""
-        return _pair(self._now["displacement"])
-
-    @property
-    def width(self) -> float:
-        """Of the outline before it [m]."""
-        return float(self._now["width"])
-
-    @property
-    def _now(self) -> Table:
-        return self.solver.plates()[self.number]
-
-
-@dataclass(frozen=True)
-class HeldNodes:
-    """Nodes that a rig holds or moves as one. What it says is of the last step."""
-
-    solver: wrapper.GrainSolver
-    number: int  #: of the set
-
-    @property
-    def force(self) -> tuple[float, float]:
-        """On the specimen, x and y [N]."""
-        return _pair(self._now["force"])
-
-    @property
-    def moment(self) -> float:
-        """On the specimen about `place`, counter-clockwise [N m]."""
-        return float(self._now["moment"])
-
-    @property
-    def work(self) -> float:
-        """Done on the specimen so far [J]."""
-        return float(self._now["work"])
-
-    @property
-    def place(self) -> tuple[float, float]:
-        """About which they turn, x and y [m]: the mean of their places, unless told otherwise."""
-        return _pair(self._now["place"])
-
-    @property
-    def displacement(self) -> tuple[float, float]:
-        """Of that place since they were held, x and y [m]."""
-        return _pair(self._now["displacement"])
-
-    @property
-    def angle(self) -> float:
-        """Since they were held, counter-clockwise [rad]."""
-        return float(self._now["angle"])
-
-    @property
-    def nodes(self) -> list[int]:
-        """Of the solver, see `GrainSolver.nodePlaces`."""
-        return [int(node) for node in self._now["nodes"]]
-
-    def move(self, velocity: _Place = (0.0, 0.0), spin: float = 0.0) -> None:
-        """Move them from the next step on, whatever the rig's loading does.
-
-        Args:
-            velocity: x and y [m/s, or m per step with scaled masses].
-            spin: About `place`, counter-clockwise [rad/s, or rad per step].
-        """
-        x, y = velocity
-        try:
-            self.solver.moveNodeSet(self.number, (float(x), float(y), float(spin)))
-        except ValueError as error:
-            raise InputError(f"move: {error}") from None
-
-    @property
-    def _now(self) -> Table:
-        return self.solver.nodeSets()[self.number]
-
-
-class PartRig(GrainRig):
+class PartRig(GrainRig, PartLayout):
     """A specimen of any outline between parts.
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,
@@ -161,109 +65,25 @@ class PartRig(GrainRig):
         rate_constant(kind, built.name)
         super().__init__(built, runner=runner)
         self.disc = False
-        self._kind, self._laid, self._held = kind, 0, 0
+        self._kind = kind
         self._scales: Scales | None = None
         self._same: dict[str, str] = {}
         #: What ``confine`` presses on.
         self.pressed: Part | None = None
-        self._there = built.engine(wrapper.AxialRecorder) is not None
+        self._begin_layout()
 
     @property
     def kind(self) -> str:
         """Name of the test."""
         return self._kind
 
-    def support(
-        self,
-        place: _Place,
-        length: float | None = None,
-        *,
-        normal: _Place = (0.0, 0.0),
-        pinned: bool = False,
-        friction: float = 0.0,
-        bonded: bool = False,
-    ) -> Part:
-        """Lay a plate against the part of the outline around a place.
-
-        Args:
-            place: x and y, on the outline [m].
-            length: Along the outline [m]; None for half a mean diameter of the grains.
-            normal: x and y, into the specimen; zero: that of the outline there.
-            pinned: It does not slide along the outline as long as it presses; else it is a roller.
-            friction: Coefficient, of one that is neither [-].
-            bonded: It pulls, too.
-
-        Raises:
-            InputError: for a place that is not on the outline, or a length out of range.
-        """
-        length = _SUPPORT * self.built.specimen.mean_diameter if length is None else length
-        length = require_number("support: length", length, POSITIVE, "m")
-        friction = _NO_SLIDING if pinned else friction
-        try:
-            return self._part(
-                lambda: self.built.solver.addPatchPlate(
-                    _vector(place), length, _vector(normal), friction, bonded
-                )
-            )
-        except ValueError as error:
-            raise InputError(f"support: {error}") from None
-
-    def platen(self, side: int, *, friction: float = 0.0, bonded: bool = False) -> Part:
-        """Lay a plate along a whole side of the outline.
-
-        Args:
-            side: Number of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
-            friction: Coefficient [-].
-            bonded: It pulls, too.
-        """
-        try:
-            return self._part(
-                lambda: self.built.solver.addSidePlates(side, bonded=bonded, friction=friction)[0]
-            )
-        except ValueError as error:
-            raise InputError(f"platen: {error}") from None
-
-    def hold(
-        self,
-        *,
-        box: tuple[_Place, _Place] | None = None,
-        disc: tuple[_Place, float] | None = None,
-        where: _Where | None = None,
-        axes: str = "xy",
-    ) -> HeldNodes:
-        """Hold the nodes of a region at rest; `drive`, `turn` or `HeldNodes.move` moves them.
-
-        Of deformable grains all nodes in the region are held, of rigid ones the centres, about
-        which the grains are free to turn (deviation D52). The region is one of:
-
-        Args:
-            box: Two opposite corners, x and y of each [m]; what lies on its edges is in.
-            disc: x and y of the centre, and the radius [m].
-            where: Function of the places' x and y, arrays [m], that says which ones are in.
-            axes: ``"x"``, ``"y"`` or ``"xy"``: what is held.
-
-        Raises:
-            InputError: for a region without nodes, or with nodes that another part has.
-        """
-        if axes not in ("x", "y", "xy"):
-            raise InputError(f"hold: axes = {axes!r}, must be x, y or xy")
-        number, self._held = self._held, self._held + 1
-        if number >= len(self.built.solver.nodeSets()):
-            nodes, places = self.built.solver.nodePlaces()
-            chosen = nodes[_in_region(places, box, disc, where)]
-            try:
-                self.built.solver.addNodeSet(chosen.tolist(), "x" in axes, "y" in axes)
-            except ValueError as error:
-                raise InputError(f"hold: {error}") from None
-        return HeldNodes(self.built.solver, number)
-
     def gauge(
         self,
         name: str,
-        first: _Place,
-        second: _Place,
+        first: Place,
+        second: Place,
         *,
-        along: _Place | None = None,
+        along: Place | None = None,
         strain: bool = False,
     ) -> None:
         """Record how far two points move apart, in a column of this name.
@@ -276,49 +96,52 @@ class PartRig(GrainRig):
                 None for that from the first to the second place.
             strain: Record the strain between them [-] instead of the opening [m].
         """
-        if self._has(name):
-            return
+        label = f"gauge {self._gauge_name(name)}"
+        one, two = (
+            require_vector(f"{label}: first", first),
+            require_vector(f"{label}: second", second),
+        )
+        strain = require_flag(f"{label}: strain", strain)
         try:
-            one, other, length = self.built.solver.gaugePoints(_vector(first), _vector(second))
+            node, other, length = self.built.solver.gaugePoints(one, two)
         except ValueError as error:
-            raise InputError(f"gauge {name}: {error}") from None
+            raise InputError(f"{label}: {error}") from None
         if strain and not length > 0.0:
-            raise InputError(
-                f"gauge {name}: length = 0 m, must be above 0; take points further off"
-            )
-        direction = _unit(f"gauge {name}", along or (second[0] - first[0], second[1] - first[1]))
+            raise InputError(f"{label}: length = 0 m, must be above 0; take points further off")
+        apart = (two[0] - one[0], two[1] - one[1])
+        direction = require_direction(label, apart if along is None else along)
         base = length if strain else 0.0
-        self._recorder.addGauge(
-            wrapper.Gauge(name=name, first=one, second=other, direction=direction, length=base)
+        self._add_gauge(
+            name,
+            wrapper.Gauge(first=node, second=other, direction=direction, length=base),
         )
 
-    def way_of(self, name: str, part: Part | HeldNodes, direction: _Place) -> None:
+    def way_of(self, name: str, part: RigPart, direction: Place) -> None:
         """Record how far a part moves along a direction [m], in a column of this name.
 
         Of held nodes it is the mean.
         """
-        if self._has(name):
-            return
-        unit = _unit(name, direction)
-        gauge = wrapper.Gauge(name=name, direction=unit)
-        if isinstance(part, Part):
-            gauge.plate = part.number
-        else:
+        label = f"gauge {self._gauge_name(name)}"
+        part = require_part(f"{label}: part", self, part, RigPart)
+        gauge = wrapper.Gauge(direction=require_direction(label, direction))
+        if isinstance(part, HeldNodes):
             gauge.nodes = part.nodes
-        self._recorder.addGauge(gauge)
+        else:
+            gauge.plate = part.number
+        self._add_gauge(name, gauge)
 
     def also(self, name: str, column: str) -> None:
         """Give a column of the record a second name, which the test is known by."""
-        if name in (*COLUMNS, *self._recorder.names, *self._same):
-            raise InputError(f"also = {name!r}, must not be the name of another column")
-        self._same[name] = column
+        there = self._columns()
+        require_known("also: column", column, there)
+        self._same[require_column("also", name, (*there, "set_point"))] = column
 
     def drive(
         self,
-        parts: Sequence[Part | HeldNodes],
-        direction: _Place,
+        parts: RigPart | Sequence[RigPart],
+        direction: Place,
         *,
-        against: Sequence[Part | HeldNodes] = (),
+        against: RigPart | Sequence[RigPart] = (),
         area: float = 1.0,
         length: float = 1.0,
         strength: float = 0.0,
@@ -327,7 +150,8 @@ class PartRig(GrainRig):
 
         The record has the columns ``load`` and ``displacement`` of these parts. Its stress is the
         load over `area`, its strain the displacement over `length`: with the defaults they are the
-        load and the displacement themselves.
+        load and the displacement themselves. A part that is pressed is taken over as it is loaded:
+        its pressure ends there, and its force goes on from there.
 
         Args:
             parts: They move alike.
@@ -338,22 +162,41 @@ class PartRig(GrainRig):
             length: Displacement over strain [m].
             strength: Stress that the specimen will bear, roughly [Pa], which sets the loading rate;
                 0: twice that at which the first contact point softens.
+
+        Raises:
+            InputError: for what is no part of this rig or is there twice, nodes that are not held
+                along the direction, or a size out of range; in a scene whose record has begun, for
+                anything else than it began with.
         """
-        unit = _unit("drive", direction)
-        if self._there:
-            return
-        recorder = self._recorder
-        recorder.driven, recorder.drivenSets = _numbers(parts)
-        recorder.holding, recorder.holdingSets = _numbers(against)
-        recorder.direction = unit
-        recorder.area, recorder.length, recorder.strength = area, length, strength
+        unit = require_direction("drive", direction)
+        moved = require_parts("drive: part", self, parts, RigPart)
+        held = require_parts("drive: part against", self, against, RigPart)
+        if not moved:
+            raise InputError("drive: parts = none, must be at least 1")
+        require_apart("drive: part", moved, held)
+        for part in moved:
+            if isinstance(part, HeldNodes):
+                _require_along(part, unit)
+        self._require_fixed("drive")
+        self._load_by(
+            "drive",
+            driven=numbers(moved, Part),
+            drivenSets=numbers(moved, HeldNodes),
+            backSets=[],
+            holding=numbers(held, Part),
+            holdingSets=numbers(held, HeldNodes),
+            direction=unit,
+            area=require_number("drive: area", area, POSITIVE, "m2"),
+            length=require_number("drive: length", length, POSITIVE, "m"),
+            strength=require_number("drive: strength", strength, NOT_NEGATIVE, "Pa"),
+        )
 
     def turn(
         self,
-        parts: Sequence[HeldNodes],
-        back: Sequence[HeldNodes] = (),
+        parts: HeldNodes | Sequence[HeldNodes],
+        back: HeldNodes | Sequence[HeldNodes] = (),
         *,
-        about: _Place | None = None,
+        about: Place | None = None,
         area: float = 1.0,
         length: float = 1.0,
         strength: float = 0.0,
@@ -371,25 +214,43 @@ class PartRig(GrainRig):
             area: Load over stress [N m / Pa].
             length: Displacement over strain [-].
             strength: As for `drive`.
+
+        Raises:
+            InputError: as `drive`.
         """
-        for part in (*parts, *back):
-            if not isinstance(part, HeldNodes):
-                raise InputError("turn: part = a plate, must be held nodes; call hold")
-        if self._there:
-            return
-        recorder = self._recorder
-        for part in (*parts, *back):
-            self.built.solver.turnNodeSet(part.number, None if about is None else _vector(about))
-        recorder.drivenSets = [part.number for part in parts]
-        recorder.backSets = [part.number for part in back]
-        recorder.direction = (0.0, 0.0, 1.0)
-        recorder.area, recorder.length, recorder.strength = area, length, strength
+        sets = require_parts("turn: part", self, parts, HeldNodes)
+        others = require_parts("turn: part back", self, back, HeldNodes)
+        if not sets:
+            raise InputError("turn: parts = none, must be at least 1")
+        require_apart("turn: part", sets, others)
+        pivot = None if about is None else require_vector("turn: about", about)
+        self._require_fixed("turn", () if about is not None else (*sets, *others))
+        self._load_by(
+            "turn",
+            driven=[],
+            drivenSets=numbers(sets, HeldNodes),
+            backSets=numbers(others, HeldNodes),
+            holding=[],
+            holdingSets=[],
+            direction=(0.0, 0.0, 1.0),
+            area=require_number("turn: area", area, POSITIVE, "N m/Pa"),
+            length=require_number("turn: length", length, POSITIVE),
+            strength=require_number("turn: strength", strength, NOT_NEGATIVE, "Pa"),
+        )
+        for part in (*sets, *others):
+            self._turn_about(part, pivot)
 
     def scales(self) -> Scales:
         """What the loading rate follows from: the elastic solution of the specimen before it.
 
         They are those that the first loading has found, whatever has broken since.
+
+        Raises:
+            InputError: where no part loads, nothing holds the specimen, or nothing resists.
         """
+        recorder = self._recorder
+        if not (recorder.driven or recorder.drivenSets):
+            raise InputError("load: driven parts = none, must be at least 1; call drive or turn")
         if self._scales is None:
             kept = self._recorder.loadingScales
             self._scales = Scales(*kept) if kept else super().scales()
@@ -405,29 +266,16 @@ class PartRig(GrainRig):
         own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
         return Curve.from_columns(names, rows, own)
 
-    def to_yade_plot(self) -> None:
-        """Give ``yade.plot`` the record so far, each column under its name; call it again later."""
-        from yade import plot  # takes long to load
-
-        record = self.record
-        plot.data.update({name: record[name].tolist() for name in record.columns})
-
     @property
-    def warnings(self) -> list[str]:
-        """What makes the record doubtful.
+    def motion_energy(self) -> float:
+        """What has set the grains into the motion of the loading, at the last measured step [J].
 
-        Load and reactions that differ, a bad energy balance, a joint that bends or is not cut.
+        The elastic start gives it, and the loading takes it back as it slows. The boundary work of
+        the record is the work of all parts and this.
         """
-        record = self.record
-        error = measures.energy_error(record, self.initial_energy)
-        bend = self.built.joint_bend
-        cuts = {name: cut.to_json() for name, cut in self.built.specimen.joint_cuts.items()}
-        return [
-            *([doubts.of_bend(bend)] if bend else []),
-            *doubts.of_cuts(cuts),
-            *doubts.of_gravity(self.built.gravity, self.built.damping),
-            *doubts.of_result("", error, measures.median_end_mismatch(record), None),
-        ]
+        solver = self.built.solver
+        parts, energies = (*solver.plates(), *solver.nodeSets()), solver.energies()
+        return energies["boundary_work"] - sum(float(part["work"]) for part in parts)
 
     @property
     def confinement(self) -> float | None:
@@ -437,10 +285,19 @@ class PartRig(GrainRig):
     def press(self, part: Part, pressure: float) -> None:
         """Let a part move along its normal under a pressure [Pa] until the forces balance.
 
-        It goes on to press. Displacements and gauges count from there on.
+        It goes on to press. Displacements and gauges count from there on. Parts may be pressed one
+        after the other, each with its own pressure.
+
+        Raises:
+            InputError: for what is no plate of this rig, or one that the loading drives already.
         """
+        part = require_part("press: part", self, part, Part)
+        if self._recorder.loading is not None and part.number in self._recorder.driven:
+            raise InputError(
+                f"press: part = {part}, is driven, must not be; press it before `load`"
+            )
         self.pressed = part
-        self.confine(pressure)
+        self.confine(require_number("press: pressure", pressure, NOT_NEGATIVE, "Pa"))
 
     def confine(self, pressure: float) -> None:
         """Press on the part ``pressed`` until the forces balance, see `press`.
@@ -454,19 +311,78 @@ class PartRig(GrainRig):
         super().confine(pressure)
         self._scales = None  # joints that are closed now bear what they did not bear before
 
-    def _part(self, lay: Callable[[], int]) -> Part:
-        """The next plate: laid now, or found in the scene of a checkpoint."""
-        number, self._laid = self._laid, self._laid + 1
-        if number >= len(self.built.solver.plates()):
-            lay()
-            self.built.set_masses()
-        return Part(self.built.solver, number)
+    @property
+    def _begun(self) -> bool:
+        """Whether the record has begun, here or in the scene that was taken up."""
+        return self.built.engine(wrapper.AxialRecorder) is not None
 
-    def _has(self, name: str) -> bool:
-        taken = (*COLUMNS, "initial_energy", "load", "displacement")
-        if name in taken or (name in self._recorder.names and not self._there):
-            raise InputError(f"gauge = {name!r}, must not be the name of another column")
-        return self._there
+    def _load_by(self, call: str, **asked: object) -> None:
+        """Give the recorder what loads, or compare it with what the record has begun with."""
+        self._require_scene(call)
+        recorder = self._recorder
+        for name, value in asked.items():
+            now = getattr(recorder, name)
+            same = [*now] == [*value] if isinstance(value, list | tuple) else now == value
+            if self._begun and not same:
+                raise InputError(
+                    f"{call}: {name} = {value}, must be as the record has begun, {now}; make the "
+                    "same calls, or a new rig"
+                )
+        if not self._begun:
+            for name, value in asked.items():
+                setattr(recorder, name, value)
+
+    def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
+        """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""
+        sets = self.built.solver.nodeSets()
+        floating = {number for number, one in enumerate(sets) if one["floats"]}
+        if not self._begun and floating - {part.number for part in free}:
+            raise InputError(
+                f"{call}: parts = others after turn, must be given once; make a new rig"
+            )
+
+    def _turn_about(self, part: HeldNodes, pivot: tuple[float, float, float] | None) -> None:
+        if not self._begun:
+            self.built.solver.turnNodeSet(part.number, pivot)
+            return
+        now = self.built.solver.nodeSets()[part.number]
+        place = np.subtract(now["place"], now["displacement"])
+        if now["floats"] != (pivot is None) or not (pivot is None or np.allclose(place, pivot[:2])):
+            raise InputError(f"turn: about = {pivot}, must be as the record has begun")
+
+    def _columns(self) -> tuple[str, ...]:
+        """All that a name of a column may not be, and that may have a second name."""
+        names = (*COLUMNS, *self._recorder.names, "load", "displacement", *self._same)
+        return tuple(name for name in dict.fromkeys(names) if name != "initial_energy")
+
+    def _gauge_name(self, name: object) -> str:
+        """Name that a new gauge may have, or that of one in a record that has begun."""
+        there = [one.name for one in self._recorder.gauges]
+        if self._begun and isinstance(name, str) and name in there:
+            return name
+        taken = (*self._columns(), "initial_energy", "set_point")
+        text = require_column("gauge", name, taken)
+        if self._begun:
+            raise InputError(
+                f"gauge = {text!r}, must be one with which the record has begun: {there}"
+            )
+        return text
+
+    def _add_gauge(self, name: str, gauge: wrapper.Gauge) -> None:
+        """Add a gauge, or find it in the record that has begun."""
+        self._require_scene(f"gauge {name}")
+        recorder = self._recorder
+        if not self._begun:
+            gauge.name = name
+            recorder.addGauge(gauge)
+            return
+        there = next(one for one in recorder.gauges if one.name == name)
+        for trait in ("first", "second", "plate", "nodes", "direction", "length"):
+            now, asked = getattr(there, trait), getattr(gauge, trait)
+            if now != asked and name not in recorder.lostGauges():
+                raise InputError(
+                    f"gauge {name}: {trait} = {asked}, must be as the record has begun, {now}"
+                )
 
     def _measures(self) -> tuple[str, ...]:
         own = [name for name in self._recorder.names if name not in COLUMNS]
@@ -478,11 +394,21 @@ class PartRig(GrainRig):
 
     def _press(self, pressure: float, ramp: int) -> None:
         if self.pressed is None:
-            raise SimulationError("confine: part = None, must be one of the rig; call press")
+            raise InputError("confine: part = None, must be one of the rig; call press")
+        self._require_scene("press")
+        self._let_go([self.pressed.number])
         engine = wrapper.PlateController(
             plates=[self.pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
         )
         self.built.add_engines(before=(engine,))
+
+    def _let_go(self, plates: list[int]) -> None:
+        """Take plates from the engines that press them."""
+        for engine in tuple(self.built.engines):
+            if isinstance(engine, wrapper.PlateController) and engine.loaded:
+                engine.plates = [plate for plate in engine.plates if plate not in plates]
+                if not engine.plates:
+                    self.built.remove_engines(engine)
 
     def _require_rest(self) -> None:
         """Refuse it, too, where the other parts do not bear what presses: all has fallen apart."""
@@ -508,7 +434,34 @@ class PartRig(GrainRig):
         super()._begin_record()
         self._recorder.loadingScales = astuple(self.scales())
 
+    def _drive(self, plan: Schedule) -> None:
+        self._require_scene("load")
+        if self._recorder.loading is None:
+            self._require_push(plan.velocity)
+        super()._drive(plan)
+
+    def _require_push(self, velocity: float) -> None:
+        """Refuse plates that all go away from the specimen, which nothing presses on them."""
+        recorder, plates = self._recorder, self.built.solver.plates()
+        if recorder.drivenSets:
+            return
+        way = math.copysign(1.0, velocity) * np.array(
+            [recorder.direction[0], recorder.direction[1]]
+        )
+        for number in recorder.driven:
+            plate = plates[number]
+            if plate["bonded"] or plate["pressed"] or any(plate["force"]):
+                return
+            if np.dot(plate["normal"], way) > (-_PUSHES if plate["friction"] else _PUSHES):
+                return
+        part = Part(self, self.built.solver, "plate", recorder.driven[0])
+        raise InputError(
+            f"load: driven part = {part}, pulls without bond, must push; turn the direction, or "
+            "lay it with bonded=True"
+        )
+
     def _take_hold(self) -> wrapper.LoadingController:
+        self._let_go(self._recorder.driven)
         loading = wrapper.PlateController(
             plates=self._recorder.driven,
             nodeSets=self._recorder.drivenSets,
@@ -532,47 +485,11 @@ class PartRig(GrainRig):
         return float(self._recorder.area)
 
 
-def _numbers(parts: Sequence[Part | HeldNodes]) -> tuple[list[int], list[int]]:
-    """Of plates, and of node sets."""
-    plates = [part.number for part in parts if isinstance(part, Part)]
-    return plates, [part.number for part in parts if isinstance(part, HeldNodes)]
-
-
-def _in_region(
-    places: FloatArray,
-    box: tuple[_Place, _Place] | None,
-    disc: tuple[_Place, float] | None,
-    where: _Where | None,
-) -> BoolArray:
-    """Which of the places, (n, 2), lie in the one region that is given."""
-    if sum(region is not None for region in (box, disc, where)) != 1:
-        raise InputError("hold: region = none or several, must be one of box, disc and where")
-    if box is not None:
-        corners = np.array(box, dtype=float)
-        low, high = corners.min(axis=0), corners.max(axis=0)
-        found: BoolArray = np.all((places >= low) & (places <= high), axis=1)
-    elif disc is not None:
-        centre, radius = disc
-        radius = require_number("hold: radius of the disc", radius, POSITIVE, "m")
-        found = np.hypot(*(places - np.asarray(centre, dtype=float)).T) <= radius
-    else:
-        assert where is not None
-        found = np.asarray(where(places[:, 0], places[:, 1]))
-        if found.shape != places.shape[:1] or found.dtype != bool:
-            raise InputError("hold: where = another array, must be one truth for each place")
-    return found
-
-
-def _pair(vector: Sequence[float]) -> tuple[float, float]:
-    return float(vector[0]), float(vector[1])
-
-
-def _unit(what: str, direction: _Place) -> tuple[float, float, float]:
-    size = math.hypot(*direction)
-    require_number(f"{what}: length of its direction", size, POSITIVE)
-    return direction[0] / size, direction[1] / size, 0.0
-
-
-def _vector(place: _Place) -> tuple[float, float, float]:
-    x, y = place
-    return float(x), float(y), 0.0
+def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> None:
+    """Refuse nodes that are free along a part of the way on which they are to be driven."""
+    for axis, way in zip("xy", direction[:2], strict=True):
+        if way != 0.0 and axis not in part.axes:
+            raise InputError(
+                f"drive: part = {part}, held along {part.axes} alone, must be held along {axis}; "
+                "hold them so or turn the direction"
+            )

@@ -15,8 +15,9 @@ from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results.result import Result
 from ..results.toughness import bending_toughness, half_disc_toughness
+from ..rigs.parts import Part
 from ..specimens.specimen import Specimen
-from .part_rig import Part, PartRig
+from .part_rig import PartRig
 from .rig import BOTTOM, TOP
 from .run_spec import RunSpec
 from .runner import Runner

@@ -21,6 +21,7 @@ from ..errors import InputError, SimulationError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..require import require_number
+from ..results import doubts, measures
 from ..results.record import Curve
 from ..threads import limited
 from .loading_rate import Loading, Scales, Schedule, schedule
@@ -126,8 +127,34 @@ class TestRig(ABC):
         entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
         if self.diverged or (entered and not self._is_over()):
             raise SimulationError(
-                f"strain_to: axial strain = {self.strain:.6g}, must come to {strain:.6g}; the "
-                "specimen strains elsewhere"
+                f"strain_to: axial strain = {self.strain:.6g}, must come to {strain:.6g}; "
+                + ("lower the rate" if self.diverged else "the specimen strains elsewhere")
+            )
+
+    def stress_to(self, stress: float, rate: float = 1.0) -> None:
+        """Load or unload at a constant rate until the record's axial stress has come to `stress`.
+
+        Args:
+            stress: Where to stop, at the next row of the record [Pa].
+            rate: Factor on the default loading rate [-].
+
+        Raises:
+            InputError: for a stress or a rate out of range.
+            SimulationError: if the specimen does not bear it.
+        """
+        stress = require_number("stress_to: stress", stress, unit="Pa")
+        rising = stress > self.stress
+
+        def there() -> bool:
+            now = self._readings.stress
+            return now >= stress if rising else now <= stress
+
+        begin = partial(self._begin_stress, rate, 1.0 if rising else -1.0)
+        entered = self._stage(begin, lambda: there() or self._is_over())
+        if self.diverged or (entered and not there()):
+            raise SimulationError(
+                f"stress_to: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
+                "the specimen does not bear it"
             )
 
     def start(self, loading: Loading) -> Span:
@@ -170,6 +197,29 @@ class TestRig(ABC):
     @abstractmethod
     def record(self) -> Curve:
         """The record so far."""
+
+    def to_yade_plot(self) -> None:
+        """Give ``yade.plot`` the record so far, each column under its name; call it again later."""
+        from yade import plot  # takes long to load
+
+        record = self.record
+        plot.data.update({name: record[name].tolist() for name in record.columns})
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful, one line each.
+
+        Load and reactions that differ, a bad energy balance, numbers that are none, sizes that are
+        surely in other units; of grains also
+        a joint that bends, a set point that is missed, a gauge whose grain is gone.
+        """
+        record = self.record
+        error = measures.energy_error(record, self.initial_energy)
+        mismatch = measures.median_end_mismatch(record)
+        specimen = self.built.specimen
+        lines = [doubts.of_divergence(yade.O.iter)] if self.diverged else []
+        lines += doubts.of_specimen({**specimen.dimensions, "thickness": specimen.thickness})
+        return lines + doubts.of_result("", error, mismatch, None)
 
     @property
     @abstractmethod
@@ -236,8 +286,15 @@ class TestRig(ABC):
 
     def _watched_step(self) -> None:
         self._step()
-        if self.watch is not None:
-            self.watch(self)
+        if self.watch is None:
+            return
+        done = yade.O.iter
+        self.watch(self)
+        if yade.O.iter != done or not yade.O.engines:
+            raise SimulationError(
+                f"watch: scene = step {yade.O.iter} with {len(yade.O.engines)} engines, must stay "
+                f"at step {done} with those of the test; let it only look"
+            )
 
     @abstractmethod
     def _synchronize(self) -> None:
@@ -288,6 +345,11 @@ class TestRig(ABC):
         endless = replace(plan, velocity=velocity, least_peak=1e300)
         self._drive(replace(endless, min_strain=least, max_strain=largest))
         return Span(_PATIENCE * plan.steps + _LATEST_LOOK, plan.steps)
+
+    def _begin_stress(self, rate: float, sense: float) -> Span:
+        plan = self._schedule(Loading(rate))
+        self._drive(replace(plan, velocity=sense * plan.velocity, min_strain=-1e300))
+        return _span(plan)
 
     def _at_rest(self) -> bool:
         """Whether forces balance under the full pressure; looked at each crossing of a wave."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from ..errors import InputError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from .grain_rig import NodeRig, PlateRig
@@ -25,7 +26,15 @@ def rig(
     Returns:
         A rig of boundary nodes for deformable grains between their ends, of plates for rigid grains
         and for discs, of plates or grips for YADE's bonded spheres.
+
+    Raises:
+        InputError: for a specimen of another outline.
     """
+    if built.specimen.kind not in ("rectangle", "disc"):
+        raise InputError(
+            f"rig: specimen = {built.specimen.kind}, must be a rectangle or a disc; flexpm.PartRig "
+            "holds any other"
+        )
     if isinstance(built, SphereModel):
         return SphereRig(built, tension=tension, runner=runner)
     kind = NodeRig if built.name == "flexible" and built.specimen.kind == "rectangle" else PlateRig

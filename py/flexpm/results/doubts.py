@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..files import Table
+from .measures import SET_POINT_OFF
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -35,6 +36,8 @@ LARGEST_ENERGY_ERROR = 0.01
 LARGEST_TAKEN = 0.1
 #: Joints that one warning names.
 _NAMED_JOINTS = 5
+#: Part of the rows that may miss their set point [-].
+MOST_MISSED = 0.1
 #: Of a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
@@ -70,6 +73,11 @@ def of_gravity(gravity: float, damping: float) -> list[str]:
         f"damping = {damping:g}, is above {LARGEST_DAMPING:g} with gravity: what falls or slides "
         f"gains {1.0 - damping:.3g} of its acceleration, and slopes hold; take 0 for motion"
     ]
+
+
+def of_specimen(sizes: Mapping[str, float]) -> list[str]:
+    """Sizes of a specimen that are surely in other units, by name [m]."""
+    return list(_of_values("", sizes))
 
 
 def of_result(
@@ -131,6 +139,34 @@ def of_cuts(cuts: Table) -> list[str]:
         rest = len(found) - _NAMED_JOINTS
         found = [*found[:_NAMED_JOINTS], f"and {rest} more joints, see joint_cuts"]
     return [". ".join(found)] if found else []
+
+
+def of_set_point(measure: str, missed: float) -> list[str]:
+    """What a set point that is missed says about the rate.
+
+    Args:
+        measure: Column that was to follow it.
+        missed: Part of the rows in which it is off by more than `SET_POINT_OFF` [-].
+    """
+    if not missed > MOST_MISSED:
+        return []
+    return [
+        f"set point of {measure} = missed by more than {100.0 * SET_POINT_OFF:g} % in "
+        f"{100.0 * missed:.3g} % of the rows, more than {100.0 * MOST_MISSED:g} %; lower the rate"
+    ]
+
+
+def of_divergence(step: int) -> str:
+    """What is left of a test in which a number is not finite any more."""
+    return (
+        f"the record ends before step {step}, at which a number was not finite any more; lower the "
+        "rate or check what is driven"
+    )
+
+
+def of_lost_gauge(name: str) -> str:
+    """What a gauge reads of a grain that has been erased."""
+    return f"gauge {name} reads a node of a grain that was erased, which stays where it was"
 
 
 def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:

@@ -11,6 +11,9 @@ import numpy as np
 from ..arrays import FloatArray
 from .record import Curve
 
+#: Difference from a set point by which a row has missed it [-].
+SET_POINT_OFF = 0.02
+
 ENERGIES = (
     "kinetic_energy",
     "elastic_energy",
@@ -176,6 +179,21 @@ def energy_error(curve: Curve, initial: float | None = None) -> float | None:
     if initial is None:
         initial = total[0] - work[0]
     return float(np.max(np.abs(work + initial - total)) / largest)
+
+
+def set_point_missed(curve: Curve, measure: str) -> float:
+    """Part of the rows under control in which a measure is off its set point [-].
+
+    Args:
+        curve: The record, with a ``set_point``.
+        measure: Column that was to follow it.
+    """
+    if "set_point" not in curve.columns:
+        return 0.0
+    wanted, there = curve["set_point"], curve[measure]
+    rows = np.isfinite(wanted) & (wanted != 0.0)
+    off = np.abs(there[rows] - wanted[rows]) > SET_POINT_OFF * np.abs(wanted[rows])
+    return float(np.mean(off)) if len(off) else 0.0
 
 
 def unbalanced_ratio(curve: Curve) -> float | None:

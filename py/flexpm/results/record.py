@@ -16,6 +16,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
+from ..require import require_known
 
 #: Columns of the record: the columns of curve.csv.
 COLUMNS = (
@@ -68,7 +69,12 @@ class Curve:
         return self._rows
 
     def __getitem__(self, column: str) -> FloatArray:
-        """View of one column; it stays valid, but does not grow with later rows."""
+        """View of one column; it stays valid, but does not grow with later rows.
+
+        Raises:
+            InputError: for a column that the record does not have, with the nearest name.
+        """
+        require_known("record: column", column, self.columns)
         return self._data[: self._rows, self.columns.index(column)]
 
     @property

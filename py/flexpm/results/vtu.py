@@ -28,6 +28,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import whole_file
+from ..require import quoted
 from ..text import printable
 from .snapshot import POINT_SHARES, Snapshot, triangle_areas
 from .vtu_reader import Arrays, Grid, grid_of, silence
@@ -64,7 +65,15 @@ def write_vtu(
         path: Name of the file, ending in .vtu.
         snapshot: The state.
         about: Field data: what the state is of, by name; numbers and texts, None is left out.
+
+    Raises:
+        InputError: for what is no state, as the plain arrays of ``solver.snapshot()``.
     """
+    if not isinstance(snapshot, Snapshot):
+        raise InputError(
+            f"write_vtu: snapshot = {quoted(snapshot)}, must be that of `built.snapshot()`, behind "
+            "the name of the file"
+        )
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
     for name, array in point_arrays(snapshot).items():

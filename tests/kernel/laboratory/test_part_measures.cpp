@@ -90,6 +90,77 @@ TEST_CASE("A support needs an outline that faces it")
     CHECK(a.plates.empty());
 }
 
+TEST_CASE("Plates do not lie on each other, and a support lies on the outline")
+{
+    Assembly a = grains(GENERATE(false, true));
+    const auto refused = [&](const Patch& p, const char* text) {
+        CHECK_THROWS_WITH(add_patch_plate(a, p, {}), Catch::Matchers::Contains(text));
+    };
+    add_patch_plate(a, patch(0.01, 0.0, 2e-3), {});
+    add_patch_plate(a, patch(0.012, 0.0, 2e-3), {});  // beside it
+    refused(patch(0.01, 0.0, 2e-3), "lies on plate 0");
+    refused(patch(0.013, 0.0, 1.9e-3), "lies on plate 1");
+    CHECK_THROWS_WITH(add_side_plates(a, 0, 1, {}), Catch::Matchers::Contains("lies on plate 0"));
+    refused(patch(0.01, height, 2.0 * width), "which its side has");
+    refused(patch(0.01, height + 5e-4, 1e-3), "off the outline");
+    refused(patch(-1e-3, height, 4e-3), "off the outline");
+    CHECK(a.plates.size() == 2);
+    add_side_plates(a, top_side, 3, {});
+    CHECK_THROWS_WITH(add_side_plates(a, top_side, 1, {}), Catch::Matchers::Contains("lies on"));
+    CHECK(a.plates.size() == 5);
+}
+
+TEST_CASE("A plate is found again by what it was laid with")
+{
+    Assembly a = grains(GENERATE(false, true));
+    const Patch there = patch(0.01, 0.0, 2e-3);
+    CHECK(find_patch_plate(a, there, {}) == -1);
+    add_side_plates(a, top_side, 1, { 0.0, 0.3, true });
+    add_patch_plate(a, there, {});
+    CHECK(find_patch_plate(a, there, {}) == 1);
+    CHECK(find_patch_plate(a, patch(0.0101, 0.0, 2e-3), {}) == -1);
+    CHECK(find_patch_plate(a, patch(0.01, 0.0, 2.1e-3), {}) == -1);
+    CHECK(find_patch_plate(a, there, { 0.0, 0.1, false }) == -1);
+    CHECK(find_patch_plate(a, there, { 0.0, 0.0, true }) == -1);
+    CHECK(find_side_plate(a, top_side, { 0.0, 0.3, true }) == 0);
+    CHECK(find_side_plate(a, top_side, { 0.0, 0.3, false }) == -1);
+    CHECK(find_side_plate(a, left_side, { 0.0, 0.3, true }) == -1);
+}
+
+TEST_CASE("Parts that leave the specimen free to move are named before the loading")
+{
+    Assembly a = grains(GENERATE(false, true));
+    const int top = add_side_plates(a, top_side, 1, { 0.0, 0.0, true }).front();
+    const PartGeometry parts = { { top }, {}, { 0.0, 1.0 }, 1.0, 1.0 };
+    const auto refused = [&](const char* text) {
+        CHECK_THROWS_WITH(part_scales(a, parts, 1.0, 1.0), Catch::Matchers::Contains(text));
+    };
+    scale_masses(a, 0.7);
+    refused("hold the specimen along x = 0");
+    Assembly b = a;
+    add_patch_plate(a, patch(0.0, height / 2, 2e-3), { 0.0, 0.0, true });
+    scale_masses(a, 0.7);
+    refused("stiffness that the driven parts feel");  // it is held, but not against the load
+    b.plates.clear();
+    const int corner = add_patch_plate(b, patch(width / 2, 0.0, 1e-4), { 0.0, 1.0, true });
+    b.plates[corner].area.assign(b.plates[corner].area.size(), 0.0);
+    b.plates[corner].area[0] = 1e-6;
+    scale_masses(b, 0.7);
+    CHECK_THROWS_WITH(part_scales(b, { { corner }, {}, { 0.0, 1.0 }, 1.0, 1.0 }, 1.0, 1.0),
+        Catch::Matchers::Contains("against turning = 0"));
+}
+
+TEST_CASE("The first value of a row that is not finite is named")
+{
+    AxialObservation row;
+    row.lateral_strain = NAN;  // which there need not be
+    CHECK(find_bad_value(row) == nullptr);
+    row.energies.boundary_work = NAN;
+    CHECK(std::string(find_bad_value(row)) == "boundary work");
+    row.axial_stress = INFINITY;
+    CHECK(std::string(find_bad_value(row)) == "axial stress");
+}
+
 TEST_CASE("Gauges read what their nodes and plates move, each on its side of a notch")
 {
     Assembly a = grains();

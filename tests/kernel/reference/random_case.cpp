@@ -210,7 +210,8 @@ void draw_plates(Random& random, Assembly& a, std::string& name)
         name += contact.bonded ? ", bonded plate" : ", plate";
         const double angle = 2.0 * flexpm::pi * random.next();
         if (is_straight(a) && chance(random, 0.5)) {
-            flexpm::add_side_plates(a, below(random, sides_of(a)), 1, contact);
+            const int side = below(random, sides_of(a));
+            if (!flexpm::has_plates(a, side)) flexpm::add_side_plates(a, side, 1, contact);
         } else if (chance(random, 0.5)) {
             flexpm::add_wall(a, { -1.0 * std::cos(angle), -1.0 * std::sin(angle) },
                 { std::cos(angle), std::sin(angle) }, contact);

@@ -31,6 +31,10 @@ CUT = st.tuples(
     st.sampled_from([0.0, 0.3, 1.0]),
     st.sampled_from(LAWS),
 )
+#: Parts by number, doubles, those of other rigs (from 100 on), and what is no part.
+PICK = st.sampled_from([0, 1, 2, 3, 100, 101, None, 0.5, "part", True])
+PICKS = st.lists(PICK, max_size=3)
+COLUMN = st.sampled_from(["opening", "load", "axial_stress", "set_point", "", "a\nb", "opennig", 5])
 PARTS = st.one_of(
     st.tuples(st.just("support"), PLACE, PLACE, st.sampled_from([0.001, 0.0, 1.0]), st.booleans()),
     st.tuples(st.just("platen"), st.sampled_from([0, 1, 2, 3, 9, -1]), st.booleans()),
@@ -39,12 +43,21 @@ PARTS = st.one_of(
         *(PLACE, PLACE, st.sampled_from([0.002, 1.0, 0.0, -1.0])),
         st.sampled_from(["x", "y", "xy", "z"]),
     ),
-    st.tuples(st.just("drive"), ANY, ANY),
-    st.tuples(st.just("turn"), st.booleans()),
-    st.tuples(st.just("press"), st.sampled_from([0.0, 1e5, -1.0, float("nan")])),
+    st.tuples(st.just("drive"), st.tuples(ANY, ANY), PICKS, PICKS),
+    st.tuples(st.just("drive"), st.just((0.0, -1.0)), st.just([0]), st.just([1])),
+    st.tuples(st.just("turn"), st.none() | st.tuples(PLACE, PLACE), PICKS, PICKS),
+    st.tuples(
+        st.just("press"),
+        st.lists(PICK, min_size=1, max_size=1),
+        st.sampled_from([0.0, 1e5, -1.0, float("nan"), None]),
+    ),
+    st.tuples(st.just("move"), st.just([0]), ANY, ANY),
+    st.tuples(st.just("again")),
+    st.tuples(st.just("names"), COLUMN, COLUMN, st.lists(PICK, min_size=1, max_size=1)),
+    st.tuples(st.just("read"), COLUMN),
     st.tuples(st.just("start"), st.sampled_from([1e-3, 1.0, 100.0, 0.0, float("inf")])),
     st.tuples(st.just("finish")),
-    st.tuples(st.just("gauge"), PLACE, PLACE),
+    st.tuples(st.just("gauge"), COLUMN, PLACE, PLACE),
     st.tuples(st.just("set_nodes"), st.sampled_from([-1, 0, 5, 10**9]), st.sampled_from([0, 1, 9])),
     st.tuples(st.just("turn_set"), st.sampled_from([-1, 0, 1, 10**9]), ANY),
     st.tuples(st.just("move_set"), st.sampled_from([-1, 0, 1, 10**9]), ANY),

@@ -122,8 +122,9 @@ def test_other_threads_and_a_saved_scene_give_the_same_bits(bar, tmp_path, model
                 yade.O.load(str(tmp_path / "scene.bin"), quiet=True)
                 rig.built.rebind()
                 rig = PartRig(rig.built)
-                left, right = rig.hold(box=((0, 0), (1, 1))), rig.hold(box=((0, 0), (1, 1)))
-                rig.turn([right])
+                right = rig.hold(where=lambda x, y: x > LENGTH - END)
+                left = rig.hold(box=((0.0, 0.0), (END, HEIGHT)))
+                rig.turn([right], strength=0.5)
             yade.O.step()
         records.append([*rig.record.array[-1], *right.force, right.moment, right.work, left.moment])
         assert right.moment > 0.0
@@ -144,8 +145,8 @@ def test_nodes_that_cannot_be_held_are_refused_in_one_line(bar):
         (lambda: rig.hold(disc=((LENGTH / 2, 0.001), 0.002)), "lies on a plate"),
         (lambda: rig.support((0.001, 0.0)), "support: .* lies on a plate"),
         (lambda: rig.platen(3), "platen: .* lies on a plate"),
-        (lambda: rig.turn([plate]), "turn: part = a plate, must be held nodes"),
-        (lambda: left.move((float("nan"), 0.0)), "move: velocity of a node set"),
+        (lambda: rig.turn([plate]), "turn: part = support at .* must be held nodes; call hold"),
+        (lambda: left.move((float("nan"), 0.0)), "move: velocity: x = nan m/s, must be finite"),
     ):
         with pytest.raises(InputError, match=message) as refused:
             wrong()

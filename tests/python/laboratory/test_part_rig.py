@@ -93,6 +93,28 @@ def test_forces_of_parts_balance_and_their_work_is_the_energy(beam, model):
     assert rig.warnings == []
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_energies_of_each_row_are_the_boundary_work_and_that_is_the_work_of_the_parts(beam, model):
+    """At four times the rate the elastic start was missing: 9 to 19 % of the work."""
+    yade.O.reset()
+    rig = PartRig(flexpm.build(beam, model=model))
+    middle = 0.5 * beam.dimensions["width"]
+    parts = [rig.support((middle + side * SPAN / 2, 0.0)) for side in (-1, 1)]
+    parts.append(rig.support((middle, HEIGHT), pinned=True))
+    rig.drive(parts[2], (0.0, -1.0), against=parts[:2])
+    rig.load(flexpm.Loading(kind="waiting", rate=4.0))
+    record = rig.record
+    kinds = ("kinetic", "elastic", "damage", "friction", "damping", "potential")
+    energies = np.sum([record[f"{kind}_energy"] for kind in kinds], axis=0)
+    work = record["boundary_work"]
+    assert energies == pytest.approx(work, rel=0.0, abs=1e-3 * work[-1])
+    assert rig.initial_energy == 0.0
+    assert work[0] > 0.05 * work[-1]  # the elastic start, which the loading has taken back since
+    done = sum(part.work for part in parts)
+    assert done == pytest.approx(work[-1], rel=2e-3)
+    assert rig.motion_energy == pytest.approx(work[-1] - done, rel=1e-9)
+
+
 def test_a_loading_finds_its_own_rate_and_ends_after_the_peak(beam):
     yade.O.reset()
     rig = PartRig(flexpm.build(beam, model="rigid"))
@@ -125,7 +147,7 @@ def test_what_a_rig_cannot_do_is_refused_in_one_line(beam):
     rig, _ = bent(beam, "rigid")
     for wrong, message in (
         (lambda: rig.support((0.02, 0.006)), "support: edges at a support = 0"),
-        (lambda: rig.support((0.02, 0.0), -1.0), "support: length = -1.0 m"),
+        (lambda: rig.support((0.03, 0.0), -1.0), "support: length = -1.0 m"),
         (lambda: rig.platen(7), "platen: side = 7"),
         (lambda: rig.gauge("load", (0, 0), (0.01, 0)), "gauge = 'load'"),
         (lambda: rig.gauge("under", (0, 0), (0.01, 0)), "gauge = 'under'"),
@@ -135,6 +157,38 @@ def test_what_a_rig_cannot_do_is_refused_in_one_line(beam):
         with pytest.raises(InputError, match=message) as refused:
             wrong()
         assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_pressed_part_is_driven_on_while_the_other_one_presses(model):
+    """A square under one pressure from all sides, then more from above: its modulus."""
+    side, pressure = 0.02, 5e6
+    square = flexpm.Specimen.rectangle(side, side, thickness=0.01, seed=1)
+    yade.O.reset()
+    rig = PartRig(flexpm.build(square, STRONG, model=model))
+    floor, right, top, left = (rig.platen(number) for number in range(4))
+    for part in (top, right):
+        rig.press(part, pressure)
+    rig.press(top, pressure)  # once more: the same pressure, not twice of it
+    area = side * 0.01
+    assert top.force[1] == pytest.approx(-pressure * area, rel=0.03)
+    rig.drive(top, (0.0, -1.0), against=floor, area=area, length=side, strength=40e6)
+    rig.stress_to(4.0 * pressure)
+    record = rig.record
+    stress, strain = record["axial_stress"], record["axial_strain"]
+    assert stress[0] == pytest.approx(pressure, rel=0.1)
+    assert 4.0 * pressure <= stress[-1] < 4.2 * pressure
+    assert abs(strain[0]) < 0.1 * strain[-1]
+    assert right.force[0] == pytest.approx(-pressure * area, rel=0.02)
+    assert left.force[0] == pytest.approx(pressure * area, rel=0.03)
+    # the lateral pressure stays: the slope is Young's modulus, a little less by the contacts
+    young = flexpm.elastic(square, STRONG, model=model)["youngs_modulus"]
+    slope = (stress[-1] - stress[0]) / (strain[-1] - strain[0])
+    assert 0.8 * young < slope < 1.05 * young
+    with pytest.raises(InputError, match="press: part = platen at .*, is driven, must not be"):
+        rig.press(top, pressure)
+    rig.stress_to(2.0 * pressure)  # and back
+    assert 1.8 * pressure < rig.stress <= 2.0 * pressure
 
 
 def spec_of(beam: flexpm.Specimen, model: str, **options: float) -> RunSpec:

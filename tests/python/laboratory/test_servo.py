@@ -148,7 +148,7 @@ def test_models_that_damp_all_motions_have_no_servo():
     yade.O.reset()
     disc = flexpm.Specimen.disc(0.012, thickness=0.01, seed=1)
     rig = flexpm.rig(flexpm.build(disc, model="rigid"))
-    with pytest.raises(InputError, match="control = 'lateral_strain', must be one of none"):
+    with pytest.raises(InputError, match="control = 'lateral_strain', must be left out here"):
         rig.load(Loading(kind="waiting", control="lateral_strain"))
     yade.O.reset()
     rectangle = flexpm.Specimen.rectangle(0.01, 0.02, thickness=0.01, seed=1)

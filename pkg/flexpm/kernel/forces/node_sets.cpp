@@ -212,6 +212,13 @@ void set_motion_of(Assembly& a, int set, Point velocity, double spin)
     check_finite("velocity of a node set", velocity.x + velocity.y, "m/s");
     check_finite("spin of a node set", spin, "rad/s");
     NodeSet& s = set_at(a, set);
+    for (int axis = 0; axis < dimension; ++axis) {
+        const double along = axis == 0 ? velocity.x : velocity.y;
+        if (along == 0.0 || (s.holds(axis) && !s.floats)) continue;
+        refuse(axis == 0 ? "velocity of a node set along x" : "velocity of a node set along y",
+            along, "m/s",
+            s.floats ? "must be 0 for one that turns freely" : "must be 0: it is free there");
+    }
     if (!s.floats) s.velocity = velocity;
     s.spin = spin;
 }

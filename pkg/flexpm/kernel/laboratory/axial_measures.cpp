@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flexpm {
 
@@ -79,6 +80,20 @@ AxialObservation observe_ends(const Assembly& a, const EndForces& ends, Sense se
 }
 
 double splitting_area(double diameter, double thickness) { return 0.5 * pi * diameter * thickness; }
+
+const char* find_bad_value(const AxialObservation& now)
+{
+    const Energies& e = now.energies;
+    const std::pair<const char*, double> values[] = { { "axial stress", now.axial_stress },
+        { "axial strain", now.axial_strain }, { "confinement", now.confinement },
+        { "unbalanced ratio", now.unbalanced_ratio }, { "kinetic energy", e.kinetic },
+        { "elastic energy", e.elastic }, { "damage energy", e.damage },
+        { "friction energy", e.friction }, { "damping energy", e.damping },
+        { "potential energy", e.potential }, { "boundary work", e.boundary_work } };
+    for (const auto& [name, value] : values)
+        if (!std::isfinite(value)) return name;
+    return nullptr;
+}
 
 double differential_stress(const AxialObservation& now)
 {

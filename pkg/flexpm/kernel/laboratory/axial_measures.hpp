@@ -47,6 +47,9 @@ struct AxialObservation {
     Energies energies;
 };
 
+/// Name of the first value that is not a finite number, null if all are; a lateral strain need not be there.
+const char* find_bad_value(const AxialObservation& now);
+
 /// Axial stress above the confinement [Pa]: what the end of a test goes by.
 double differential_stress(const AxialObservation& now);
 

@@ -84,6 +84,12 @@ double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point
     return dot(vector_at(moved, gauge.second) - vector_at(moved, gauge.first), direction);
 }
 
+bool is_erased(const Assembly& a, int node)
+{
+    need_node(a.grains.displacement, node);
+    return a.grains.erased[grain_node(a.grains, node).grain] != 0;
+}
+
 Section section_at(const Assembly& a, double place, Point direction, double half_width)
 {
     Section found;

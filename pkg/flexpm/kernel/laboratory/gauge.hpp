@@ -33,6 +33,10 @@ double plate_rate(const Assembly& a, int plate, Point direction);
 /// @throws std::invalid_argument  if one of them is no node of the assembly
 double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction);
 
+/// Whether a node is one of an erased grain, which stays where it was.
+/// @throws std::invalid_argument  if it is no node of the assembly
+bool is_erased(const Assembly& a, int node);
+
 /// A section through a specimen: the nodes in a band, and where they lie.
 struct Section {
     std::vector<int> nodes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace flexpm {
 
@@ -37,6 +39,83 @@ void check(const Assembly& a, const PartGeometry& parts)
         for (int s : sets) {
             if (s >= 0 && s < static_cast<int>(a.node_sets.size())) continue;
             refuse("part", s, "", "must be the number of a node set; add one first");
+        }
+    }
+}
+
+/// Stiffness of the parts against motions of the specimen as one: along x, along y, and about a point over a length
+/// [N/m].
+struct RigidStiffness {
+    Point about;
+    double length;
+    double value[3][3] = {};
+
+    void add(Point place, const StiffnessBlock& k)
+    {
+        const Point arm = (1.0 / length) * (place - about);
+        const double way[3][2] = { { 1.0, 0.0 }, { 0.0, 1.0 }, { -arm.y, arm.x } };
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                value[i][j] += way[i][0] * (k.xx * way[j][0] + k.xy * way[j][1])
+                    + way[i][1] * (k.yx * way[j][0] + k.yy * way[j][1]);
+            }
+        }
+    }
+};
+
+RigidStiffness rigid_stiffness(const Assembly& a)
+{
+    const Grains& grains = a.grains;
+    const Point first = vector_at(grains.reference, grains.centre(0));
+    Point low = first, high = first;
+    double stiffest = 1.0;
+    for (int g = 0; g < grains.count; ++g) {
+        const Point p = vector_at(grains.reference, grains.centre(g));
+        low = { std::min(low.x, p.x), std::min(low.y, p.y) };
+        high = { std::max(high.x, p.x), std::max(high.y, p.y) };
+    }
+    const double size = norm(high - low);
+    RigidStiffness k { 0.5 * (low + high), size > 0.0 ? size : 1.0 };
+    for (const Plate& plate : a.plates) {
+        for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
+            const PlatePoint p = plate_point(plate, i);
+            const auto n = a.edges.nodes(p.edge);
+            const StiffnessBlock springs = plate_springs(plate, i);
+            k.add(vector_on_edge(grains.reference, n, p.weight), springs);
+            stiffest = std::max(stiffest, springs.xx + springs.yy);
+        }
+    }
+    for_each_component(grains, [&](int i) {
+        if (!grains.prescribed[i]) return;
+        const int axis = axis_of(i);
+        const StiffnessBlock held = { axis == 0 ? stiffest : 0.0, 0.0, 0.0,
+            axis == 0 ? 0.0 : stiffest };
+        k.add(vector_at(grains.reference, i - component(0, axis)), held);
+    });
+    return k;
+}
+
+/// Part of the largest stiffness that is none [-].
+constexpr double no_stiffness = 1e-12;
+
+/// @throws std::invalid_argument  if the parts leave the whole specimen free to move or turn
+void require_held(const Assembly& a)
+{
+    RigidStiffness k = rigid_stiffness(a);
+    auto& m = k.value;
+    const double largest = std::max({ m[0][0], m[1][1], m[2][2] });
+    const char* const motions[] = { "along x", "along y", "against turning" };
+    const char* const remedies[] = { "give a part friction or a pin, or hold nodes (axes x)",
+        "lay a part there, or hold nodes (axes y)",
+        "lay another part apart from the first, or hold nodes" };
+    for (int i = 0; i < 3; ++i) {
+        if (!(m[i][i] > no_stiffness * largest))
+            refuse(std::string("parts that hold the specimen ") + motions[i], 0.0, "",
+                std::string("must be at least 1; ") + remedies[i]);
+        for (int j = i + 1; j < 3; ++j) {
+            const double factor = m[j][i] / m[i][i];
+            for (int c = i; c < 3; ++c)
+                m[j][c] -= factor * m[i][c];
         }
     }
 }
@@ -133,8 +212,11 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     std::fill(moved.grains.spin.begin(), moved.grains.spin.end(), 0.0);
     for (Plate& p : moved.plates)
         p.velocity = {};
-    for (int p : parts.driven)
+    for (int p : parts.driven) {
         moved.plates[p].velocity = parts.direction;
+        moved.plates[p].loaded = false;  // its pressure ends as the loading takes it over
+    }
+    require_held(moved);
     for (NodeSet& set : moved.node_sets) {
         set.velocity = set.loading_velocity = {};
         set.spin = 0.0;

@@ -45,7 +45,8 @@ AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts);
 ///
 /// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first contact point leaves
 ///                  its elastic branch
-/// @throws std::runtime_error  if the parts leave the specimen free to move
+/// @throws std::invalid_argument  if the parts leave the whole specimen free to move
+/// @throws std::runtime_error     if they leave a piece of it free
 TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt);
 
 }  // namespace flexpm

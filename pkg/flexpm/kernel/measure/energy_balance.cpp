@@ -147,11 +147,14 @@ void reset_energy_balance(Assembly& a)
             contacts.crack_energies[contacts.point_index(c, p)] = 0.0;
         }
     }
+    // before the first step there is no work but that of the elastic start, which stays
+    const double start = a.step == 0 ? first_of_pairs(a.ledger.prescribed_work) : 0.0;
     // the halves of the last step's works that fall into the next step stay
     for (auto* work : { &a.ledger.damping_work, &a.ledger.prescribed_work }) {
         for (std::size_t i = 0; i < work->size(); i += 2)
             (*work)[i] = 0.0;
     }
+    a.ledger.prescribed_work[0] = start;
     a.ledger.pressure_work = a.ledger.removed_damage = a.ledger.removed_friction = 0.0;
     a.ledger.erased = 0.0;
     for (Plate& p : a.plates)
@@ -165,7 +168,7 @@ void reset_energy_balance(Assembly& a)
             set.kinetic = kinetic_of_velocity(a, set);
     }
     const Energies now = energies(a);
-    a.ledger.initial = now.kinetic + now.elastic + now.potential;
+    a.ledger.initial = now.kinetic + now.elastic + now.potential - start;
 }
 
 double unbalanced_ratio(const Assembly& a)

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
+#include <utility>
 
 namespace flexpm {
 
@@ -144,6 +146,111 @@ void list_inner_edges(Assembly& a)
     prepare_step(a);
 }
 
+/// Part of its edge that a plate takes, its first and last place, 0 at the edge's start.
+std::pair<double, double> taken_part(const Assembly& a, const Plate& p, std::size_t edge)
+{
+    double area = 0.0, middle = 0.0;
+    for (int i = 0; i < p.points; ++i) {
+        const double part = p.area[edge * p.points + i];
+        area += part;
+        middle += plate_weight(p, i) * part / (edge_of(a, p.edges[edge]).length() * a.thickness);
+    }
+    const double taken = area / (edge_of(a, p.edges[edge]).length() * a.thickness);
+    middle = taken > 0.0 ? middle / taken : 0.0;
+    return { middle - 0.5 * taken, middle + 0.5 * taken };
+}
+
+/// Least part of an edge that counts as lain on twice; less is round-off.
+constexpr double lain_on = 1e-9;
+
+/// Whether two plates take a part of an edge both. Walls and plates that touch a point take none.
+bool overlap(const Assembly& a, const Plate& p, const Plate& q)
+{
+    if (p.width == 0.0 || q.width == 0.0) return false;
+    for (std::size_t e = 0; e < p.edges.size(); ++e) {
+        const auto other = std::find(q.edges.begin(), q.edges.end(), p.edges[e]) - q.edges.begin();
+        if (other == static_cast<std::ptrdiff_t>(q.edges.size())) continue;
+        const auto one = taken_part(a, p, e), two = taken_part(a, q, other);
+        if (std::min(one.second, two.second) - std::max(one.first, two.first) > lain_on)
+            return true;
+    }
+    return false;
+}
+
+/// Add plates that lie neither on held nodes nor on another plate; the first one's number.
+std::vector<int> add_plates(Assembly& a, const std::vector<Plate>& plates)
+{
+    for (const Plate& p : plates) {
+        require_apart(a, p);
+        for (std::size_t i = 0; i < a.plates.size(); ++i) {
+            if (!overlap(a, p, a.plates[i])) continue;
+            refuse("plate", place(p.position),
+                "lies on plate " + std::to_string(i)
+                    + ", must not: both would bear; take another part of the outline");
+        }
+    }
+    std::vector<int> numbers;
+    for (const Plate& p : plates) {
+        numbers.push_back(static_cast<int>(a.plates.size()));
+        a.plates.push_back(p);
+    }
+    return numbers;
+}
+
+/// The plate that was laid like another one, -1 if none was. What was erased since is missing in both.
+int find_like(const Assembly& a, const Plate& p)
+{
+    for (std::size_t i = 0; i < a.plates.size(); ++i) {
+        const Plate& q = a.plates[i];
+        const bool alike = q.side == p.side && q.edges == p.edges && q.area == p.area
+            && q.normal.x == p.normal.x && q.normal.y == p.normal.y && q.friction == p.friction
+            && q.bonded == p.bonded;
+        if (alike) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+/// Distance of a support's place from the outline, over the length of the edge there, that is none: an arc is made of
+/// chords [-].
+constexpr double off_outline = 0.05;
+
+double distance_to(const Edge& edge, Point place)
+{
+    const Point along_edge = edge.end - edge.start;
+    const double part = dot(place - edge.start, along_edge) / dot(along_edge, along_edge);
+    return norm(edge.start + std::clamp(part, 0.0, 1.0) * along_edge - place);
+}
+
+/// @throws std::invalid_argument  unless a support lies on the outline, with half of its length or more, and ends on it
+void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
+{
+    const Point tangent = { -p.normal.y, p.normal.x };
+    double off = std::numeric_limits<double>::infinity(), length = 0.0, first = off, last = -off;
+    for (int e : p.edges) {
+        const Edge edge = edge_of(a, e);
+        const double distance = distance_to(edge, patch.place);
+        if (distance < off) length = edge.length();
+        off = std::min(off, distance);
+        for (Point x : { edge.start, edge.end }) {
+            first = std::min(first, along(tangent, x - patch.place));
+            last = std::max(last, along(tangent, x - patch.place));
+        }
+    }
+    if (!(off <= off_outline * length)) {
+        refuse("place of a support", place(patch.place),
+            "is " + number(off) + " m off the outline, must lie on it");
+    }
+    const double half = 0.5 * patch.length * (1.0 - 1e-9);
+    if (first > -half && last < half) {
+        refuse("length of a support", patch.length, "m",
+            "must be <= " + number(last - first) + " m, which its side has");
+    }
+    if (!(p.width >= half)) {
+        refuse("length of a support", patch.length, "m",
+            "has " + number(p.width) + " m on the outline, must have half of it; move its place");
+    }
+}
+
 void check_index(const Assembly& a, int plate)
 {
     if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
@@ -151,16 +258,15 @@ void check_index(const Assembly& a, int plate)
     }
 }
 
-}  // namespace
-
-std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateContact& contact)
+std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const PlateContact& contact)
 {
     if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
     require_side(a, side);
     std::vector<int> edges;
     for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] == side) edges.push_back(e);
+        if (is_on_side(a, e, side)) edges.push_back(e);
     }
+    if (edges.empty()) refuse("edges of a side", 0.0, "", "must be at least 1; all are erased");
     const Point normal = edge_of(a, edges.front()).inward();
     const Point direction = { -normal.y, normal.x };
     double first = std::numeric_limits<double>::infinity(), last = -first;
@@ -171,7 +277,7 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
         }
     }
     const double width = (last - first) / pieces;
-    std::vector<int> numbers;
+    std::vector<Plate> plates;
     for (int i = 0; i < pieces; ++i) {
         Plate p = plate_of(a, normal, contact);
         p.side = side;
@@ -189,41 +295,12 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
         }
         p.points = points_on_edge(a, p);
         lay(a, p);
-        require_apart(a, p);
-        numbers.push_back(static_cast<int>(a.plates.size()));
-        a.plates.push_back(p);
+        plates.push_back(p);
     }
-    return numbers;
+    return plates;
 }
 
-int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
-{
-    Plate p = plate_of(a, unit(normal), contact);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < a.edges.count; ++e) {
-        const Edge edge = edge_of(a, e);
-        const bool outer = a.edges.side[e] >= 0;
-        if (outer && along(p.normal, edge.inward()) > facing) p.edges.push_back(e);
-    }
-    if (p.edges.empty())
-        refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
-    p.points = points_on_edge(a, p);
-    for (int e : p.edges) {
-        const Edge edge = edge_of(a, e);
-        for (int i = 0; i < p.points; ++i) {
-            const double w = plate_weight(p, i);
-            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
-                (1.0 - w) * edge.start.y + w * edge.end.y };
-            if (along(p.normal, x) < nearest) p.position = x;
-            nearest = std::min(nearest, along(p.normal, x));
-        }
-    }
-    lay(a, p);
-    a.plates.push_back(p);
-    return static_cast<int>(a.plates.size()) - 1;
-}
-
-int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact)
+Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& contact)
 {
     check_positive("length of a support", patch.length, "m");
     check_finite("place of a support", patch.place.x + patch.place.y, "m");
@@ -264,7 +341,55 @@ int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact
         p.area[2 * i] = (1.0 - middle) * area;
         p.area[2 * i + 1] = middle * area;
     }
-    require_apart(a, p);
+    require_on_outline(a, p, patch);
+    return p;
+}
+
+}  // namespace
+
+std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateContact& contact)
+{
+    return add_plates(a, side_plates(a, side, pieces, contact));
+}
+
+int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact)
+{
+    return add_plates(a, { patch_plate(a, patch, contact) }).front();
+}
+
+int find_side_plate(const Assembly& a, int side, const PlateContact& contact)
+{
+    return find_like(a, side_plates(a, side, 1, contact).front());
+}
+
+int find_patch_plate(const Assembly& a, const Patch& patch, const PlateContact& contact)
+{
+    return find_like(a, patch_plate(a, patch, contact));
+}
+
+int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
+{
+    Plate p = plate_of(a, unit(normal), contact);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int e = 0; e < a.edges.count; ++e) {
+        const Edge edge = edge_of(a, e);
+        const bool outer = a.edges.side[e] >= 0;
+        if (outer && along(p.normal, edge.inward()) > facing) p.edges.push_back(e);
+    }
+    if (p.edges.empty())
+        refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
+    p.points = points_on_edge(a, p);
+    for (int e : p.edges) {
+        const Edge edge = edge_of(a, e);
+        for (int i = 0; i < p.points; ++i) {
+            const double w = plate_weight(p, i);
+            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
+                (1.0 - w) * edge.start.y + w * edge.end.y };
+            if (along(p.normal, x) < nearest) p.position = x;
+            nearest = std::min(nearest, along(p.normal, x));
+        }
+    }
+    lay(a, p);
     a.plates.push_back(p);
     return static_cast<int>(a.plates.size()) - 1;
 }

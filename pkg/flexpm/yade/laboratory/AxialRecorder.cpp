@@ -62,6 +62,17 @@ namespace {
 		return now;
 	}
 
+	/// @throws std::runtime_error  if the record would have a number that is not finite; the test has diverged then
+	void requireFinite(const flexpm::AxialObservation& now, GrainSolver& solver)
+	{
+		const char* bad = flexpm::find_bad_value(now);
+		if (!bad) return;
+		solver.diverged = true;
+		throw std::runtime_error(
+		        "AxialRecorder: " + string(bad) + " is not a finite number at step " + std::to_string(now.step)
+		        + "; lower the loading rate or check what is driven");
+	}
+
 } // namespace
 
 AxialRecorder::~AxialRecorder() = default;
@@ -82,6 +93,7 @@ void AxialRecorder::action()
 	if (fromNow) setZero(now, solver->forEngines());
 	fromNow = false;
 	if (!measured) return;
+	requireFinite(now, *solver);
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
@@ -141,6 +153,23 @@ std::pair<Real, Real> AxialRecorder::measure(const string& column, const flexpm:
 		        "AxialRecorder.controlled = " + column + ", must be the name of a gauge, load between parts, or lateral_strain of a rectangle");
 	const auto sense = senseOf(*this);
 	return { flexpm::lateral_strain(assembly, sense, assembly.grains.displacement) - zero[1], flexpm::lateral_strain(assembly, sense, field) };
+}
+
+py::list AxialRecorder::gaugeList() const
+{
+	py::list all;
+	for (const auto& gauge : gauges)
+		all.append(gauge);
+	return all;
+}
+
+py::list AxialRecorder::lostGauges() const
+{
+	const auto& assembly = GrainSolver::ofScene(*Omega::instance().getScene())->current();
+	py::list    lost;
+	for (const auto& gauge : gauges)
+		if (gauge->lost(assembly)) lost.append(gauge->name);
+	return lost;
 }
 
 void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)

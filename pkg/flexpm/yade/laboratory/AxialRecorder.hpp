@@ -19,6 +19,8 @@ public:
 	boost::python::object rows() const;
 	boost::python::dict   scales() const;
 	void                  addGauge(const shared_ptr<Gauge>& gauge);
+	boost::python::list   gaugeList() const;
+	boost::python::list   lostGauges() const;
 	/// What a column of the record that a servo may follow reads now, and what it grows by in a second with the motion of the loading.
 	/// @throws std::invalid_argument  if it is none
 	std::pair<Real, Real> measure(const string& column, const flexpm::Assembly& assembly) const;
@@ -66,7 +68,9 @@ public:
 		, /* ctor */
 		, .add_property("names", &AxialRecorder::names, "Names of the record's columns.")
 		.add_property("rows", &AxialRecorder::rows, "The record, (rows, columns); a copy.")
+		.add_property("gauges", &AxialRecorder::gaugeList, "The gauges whose readings the record has, too; addGauge adds one.")
 		.def("addGauge", &AxialRecorder::addGauge, (boost::python::arg("gauge")), "Record what a :yref:`Gauge` reads in a column of its name, before the first row.")
+		.def("lostGauges", &AxialRecorder::lostGauges, "Names of the gauges that read a node of a grain that has been erased.")
 		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes [-].")
 	);
 	// clang-format on

@@ -3,6 +3,8 @@
 
 #include <flexpm/kernel/laboratory/gauge.hpp>
 
+#include <algorithm>
+
 namespace yade {
 
 YADE_PLUGIN((Gauge));
@@ -31,6 +33,13 @@ Real Gauge::rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& 
 {
 	const flexpm::Point along = { direction[0], direction[1] };
 	return perLength(plate >= 0 ? flexpm::plate_rate(assembly, plate, along) : way(velocity));
+}
+
+bool Gauge::lost(const flexpm::Assembly& assembly) const
+{
+	if (plate >= 0) return false;
+	const auto erased = [&](int node) { return flexpm::is_erased(assembly, node); };
+	return nodes.empty() ? erased(first) || erased(second) : std::any_of(nodes.begin(), nodes.end(), erased);
 }
 
 } // namespace yade

@@ -19,6 +19,8 @@ public:
 	Real reading(const flexpm::Assembly& assembly) const;
 	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.
 	Real rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const;
+	/// Whether a grain that it reads has been erased.
+	bool lost(const flexpm::Assembly& assembly) const;
 
 private:
 	Real moved(const flexpm::Assembly& assembly) const;

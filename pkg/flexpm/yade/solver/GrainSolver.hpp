@@ -66,10 +66,12 @@ public:
 	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
 	int        addTouchingPlate(Vector3r normal, Real friction);
 	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
+	int        findSidePlate(int side, bool bonded, Real friction);
+	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
 	py::tuple  gaugePoints(Vector3r first, Vector3r second);
 	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
 	void       fixTangential(int plate);
-	py::tuple  nodePlaces();
+	py::tuple  nodePlaces(bool bonded);
 	int        addNodeSet(vector<int> nodes, bool x, bool y);
 	void       turnNodeSet(int set, py::object about);
 	void       moveNodeSet(int set, Vector3r velocity);
@@ -123,23 +125,27 @@ public:
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
 		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
 			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number. Scale the masses afterwards.")
+		.def("findSidePlate", AfterAssembly<&GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0.),
+			"Number of the one plate that addSidePlates has laid along a side with the same arguments, -1 if there is none.")
+		.def("findPatchPlate", AfterAssembly<&GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
+			"Number of the plate that addPatchPlate has laid with the same arguments, -1 if there is none.")
 		.def("gaugePoints", AfterAssembly<&GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("sectionNodes", AfterAssembly<&GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
 			"The nodes in a band of a width [m] around a place along a direction, a unit vector, and their mean place along it [m], for :yref:`Gauge`.")
 		.def("fixTangential", AfterAssembly<&GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
-		.def("nodePlaces", AfterAssembly<&GrainSolver::nodePlaces>::call, "Nodes that a set may hold, (n,), all of deformable grains and the centres of rigid ones, and where they are, (n, 2) [m].")
+		.def("nodePlaces", AfterAssembly<&GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes that a set may hold, (n,), all of deformable grains and the centres of rigid ones, and where they are, or were when bonded, (n, 2) [m].")
 		.def("addNodeSet", AfterAssembly<&GrainSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true),
 			"Hold nodes of nodePlaces at rest along x, y or both, and return the number of their set.")
 		.def("turnNodeSet", AfterAssembly<&GrainSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about") = py::object()),
 			"Let a set turn about a point [m], or, with None, about the mean of its places, free to move: a moment alone acts.")
 		.def("moveNodeSet", AfterAssembly<&GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity")),
 			"Move a set from the next step on: velocity along x and y [m/s, or m per step with scaled masses]; z: spin [rad/s].")
-		.def("nodeSets", AfterAssembly<&GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
+		.def("nodeSets", AfterAssembly<&GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, axes that it holds, whether it floats, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
 		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
-		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
 		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")

@@ -28,6 +28,13 @@ int GrainSolver::addPatchPlate(Vector3r place, Real length, Vector3r normal, Rea
 	return flexpm::add_patch_plate(assembly, { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded });
 }
 
+int GrainSolver::findSidePlate(int side, bool bonded, Real friction) { return flexpm::find_side_plate(current(), side, { 0, friction, bonded }); }
+
+int GrainSolver::findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded)
+{
+	return flexpm::find_patch_plate(current(), { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded });
+}
+
 py::tuple GrainSolver::gaugePoints(Vector3r first, Vector3r second)
 {
 	const auto gauge = flexpm::gauge_points(current(), { first[0], first[1] }, { second[0], second[1] });
@@ -45,12 +52,12 @@ py::tuple GrainSolver::sectionNodes(Real place, Vector3r direction, Real width)
 
 void GrainSolver::fixTangential(int plate) { flexpm::fix_tangential(assembly, plate); }
 
-py::tuple GrainSolver::nodePlaces()
+py::tuple GrainSolver::nodePlaces(bool bonded)
 {
 	const auto          nodes = flexpm::holdable_nodes(current());
 	std::vector<double> places;
 	for (int node : nodes) {
-		const auto p = assembly.grains.position(node);
+		const auto p = bonded ? flexpm::vector_at(assembly.grains.reference, node) : assembly.grains.position(node);
 		places.insert(places.end(), { p.x, p.y });
 	}
 	return py::make_tuple(flexpm_bindings::copied(nodes, 0), flexpm_bindings::copied(places, 2));
@@ -77,6 +84,8 @@ py::list GrainSolver::nodeSets()
 	for (const flexpm::NodeSet& set : current().node_sets) {
 		py::dict d;
 		d["nodes"]        = flexpm_bindings::copied(set.nodes, 0);
+		d["axes"]         = string(set.holds_x ? "x" : "") + (set.holds_y ? "y" : "");
+		d["floats"]       = set.floats;
 		d["place"]        = py::make_tuple(set.pivot.x, set.pivot.y);
 		d["displacement"] = py::make_tuple(set.displacement.x, set.displacement.y);
 		d["angle"]        = set.angle;
@@ -103,6 +112,9 @@ py::list GrainSolver::plates()
 		d["side"]          = p.side;
 		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
 		d["width"]         = p.width;
+		d["friction"]      = p.friction;
+		d["bonded"]        = p.bonded;
+		d["pressed"]       = p.loaded;
 		d["place"]         = py::make_tuple(p.position.x + p.displacement.x, p.position.y + p.displacement.y);
 		d["work"]          = p.boundary_work;
 		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);

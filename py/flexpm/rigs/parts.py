@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of a rig: plates and sets of nodes, each of one rig, which alone takes it. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar, TypeVar
+
+from yade import wrapper
+
+from ..errors import InputError
+from ..files import Table
+from ..require import quoted, require_number
+from .places import Place, require_pair
+
+
+@dataclass(frozen=True, eq=False)
+class RigPart:
+    """What a rig has laid on its specimen. What it says is of the last step."""
+
+    _list: ClassVar[str]  # call of the solver that tells of all parts of this class
+
+    rig: object = field(repr=False)  #: whose part it is
+    solver: wrapper.GrainSolver = field(repr=False)
+    kind: str  #: ``support``, ``platen`` or ``held nodes``
+    number: int  #: among the plates, or among the sets of nodes
+
+    @property
+    def force(self) -> tuple[float, float]:
+        """On the specimen, x and y [N]."""
+        return self._pair("force")
+
+    @property
+    def work(self) -> float:
+        """Done on the specimen so far [J]."""
+        return float(self._now["work"])
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where it is, x and y [m]."""
+        return self._pair("place")
+
+    @property
+    def displacement(self) -> tuple[float, float]:
+        """Since it was laid, x and y [m]."""
+        return self._pair("displacement")
+
+    def __str__(self) -> str:
+        """Its kind and place."""
+        x, y = self.place
+        return f"{self.kind} at ({x:g}, {y:g}) m"
+
+    @property
+    def _now(self) -> Table:
+        found: Table = getattr(self.solver, self._list)()[self.number]
+        return found
+
+    def _pair(self, name: str) -> tuple[float, float]:
+        x, y = self._now[name]
+        return float(x), float(y)
+
+
+@dataclass(frozen=True, eq=False)
+class Part(RigPart):
+    """A plate of a rig; `place` is that of a point of its face."""
+
+    _list = "plates"
+
+    @property
+    def width(self) -> float:
+        """Of the outline before it [m]."""
+        return float(self._now["width"])
+
+    @property
+    def normal(self) -> tuple[float, float]:
+        """Into the specimen, a unit vector."""
+        return self._pair("normal")
+
+
+@dataclass(frozen=True, eq=False)
+class HeldNodes(RigPart):
+    """Nodes that a rig holds or moves as one.
+
+    `place` is the point about which they turn: the mean of their places, unless told otherwise.
+    """
+
+    _list = "nodeSets"
+
+    @property
+    def moment(self) -> float:
+        """On the specimen about `place`, counter-clockwise [N m]."""
+        return float(self._now["moment"])
+
+    @property
+    def angle(self) -> float:
+        """Since they were held, counter-clockwise [rad]."""
+        return float(self._now["angle"])
+
+    @property
+    def nodes(self) -> list[int]:
+        """Of the solver, see `GrainSolver.nodePlaces`."""
+        return [int(node) for node in self._now["nodes"]]
+
+    @property
+    def axes(self) -> str:
+        """Along which they are held: ``x``, ``y`` or ``xy``."""
+        return str(self._now["axes"])
+
+    def move(self, velocity: Place = (0.0, 0.0), spin: float = 0.0) -> None:
+        """Move them from the next step on, whatever the rig's loading does.
+
+        Args:
+            velocity: x and y, of what is held alone [m/s, or m per step with scaled masses].
+            spin: About `place`, counter-clockwise [rad/s, or rad per step].
+
+        Raises:
+            InputError: for a velocity along an axis that is not held, or one of nodes that turn
+                freely.
+        """
+        x, y = require_pair("move: velocity", velocity, "m/s")
+        spin = require_number("move: spin", spin, unit="rad/s")
+        try:
+            self.solver.moveNodeSet(self.number, (x, y, spin))
+        except ValueError as error:
+            raise InputError(f"move: {error}") from None
+
+
+Kind = TypeVar("Kind", bound=RigPart)
+
+
+def require_parts(label: str, rig: object, given: object, kind: type[Kind]) -> list[Kind]:
+    """Return parts of a rig as a list, or raise InputError; one alone needs no brackets."""
+    if isinstance(given, RigPart):
+        given = [given]
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise InputError(f"{label} = {quoted(given)}, must be parts of the rig")
+    return [require_part(label, rig, part, kind) for part in given]
+
+
+def require_part(label: str, rig: object, part: object, kind: type[Kind]) -> Kind:
+    """Return a part of a rig, or raise InputError."""
+    if not isinstance(part, RigPart):
+        raise InputError(
+            f"{label} = {quoted(part)}, must be a part as support, platen and hold return it"
+        )
+    if part.rig is not rig:
+        raise InputError(f"{label} = {part} of another rig, must be one of this rig; lay it here")
+    if not isinstance(part, kind):
+        wanted = "held nodes; call hold" if kind is HeldNodes else "a support or a platen"
+        raise InputError(f"{label} = {part}, must be {wanted}")
+    return part
+
+
+def require_apart(label: str, *lists: Sequence[RigPart]) -> None:
+    """Raise InputError for a part that is there twice."""
+    seen: list[tuple[type, int]] = []
+    for part in (part for parts in lists for part in parts):
+        if (type(part), part.number) in seen:
+            raise InputError(f"{label} = {part}, is there twice, must be once")
+        seen.append((type(part), part.number))
+
+
+def numbers(parts: Sequence[RigPart], kind: type[RigPart]) -> list[int]:
+    """Numbers of the parts of a kind."""
+    return [part.number for part in parts if isinstance(part, kind)]

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Points, directions, regions and names of columns, as scripts give them. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray
+from ..errors import InputError
+from ..require import POSITIVE, quoted, require_number, require_text
+
+#: x and y.
+Place = Sequence[float]
+#: Tells of places, by arrays of their x and y [m], which of them a region has.
+Where = Callable[[FloatArray, FloatArray], BoolArray]
+#: x, y and 0, as YADE has vectors.
+Vector = tuple[float, float, float]
+
+
+def require_pair(label: str, value: object, unit: str = "m") -> tuple[float, float]:
+    """Return x and y as finite numbers, or raise InputError."""
+    x, y = _two(f"{label} = {quoted(value)}, must be x and y", value)
+    return require_number(f"{label}: x", x, unit=unit), require_number(f"{label}: y", y, unit=unit)
+
+
+def require_vector(label: str, value: object, unit: str = "m") -> Vector:
+    """The same with a zero behind them."""
+    return (*require_pair(label, value, unit), 0.0)
+
+
+def require_direction(label: str, value: object) -> Vector:
+    """Return a direction as a unit vector, or raise InputError."""
+    x, y = require_pair(f"{label}: direction", value, "")
+    size = math.hypot(x, y)
+    require_number(f"{label}: length of its direction", size, POSITIVE)
+    return x / size, y / size, 0.0
+
+
+def require_column(label: str, name: object, taken: Sequence[str]) -> str:
+    """Return a name that a column may have beside others, or raise InputError."""
+    text = require_text(label, name)
+    if not (text and text.isprintable() and text == text.strip()):
+        raise InputError(
+            f"{label} = {quoted(name)}, must be a name of printable characters without blanks at "
+            "its ends"
+        )
+    if text in taken:
+        raise InputError(f"{label} = {quoted(name)}, must not be the name of another column")
+    return text
+
+
+def in_region(
+    places: FloatArray,
+    box: tuple[Place, Place] | None,
+    disc: tuple[Place, float] | None,
+    where: Where | None,
+) -> BoolArray:
+    """Which of the places, (n, 2), lie in the one region that is given."""
+    if sum(region is not None for region in (box, disc, where)) != 1:
+        raise InputError("hold: region = none or several, must be one of box, disc and where")
+    if box is not None:
+        ends = _two(f"hold: box = {quoted(box)}, must be two opposite corners", box)
+        corners = np.array([require_pair("hold: corner of the box", one) for one in ends])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        found: BoolArray = np.all((places >= low) & (places <= high), axis=1)
+    elif disc is not None:
+        both = _two(f"hold: disc = {quoted(disc)}, must be a centre and a radius", disc)
+        centre, radius = both[0], require_number("hold: radius of the disc", both[1], POSITIVE, "m")
+        middle = np.array(require_pair("hold: centre of the disc", centre))
+        found = np.hypot(*(places - middle).T) <= radius
+    else:
+        if not callable(where):
+            raise InputError(f"hold: where = {quoted(where)}, must be a function of x and y")
+        found = np.asarray(where(places[:, 0], places[:, 1]))
+        if found.shape != places.shape[:1] or found.dtype != bool:
+            raise InputError("hold: where = another array, must be one truth for each place")
+    return found
+
+
+def _two(refusal: str, value: object) -> tuple[object, object]:
+    """Both things of a pair."""
+    try:
+        found = list(value)  # type: ignore[call-overload]
+    except TypeError:
+        found = []
+    if len(found) != 2 or isinstance(value, str):
+        raise InputError(refusal)
+    return found[0], found[1]

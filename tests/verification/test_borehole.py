@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A borehole under a pressure that grows while the other one stays, beside Kirsch's solution."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.results.snapshot import Snapshot, triangle_areas
+
+#: Ten grains across the hole, which is a tenth of the side.
+SIDE, RADIUS, AROUND, RINGS = 0.04, 0.002, 32, 13
+THICKNESS = 0.01
+CONFINING, GREATEST = 5e6, 15e6
+SECTORS = np.radians(np.arange(0.0, 360.0, 15.0))
+REACH = 1.15  # radii
+CUTS = 8  # of each edge of a triangle, for its part in a sector
+
+
+def cells() -> list[np.ndarray]:
+    """Rings of cells around the hole, staggered like bricks, that grow towards the square."""
+    half, count = 0.5 * SIDE, 2 * AROUND
+    angles = np.arange(count) * np.pi / AROUND
+    ends = np.column_stack([np.cos(angles), np.sin(angles)])
+    square = half / np.abs(ends).max(axis=1)
+
+    def corner(ring: int, number: int) -> np.ndarray:
+        number %= count
+        reach = RADIUS * (square[number] / RADIUS) ** (ring / RINGS)
+        place = half + reach * ends[number]
+        return np.round(place, 12) if ring == RINGS else place
+
+    return [
+        np.array(
+            [corner(ring + 1, first + n) for n in range(3)]
+            + [corner(ring, first + n) for n in (2, 1, 0)]
+        )
+        for ring in range(RINGS)
+        for first in range(ring % 2, count, 2)
+    ]
+
+
+def polar(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distance from the middle over the radius of a circle with the hole's area, and angle."""
+    x, y = (places - 0.5 * SIDE).T
+    part = np.pi / AROUND
+    equal = RADIUS * np.sqrt(np.sin(part) / part)
+    return np.hypot(x, y) / equal, np.arctan2(y, x) % (2.0 * np.pi)
+
+
+def by_sector(angle: np.ndarray, values: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Weighted means in sectors of 15 degrees, the first one around the x axis."""
+    width = SECTORS[1]
+    number = np.floor(angle / width + 0.5).astype(int) % len(SECTORS)
+    sums = [np.bincount(number, one, len(SECTORS)) for one in (values * weights, weights)]
+    return sums[0] / sums[1]
+
+
+def measured(state: Snapshot) -> np.ndarray:
+    """Mean hoop stress of the grains in each sector, compression positive [Pa]."""
+    steps = (np.arange(CUTS) + 1.0 / 3.0) / CUTS
+    one, two = (axis.ravel() for axis in np.meshgrid(steps, steps))
+    inside = one + two < 1.0
+    shares = np.column_stack([1.0 - one - two, one, two])[inside]
+    places = np.einsum("sc,mcx->msx", shares, state.reference[state.triangles])
+    weights = np.repeat(triangle_areas(state) / len(shares), len(shares))
+    distance, angle = polar(places.reshape(-1, 2))
+    xx, yy, xy = (-np.repeat(one, len(shares)) for one in state.triangle_stress.T)
+    hoop = xx * np.sin(angle) ** 2 + yy * np.cos(angle) ** 2 - xy * np.sin(2.0 * angle)
+    near = distance < REACH
+    return by_sector(angle[near], hoop[near], weights[near])
+
+
+def kirsch(across: float, along: float) -> np.ndarray:
+    """Its means over the same sectors, for pressures along x and along y [Pa]."""
+    distance, angle = np.meshgrid(
+        np.linspace(1.0, REACH, 400, endpoint=False) + 0.5 * (REACH - 1.0) / 400,
+        np.linspace(0.0, 2.0 * np.pi, 4800, endpoint=False) + np.pi / 4800,
+    )
+    hoop = 0.5 * (across + along) * (1.0 + distance**-2)
+    hoop -= 0.5 * (across - along) * (1.0 + 3.0 * distance**-4) * np.cos(2.0 * angle)
+    return by_sector(angle.ravel(), hoop.ravel(), distance.ravel())
+
+
+def test_the_hoop_stress_around_a_borehole_is_that_of_kirsch():
+    """Within 3 % of the largest, as one pressure grows and the other one stays."""
+    yade.O.reset()
+    specimen = flexpm.Specimen.from_polygons(cells(), THICKNESS, holes=True)
+    rock = flexpm.materials.load("augig-table7")
+    stiff = 100.0 * rock.law("flexible")["normal_stiffness"]
+    rock = rock.with_set(
+        normal_stiffness=stiff,
+        **dict.fromkeys(("tensile_strength", "cohesion"), 1e10),
+        **dict.fromkeys(("tensile_fracture_energy", "shear_fracture_energy"), 1e8),
+    )
+    rig = flexpm.PartRig(flexpm.build(specimen, rock))
+    floor, right, top, _ = (rig.platen(side) for side in range(4))
+    for part in (top, right):
+        rig.press(part, CONFINING)
+    area = SIDE * THICKNESS
+    rig.drive(top, (0.0, -1.0), against=floor, area=area, length=SIDE, strength=8.0 * GREATEST)
+    rig.stress_to(GREATEST)
+    stress = rig.record["axial_stress"]
+    assert len(stress) > 50
+    assert stress[0] < 1.1 * CONFINING
+    assert GREATEST <= stress[-1] < 1.02 * GREATEST
+    across = -right.force[0] / area
+    assert abs(across / CONFINING - 1.0) < 0.02
+    wanted = kirsch(CONFINING, stress[-1])
+    found = measured(rig.built.snapshot())
+    np.testing.assert_allclose(found, wanted, rtol=0.0, atol=0.03 * wanted.max())
+    assert rig.warnings == []
