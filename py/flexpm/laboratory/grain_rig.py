@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..models.grains import Model
 from ..results.record import COLUMNS, Curve
 from .loading_rate import SLOWEST_WAIT, Scales, Schedule
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig
 from .runner import Runner
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
@@ -99,6 +99,25 @@ class GrainRig(TestRig):
     def unbalanced(self) -> float:
         """Largest unbalanced force over the mean contact force [-], at the last measured step."""
         return self.built.solver.unbalanced()
+
+    def balance(self) -> Balance:
+        """What the specimen fails to bear of the pressure on it.
+
+        The motion is that of the last measured step.
+        """
+        now, energies = self.built.solver.balance(), self.built.solver.energies()
+        mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
+        with np.errstate(divide="ignore", invalid="ignore"):  # of a specimen that bears nothing
+            missing = np.hypot(*now["missing_force"]) / np.float64(self._pressing_force())
+            stress = np.abs(mean - outside).max() / np.abs(outside).max()
+            motion = np.sqrt(energies["kinetic_energy"] / np.float64(energies["elastic_energy"]))
+        return Balance(max(float(missing), now["plate_share"]), float(stress), float(motion))
+
+    def _pressing_force(self) -> float:
+        """Least force with which the pressure acts on a whole side [N]."""
+        sizes = self.built.specimen.dimensions
+        side = min(sizes["width"], sizes["height"])
+        return (self.confinement or 0.0) * side * self.built.specimen.thickness
 
     @property
     def _readings(self) -> Readings:
