@@ -9,6 +9,8 @@
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
+#include <cmath>
+
 #include "support/specimens.hpp"
 
 using flexpm::Assembly;
@@ -33,9 +35,8 @@ void run(Assembly& a, int steps)
 
 void check_stress(const flexpm::Tensor& stress, double xx, double yy, double margin)
 {
-    CHECK(stress.xx == Approx(xx).epsilon(margin));
-    CHECK(stress.yy == Approx(yy).epsilon(margin));
-    CHECK(std::fabs(stress.xy) < margin * pressure);
+    CHECK(std::fabs(stress.xx - xx) < margin * pressure);
+    CHECK(std::fabs(stress.yy - yy) < margin * pressure);
 }
 
 }  // namespace
@@ -55,6 +56,7 @@ TEST_CASE("pressure on all edges of deformable grains is their mean stress", "[b
     now = flexpm::balance(a);
     check_stress(now.mean_stress, -pressure, -2.0 * pressure, 1e-5);
     check_stress(now.outside_stress, -pressure, -2.0 * pressure, 1e-5);
+    CHECK(std::fabs(now.mean_stress.xy) < 1e-5 * pressure);  // plates, which do not turn, have some
     CHECK(std::fabs(now.missing_force.y) < 1e-6 * pressure * width * specimens::thickness);
 }
 
