@@ -113,9 +113,18 @@ def test_a_wave_shows_in_the_mean_stress(monkeypatch):
 @pytest.mark.parametrize("model", ["flexible", "rigid", "jcfpm", "cohfrict"])
 def test_a_pressure_that_is_not_borne_is_refused_in_one_line(model, monkeypatch):
     monkeypatch.setattr(rigs, "_REST_CROSSINGS", 1)
+    monkeypatch.setattr(rigs, "_AT_REST", 1e-6)
     rig = flexpm.rig(built(0.02, 1, model))
     line = r"confine: imbalance = .* of 1e\+07 Pa \(reactions .*, mean stress .*, motion .*\), must"
     with pytest.raises(flexpm.SimulationError, match=line):
+        rig.confine(PRESSURE)
+
+
+def test_waves_that_nothing_damps_are_named():
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, THICKNESS, seed=1)
+    yade.O.reset()
+    rig = flexpm.rig(flexpm.build(specimen, model="rigid", dynamic=True, damping=0.0))
+    with pytest.raises(flexpm.SimulationError, match=r"damping = 0, take 0\.2 or above"):
         rig.confine(PRESSURE)
 
 

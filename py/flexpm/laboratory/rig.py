@@ -124,7 +124,7 @@ class TestRig(ABC):
             raise SimulationError(
                 f"confine: imbalance = {found.largest:.2g} of {pressure:g} Pa (reactions "
                 f"{found.reaction:.2g}, mean stress {found.stress:.2g}, motion {found.motion:.2g}"
-                f"), must fall below {_AT_REST}; lower the pressure"
+                f"), must fall below {_AT_REST}; {self._more_balance}"
             )
 
     def load(self, loading: Loading | None = None) -> None:
@@ -248,6 +248,11 @@ class TestRig(ABC):
     @abstractmethod
     def _drive(self, plan: Schedule) -> None:
         """Drive the ends by a plan from now on; the first time, take hold and begin the record."""
+
+    @property
+    def _more_balance(self) -> str:
+        """What to do where forces do not come to balance."""
+        return "lower the pressure"
 
     def _crossing_steps(self) -> float:
         """Steps in which a wave crosses the specimen, before it is loaded."""
