@@ -100,6 +100,18 @@ def test_a_confined_loading_begins_at_the_pressure(model, pressure):
     assert record["axial_stress"][early] == pytest.approx(expected[early], rel=0.015)
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+@pytest.mark.parametrize("pressure", [4e6, 12e6])
+def test_the_first_row_of_a_run_stands_on_the_pressure(model, pressure):
+    """At its fastest a row is few steps: a zero of the strain one step late would show."""
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, THICKNESS, seed=1)
+    young = flexpm.elastic(specimen, model=model)["youngs_modulus"]
+    record = flexpm.run("biaxial", specimen, model=model, confinement=pressure, max_strain=3e-4)
+    for row in range(3):
+        expected = pressure + young * record.curve["axial_strain"][row]
+        assert record.curve["axial_stress"][row] == pytest.approx(expected, rel=0.01)
+
+
 def test_a_wave_shows_in_the_mean_stress(monkeypatch):
     """Each node is nearly in balance meanwhile: to look at nodes alone is not enough."""
     grains = built(0.04, 1, "flexible")
