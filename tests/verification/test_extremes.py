@@ -140,7 +140,7 @@ def test_whatever_is_asked_for_ends_with_a_status_and_numbers(child, seed):
     ("seed", "start"),
     [
         # a platen goes on to push grains that have flown apart, and forces seem in balance
-        (4, "SimulationError: confine: force on the other parts = "),
+        (4, "SimulationError: confine: imbalance = "),
         # half a disc that an open joint cuts off from its supports
         (86, "InputError: load: stiffness that the driven parts feel = "),
         # the notch of a beam of few grains cuts it through

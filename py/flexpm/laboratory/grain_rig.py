@@ -21,7 +21,7 @@ from ..require import nearest, quoted
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from .loading_rate import SLOWEST_WAIT, Scales, Schedule
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig
 from .runner import Runner
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
@@ -37,6 +37,8 @@ _PRELOAD_SHARE = 0.9
 #: halves of a beam would fly apart, blocks would slide on past their balance, and a test under
 #: control of a measure comes down at its rate.
 _DESCENTS = ("uniaxial", "tension", "biaxial", "brazilian")
+#: With less damping than this waves do not end within the crossings that balance may take [-].
+_SETTLING_DAMPING = 0.2
 #: Plates of the membrane on each side, paper Sec. 4.1.
 _MEMBRANE_PLATES = 16
 
@@ -120,6 +122,32 @@ class GrainRig(TestRig):
     def unbalanced(self) -> float:
         """Largest unbalanced force over the mean contact force [-], at the last measured step."""
         return self.built.solver.unbalanced()
+
+    def balance(self) -> Balance:
+        """What the specimen fails to bear of the pressure on it.
+
+        The motion is that of the last measured step.
+        """
+        now, energies = self.built.solver.balance(), self.built.solver.energies()
+        mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
+        with np.errstate(divide="ignore", invalid="ignore"):  # of a specimen that bears nothing
+            missing = np.hypot(*now["missing_force"]) / np.float64(self._pressing_force())
+            stress = np.abs(mean - outside).max() / np.abs(outside).max()
+            motion = np.sqrt(energies["kinetic_energy"] / np.float64(energies["elastic_energy"]))
+        return Balance(max(float(missing), now["plate_share"]), float(stress), float(motion))
+
+    def _pressing_force(self) -> float:
+        """Least force with which the pressure acts on a whole side [N]."""
+        sizes = self.built.specimen.dimensions
+        side = min(sizes["width"], sizes["height"])
+        return (self.confinement or 0.0) * side * self.built.specimen.thickness
+
+    @property
+    def _more_balance(self) -> str:
+        damping = self.built.solver.damping
+        if damping < _SETTLING_DAMPING:  # real masses may have none: waves run on
+            return f"damping = {damping:g}, take {_SETTLING_DAMPING} or above"
+        return super()._more_balance
 
     @property
     def _readings(self) -> Readings:

@@ -34,10 +34,6 @@ from .grain_rig import GrainRig
 from .loading_rate import Scales, Schedule, rate_constant
 from .runner import Runner
 
-#: Part of a pressing force that the other parts may fail to bear while a specimen swings, before
-#: it has come to rest [-].
-_SHORT = 0.5
-
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9
 
@@ -410,20 +406,11 @@ class PartRig(GrainRig, PartLayout):
                 if not engine.plates:
                     self.built.remove_engines(engine)
 
-    def _require_rest(self) -> None:
-        """Refuse it, too, where the other parts do not bear what presses: all has fallen apart."""
-        super()._require_rest()
-        assert self.pressed is not None
-        solver = self.built.solver
-        if math.hypot(solver.gravity[0], solver.gravity[1]) > 0.0:
-            return  # they bear the weight, too
-        parts = [part["force"][:2] for part in (*solver.plates(), *solver.nodeSets())]
-        pressing, missing = math.hypot(*self.pressed.force), math.hypot(*np.sum(parts, axis=0))
-        if not missing <= _SHORT * pressing:
-            raise SimulationError(
-                f"confine: force on the other parts = {missing:.3g} N short of the "
-                f"{pressing:.3g} N that press, must be within {_SHORT:.0%}; lower the pressure"
-            )
+    def _pressing_force(self) -> float:
+        pressing = self._pressing()
+        if self.pressed is None or pressing is None:
+            return 0.0
+        return pressing.pressure * self.pressed.width * self.built.specimen.thickness
 
     def _crossing_steps(self) -> float:
         """Of a disc of the specimen's area: what is open before it is pressed has no scales."""

@@ -35,7 +35,7 @@ from ..models.spheres import SphereModel
 from ..results.record import Curve
 from . import sphere_ends as ends
 from .loading_rate import Scales, Schedule
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Readings, TestRig
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig
 from .runner import Runner
 
 #: Rows of the record up to the reference strain.
@@ -144,6 +144,26 @@ class SphereRig(TestRig):
             largest = max(largest, math.hypot(force[0], force[1]))
             free = max(free, math.hypot(*moving))
         return utils.unbalancedForce(useMaxForce=True) * free / largest if largest > 0.0 else 0.0
+
+    def balance(self) -> Balance:
+        """What the spheres fail to bear of the pressure on them, by the net forces on all of them.
+
+        Pressure acts on the lower end, too: nothing there reacts. Net forces times places are what
+        the mean stress (contact forces times branches) is short of the pressure's.
+        """
+        forces, places = [], []
+        for body, state in zip(self.built.ids, self.built.states(), strict=True):
+            force, blocked = yade.O.forces.f(body), str(state.blockedDOFs)
+            forces.append([0.0 if "xy"[k] in blocked else force[k] for k in (0, 1)])
+            places.append([state.pos[0], state.pos[1]])
+        net, away = np.array(forces), np.array(places) - np.mean(places, axis=0)
+        sizes, thickness = self.built.specimen.dimensions, self.built.specimen.thickness
+        pressing = (self.confinement or 0.0) * thickness
+        short = np.abs(net.T @ away).max() / (pressing * sizes["width"] * sizes["height"])
+        missing = np.hypot(*net.sum(axis=0)) / (pressing * min(sizes["width"], sizes["height"]))
+        energy = self.built.elastic_energy()
+        motion = math.sqrt(utils.kineticEnergy() / energy) if energy > 0.0 else math.inf
+        return Balance(float(missing), float(short), motion)
 
     @property
     def _readings(self) -> Readings:

@@ -47,7 +47,10 @@ void move_top(Assembly& a, double velocity)
 
 double ramp_factor(std::int64_t step, int ramp_steps)
 {
-    return step + 1 < ramp_steps ? static_cast<double>(step + 1) / ramp_steps : 1.0;
+    if (step + 1 >= ramp_steps) return 1.0;
+    const double part = static_cast<double>(step + 1) / ramp_steps;
+    // what begins and ends with no rate and no change of it raises the least of a wave
+    return part * part * part * (10.0 - 15.0 * part + 6.0 * part * part);
 }
 
 }  // namespace flexpm

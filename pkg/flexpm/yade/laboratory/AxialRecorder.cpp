@@ -86,13 +86,9 @@ flexpm::PartGeometry AxialRecorder::parts() const
 
 void AxialRecorder::action()
 {
-	const auto solver   = GrainSolver::ofScene(*scene);
-	const bool measured = solver->measured();
-	if (!measured && !fromNow) return;
+	const auto solver = GrainSolver::ofScene(*scene);
+	if (!solver->measured()) return;
 	auto now = observed(*this, solver->forEngines());
-	if (fromNow) setZero(now, solver->forEngines());
-	fromNow = false;
-	if (!measured) return;
 	requireFinite(now, *solver);
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
@@ -113,9 +109,13 @@ void AxialRecorder::action()
 	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
 }
 
-void AxialRecorder::setZero(const flexpm::AxialObservation& now, const flexpm::Assembly& assembly)
+void AxialRecorder::postLoad(AxialRecorder&)
 {
-	zero = Vector2r(now.axial_strain, now.lateral_strain);
+	if (!fromNow) return;
+	fromNow              = false;
+	const auto& assembly = GrainSolver::ofScene(*Omega::instance().getScene())->current();
+	const auto  now      = observed(*this, assembly);
+	zero                 = Vector2r(now.axial_strain, now.lateral_strain);
 	for (const auto& gauge : gauges)
 		gauge->setZero(assembly);
 }

@@ -14,6 +14,8 @@ class AxialRecorder : public GlobalEngine {
 public:
 	~AxialRecorder() override;
 	void action() override;
+	/// YADE calls it after Python has set fromNow, and after a scene is loaded, which has it false.
+	void postLoad(AxialRecorder&);
 
 	boost::python::list   names() const;
 	boost::python::object rows() const;
@@ -28,11 +30,6 @@ public:
 	bool                 betweenParts() const;
 	flexpm::PartGeometry parts() const;
 
-private:
-	/// Count strains and gauges from here on.
-	void setZero(const flexpm::AxialObservation& now, const flexpm::Assembly& assembly);
-
-public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
@@ -57,7 +54,7 @@ public:
 		((Real, leastPeak, 0.,, "No fall counts before the stress above the confinement has reached this [Pa]."))
 		((Real, minStrain, -1e300,, "The test is over at this axial strain or below [-]."))
 		((Real, maxStrain, 1e300,, "The test is over at this axial strain or above [-]."))
-		((bool, fromNow, false,, "Count strains, and what gauges read, from the next step on instead of from the bonded state; false after that step."))
+		((bool, fromNow, false, Attr::triggerPostLoad, "Set it to count strains, and what gauges read, from the present state of the scene on instead of from the bonded one; it is false again at once."))
 		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-] |yupdate|."))
 		((Real, stress, 0., Attr::readonly, "Axial stress of the last row [Pa] |yupdate|."))
 		((Real, differential, 0., Attr::readonly, "The same above the confinement [Pa] |yupdate|."))

@@ -22,7 +22,7 @@ public:
 		((vector<int>, backSets,,, "Those that turn the other way [-]."))
 		((Vector3r, velocity, Vector3r::Zero(),, "Velocity of plates and node sets along x and y at factor 1 [m/s, or m per step with scaled masses]; z: spin of the sets [rad/s]."))
 		((Real, pressure, 0.,, "Pressure on the width of each plate, compressive positive [Pa]."))
-		((int, rampSteps, 0,, "Steps over which the pressure rises evenly to its value [-]."))
+		((int, rampSteps, 0,, "Steps over which the pressure rises to its value, gently at both ends [-]."))
 		((bool, elasticStart, false,, "Start all grains with the velocities of the elastic solution for the plates' velocity, so that no wave runs through the specimen."))
 		((bool, ofParts, false,, "The plates are supports on parts of the outline, which hold the specimen by themselves: for the elastic solution nothing else does, and joints that the loading opens carry nothing."))
 		((Vector3r, seenVelocity, Vector3r::Zero(), Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))

@@ -87,6 +87,7 @@ public:
 	py::dict   counts();
 	py::object sideNodes(int side);
 	Real       unbalanced();
+	py::dict   balance();
 	void       clearPressure(int side);
 
 	// clang-format off
@@ -154,6 +155,11 @@ public:
 		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("balance", AfterAssembly<&GrainSolver::balance>::call,
+			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
+			"of rigid grains by the contact forces and branches. outside_stress: what pressure, plates, held nodes and weight would make of it in balance [Pa]. "
+			"missing_force: sum of the net forces on all that is free to move, (x, y) [N]. plate_share: largest part of its load that "
+			"the specimen does not bear of a plate under one [-]. A wave sets the two stresses apart while unbalanced() is small.")
 		.def("clearPressure", AfterAssembly<&GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", AfterAssembly<&GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <algorithm>
@@ -61,6 +62,18 @@ py::dict GrainSolver::counts()
 }
 
 Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
+
+py::dict GrainSolver::balance()
+{
+	const auto now    = flexpm::balance(current());
+	const auto values = [](const flexpm::Tensor& t) { return py::make_tuple(t.xx, t.yy, t.xy); };
+	py::dict   d;
+	d["mean_stress"]    = values(now.mean_stress);
+	d["outside_stress"] = values(now.outside_stress);
+	d["missing_force"]  = py::make_tuple(now.missing_force.x, now.missing_force.y);
+	d["plate_share"]    = now.plate_share;
+	return d;
+}
 
 py::object GrainSolver::sideNodes(int side)
 {
