@@ -418,6 +418,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.measure_fragments(snapshot)
     if isinstance(rig.built, Model):
         result.joint_bend = rig.built.joint_bend
+        result.loose_grains, result.largest_parting = rig.built.parting
     return result
 
 

@@ -17,6 +17,7 @@ ENERGIES = (
     "damage_energy",
     "friction_energy",
     "damping_energy",
+    "drag_energy",
     "potential_energy",
 )
 
@@ -176,6 +177,26 @@ def energy_error(curve: Curve, initial: float | None = None) -> float | None:
     if initial is None:
         initial = total[0] - work[0]
     return float(np.max(np.abs(work + initial - total)) / largest)
+
+
+def kinetic_shares(curve: Curve) -> dict[str, float]:
+    """Kinetic energy over |boundary work| [-], by place: at the peak, at the end.
+
+    A place is left out where there is no peak, no work, or nobody counts it.
+    """
+    if not len(curve):
+        return {}
+    confined = curve["confinement"][-1] > 0.0
+    rows = {
+        "at the peak": peak_row(curve),
+        "confined, at the end" if confined else "at the end": len(curve) - 1,
+    }
+    shares = {}
+    for place, row in rows.items():
+        work = 0.0 if row is None else abs(float(curve["boundary_work"][row]))
+        if work > 0.0:  # not where it is nan
+            shares[place] = float(curve["kinetic_energy"][row]) / work
+    return shares
 
 
 def unbalanced_ratio(curve: Curve) -> float | None:

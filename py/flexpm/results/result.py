@@ -73,6 +73,9 @@ class Result(Shown):
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
+    loose_grains: int | None = None  #: joined by no contact to what is held, at the end
+    #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
+    largest_parting: float | None = None
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
@@ -110,7 +113,10 @@ class Result(Shown):
             found.append(doubts.NO_PULSE)
         if self.joint_bend:
             found.append(doubts.of_bend(self.joint_bend))
-        return found + doubts.of_result(self.status, self.energy_error, mismatch, rate)
+        found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
+        if self.test != "sonic":
+            found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
+        return found
 
     def measure(
         self,

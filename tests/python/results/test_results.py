@@ -60,6 +60,8 @@ KEYS = [
     "peak_load",
     "notch_depth",
     "joint_bend",
+    "loose_grains",
+    "largest_parting",
     "fracture_toughness",
     "residual_strength",
     "fracture_energy",
