@@ -83,9 +83,9 @@ TEST_CASE("A bond that has cracked and still touches holds its grains to the spe
     Assembly a = specimens::assemble(specimens::grid(2, 1, size), o);
     hold_all(a);
     flexpm::set_pressure(a, flexpm::right_side, pressure);
-    set_velocity(a, 1, Point { 5e-9, 0.0 });
+    driven::set_velocity(a, 1, Point { 5e-9, 0.0 });
     run(a, 2000);
-    set_velocity(a, 1, Point { -5e-9, 0.0 });
+    driven::set_velocity(a, 1, Point { -5e-9, 0.0 });
     run(a, 2000);
     REQUIRE(flexpm::count_cracks(a).tensile == 3);
     flexpm::for_each_component(a.grains, 1, [&](int i) { a.grains.prescribed[i] = 0; });
@@ -158,8 +158,8 @@ TEST_CASE("Grains part by what the distances between those once bonded have grow
 {
     Assembly a = row(3);
     hold_all(a);
-    set_velocity(a, 1, Point { 1e-9, 0.0 });
-    set_velocity(a, 2, Point { 3e-9, 0.0 });
+    driven::set_velocity(a, 1, Point { 1e-9, 0.0 });
+    driven::set_velocity(a, 2, Point { 3e-9, 0.0 });
     run(a, 100);
     const flexpm::Parting together = flexpm::find_parting(a);
     CHECK(together.any == Approx(2e-7).epsilon(1e-6));
