@@ -76,7 +76,9 @@ def test_doubts_about_what_moves():
         "kinetic energy = 3 % of the work at the peak",
         "kinetic energy = 11 % of the work at the end",
     ]
-    assert lines[2].startswith("kinetic energy = 7 % of the work confined, at the end, is above 5 %")
+    assert lines[2].startswith(
+        "kinetic energy = 7 % of the work confined, at the end, is above 5 %"
+    )
     assert lines[3].startswith("largest_parting = 1.55e+03 mean diameters")
 
 
