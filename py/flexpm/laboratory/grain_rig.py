@@ -238,6 +238,7 @@ class GrainRig(TestRig):
             crossingSteps=crossing,
             ofFriction=self.kind != "shear",
             undampedDescent=self._is_free_to_fall(plan),
+            fastestDescent=plan.fastest_descent,
         )
 
     def _is_free_to_fall(self, plan: Schedule) -> bool:

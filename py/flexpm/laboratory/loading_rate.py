@@ -208,6 +208,9 @@ class Schedule:
     min_strain: float = -1e300  #: at which the test ends, too [-]
     control: str = ""  #: column of the record that a servo makes grow at the rate
     fastest_ends: float = 1.0  #: largest factor on the velocity of ends under control [-]
+    #: largest speed of what comes down undamped from the peak: that which a wave gives to grains as
+    #: it takes the reference strength off them [m/step, or m/s with real masses]
+    fastest_descent: float = math.inf
 
 
 def default_stop_ratio(test: str) -> float:
@@ -339,4 +342,6 @@ def schedule(
         math.ceil(min(likely, steps / slowest)),
         control=loading.control,
         fastest_ends=_fastest_ends(own, model, loading.rate) if loading.control else 1.0,
+        # deviation D57
+        fastest_descent=reference / crossing_time * scales.height,
     )

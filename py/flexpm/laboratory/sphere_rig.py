@@ -268,6 +268,7 @@ class SphereRig(TestRig):
             softened_energy=math.nan,
             friction_energy=math.nan,
             damping_energy=dict(yade.O.energy.items()).get("nonviscDamp", 0.0),
+            drag_energy=0.0,
             potential_energy=0.0,
             # nobody counts that of the pressure
             boundary_work=now.work if self.confinement is None else math.nan,

@@ -165,6 +165,15 @@ class Model:
         return found
 
     @property
+    def parting(self) -> tuple[int, float]:
+        """Loose grains, and how far any has parted from a neighbour, see `GrainSolver.parting`.
+
+        The second is the growth of a distance of centres, in mean diameters of the grains [-].
+        """
+        found = self.solver.parting()
+        return found["loose"], found["any"] / self.specimen.mean_diameter
+
+    @property
     def joint_bend(self) -> float | None:
         """Largest distance of a joint that bears from its lines [m], see `Specimen.joint_bends`."""
         bearing = {joint.name for joint in self.material.joints if not joint.open}

@@ -20,6 +20,7 @@ ENERGIES = (
     "damage_energy",
     "friction_energy",
     "damping_energy",
+    "drag_energy",
     "potential_energy",
 )
 
@@ -194,6 +195,26 @@ def set_point_missed(curve: Curve, measure: str) -> float:
     rows = np.isfinite(wanted) & (wanted != 0.0)
     off = np.abs(there[rows] - wanted[rows]) > SET_POINT_OFF * np.abs(wanted[rows])
     return float(np.mean(off)) if len(off) else 0.0
+
+
+def kinetic_shares(curve: Curve) -> dict[str, float]:
+    """Kinetic energy over |boundary work| [-], by place: at the peak, at the end.
+
+    A place is left out where there is no peak, no work, or nobody counts it.
+    """
+    if not len(curve):
+        return {}
+    confined = curve["confinement"][-1] > 0.0
+    rows = {
+        "at the peak": peak_row(curve),
+        "confined, at the end" if confined else "at the end": len(curve) - 1,
+    }
+    shares = {}
+    for place, row in rows.items():
+        work = 0.0 if row is None else abs(float(curve["boundary_work"][row]))
+        if work > 0.0:  # not where it is nan
+            shares[place] = float(curve["kinetic_energy"][row]) / work
+    return shares
 
 
 def unbalanced_ratio(curve: Curve) -> float | None:

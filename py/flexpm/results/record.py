@@ -34,6 +34,7 @@ COLUMNS = (
     "softened_energy",
     "friction_energy",
     "damping_energy",
+    "drag_energy",
     "potential_energy",
     "boundary_work",
     "end_mismatch",

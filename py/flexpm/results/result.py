@@ -77,6 +77,9 @@ class Result(Shown):
     joint_cuts: Table | None = (
         None  #: what came of the lines of each joint, by its name; lengths [m]
     )
+    loose_grains: int | None = None  #: joined by no contact to what is held, at the end
+    #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
+    largest_parting: float | None = None
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
@@ -115,7 +118,10 @@ class Result(Shown):
         if self.joint_bend:
             found.append(doubts.of_bend(self.joint_bend))
         found += doubts.of_cuts(self.joint_cuts or {})
-        return found + doubts.of_result(self.status, self.energy_error, mismatch, rate)
+        found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
+        if self.test != "sonic":
+            found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
+        return found
 
     def measure(
         self,

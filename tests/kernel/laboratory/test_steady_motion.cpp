@@ -64,7 +64,7 @@ double left_of_momentum(bool rigid, bool followed)
     StepOptions o;
     o.damping = 0.7;
     for (int i = 0; i < 400; ++i) {
-        if (followed && i % 20 == 0) follow_steady_motion(a, 1.0);
+        if (followed && i % 20 == 0) follow_steady_motion(a, 1.0, 1.0);
         step(a, o);
     }
     return momentum(a) / before;
@@ -88,15 +88,15 @@ TEST_CASE("Damping leaves alone the mean motion since the last look", "[laborato
         const Array<double> of_loading = a.grains.loading_velocity;
         const Array<double> before = a.grains.displacement;
         const double angle = rigid ? rotation_of(a.grains, 0) : 0.0;
-        follow_steady_motion(a, 1.0);
+        follow_steady_motion(a, 1.0, 1.0);
         CHECK(a.grains.loading_velocity == of_loading);  // nothing is known yet
-        follow_steady_motion(a, 1.0);
+        follow_steady_motion(a, 1.0, 1.0);
         CHECK(a.grains.loading_velocity == of_loading);  // no step has been done
         StepOptions o;
         o.damping = 0.7;
         for (int i = 0; i < 10; ++i)
             step(a, o);
-        follow_steady_motion(a, 1.0);
+        follow_steady_motion(a, 1.0, 1.0);
         const int node = rigid ? a.grains.centre(0) : a.grains.node(0, 1);
         CHECK(
             a.grains.loading_velocity[node] == (a.grains.displacement[node] - before[node]) / 10.0);
@@ -113,6 +113,27 @@ TEST_CASE("Damping leaves alone the mean motion since the last look", "[laborato
     }
 }
 
+TEST_CASE("Damping acts on what is faster than a descent may be, and on all that is loose, D57")
+{
+    for (bool rigid : { false, true }) {
+        CAPTURE(rigid);
+        Assembly a = shaken_grains(rigid);
+        a.grains.loose[1] = 1;
+        const double fastest = 0.5 * speed;
+        follow_steady_motion(a, 1.0, fastest);
+        step(a, StepOptions {});
+        const int node = rigid ? a.grains.centre(0) : a.grains.node(0, 1);
+        const Point way = vector_at(a.grains.displacement, node);
+        REQUIRE(norm(way) > fastest);
+        follow_steady_motion(a, 1.0, fastest);
+        const Point left = vector_at(a.grains.loading_velocity, node);
+        CHECK(norm(left) == Approx(fastest).epsilon(1e-12));
+        CHECK(left.x * way.y == Approx(left.y * way.x).epsilon(1e-12));
+        CHECK(norm(vector_at(a.grains.loading_velocity, a.grains.centre(1))) == 0.0);
+        CHECK_THROWS_AS(follow_steady_motion(a, 1.0, 0.0), std::invalid_argument);
+    }
+}
+
 TEST_CASE("A followed motion is no part of the loading's", "[laboratory]")
 {
     for (bool rigid : { false, true }) {
@@ -121,9 +142,9 @@ TEST_CASE("A followed motion is no part of the loading's", "[laboratory]")
         const int node = a.grains.centre(1), slot = a.grains.slot[1];
         a.grains.loading_velocity[node] = 3.0 * speed;
         a.grains.loading_spin[slot] = rigid ? speed : 0.0;
-        follow_steady_motion(a, 1.0);
+        follow_steady_motion(a, 1.0, 1.0);
         step(a, StepOptions {});
-        follow_steady_motion(a, 1.0);
+        follow_steady_motion(a, 1.0, 1.0);
         CHECK(loading_field(a)[node] == 3.0 * speed);
         const double velocity = a.grains.velocity[node];
         const double followed = a.grains.loading_velocity[node];
@@ -138,7 +159,7 @@ TEST_CASE("A followed motion is no part of the loading's", "[laboratory]")
 TEST_CASE("A followed motion that does not fit its grains is refused", "[laboratory]")
 {
     Assembly a = shaken_grains(false);
-    follow_steady_motion(a, 1.0);
+    follow_steady_motion(a, 1.0, 1.0);
     check_state(a);
     Assembly cut = a;
     cut.steady.displacement.pop_back();

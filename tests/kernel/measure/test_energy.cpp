@@ -316,3 +316,28 @@ TEST_CASE("The power of damping sums to its work, and is none where all move wit
     a.grains.loading_spin = a.grains.spin;
     CHECK(flexpm::damping_power(a, o.damping) == 0.0);
 }
+
+TEST_CASE("What damping does to the motion that it leaves alone has a name of its own")
+{
+    Assembly a = bonded_grid(0.7);
+    shake(a, tiny, 5);
+    for (std::size_t i = 0; i < a.grains.velocity.size(); ++i)
+        a.grains.loading_velocity[i] = 3.0 * tiny;
+    flexpm::reset_energy_balance(a);
+    flexpm::StepOptions o;
+    o.damping = 0.7;
+    o.measure = true;
+    double before = 0.0, given = 0.0, lost = 0.0, miss = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        flexpm::step(a, o);
+        const flexpm::Energies e = flexpm::energies(a);
+        lost = std::max(lost, before - e.damping);
+        before = e.damping;
+        given = std::max(given, std::fabs(e.drag));
+        miss = std::max(miss, std::fabs(balance::miss(e)));
+    }
+    CHECK(before > 0.0);
+    CHECK(lost <= 1e-3 * before);  // a node that turns within a step
+    CHECK(given > 0.1 * before);
+    CHECK(miss < 1e-10 * before);
+}

@@ -9,7 +9,8 @@ namespace balance {
 /// All that is stored, dissipated or has been erased [J].
 inline double total(const flexpm::Energies& e)
 {
-    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.potential + e.erased;
+    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.drag + e.potential
+        + e.erased;
 }
 
 /// What the balance lacks [J]: work and initial energy less that.

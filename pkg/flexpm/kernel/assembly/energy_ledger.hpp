@@ -9,7 +9,9 @@ namespace flexpm {
 /// Arrays hold one value or pair of values for each block of grains. Pairs are the work done so far and the second
 /// half of that of the last step, which belongs to the step that follows.
 struct EnergyLedger {
-    Array<double> damping_work;     ///< [block][done, second half of the last step] [J]
+    Array<double> damping_work;  ///< [block][done, second half of the last step] [J]
+    /// The part of it that goes with the motion that damping leaves alone, positive where damping drags on that [J].
+    Array<double> drag_work;
     Array<double> prescribed_work;  ///< the same of components with a given velocity [J]
     double pressure_work = 0.0;     ///< [J]
     double removed_damage = 0.0;    ///< dissipated by contacts that have been removed [J]
@@ -27,6 +29,7 @@ struct EnergyLedger {
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
         visit("damping_work", s.damping_work);
+        visit("drag_work", s.drag_work);
         visit("prescribed_work", s.prescribed_work);
         visit("pressure_work", s.pressure_work);
         visit("removed_damage", s.removed_damage);

@@ -45,10 +45,11 @@ struct Grains {
     std::vector<int> slot;             ///< block * lanes + lane of each grain
     std::vector<int> in_slot;          ///< grain in each slot, -1 where padded
     std::vector<std::uint8_t>
-        erased;                  ///< 1: a script has taken the grain out; its rows have no effect
-    std::vector<double> radius;  ///< of the disc of each grain [m]
-    std::vector<int> parent;     ///< grain of the rock that each is, or is an inner particle of
-    std::vector<int> material;   ///< index into `elastic`
+        erased;  ///< 1: a script has taken the grain out; its rows have no effect
+    std::vector<std::uint8_t> loose;  ///< 1: no contact holds it to what is held, see find_loose()
+    std::vector<double> radius;       ///< of the disc of each grain [m]
+    std::vector<int> parent;    ///< grain of the rock that each is, or is an inner particle of
+    std::vector<int> material;  ///< index into `elastic`
     std::vector<ElasticMaterial> elastic;
 
     // nodes
@@ -114,6 +115,7 @@ struct Grains {
         visit("slot", s.slot);
         visit("in_slot", s.in_slot);
         visit("erased", s.erased);
+        visit("loose", s.loose);
         visit("radius", s.radius);
         visit("parent", s.parent);
         visit("material", s.material);

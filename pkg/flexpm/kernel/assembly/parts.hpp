@@ -47,6 +47,7 @@ struct Plate {
     // energy [J]
     double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows
     double damping_work = 0.0, damping_work_next = 0.0;
+    double drag_work = 0.0, drag_work_next = 0.0;  ///< part of it, see EnergyLedger
     double friction_energy = 0.0;
     double kinetic = 0.0;
     double unbalanced = 0.0;  ///< force on a loaded plate that nothing balances [N]
@@ -85,6 +86,8 @@ struct Plate {
         visit("boundary_work_next", s.boundary_work_next);
         visit("damping_work", s.damping_work);
         visit("damping_work_next", s.damping_work_next);
+        visit("drag_work", s.drag_work);
+        visit("drag_work_next", s.drag_work_next);
         visit("friction_energy", s.friction_energy);
         visit("kinetic", s.kinetic);
         visit("unbalanced", s.unbalanced);
@@ -124,7 +127,8 @@ struct NodeSet {
     double work = 0.0, work_next = 0.0;  ///< on the specimen; next: of the half step that follows
     double float_work = 0.0, float_work_next = 0.0;  ///< on the translation of one that floats
     double damping_work = 0.0, damping_work_next = 0.0;
-    double kinetic = 0.0;     ///< of the translation of one that floats
+    double drag_work = 0.0, drag_work_next = 0.0;  ///< part of it, see EnergyLedger
+    double kinetic = 0.0;                          ///< of the translation of one that floats
     double unbalanced = 0.0;  ///< largest force on it that nothing balances [N]
 
     bool holds(int axis) const { return axis == 0 ? holds_x : holds_y; }
@@ -159,6 +163,8 @@ struct NodeSet {
         visit("float_work_next", s.float_work_next);
         visit("damping_work", s.damping_work);
         visit("damping_work_next", s.damping_work_next);
+        visit("drag_work", s.drag_work);
+        visit("drag_work_next", s.drag_work_next);
         visit("kinetic", s.kinetic);
         visit("unbalanced", s.unbalanced);
     }

@@ -123,7 +123,7 @@ void check_grains(const Grains& grains)
     check_blocks(grains);
     check_slots(grains);
     for (std::size_t size : { grains.radius.size(), grains.parent.size(), grains.material.size(),
-             grains.erased.size() }) {
+             grains.erased.size(), grains.loose.size() }) {
         check_size("values of grains", size, grains.count);
     }
     const auto kinds = static_cast<std::int64_t>(grains.elastic.size());
@@ -236,7 +236,8 @@ void check_node_set(const Grains& grains, const NodeSet& set)
 
 void check_ledger(const EnergyLedger& ledger, int blocks)
 {
-    check_size("works of damping", ledger.damping_work.size(), 2 * std::int64_t { blocks });
+    for (std::size_t size : { ledger.damping_work.size(), ledger.drag_work.size() })
+        check_size("works of damping", size, 2 * std::int64_t { blocks });
     check_size(
         "works of prescribed nodes", ledger.prescribed_work.size(), 2 * std::int64_t { blocks });
     check_size("kinetic energies", ledger.kinetic.size(), blocks);

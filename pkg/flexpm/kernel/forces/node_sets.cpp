@@ -125,6 +125,8 @@ void integrate_floating(const Assembly& a, NodeSet& set, double dt, double dampi
         set.velocity.y, sums, 0);
     set.damping_work += set.damping_work_next + sums.damped[0];
     set.damping_work_next = sums.damped_next[0];
+    set.drag_work += set.drag_work_next + sums.dragged[0];
+    set.drag_work_next = sums.dragged[0];
     set.kinetic = sums.kinetic[0];
     set.unbalanced = sums.largest[0];
 }

@@ -74,6 +74,8 @@ void integrate_loaded(Plate& plate, double dt, double damping)
     plate.velocity = speed * plate.normal;
     plate.damping_work += plate.damping_work_next + sums.damped[0];
     plate.damping_work_next = sums.damped_next[0];
+    plate.drag_work += plate.drag_work_next + sums.dragged[0];
+    plate.drag_work_next = sums.dragged[0];
     plate.boundary_work += plate.boundary_work_next + 0.5 * dt * plate.load * old;
     plate.boundary_work_next = 0.5 * dt * plate.load * speed;
     plate.kinetic = sums.kinetic[0];

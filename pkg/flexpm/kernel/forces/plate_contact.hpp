@@ -10,7 +10,8 @@
 
 namespace flexpm {
 
-/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity.
+/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity; under none while all of its
+/// grains are loose.
 void press(Assembly& a, int plate, double pressure);
 
 /// Prescribe a plate's velocity [m/s].

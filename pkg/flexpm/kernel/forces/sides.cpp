@@ -152,7 +152,9 @@ double press_edge(Assembly& a, int edge, double dt)
     const Point v0 = vector_at(a.grains.velocity, n0), v1 = vector_at(a.grains.velocity, n1);
     const Point along = (a.grains.position(n1) - a.grains.position(n0)) + dt * (v1 - v0);
     // the outward normal of a counter-clockwise edge is (y, -x) / length
-    const double half = 0.5 * a.edges.pressure[edge] * a.thickness;
+    // what has come loose lies no more in the skin that the pressure acts on, deviation D57
+    const double pressure = a.grains.loose[a.edges.grain[edge]] ? 0.0 : a.edges.pressure[edge];
+    const double half = 0.5 * pressure * a.thickness;
     const Point now = { -half * along.y, half * along.x };
     const int first = BoundaryEdges::force_index(edge, EdgeRow::of_pressure);
     const double work = 0.5 * dt * dot(vector_at(a.edges.forces, first) + now, v0 + v1);

@@ -47,7 +47,7 @@ double edge_length(const Assembly& a, int edge);
 /// Reference length of a side, with the edges of erased grains: stresses refer to the whole specimen [m].
 double side_length(const Assembly& a, int side);
 
-/// Pressure on a side, on the deformed edges, compressive positive [Pa].
+/// Pressure on a side, on the deformed edges, compressive positive [Pa]. It acts on grains that are not loose.
 /// @throws std::invalid_argument  if no boundary edge lies on the side, or the pressure is below 0
 void set_pressure(Assembly& a, int side, double pressure);
 

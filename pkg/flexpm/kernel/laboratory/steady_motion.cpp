@@ -5,6 +5,8 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 
+#include <algorithm>
+
 namespace flexpm {
 
 namespace {
@@ -18,40 +20,89 @@ Array<double> angles(const Grains& grains)
     return found;
 }
 
-/// Of a rigid grain the centre alone has a velocity that counts.
-void take_mean(Assembly& a, const Array<double>& angle, double time)
+/// A mean velocity that damping leaves alone, no faster than the bound.
+Point bounded(Point velocity, double fastest)
 {
-    Grains& grains = a.grains;
-    const SteadyMotion& last = a.steady;
-    const auto of_component = [&](int i) {
-        if (!grains.prescribed[i])
-            grains.loading_velocity[i] = (grains.displacement[i] - last.displacement[i]) / time;
-    };
+    const double speed = norm(velocity);
+    return speed > fastest ? (fastest / speed) * velocity : velocity;
+}
+
+/// Mean motion of the nodes since the last look; of a rigid grain the centre alone has a velocity that counts.
+class MeanMotion {
+public:
+    MeanMotion(Assembly& assembly, double time, double fastest) :
+        a(assembly),
+        time(time),
+        fastest(fastest)
+    {
+    }
+
+    void take(int node) const
+    {
+        Point mean =
+            vector_at(a.grains.displacement, node) - vector_at(a.steady.displacement, node);
+        mean = bounded({ mean.x / time, mean.y / time }, fastest);
+        take(component(node, 0), mean.x);
+        take(component(node, 1), mean.y);
+    }
+
+    /// The rim of a grain goes no faster than its centre may.
+    void take_spin(int grain, double turn) const
+    {
+        const int slot = a.grains.slot[grain];
+        const double most = fastest / a.grains.radius[grain];
+        if (!a.grains.spin_prescribed[slot])
+            a.grains.loading_spin[slot] = std::clamp(turn / time, -most, most);
+    }
+
+    /// What has come loose has no part in the descent: all of its motion is damped.
+    void leave(int grain) const
+    {
+        for_each_component(a.grains, grain, [&](int i) { take(i, 0.0); });
+        if (a.grains.is_rigid(grain)) take_spin(grain, 0.0);
+    }
+
+private:
+    void take(int i, double velocity) const
+    {
+        if (!a.grains.prescribed[i]) a.grains.loading_velocity[i] = velocity;
+    }
+
+    Assembly& a;
+    const double time, fastest;
+};
+
+void take_mean(Assembly& a, const Array<double>& angle, double time, double fastest)
+{
+    const Grains& grains = a.grains;
+    const MeanMotion mean(a, time, fastest);
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
-        if (!grains.is_rigid(g)) {
-            for_each_component(grains, g, of_component);
-            continue;
-        }
         const int slot = grains.slot[g];
-        for (int axis = 0; axis < dimension; ++axis)
-            of_component(component(grains.centre(g), axis));
-        if (!grains.spin_prescribed[slot])
-            grains.loading_spin[slot] = (angle[slot] - last.angle[slot]) / time;
+        if (grains.loose[g]) {
+            mean.leave(g);
+        } else if (grains.is_rigid(g)) {
+            mean.take(grains.centre(g));
+            mean.take_spin(g, angle[slot] - a.steady.angle[slot]);
+        } else {
+            for (int n = 0; n < grains.nodes_of(g); ++n)
+                mean.take(grains.node(g, n));
+        }
     }
 }
 
 }  // namespace
 
-void follow_steady_motion(Assembly& a, double dt)
+void follow_steady_motion(Assembly& a, double dt, double fastest)
 {
     check_positive("time step", dt, "s");
+    check_positive("fastest descent", fastest, "m/s");
     const Array<double> angle = angles(a.grains);
     if (!a.steady.is_followed()) {
         a.steady.loading_velocity = a.grains.loading_velocity;
         a.steady.loading_spin = a.grains.loading_spin;
     } else if (a.step > a.steady.step) {
-        take_mean(a, angle, static_cast<double>(a.step - a.steady.step) * dt);
+        take_mean(a, angle, static_cast<double>(a.step - a.steady.step) * dt, fastest);
     }
     a.steady.displacement = a.grains.displacement;
     a.steady.angle = angle;

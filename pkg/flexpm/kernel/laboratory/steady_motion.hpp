@@ -14,7 +14,7 @@ namespace flexpm {
 /// Give the velocities that damping does not act on those of the mean motion since the last look, from the second look on.
 ///
 /// @param dt  time step [s]
-void follow_steady_motion(Assembly& a, double dt);
+void follow_steady_motion(Assembly& a, double dt, double fastest);
 
 /// Give them those of the loading alone again.
 void end_steady_motion(Assembly& a);

@@ -120,19 +120,23 @@ Energies energies(const Assembly& a)
     e.damage = d.damage;
     e.softened = softened_energy(a.contacts);
     e.friction = d.friction;
-    e.damping = first_of_pairs(a.ledger.damping_work);
+    double damped = first_of_pairs(a.ledger.damping_work);
+    e.drag = first_of_pairs(a.ledger.drag_work);
     e.potential = potential_energy(a);
     e.erased = a.ledger.erased;
     e.boundary_work = d.boundary_work;
     for (const Plate& p : a.plates) {
         e.kinetic += p.kinetic;
         e.elastic += elastic_energy(p);
-        e.damping += p.damping_work;
+        damped += p.damping_work;
+        e.drag += p.drag_work;
     }
     for (const NodeSet& set : a.node_sets) {
         e.kinetic += set.kinetic;
-        e.damping += set.damping_work;
+        damped += set.damping_work;
+        e.drag += set.drag_work;
     }
+    e.damping = damped - e.drag;
     e.initial = a.ledger.initial;
     return e;
 }
@@ -150,7 +154,7 @@ void reset_energy_balance(Assembly& a)
     // before the first step there is no work but that of the elastic start, which stays
     const double start = a.step == 0 ? first_of_pairs(a.ledger.prescribed_work) : 0.0;
     // the halves of the last step's works that fall into the next step stay
-    for (auto* work : { &a.ledger.damping_work, &a.ledger.prescribed_work }) {
+    for (auto* work : { &a.ledger.damping_work, &a.ledger.drag_work, &a.ledger.prescribed_work }) {
         for (std::size_t i = 0; i < work->size(); i += 2)
             (*work)[i] = 0.0;
     }
@@ -158,9 +162,9 @@ void reset_energy_balance(Assembly& a)
     a.ledger.pressure_work = a.ledger.removed_damage = a.ledger.removed_friction = 0.0;
     a.ledger.erased = 0.0;
     for (Plate& p : a.plates)
-        p.boundary_work = p.damping_work = p.friction_energy = 0.0;
+        p.boundary_work = p.damping_work = p.drag_work = p.friction_energy = 0.0;
     for (NodeSet& set : a.node_sets)
-        set.work = set.float_work = set.damping_work = 0.0;
+        set.work = set.float_work = set.damping_work = set.drag_work = 0.0;
     if (a.step == 0) {
         a.ledger.kinetic[0] = kinetic_of_velocities(a.grains);
         a.ledger.erased_next = 0.0;

@@ -17,7 +17,9 @@ struct Energies {
     double damage = 0.0;
     double softened = 0.0;  ///< part of the damage: in points that have not cracked
     double friction = 0.0;
-    double damping = 0.0;
+    double damping = 0.0;  ///< taken from what moves beyond the motion that damping leaves alone
+    /// Taken from that motion, of the loading and of the descent (D30, D55): below 0 what damping has given to it.
+    double drag = 0.0;
     double potential = 0.0;      ///< in the field of gravity, 0 at the reference
     double erased = 0.0;         ///< has left with grains and bonds that scripts have erased
     double boundary_work = 0.0;  ///< of prescribed velocities, plates and edge pressure

@@ -15,6 +15,7 @@ namespace flexpm {
 /// Cleared and copied by loops over lanes: of a whole struct the compiler makes slow string instructions.
 struct StepSums {
     alignas(64) double damped[lanes], damped_next[lanes];
+    alignas(64) double dragged[lanes];  ///< in either half step: what of it goes with the loading
     alignas(64) double prescribed[lanes], prescribed_next[lanes];
     alignas(64) double kinetic[lanes], largest[lanes];
 
@@ -22,7 +23,7 @@ struct StepSums {
     {
         for (int l = 0; l < lanes; ++l) {
             damped[l] = damped_next[l] = prescribed[l] = prescribed_next[l] = 0.0;
-            kinetic[l] = largest[l] = 0.0;
+            dragged[l] = kinetic[l] = largest[l] = 0.0;
         }
     }
 
@@ -31,6 +32,7 @@ struct StepSums {
         for (int l = 0; l < lanes; ++l) {
             to.damped[l] = damped[l];
             to.damped_next[l] = damped_next[l];
+            to.dragged[l] = dragged[l];
             to.prescribed[l] = prescribed[l];
             to.prescribed_next[l] = prescribed_next[l];
             to.kinetic[l] = kinetic[l];
@@ -65,6 +67,7 @@ FLEXPM_INLINE void integrate_one(
     velocity = next;
     sums.damped[lane] -= 0.5 * dt * damp * old;
     sums.damped_next[lane] -= 0.5 * dt * damp * next;
+    sums.dragged[lane] -= 0.5 * dt * damp * f.loading;
     if (Prescribed) {
         const double reaction = (free - 1.0) * f.force;
         sums.prescribed[lane] += 0.5 * dt * reaction * old;

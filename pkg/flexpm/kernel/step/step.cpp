@@ -34,9 +34,13 @@ double sum(const double* values)
 void add_works(EnergyLedger& ledger, int block, const StepSums& sums, bool measured)
 {
     double* damped = ledger.damping_work.data() + 2 * block;
+    double* dragged = ledger.drag_work.data() + 2 * block;
     double* prescribed = ledger.prescribed_work.data() + 2 * block;
     damped[0] += damped[1] + sum(sums.damped);
     damped[1] = sum(sums.damped_next);
+    const double half_drag = sum(sums.dragged);
+    dragged[0] += dragged[1] + half_drag;
+    dragged[1] = half_drag;
     prescribed[0] += prescribed[1] + sum(sums.prescribed);
     prescribed[1] = sum(sums.prescribed_next);
     if (!measured) return;

@@ -115,6 +115,7 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
     a.grains.inverse_inertia.assign(lanes * a.grains.blocks(), 0.0);
     a.grains.spin_prescribed.assign(lanes * a.grains.blocks(), 0);
     a.ledger.damping_work.assign(2 * a.grains.blocks(), 0.0);
+    a.ledger.drag_work.assign(2 * a.grains.blocks(), 0.0);
     a.ledger.prescribed_work.assign(2 * a.grains.blocks(), 0.0);
     a.ledger.kinetic.assign(a.grains.blocks(), 0.0);
     a.ledger.largest_force.assign(a.grains.blocks(), 0.0);
@@ -369,6 +370,7 @@ Assembly make_assembly(
     a.grains.material = options.grain_material;
     a.grains.material.resize(a.grains.count, 0);
     a.grains.erased.resize(a.grains.count, 0);
+    a.grains.loose.resize(a.grains.count, 0);
     a.grains.parent = options.parent;
     if (a.grains.parent.empty()) {
         a.grains.parent.resize(a.grains.count);

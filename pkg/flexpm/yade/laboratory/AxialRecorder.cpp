@@ -21,7 +21,7 @@ namespace {
 		Real (*value)(const flexpm::AxialObservation&);
 	};
 
-	constexpr std::array<Column, 19> recorded { {
+	constexpr std::array<Column, 20> recorded { {
 		{ "step", [](const auto& o) { return Real(o.step); } },
 		{ "axial_strain", [](const auto& o) { return o.axial_strain; } },
 		{ "lateral_strain", [](const auto& o) { return o.lateral_strain; } },
@@ -38,6 +38,7 @@ namespace {
 		{ "softened_energy", [](const auto& o) { return o.energies.softened; } },
 		{ "friction_energy", [](const auto& o) { return o.energies.friction; } },
 		{ "damping_energy", [](const auto& o) { return o.energies.damping; } },
+		{ "drag_energy", [](const auto& o) { return o.energies.drag; } },
 		{ "potential_energy", [](const auto& o) { return o.energies.potential; } },
 		// erasing is done from outside, too: what it takes is negative work
 		{ "boundary_work", [](const auto& o) { return o.energies.boundary_work - o.energies.erased; } },

@@ -29,7 +29,7 @@ void CrackWaitController::action()
 	factor                             = flexpm::factor_for_cracks(factor, watch, rule);
 	seen                               = now;
 	if (undampedDescent && watch.has_fallen())
-		flexpm::follow_steady_motion(solver->assembly, scene->dt);
+		flexpm::follow_steady_motion(solver->assembly, scene->dt, fastestDescent);
 	else
 		flexpm::end_steady_motion(solver->assembly);
 }

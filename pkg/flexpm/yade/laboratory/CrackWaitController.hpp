@@ -26,6 +26,7 @@ public:
 		((bool, ofFriction, true,, "Friction is taken for a sign of cracks that run; not where faces are to slide."))
 		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
 		((bool, undampedDescent, false,, "Once the stress has fallen from its peak, damping acts only on what grains move beyond their mean motion since the last look, deviation D55."))
+		((Real, fastestDescent, 0.,, "Largest speed of the mean motion that it then leaves alone [m/s, or m per step with scaled masses]."))
 		((Real, seen, -1., Attr::hidden, "Damage energy, with that of friction if it counts, at the last look, negative before the first [J]."))
 		, /* ctor */
 		, .def("release", &CrackWaitController::release, "Let damping act on all but the motion that the loading gives again; call it before another loading.")

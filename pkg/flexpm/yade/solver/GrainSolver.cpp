@@ -5,6 +5,7 @@
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
+#include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 namespace yade {
@@ -43,6 +44,7 @@ void GrainSolver::action()
 	takeStep();
 	if (assembly.step % mirrorPeriod == 0) mirrorStates();
 	if (assembly.step % touchPeriod == 0) changeContacts();
+	if (assembly.step % checkPeriod == 0) flexpm::find_loose(assembly);
 	if (assembly.step % checkPeriod == 0) check();
 	if (scene->trackEnergy && measured()) trackEnergies();
 	mirrorAtStop();

@@ -84,6 +84,7 @@ public:
 	py::dict   energies();
 	py::dict   snapshot();
 	py::tuple  cracks();
+	py::dict   parting();
 	py::dict   counts();
 	py::object sideNodes(int side);
 	Real       unbalanced();
@@ -153,6 +154,7 @@ public:
 		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
 		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
 		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
+		.def("parting", AfterAssembly<&GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
 		.def("balance", AfterAssembly<&GrainSolver::balance>::call,

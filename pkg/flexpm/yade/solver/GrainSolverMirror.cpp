@@ -151,6 +151,7 @@ void GrainSolver::trackEnergies()
 	set("damage_energy", e.damage);
 	set("friction_energy", e.friction);
 	set("damping_energy", e.damping);
+	set("drag_energy", e.drag);
 	set("potential_energy", e.potential);
 	set("erased_energy", e.erased);
 	set("boundary_work_taken", -e.boundary_work); // YADE's sum of all then stays as it is

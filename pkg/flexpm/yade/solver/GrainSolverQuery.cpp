@@ -6,6 +6,7 @@
 #include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
@@ -30,6 +31,7 @@ py::dict GrainSolver::energies()
 	d["damage_energy"]    = e.damage;
 	d["friction_energy"]  = e.friction;
 	d["damping_energy"]   = e.damping;
+	d["drag_energy"]      = e.drag;
 	d["erased_energy"]    = e.erased;
 	d["boundary_work"]    = e.boundary_work;
 	d["potential_energy"] = e.potential;
@@ -41,6 +43,16 @@ py::tuple GrainSolver::cracks()
 {
 	const auto count = flexpm::count_cracks(current());
 	return py::make_tuple(count.tensile, count.shear);
+}
+
+py::dict GrainSolver::parting()
+{
+	const auto found = flexpm::find_parting(current());
+	py::dict   d;
+	d["any"]      = found.any;
+	d["standing"] = found.standing;
+	d["loose"]    = found.loose;
+	return d;
 }
 
 py::dict GrainSolver::counts()

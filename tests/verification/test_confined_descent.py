@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What comes down from a confined peak: no grain that is pressed flies away (D57), and damping
+takes energy only where its name says so. SI units."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+import yade
+
+import flexpm
+from flexpm.results import doubts
+
+CONFINEMENT = 12e6
+#: Of which 32 flung grains by metres once, 35 by twelve of their diameters.
+SEEDS = range(21, 41)
+QUICK = (32, 35)
+#: Damping gives where a node turns within a step, and in the sums of rows.
+ROUNDING = 1e-3
+
+
+@functools.cache
+def crushed(seed: int) -> tuple[flexpm.Result, dict[str, float], float]:
+    """Result, how far grains have parted [m], and the mean diameter [m]."""
+    specimen = flexpm.Specimen.rectangle(0.02, 0.04, 0.08, seed=seed)
+    result = flexpm.run("biaxial", specimen, confinement=CONFINEMENT)
+    solver = next(one for one in yade.O.engines if type(one).__name__ == "GrainSolver")
+    return result, solver.parting(), specimen.mean_diameter
+
+
+def require_no_flight(seed: int) -> None:
+    result, parting, diameter = crushed(seed)
+    assert result.peak_stress > CONFINEMENT
+    assert parting["standing"] < 2.0 * diameter
+    assert abs(result.curve["lateral_strain"][-1]) < 0.15
+    kinetic, work = result.curve["kinetic_energy"], result.curve["boundary_work"]
+    assert kinetic[-1] < doubts.LARGEST_KINETIC_SHARES["confined, at the end"] * work[-1]
+    assert result.energy_error < 1e-3
+    assert result.largest_parting == parting["any"] / diameter
+    assert not any("kinetic" in line or "largest_parting" in line for line in result.warnings)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", QUICK)
+def test_no_grain_that_is_pressed_flies_away(seed):
+    require_no_flight(seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [seed for seed in SEEDS if seed not in QUICK])
+def test_none_flies_away_of_twenty_packings(seed):
+    require_no_flight(seed)
+
+
+@pytest.mark.long
+def test_damping_takes_energy_and_what_it_gives_has_another_name():
+    """Unconfined, with D30 before the peak and D55 after it."""
+    specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.08, seed=2)
+    curve = flexpm.run("uniaxial", specimen).curve
+    damping, drag = curve["damping_energy"], curve["drag_energy"]
+    assert damping[-1] > 0.0
+    assert np.diff(damping).min() > -ROUNDING * damping[-1]
+    assert np.diff(drag).min() < 0.0 < np.abs(drag).max()
