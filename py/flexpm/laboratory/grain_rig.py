@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from dataclasses import replace
 
 import numpy as np
 from yade import EnumClass_TestState as TestState
@@ -106,6 +107,8 @@ class GrainRig(TestRig):
 
     def _drive(self, plan: Schedule) -> None:
         recorder, factor = self._recorder, 1.0
+        if not self._looks_ahead():
+            plan = replace(plan, softening_growth=0.0)
         recorder.stopRatio, recorder.leastPeak = plan.stop_ratio, plan.least_peak
         recorder.minStrain, recorder.maxStrain = plan.min_strain, plan.max_strain
         recorder.state, recorder.peak = TestState.running, 0.0
@@ -118,7 +121,8 @@ class GrainRig(TestRig):
             undamped = plan.running_shares is not None or plan.control != ""
             recorder.loading.undampedLoading = undamped
             # elastic velocities raise no wave: a loading that has them may begin at full speed
-            factor = 1.0 if self.disc else plan.fastest
+            slow = self.disc or plan.softening_growth > 0.0
+            factor = 1.0 if slow else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
         if waiting := self.built.engine(wrapper.CrackWaitController):
             waiting.release()
@@ -189,7 +193,12 @@ class GrainRig(TestRig):
             crossingSteps=crossing,
             ofFriction=self.kind != "shear",
             undampedDescent=self._is_free_to_fall(plan),
+            softeningGrowth=plan.softening_growth,
         )
+
+    def _looks_ahead(self) -> bool:
+        """Whether a loading that waits slows down before points soften at once. Deviation D58."""
+        return self.built.specimen.edge_joints is not None
 
     def _is_free_to_fall(self, plan: Schedule) -> bool:
         """Whether damping leaves alone what moves steadily after the peak."""
