@@ -416,15 +416,26 @@ class PartRig(GrainRig):
     def warnings(self) -> list[str]:
         """What makes the record doubtful.
 
-        Load and reactions that differ, a bad energy balance, a joint that bends.
+        Load and reactions that differ, a bad energy balance, a joint that bends, a load that grew
+        fast up to a peak.
         """
         record = self.record
         error = measures.energy_error(record, self.initial_energy)
         bend = self.built.joint_bend
+        growth = measures.growth_before_peak(record, self.scales().crossing_steps)
         return [
             *([doubts.of_bend(bend)] if bend else []),
             *doubts.of_result("", error, measures.median_end_mismatch(record), None),
+            *doubts.of_growth(growth),
         ]
+
+    @property
+    def may_fail_at_once(self) -> bool:
+        """A test of one's own may have few contacts across; a notch alone is no weak plane."""
+        if self.kind == "own":
+            return True
+        there = self.built.specimen.spec.joint_names or ()
+        return any(not one.open for one in self.built.material.joints if one.name in there)
 
     @property
     def confinement(self) -> float | None:
@@ -527,13 +538,6 @@ class PartRig(GrainRig):
 
     def _loaded_area(self) -> float:
         return float(self._recorder.area)
-
-    def _looks_ahead(self) -> bool:
-        """A test of one's own may have few contacts across; a notch alone is no weak plane."""
-        if self.kind == "own":
-            return True
-        there = self.built.specimen.spec.joint_names or ()
-        return any(not one.open for one in self.built.material.joints if one.name in there)
 
 
 def _numbers(parts: Sequence[Part | HeldNodes]) -> tuple[list[int], list[int]]:

@@ -3,9 +3,11 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/laboratory/loading_scales.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -15,8 +17,11 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// Damage up to which a point has only begun to soften: a plane of such points still bears nearly its strength.
+const double begun = std::getenv("FP_BEGUN") ? std::atof(std::getenv("FP_BEGUN")) : 0.1;
+
 /// Points that may come to their strengths faster, over the cut through a square as large as the specimen [-].
-constexpr double few = 0.05;
+const double few = std::getenv("FP_FEW") ? std::atof(std::getenv("FP_FEW")) : 0.05;
 
 /// Normal and shear traction of a point [Pa], or what they grow by in a unit of time.
 struct Tractions {
@@ -70,20 +75,20 @@ Approach approach(const Strengths& left, const Tractions& now, const Tractions& 
     return first;
 }
 
-/// Way of a point of the specimen as it is; none of one that softens or slides, or is open.
+/// Way of a point of the specimen as it is; none of one that has softened, is open, or slides.
 Approach approach_of(const Assembly& a, const Array<double>& velocity, int c, int p, Point n)
 {
     const Contacts& contacts = a.contacts;
     const LawParameters& law = contacts.law_of(c);
     const PointState s = contacts.point_state(c, p);
     const double damage = law::damage(law, s.max_opening, s.shear_damage);
-    const Tractions now = { law.normal_stiffness * law::gap(law, s), s.shear_traction };
-    const Tractions growth = growth_of(contacts, velocity, c, p, n);
-    if (damage == 0.0)
-        return approach({ law.tensile_strength, law.cohesion, law.friction }, now, growth);
-    const double limit = -law.friction * now.normal;
-    if (damage < 1.0 || !(std::fabs(now.shear) < sliding_share * limit)) return {};
-    return approach({ 0.0, 0.0, law.friction }, now, growth);
+    const double normal = law::normal_traction(law, law::gap(law, s), s.max_opening, damage);
+    const bool slides = !(std::fabs(s.shear_traction) < -sliding_share * law.friction * normal);
+    if (damage >= 1.0 ? slides : damage > begun) return {};
+    const double whole = 1.0 - damage;
+    const Strengths left
+        = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
+    return approach(left, { normal, s.shear_traction }, growth_of(contacts, velocity, c, p, n));
 }
 
 /// Call `use(contact, point, normal)` for each point that is there.
@@ -143,20 +148,25 @@ double factor_before_softening(
     check_positive("steps of a crossing", rule.crossing, "");
     const double crossing = rule.crossing * dt;
     struct Bound {
-        double factor, area;
+        double factor;
+        double untold;  ///< area, the larger the less its damage tells [m^2]
     };
     std::vector<Bound> bounds;
     for_each_point(a.contacts, a, [&](int c, int p, Point n) {
         const Approach to = approach_of(a, velocity, c, p, n);
         const double slow = rule.growth / (to.growth * crossing);
         const double factor = std::max(slow, to.time / crossing);
-        if (std::isfinite(factor)) bounds.push_back({ factor, a.contacts.area(c, p) });
+        if (!std::isfinite(factor)) return;
+        // a crack that slides releases nothing at once
+        const bool cracked = damage_of(a.contacts, c, p) >= 1.0;
+        const double telling = cracked ? 1.0 : damage_share(a.contacts.law_of(c));
+        bounds.push_back({ factor, a.contacts.area(c, p) / telling });
     });
     std::sort(bounds.begin(), bounds.end(),
         [](const Bound& one, const Bound& other) { return one.factor < other.factor; });
     double left = few * cut_area(a);
     for (const Bound& bound : bounds) {
-        left -= bound.area;
+        left -= bound.untold;
         if (left <= 0.0) return bound.factor;
     }
     return infinite;
