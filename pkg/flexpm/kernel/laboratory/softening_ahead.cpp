@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -17,11 +16,12 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Damage up to which a point has only begun to soften: a plane of such points still bears nearly its strength.
-const double begun = std::getenv("FP_BEGUN") ? std::atof(std::getenv("FP_BEGUN")) : 0.1;
+/// Damage up to which a joint's point has only begun to soften: a plane of such points still bears nearly its strength. What a
+/// joint takes that is weaker than the rock tells too little; points of rock tell by themselves that they soften (crack_wait.hpp).
+constexpr double begun = 0.1;
 
 /// Points that may come to their strengths faster, over the cut through a square as large as the specimen [-].
-const double few = std::getenv("FP_FEW") ? std::atof(std::getenv("FP_FEW")) : 0.05;
+constexpr double few = 0.05;
 
 /// Normal and shear traction of a point [Pa], or what they grow by in a unit of time.
 struct Tractions {
@@ -84,7 +84,8 @@ Approach approach_of(const Assembly& a, const Array<double>& velocity, int c, in
     const double damage = law::damage(law, s.max_opening, s.shear_damage);
     const double normal = law::normal_traction(law, law::gap(law, s), s.max_opening, damage);
     const bool slides = !(std::fabs(s.shear_traction) < -sliding_share * law.friction * normal);
-    if (damage >= 1.0 ? slides : damage > begun) return {};
+    const double most = contacts.joint[c] < 0 ? 0.0 : begun;
+    if (damage >= 1.0 ? slides : damage > most) return {};
     const double whole = 1.0 - damage;
     const Strengths left
         = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
