@@ -126,8 +126,9 @@ class GrainRig(TestRig):
             undamped = plan.running_shares is not None or plan.control != ""
             recorder.loading.undampedLoading = undamped
             # elastic velocities raise no wave: a loading that has them may begin at full speed
-            slow = self.disc or plan.softening_growth > 0.0
-            factor = 1.0 if slow else plan.fastest
+            # what looks ahead does so from the first row on
+            ahead = plan.softening_growth > 0.0 and not plan.control
+            factor = 1.0 if self.disc or ahead else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
         if waiting := self.built.engine(wrapper.CrackWaitController):
             waiting.release()

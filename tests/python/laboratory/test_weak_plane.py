@@ -18,6 +18,8 @@ from flexpm.laboratory.part_rig import PartRig
 THICKNESS = 0.01
 FRICTION = 0.5
 JOINT = {"normal_stiffness": 1e14, "shear_stiffness": 3e13, "friction": FRICTION}
+#: A joint with a seventeenth of the rock's strength [Pa].
+WEAK = pytest.param(0.5e6, marks=pytest.mark.long)
 ENERGIES = {"tensile_fracture_energy": 20.0, "shear_fracture_energy": 500.0}
 
 
@@ -65,10 +67,10 @@ def pulled(specimen, material, model="flexible", **loading):
     return rig
 
 
-@pytest.mark.parametrize("strength", [0.5e6, 2e6, 8e6])
+@pytest.mark.parametrize("strength", [WEAK, 2e6, 8e6])
 @pytest.mark.parametrize("cells", ["two", "many"])
 def test_an_own_test_pulls_a_joint_apart_at_its_strength(cells, strength):
-    """At 1 and 4 times the rate in version 0.2: 5.6 and 32 % too much, 9.9 and 41 % of two cells."""
+    """In version 0.2 many cells bore 5.6 % too much, two 9.9 %."""
     specimen = halves(two_cells() if cells == "two" else grains())
     material = jointed(cohesion=20e6, tensile_strength=strength)
     rig = pulled(specimen, material, stop_ratio=0.8)
@@ -145,7 +147,7 @@ def test_a_plane_with_friction_alone_slides_at_its_strength_from_the_start():
     assert max(above) == pytest.approx(strength_of_plane(50.0, 0.0, 4e6), rel=0.02)
 
 
-@pytest.mark.parametrize("strength", [0.5e6, 2e6])
+@pytest.mark.parametrize("strength", [WEAK, 2e6])
 def test_the_tension_test_pulls_a_joint_apart_at_its_strength(strength):
     material = jointed(cohesion=20e6, tensile_strength=strength)
     result = flexpm.run("tension", halves(grains()), material, stop_ratio=0.9)
@@ -154,9 +156,9 @@ def test_the_tension_test_pulls_a_joint_apart_at_its_strength(strength):
 
 
 def test_a_run_that_is_too_fast_for_its_plane_says_so():
-    material = jointed(cohesion=8e6, tensile_strength=1e6)
-    result = flexpm.run("uniaxial", dipping(62.0), material, rate=4.0)
-    assert result.peak_stress > 1.02 * strength_of_plane(62.0, 8e6, 0.0)
+    material = jointed(cohesion=20e6, tensile_strength=2e6)
+    result = flexpm.run("tension", halves(grains()), material, rate=4.0, stop_ratio=0.9)
+    assert result.peak_stress > 1.02 * 2e6
     assert result.status == "not_quasistatic"
 
 
