@@ -49,7 +49,8 @@ double factor(const Assembly& a, Point velocity)
 
 }  // namespace
 
-TEST_CASE("Far from its strength a loading may take a crossing for what is left, near it the growth")
+TEST_CASE(
+    "Far from its strength a loading may take a crossing for what is left, near it the growth")
 {
     Assembly a = pair_of();
     const LawParameters& law = a.contacts.laws[0];
@@ -104,7 +105,8 @@ TEST_CASE("A crack that sticks comes to its friction, one that slides or is open
     CHECK(std::isinf(factor(a, { speed, 0.0 })));
 }
 
-TEST_CASE("A joint's point that has begun to soften still counts, one that has lost a tenth or is of rock does not")
+TEST_CASE("A joint's point that has begun to soften still counts, one that has lost a tenth or is "
+          "of rock does not")
 {
     Assembly a = pair_of();
     const bool jointed = GENERATE(true, false);
@@ -113,8 +115,8 @@ TEST_CASE("A joint's point that has begun to soften still counts, one that has l
     const LawParameters& law = a.contacts.laws[0];
     const double damage = GENERATE(0.05, 0.2);
     PointState s;
-    s.opening = s.max_opening
-        = law.elastic_opening + damage * (law.critical_opening - law.elastic_opening);
+    s.opening = s.max_opening =
+        law.elastic_opening + damage * (law.critical_opening - law.elastic_opening);
     set_states(a, s);
     const double slow = rule.growth * (1.0 - damage) * law.elastic_opening / speed / crossing;
     if (damage < 0.1 && jointed)

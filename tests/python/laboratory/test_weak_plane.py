@@ -41,10 +41,7 @@ def two_cells():
     """A bar of two cells."""
     width, half = 0.004, 0.003
     return flexpm.Specimen.from_polygons(
-        [
-            [(0.0, low), (width, low), (width, low + half), (0.0, low + half)]
-            for low in (0.0, half)
-        ],
+        [[(0.0, low), (width, low), (width, low + half), (0.0, low + half)] for low in (0.0, half)],
         THICKNESS,
     )
 

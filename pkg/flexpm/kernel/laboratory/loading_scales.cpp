@@ -71,8 +71,8 @@ TestScales disc_scales(const ScaleInputs& inputs, double diameter)
 double damage_share(const LawParameters& law)
 {
     const double slip = law.cohesion / law.shear_stiffness;
-    const double elastic
-        = std::max(law.elastic_opening / law.critical_opening, slip / law.critical_slip);
+    const double elastic =
+        std::max(law.elastic_opening / law.critical_opening, slip / law.critical_slip);
     return std::max(1.0 - elastic, 0.0);
 }
 

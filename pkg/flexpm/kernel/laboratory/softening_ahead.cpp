@@ -87,13 +87,13 @@ Approach approach_of(const Assembly& a, const Array<double>& velocity, int c, in
     const double most = contacts.joint[c] < 0 ? 0.0 : begun;
     if (damage >= 1.0 ? slides : damage > most) return {};
     const double whole = 1.0 - damage;
-    const Strengths left
-        = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
+    const Strengths left = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
     return approach(left, { normal, s.shear_traction }, growth_of(contacts, velocity, c, p, n));
 }
 
 /// Call `use(contact, point, normal)` for each point that is there.
-template <class Use> void for_each_point(const Contacts& contacts, const Assembly& a, const Use& use)
+template <class Use>
+void for_each_point(const Contacts& contacts, const Assembly& a, const Use& use)
 {
     for (int c = 0; c < contacts.count; ++c) {
         if (contacts.erased[c]) continue;

@@ -18,7 +18,6 @@ private:
 	Real mostAhead(const flexpm::Assembly& assembly) const;
 
 public:
-
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(CrackWaitController, BoundaryController,
 		"Lets a loading wait for cracks: it goes fast while the specimen is elastic and nearly stands still while what damage, "
