@@ -30,6 +30,9 @@ LARGEST_MISMATCH = 0.05
 #: Growth of the load while a wave crosses the specimen before the peak, over it, that is none [-]:
 #: one and a half times that of a loading that comes to a plane of weak points (D58).
 LARGEST_GROWTH = 0.015
+#: The same of runs with joints, which come slowly through the peak, too [-]: between the 0.5 % of
+#: the rate in use and the 0.7 % and more of four times that rate where it erred by 2 %.
+LARGEST_GROWTH_OF_JOINTS = 0.006
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
 #: Of a pulse that has not passed both sections in one piece.
