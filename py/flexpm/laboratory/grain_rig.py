@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from dataclasses import replace
 
 import numpy as np
 from yade import EnumClass_TestState as TestState
@@ -92,6 +93,11 @@ class GrainRig(TestRig):
         return self.built.solver.diverged
 
     @property
+    def may_fail_at_once(self) -> bool:
+        """Whether a joint may soften as one, so that no crack tells it before. Deviation D58."""
+        return self.built.specimen.edge_joints is not None
+
+    @property
     def initial_energy(self) -> float:
         """Energy when the work began to count [J]."""
         return self.built.solver.energies()["initial_energy"]
@@ -156,6 +162,8 @@ class GrainRig(TestRig):
     def _drive(self, plan: Schedule) -> None:
         recorder, factor = self._recorder, 1.0
         self._require_measure(plan.control)
+        if not self.may_fail_at_once:
+            plan = replace(plan, softening_growth=0.0)
         recorder.stopRatio, recorder.leastPeak = plan.stop_ratio, plan.least_peak
         recorder.minStrain, recorder.maxStrain = plan.min_strain, plan.max_strain
         recorder.state, recorder.peak = TestState.running, 0.0
@@ -167,7 +175,9 @@ class GrainRig(TestRig):
             undamped = plan.running_shares is not None or plan.control != ""
             recorder.loading.undampedLoading = undamped
             # elastic velocities raise no wave: a loading that has them may begin at full speed
-            factor = 1.0 if self.disc else plan.fastest
+            # what looks ahead does so from the first row on
+            ahead = plan.softening_growth > 0.0 and not plan.control
+            factor = 1.0 if self.disc or ahead else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
         if waiting := self.built.engine(wrapper.CrackWaitController):
             waiting.release()
@@ -239,6 +249,7 @@ class GrainRig(TestRig):
             ofFriction=self.kind != "shear",
             undampedDescent=self._is_free_to_fall(plan),
             fastestDescent=plan.fastest_descent,
+            softeningGrowth=plan.softening_growth,
         )
 
     def _is_free_to_fall(self, plan: Schedule) -> bool:

@@ -61,6 +61,9 @@ RUNNING_SHARE = {
 }
 #: Slowest rate of a loading that waits over its fastest [-].
 SLOWEST_WAIT = 0.01
+#: Traction of a plane of weak points grows by no more than this part of what it bears while a wave
+#: crosses the specimen, as it begins to soften [-], deviation D58.
+SOFTENING_GROWTH = 0.01
 #: Wave crossings that a test with a loading that waits takes, about, between half the paper's size
 #: and the whole of it [-]. Bending and scb: geometric means of two packings of half the default
 #: size and of the whole, beams with and without a notch; they took 0.3 to 2.9 times as many. Shear
@@ -211,6 +214,9 @@ class Schedule:
     #: largest speed of what comes down undamped from the peak: that which a wave gives to grains as
     #: it takes the reference strength off them [m/step, or m/s with real masses]
     fastest_descent: float = math.inf
+    #: largest growth of a plane's traction in a crossing as it begins to soften, where the loading
+    #: looks ahead [-]
+    softening_growth: float = 0.0
 
 
 def default_stop_ratio(test: str) -> float:
@@ -314,12 +320,13 @@ def schedule(
             f"run: steps = {steps:.3g} up to the largest strain, must be <= {_MOST_STEPS:g}; "
             "raise the rate or lower max_strain"
         )
-    fastest, shares, slowest = 1.0, None, 1.0
+    fastest, shares, slowest, growth = 1.0, None, 1.0, 0.0
     if loading.kind == "adaptive":
         fastest = fastest_factor(test, model, loading.rate)
     elif loading.kind == "waiting":
         fastest, shares = _waiting(own, model, scales.damage_share)
         slowest = min(SLOWEST_WAIT * fastest, 1.0)
+        growth = SOFTENING_GROWTH * loading.rate
     if loading.kind == "waiting":
         if crossings := _LIKELY_CROSSINGS[model].get(own):
             power = _OTHER_LIKELY_POWERS.get(test, _LIKELY_POWER)
@@ -344,4 +351,5 @@ def schedule(
         fastest_ends=_fastest_ends(own, model, loading.rate) if loading.control else 1.0,
         # deviation D57
         fastest_descent=reference / crossing_time * scales.height,
+        softening_growth=growth,
     )

@@ -18,6 +18,7 @@ from yade import wrapper
 from ..errors import InputError, SimulationError
 from ..models.grains import Model
 from ..require import NOT_NEGATIVE, POSITIVE, require_flag, require_known, require_number
+from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from ..rigs.layout import PartLayout
 from ..rigs.parts import (
@@ -272,6 +273,22 @@ class PartRig(GrainRig, PartLayout):
         solver = self.built.solver
         parts, energies = (*solver.plates(), *solver.nodeSets()), solver.energies()
         return energies["boundary_work"] - sum(float(part["work"]) for part in parts)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful, also a load that grew fast up to its peak."""
+        if self._recorder.loading is None:
+            return super().warnings
+        growth = measures.growth_before_peak(self.record, self.scales().crossing_steps)
+        return super().warnings + doubts.of_growth(growth)
+
+    @property
+    def may_fail_at_once(self) -> bool:
+        """A test of one's own may have few contacts across; a notch alone is no weak plane."""
+        if self.kind == "own":
+            return True
+        there = self.built.specimen.spec.joint_names or ()
+        return any(not one.open for one in self.built.material.joints if one.name in there)
 
     @property
     def confinement(self) -> float | None:

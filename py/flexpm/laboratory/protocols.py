@@ -415,6 +415,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     result.measure(
         _largest_unbalanced(spec),
         waiting=spec.loading == "waiting",
+        crossing=rig.scales().crossing_steps if rig.may_fail_at_once else None,
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )

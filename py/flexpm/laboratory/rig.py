@@ -262,6 +262,11 @@ class TestRig(ABC):
         """Whether a number is not finite any more."""
 
     @property
+    def may_fail_at_once(self) -> bool:
+        """Whether the specimen may fail along a plane of which no crack tells before."""
+        return False
+
+    @property
     def initial_energy(self) -> float | None:
         """Energy when the work began to count [J], None if that is not known."""
         return None

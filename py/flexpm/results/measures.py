@@ -161,6 +161,31 @@ def crack_onset(
     return strain, stress
 
 
+def growth_before_peak(curve: Curve, crossing: float) -> float | None:
+    """Growth of the stress while a wave last crossed the specimen before its peak [-], over it.
+
+    So much the ends may bear more than the specimen does, which softens before they know. None
+    where the stress still grows, or has just ceased to, and where nothing softens or slides as it
+    turns: the load was taken back.
+
+    Args:
+        curve: The record.
+        crossing: Steps in which a wave crosses the specimen.
+    """
+    stress, steps = differential_stress(curve), curve["step"]
+    if len(stress) == 0 or not np.nanmax(stress, initial=0.0) > 0.0:
+        return None
+    peak = int(np.nanargmax(stress))
+    if peak_row(curve) is None and steps[-1] - steps[peak] < crossing:
+        return None
+    around = steps[peak] + crossing * np.array([-1.0, 1.0])
+    lost = np.interp(around, steps, curve["damage_energy"] + curve["friction_energy"])
+    if not lost[1] > lost[0]:
+        return None
+    before = np.interp(around[0], steps, stress)
+    return float(1.0 - before / stress[peak])
+
+
 def energy_error(curve: Curve, initial: float | None = None) -> float | None:
     """Largest |work + initial energy - sum of the energies| over the largest |work| [-].
 

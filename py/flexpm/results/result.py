@@ -128,6 +128,7 @@ class Result(Shown):
         max_unbalanced: float,
         *,
         waiting: bool = False,
+        crossing: float | None = None,
         initial_energy: float | None = None,
         diverged: bool = False,
     ) -> None:
@@ -137,6 +138,8 @@ class Result(Shown):
             max_unbalanced: Largest unbalanced-force ratio taken as quasi-static [-]: the median, or
                 that under way; infinite for a test that is to be none.
             waiting: The loading waited for cracks: the ratio is that under way.
+            crossing: Steps in which a wave crosses a specimen that may fail at once, along a weak
+                plane: its load must not grow fast as the peak comes. None: it tells before.
             initial_energy: Energy when the work began to count [J]; if None, from the first row.
             diverged: The simulation met a number that is not finite.
         """
@@ -165,6 +168,8 @@ class Result(Shown):
         ratio = of_loading(record)
         unknown = ratio is None and math.isfinite(max_unbalanced)
         fast = unknown or (ratio is not None and ratio > max_unbalanced)
+        growth = None if crossing is None else measures.growth_before_peak(record, crossing)
+        fast = fast or (growth is not None and growth > doubts.LARGEST_GROWTH_OF_JOINTS)
         self.status = self._status(diverged, peak, fast)
 
     def measure_fracture(self, ligament: float) -> None:

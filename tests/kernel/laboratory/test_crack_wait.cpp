@@ -5,6 +5,7 @@
 #include <flexpm/kernel/laboratory/crack_wait.hpp>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 using namespace flexpm;
@@ -71,6 +72,17 @@ TEST_CASE("A waiting loading doubles its velocity in a crossing and halves it in
         factor = factor_for_cracks(factor, watch(0.0), rule);
     CHECK(factor == Approx(2.0));
     CHECK(factor_for_cracks(8.0, watch(1.0), rule) == Approx(4.0));
+}
+
+TEST_CASE("Ahead of points that will soften a loading falls at once to what they ask for")
+{
+    const double infinite = std::numeric_limits<double>::infinity();
+    CHECK(factor_ahead(16.0, infinite, rule) == 16.0);
+    CHECK(factor_ahead(0.16, 2.0, rule) == 0.16);
+    CHECK(factor_ahead(16.0, 0.01, rule) == 0.01);
+    CHECK(factor_ahead(16.0, 0.0, rule) == Approx(16e-4));
+    CHECK(factor_ahead(16.0, -1.0, rule) == Approx(16e-4));
+    CHECK(factor_ahead(2.0, std::nan(""), rule) == 2.0);
 }
 
 TEST_CASE("A rule of a waiting loading without sense is refused")

@@ -47,7 +47,7 @@ def sheared(whole, model: str, material: flexpm.Material | None = None, **option
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_joint_without_cohesion_carries_its_friction(whole, model):
-    """Within 1 %, and half the rate halves what it carries too much as it begins to slide."""
+    """Within 1 %, and 2 % at four times the rate: the load slows down before it slides (D58)."""
     results = {rate: sheared(whole, model, rate=rate) for rate in (4.0, 2.0, 1.0)}
     errors = {}
     for rate, result in results.items():
@@ -61,9 +61,9 @@ def test_a_joint_without_cohesion_carries_its_friction(whole, model):
         assert result.residual_strength == pytest.approx(FRICTION * PRESSURE, rel=1e-3)
         assert result.energy_error < 1e-3
         assert result.tensile_cracks == result.shear_cracks == 0
-    assert 0.0 < errors[1.0] < 0.01
-    assert errors[2.0] < 0.6 * errors[4.0]
-    assert errors[1.0] < 0.6 * errors[2.0]
+    assert all(error > 0.0 for error in errors.values())
+    assert errors[1.0] < 0.01
+    assert errors[4.0] < 0.02
 
 
 def test_faces_of_a_crack_within_a_plate_slide_past_each_other():

@@ -129,6 +129,27 @@ def result_of(record, **values):
     return Result(**(basic | values))
 
 
+def test_a_load_that_grows_fast_up_to_its_peak_is_doubtful_where_planes_may_fail():
+    record = triangular_record()
+    # 401 rows of 10 steps to the peak
+    assert measures.growth_before_peak(record, 40.0) is None  # nothing softens: it was taken back
+    record = Curve.from_columns(
+        [*COLUMNS],
+        np.where(
+            np.array([name == "damage_energy" for name in COLUMNS]),
+            1e-9 * np.maximum(np.arange(len(record)) - 399.0, 0.0)[:, None],
+            np.column_stack([record[name] for name in COLUMNS]),
+        ),
+        [],
+    )
+    assert measures.growth_before_peak(record, 40.0) == pytest.approx(0.01)
+    assert measures.growth_before_peak(record.until(400), 40.0) is None  # it still grows
+    for crossing, status in ((None, "ok"), (20.0, "ok"), (40.0, "not_quasistatic")):
+        result = result_of(record)
+        result.measure(QUASISTATIC, crossing=crossing)
+        assert result.status == status
+
+
 @pytest.mark.parametrize("confinement", [0.0, 4e6])
 def test_measures_of_a_triangular_record(confinement):
     result = result_of(triangular_record(confinement))

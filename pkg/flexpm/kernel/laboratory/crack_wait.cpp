@@ -41,4 +41,12 @@ double factor_for_cracks(double factor, const CrackWatch& seen, const CrackWaitR
     return std::clamp(wanted, factor * std::exp2(-4.0 * crossings), factor * std::exp2(crossings));
 }
 
+double factor_ahead(double wanted, double most, const CrackWaitRule& rule)
+{
+    check(rule);
+    const double least = slowest_ahead * rule.slowest * rule.fastest;
+    // no number: the run has diverged, which is seen elsewhere
+    return most < wanted ? std::min(std::max(most, least), wanted) : wanted;
+}
+
 }  // namespace flexpm

@@ -47,4 +47,11 @@ constexpr double swept_work(double stress, double sweep, double time)
 /// @throws std::invalid_argument  if a number of the rule is out of range
 double factor_for_cracks(double factor, const CrackWatch& seen, const CrackWaitRule& rule);
 
+/// Smallest velocity factor before points that will soften, over that of a loading that waits [-]: a weak joint in strong rock asks for less.
+constexpr double slowest_ahead = 0.01;
+
+/// Velocity factor that `wanted` may have ahead of points that will soften: at most `most`, but never so slow that nothing
+/// comes of it. It falls at once, as no wave follows from a change of the loading's velocity.
+double factor_ahead(double wanted, double most, const CrackWaitRule& rule);
+
 }  // namespace flexpm

@@ -68,16 +68,20 @@ TestScales disc_scales(const ScaleInputs& inputs, double diameter)
         inputs.strength, diameter, diameter, inputs.damage_share };
 }
 
+double damage_share(const LawParameters& law)
+{
+    const double slip = law.cohesion / law.shear_stiffness;
+    const double elastic =
+        std::max(law.elastic_opening / law.critical_opening, slip / law.critical_slip);
+    return std::max(1.0 - elastic, 0.0);
+}
+
 double damage_share(const Assembly& a)
 {
-    double elastic = 0.0;
-    for (int g = 0; g < a.grains.count; ++g) {
-        const LawParameters law = own_law(a, g);
-        const double slip = law.cohesion / law.shear_stiffness;
-        elastic = std::max(
-            { elastic, law.elastic_opening / law.critical_opening, slip / law.critical_slip });
-    }
-    return std::max(1.0 - elastic, 0.0);
+    double least = 1.0;
+    for (int g = 0; g < a.grains.count; ++g)
+        least = std::min(least, damage_share(own_law(a, g)));
+    return least;
 }
 
 ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)

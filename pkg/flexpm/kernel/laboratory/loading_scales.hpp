@@ -56,8 +56,11 @@ TestScales rectangle_scales(const ScaleInputs& inputs, double width, double heig
 /// strains under the recorded stress.
 TestScales disc_scales(const ScaleInputs& inputs, double diameter);
 
-/// Least part of a fracture energy that damage takes between grains of one kind [-]; the rest is elastic energy that a
-/// contact has at its strength, which it releases. 0 in the brittle limit.
+/// Least part of its fracture energies that damage takes at a contact's points [-]; 0 in the brittle limit.
+double damage_share(const LawParameters& law);
+
+/// The least between grains of one kind [-]; the rest is elastic energy that a contact has at its strength, which it
+/// releases.
 double damage_share(const Assembly& a);
 
 /// The inputs of bonded grains, means over all of them; rigid grains have a contact_modulus().

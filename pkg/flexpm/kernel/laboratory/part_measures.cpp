@@ -5,6 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 

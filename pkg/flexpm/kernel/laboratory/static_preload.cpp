@@ -7,6 +7,7 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
@@ -20,39 +21,6 @@
 namespace flexpm {
 
 namespace {
-
-/// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
-Point relative_velocity(
-    const Contacts& contacts, int contact, int point, const Array<double>& velocity)
-{
-    Point sum;
-    for (int side = 0; side < 2; ++side) {
-        const double sign = side == 0 ? -1.0 : 1.0;
-        const double w = contacts.weight(contact, point, side);
-        for (int end = 0; end < 2; ++end) {
-            const double part = sign * (end == 0 ? 1.0 - w : w);
-            sum = sum + part * vector_at(velocity, contacts.node(contact, side, end));
-        }
-    }
-    return sum;
-}
-
-/// Whether a point is a crack, or has been without strength from the start.
-bool is_cracked(const Contacts& contacts, int contact, int point)
-{
-    return damage_of(contacts, contact, point) >= 1.0;
-}
-
-/// Largest opening or slip that the strengths allow at once: the time until one is reached.
-double time_to_strength(const LawParameters& law, double opening_rate, double slip_rate)
-{
-    const double infinite = std::numeric_limits<double>::infinity();
-    const double normal = law.normal_stiffness * opening_rate;
-    const double opening = normal > 0.0 ? law.tensile_strength / normal : infinite;
-    // |shear| = c - mu normal
-    const double towards = law.shear_stiffness * std::fabs(slip_rate) + law.friction * normal;
-    return std::min(opening, towards > 0.0 ? law.cohesion / towards : infinite);
-}
 
 /// Lateral component of the centre of the grain in the middle of a side.
 int middle_of(const Assembly& a, int side)
@@ -125,9 +93,6 @@ constexpr double loose = 1e-6;
 /// Damage from which on a point counts as a crack for the motion that the loading gives.
 constexpr double softened = 0.5;
 
-/// Share of its friction that a point that slides bears, at least.
-constexpr double sliding = 0.99;
-
 /// Solutions after which points that open or lift off are not looked for any more.
 constexpr int most_lifts = 5;
 
@@ -148,7 +113,7 @@ bool slides(const Contacts& contacts, int contact)
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const PointState s = contacts.point_state(contact, p);
         const double pressure = pressure_of(contacts, contact, p);
-        const double limit = sliding * law.friction * pressure;
+        const double limit = sliding_share * law.friction * pressure;
         if (damage_of(contacts, contact, p) < softened) return false;
         if (pressure > 0.0 && std::fabs(s.shear_traction) < limit) return false;
     }
@@ -421,22 +386,6 @@ void change_loading(Assembly& a, double ratio)
         });
     }
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
-}
-
-double elastic_time(const Assembly& a, const Array<double>& velocity)
-{
-    double least = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < a.contacts.count; ++c) {
-        if (a.contacts.erased[c]) continue;
-        const Point n = bonded_normal(a, c);
-        const LawParameters& law = a.contacts.law_of(c);
-        for (int p = 0; p < a.contacts.points_of(c); ++p) {
-            if (is_cracked(a.contacts, c, p)) continue;
-            const Point v = relative_velocity(a.contacts, c, p, velocity);
-            least = std::min(least, time_to_strength(law, dot(v, n), v.y * n.x - v.x * n.y));
-        }
-    }
-    return least;
 }
 
 void preload(Assembly& a, double share, int steps, double dt)

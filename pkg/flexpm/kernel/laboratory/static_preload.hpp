@@ -51,10 +51,6 @@ int count_sliding_joints(const Assembly& a);
 /// Call drive_node_sets() afterwards.
 void change_loading(Assembly& a, double ratio);
 
-/// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
-/// elastic branch, at small displacements [s]; infinite if none does.
-double elastic_time(const Assembly& a, const Array<double>& velocity);
-
 /// Take hold of all nodes of an unloaded, gripped and driven rectangle, so that `steps` steps take it
 /// along its elastic solution to `share` of the strain at which the first point leaves its branch.
 ///

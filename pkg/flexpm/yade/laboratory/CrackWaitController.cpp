@@ -3,9 +3,13 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/crack_wait.hpp>
+#include <flexpm/kernel/laboratory/loading_field.hpp>
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <limits>
 
 namespace yade {
 
@@ -26,12 +30,20 @@ void CrackWaitController::action()
 	const flexpm::CrackWatch    watch  = { lost, flexpm::swept_work(recorder->stress, sweep, time), recorder->differential, recorder->peak, steps };
 	const flexpm::CrackWaitRule rule   = { fastest, slowest, runningShare, shareAfterPeak, crossingSteps };
 	Real&                       factor = recorder->loading->velocityFactor;
-	factor                             = flexpm::factor_for_cracks(factor, watch, rule);
+	const Real                  most   = mostAhead(solver->assembly);
+	factor                             = flexpm::factor_ahead(flexpm::factor_for_cracks(factor, watch, rule), most, rule);
 	seen                               = now;
 	if (undampedDescent && watch.has_fallen())
 		flexpm::follow_steady_motion(solver->assembly, scene->dt, fastestDescent);
 	else
 		flexpm::end_steady_motion(solver->assembly);
+}
+
+Real CrackWaitController::mostAhead(const flexpm::Assembly& assembly) const
+{
+	if (softeningGrowth == 0) return std::numeric_limits<Real>::infinity();
+	const flexpm::SofteningRule rule = { softeningGrowth, crossingSteps };
+	return recorder->loading->velocityFactor * flexpm::factor_before_softening(assembly, flexpm::loading_field(assembly), scene->dt, rule);
 }
 
 void CrackWaitController::release() { flexpm::end_steady_motion(GrainSolver::ofScene(*Omega::instance().getScene())->assembly); }

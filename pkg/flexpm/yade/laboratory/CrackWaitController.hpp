@@ -13,6 +13,11 @@ public:
 	void action() override;
 	void release();
 
+private:
+	/// Largest velocity factor with which the loading may come to points that will soften.
+	Real mostAhead(const flexpm::Assembly& assembly) const;
+
+public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(CrackWaitController, BoundaryController,
 		"Lets a loading wait for cracks: it goes fast while the specimen is elastic and nearly stands still while what damage, "
@@ -27,6 +32,7 @@ public:
 		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
 		((bool, undampedDescent, false,, "Once the stress has fallen from its peak, damping acts only on what grains move beyond their mean motion since the last look, deviation D55."))
 		((Real, fastestDescent, 0.,, "Largest speed of the mean motion that it then leaves alone [m/s, or m per step with scaled masses]."))
+		((Real, softeningGrowth, 0.,, "Largest growth of a plane's traction while a wave crosses the specimen, over what it bears, as the plane begins to soften, deviation D58; 0: the loading does not look ahead [-]."))
 		((Real, seen, -1., Attr::hidden, "Damage energy, with that of friction if it counts, at the last look, negative before the first [J]."))
 		, /* ctor */
 		, .def("release", &CrackWaitController::release, "Let damping act on all but the motion that the loading gives again; call it before another loading.")

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  How far contact points are from their strengths along the motion of a loading, deviation D58. SI units,
+/// tension positive.
+///
+/// What ends bear is ahead of what a plane in the specimen bears: by what the load grows by until a wave has told them that the
+/// plane softens. Points that soften one after the other tell by what they dissipate that the load must wait
+/// (crack_wait.hpp). A plane whose points soften at once has told nothing before. The elastic solution, along which
+/// the specimen moves up to there, tells when that will be.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+namespace flexpm {
+
+struct SofteningRule {
+    double growth =
+        0.01;  ///< of a plane's traction in a crossing as it begins to soften, at most, over what it bears then [-]
+    double crossing = 1.0;  ///< steps in which a wave crosses the specimen
+};
+
+/// Share of its friction that a point that slides bears, at least.
+constexpr double sliding_share = 0.99;
+
+/// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
+Point relative_velocity(
+    const Contacts& contacts, int contact, int point, const Array<double>& velocity);
+
+/// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
+/// elastic branch, at small displacements [s]; infinite if none does.
+double elastic_time(const Assembly& a, const Array<double>& velocity);
+
+/// Factor on a velocity of the loading that brings its points to their strengths slowly enough [-]; infinite if few enough are on the
+/// way there. A point's distance to its strength may shrink by 1 / e in a crossing, or its traction grow by `growth`. Of the points that
+/// are elastic still, or bear friction and do not slide, those may be faster that make up a twentieth of a cut through a
+/// square as large as the specimen.
+///
+/// @param velocity  of all nodes in that motion, see loading_field() [m/s]
+/// @param dt        time step [s]
+/// @throws std::invalid_argument  if a number of the rule is not above zero
+double factor_before_softening(
+    const Assembly& a, const Array<double>& velocity, double dt, const SofteningRule& rule);
+
+}  // namespace flexpm
