@@ -15,7 +15,7 @@ from dataclasses import astuple
 import numpy as np
 from yade import wrapper
 
-from ..errors import InputError, SimulationError
+from ..errors import InputError
 from ..models.grains import Model
 from ..require import NOT_NEGATIVE, POSITIVE, require_flag, require_known, require_number
 from ..results import doubts, measures
