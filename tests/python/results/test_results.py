@@ -486,7 +486,7 @@ def test_the_kinetic_energy_is_looked_at_where_a_test_peaks_and_ends():
     result = result_of(record, inputs=None)
     assert sum("kinetic energy" in line for line in result.warnings) == 2
     confined = triangular_record(confinement=4e6, last_stress=0.95 * PEAK)
-    assert set(measures.kinetic_shares(confined)) == {"confined, at the end"}
+    assert set(measures.kinetic_shares(confined)) == {"at the end"}
     assert measures.kinetic_shares(Curve()) == {}
     record["boundary_work"][:] = np.nan
     assert measures.kinetic_shares(record) == {}
