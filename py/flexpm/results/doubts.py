@@ -45,9 +45,14 @@ _NAMED_JOINTS = 5
 #: Part of the rows that may miss their set point [-].
 MOST_MISSED = 0.1
 #: Kinetic energy over the work that is none [-], by place: explicit solutions that are to be
-#: quasi-static keep it below 0.05 to 0.1. Specimens that end in mid-fall have up to 0.07, confined
-#: ones 0.025, and less than 0.001 at the peak.
-LARGEST_KINETIC_SHARES = {"at the peak": 0.02, "at the end": 0.1, "confined, at the end": 0.05}
+#: quasi-static keep it below 0.05 to 0.1. Tests end in mid-fall: with up to 0.06 under a pressure,
+#: which would feed a flight, and up to 0.07 without; halves of a disc part with up to 0.14 of a
+#: work that was elastic. At a peak all have less than 0.001.
+LARGEST_KINETIC_SHARES = {
+    "at the peak": 0.02,
+    "at the end": 0.2,
+    "at the end under a pressure": 0.1,
+}
 #: Growth of a distance between neighbours that is none, in mean diameters [-]. Specimens that are
 #: crushed by 3 % under a confinement have up to 1.6.
 LARGEST_PARTING = 2.0

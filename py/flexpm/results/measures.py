@@ -229,11 +229,9 @@ def kinetic_shares(curve: Curve) -> dict[str, float]:
     """
     if not len(curve):
         return {}
-    confined = curve["confinement"][-1] > 0.0
-    rows = {
-        "at the peak": peak_row(curve),
-        "confined, at the end" if confined else "at the end": len(curve) - 1,
-    }
+    pressed = curve["confinement"][-1] > 0.0
+    end = "at the end under a pressure" if pressed else "at the end"
+    rows = {"at the peak": peak_row(curve), end: len(curve) - 1}
     shares = {}
     for place, row in rows.items():
         work = 0.0 if row is None else abs(float(curve["boundary_work"][row]))

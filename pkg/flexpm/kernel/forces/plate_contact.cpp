@@ -62,10 +62,19 @@ Point touch(Assembly& a, Plate& plate, double dt)
     return total;
 }
 
-/// A loaded plate answers to its load and to the specimen along its normal.
-void integrate_loaded(Plate& plate, double dt, double damping)
+/// Whether a plate lies before a grain that is not loose.
+bool bears_any(const Assembly& a, const Plate& plate)
 {
-    const double net = plate.load - dot(plate.normal, plate.force);
+    return std::any_of(plate.edges.begin(), plate.edges.end(),
+        [&](int e) { return !a.grains.loose[a.edges.grain[e]]; });
+}
+
+/// A loaded plate answers to its load and to the specimen along its normal. Deviation D57: with loose grains alone before it
+/// the load would drive it through the specimen and does not act.
+void integrate_loaded(Plate& plate, bool bears, double dt, double damping)
+{
+    const double load = bears ? plate.load : 0.0;
+    const double net = load - dot(plate.normal, plate.force);
     double speed = dot(plate.normal, plate.velocity);
     const double old = speed;
     StepSums sums;
@@ -76,10 +85,10 @@ void integrate_loaded(Plate& plate, double dt, double damping)
     plate.damping_work_next = sums.damped_next[0];
     plate.drag_work += plate.drag_work_next + sums.dragged[0];
     plate.drag_work_next = sums.dragged[0];
-    plate.boundary_work += plate.boundary_work_next + 0.5 * dt * plate.load * old;
-    plate.boundary_work_next = 0.5 * dt * plate.load * speed;
+    plate.boundary_work += plate.boundary_work_next + 0.5 * dt * load * old;
+    plate.boundary_work_next = 0.5 * dt * load * speed;
     plate.kinetic = sums.kinetic[0];
-    plate.unbalanced = sums.largest[0];
+    plate.unbalanced = bears ? sums.largest[0] : plate.load;
 }
 
 void update_plate(Assembly& a, Plate& plate, double dt, double damping)
@@ -88,7 +97,7 @@ void update_plate(Assembly& a, Plate& plate, double dt, double damping)
     plate.displacement = plate.displacement + dt * plate.velocity;
     plate.force = touch(a, plate, dt);
     if (plate.loaded) {
-        integrate_loaded(plate, dt, damping);
+        integrate_loaded(plate, bears_any(a, plate), dt, damping);
     } else {
         plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }

@@ -10,8 +10,8 @@
 
 namespace flexpm {
 
-/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity; under none while all of its
-/// grains are loose.
+/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity. It does not act while all of
+/// its grains are loose, which counts as a load that nothing balances.
 void press(Assembly& a, int plate, double pressure);
 
 /// Prescribe a plate's velocity [m/s].

@@ -251,13 +251,6 @@ void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
     }
 }
 
-/// Whether a plate lies before a grain that is not loose.
-bool bears_any(const Assembly& a, const Plate& plate)
-{
-    return std::any_of(plate.edges.begin(), plate.edges.end(),
-        [&](int e) { return !a.grains.loose[a.edges.grain[e]]; });
-}
-
 void check_index(const Assembly& a, int plate)
 {
     if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
@@ -440,9 +433,7 @@ void press(Assembly& a, int plate, double pressure)
         refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
     }
     a.plates[plate].loaded = true;
-    // one that has lost all its grains would fly through the specimen, deviation D57
-    const bool bears = bears_any(a, a.plates[plate]);
-    a.plates[plate].load = bears ? pressure * a.plates[plate].width * a.thickness : 0.0;
+    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
 }
 
 void set_velocity(Assembly& a, int plate, Point velocity)
