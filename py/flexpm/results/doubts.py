@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..files import Table
-from .measures import SET_POINT_OFF
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -42,6 +41,8 @@ LARGEST_ENERGY_ERROR = 0.01
 LARGEST_TAKEN = 0.1
 #: Joints that one warning names.
 _NAMED_JOINTS = 5
+#: Difference from a set point by which a row has missed it [-].
+SET_POINT_OFF = 0.02
 #: Part of the rows that may miss their set point [-].
 MOST_MISSED = 0.1
 #: Kinetic energy over the work that is none [-], by place: explicit solutions that are to be

@@ -11,9 +11,6 @@ import numpy as np
 from ..arrays import FloatArray
 from .record import Curve
 
-#: Difference from a set point by which a row has missed it [-].
-SET_POINT_OFF = 0.02
-
 ENERGIES = (
     "kinetic_energy",
     "elastic_energy",

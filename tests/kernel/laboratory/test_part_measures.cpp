@@ -94,19 +94,19 @@ TEST_CASE("Plates do not lie on each other, and a support lies on the outline")
 {
     Assembly a = grains(GENERATE(false, true));
     const auto refused = [&](const Patch& p, const char* text) {
-        CHECK_THROWS_WITH(add_patch_plate(a, p, {}), Catch::Matchers::Contains(text));
+        CHECK_THROWS_WITH(add_patch_plate(a, p, {}), Catch::Contains(text));
     };
     add_patch_plate(a, patch(0.01, 0.0, 2e-3), {});
     add_patch_plate(a, patch(0.012, 0.0, 2e-3), {});  // beside it
     refused(patch(0.01, 0.0, 2e-3), "lies on plate 0");
     refused(patch(0.013, 0.0, 1.9e-3), "lies on plate 1");
-    CHECK_THROWS_WITH(add_side_plates(a, 0, 1, {}), Catch::Matchers::Contains("lies on plate 0"));
+    CHECK_THROWS_WITH(add_side_plates(a, 0, 1, {}), Catch::Contains("lies on plate 0"));
     refused(patch(0.01, height, 2.0 * width), "which its side has");
     refused(patch(0.01, height + 5e-4, 1e-3), "off the outline");
     refused(patch(-1e-3, height, 4e-3), "off the outline");
     CHECK(a.plates.size() == 2);
     add_side_plates(a, top_side, 3, {});
-    CHECK_THROWS_WITH(add_side_plates(a, top_side, 1, {}), Catch::Matchers::Contains("lies on"));
+    CHECK_THROWS_WITH(add_side_plates(a, top_side, 1, {}), Catch::Contains("lies on"));
     CHECK(a.plates.size() == 5);
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("Parts that leave the specimen free to move are named before the loadi
     const int top = add_side_plates(a, top_side, 1, { 0.0, 0.0, true }).front();
     const PartGeometry parts = { { top }, {}, { 0.0, 1.0 }, 1.0, 1.0 };
     const auto refused = [&](const char* text) {
-        CHECK_THROWS_WITH(part_scales(a, parts, 1.0, 1.0), Catch::Matchers::Contains(text));
+        CHECK_THROWS_WITH(part_scales(a, parts, 1.0, 1.0), Catch::Contains(text));
     };
     scale_masses(a, 0.7);
     refused("hold the specimen along x = 0");
@@ -147,7 +147,7 @@ TEST_CASE("Parts that leave the specimen free to move are named before the loadi
     b.plates[corner].area[0] = 1e-6;
     scale_masses(b, 0.7);
     CHECK_THROWS_WITH(part_scales(b, { { corner }, {}, { 0.0, 1.0 }, 1.0, 1.0 }, 1.0, 1.0),
-        Catch::Matchers::Contains("against turning = 0"));
+        Catch::Contains("against turning = 0"));
 }
 
 TEST_CASE("The first value of a row that is not finite is named")

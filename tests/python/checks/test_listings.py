@@ -128,7 +128,7 @@ def test_the_listing_of_the_page_on_the_schema(tmp_path, monkeypatch):
 
 
 def test_the_joints_of_the_page_on_materials_are_laws(tmp_path):
-    tables = code_after("doc/materials.rst", ".. code-block:: toml\n")
+    tables = code_after("doc/materials.rst", "[joint.NAME]``:\n\n.. code-block:: toml\n")
     preset = (ROOT / "py/flexpm/materials/presets/augig-table7.toml").read_text()
     (tmp_path / "rock.toml").write_text(preset + tables)
     assert [one.name for one in load(str(tmp_path / "rock.toml"), "flexible").joints] == [

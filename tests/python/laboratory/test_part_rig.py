@@ -104,7 +104,7 @@ def test_energies_of_each_row_are_the_boundary_work_and_that_is_the_work_of_the_
     rig.drive(parts[2], (0.0, -1.0), against=parts[:2])
     rig.load(flexpm.Loading(kind="waiting", rate=4.0))
     record = rig.record
-    kinds = ("kinetic", "elastic", "damage", "friction", "damping", "potential")
+    kinds = ("kinetic", "elastic", "damage", "friction", "damping", "drag", "potential")
     energies = np.sum([record[f"{kind}_energy"] for kind in kinds], axis=0)
     work = record["boundary_work"]
     assert energies == pytest.approx(work, rel=0.0, abs=1e-3 * work[-1])
