@@ -142,13 +142,14 @@ class TestRig(ABC):
             SimulationError: if the specimen does not bear it.
         """
         stress = require_number("stress_to: stress", stress, unit="Pa")
-        rising = stress > self.stress
+        senses: list[float] = []  # of a stage that is taken up: that with which it began
 
         def there() -> bool:
-            now = self._readings.stress
-            return now >= stress if rising else now <= stress
+            if not senses:
+                senses.append(self._sense_to(stress, self._runner.position.stage_start))
+            return senses[0] * (self._readings.stress - stress) >= 0.0
 
-        begin = partial(self._begin_stress, rate, 1.0 if rising else -1.0)
+        begin = partial(self._begin_stress, stress, rate)
         entered = self._stage(begin, lambda: there() or self._is_over())
         if self.diverged or (entered and not there()):
             raise SimulationError(
@@ -344,10 +345,18 @@ class TestRig(ABC):
         self._drive(replace(endless, min_strain=least, max_strain=largest))
         return Span(_PATIENCE * plan.steps + _LATEST_LOOK, plan.steps)
 
-    def _begin_stress(self, rate: float, sense: float) -> Span:
-        plan = self._schedule(Loading(rate))
-        self._drive(replace(plan, velocity=sense * plan.velocity, min_strain=-1e300))
+    def _begin_stress(self, stress: float, rate: float) -> Span:
+        plan, sense = self._schedule(Loading(rate)), self._sense_to(stress, yade.O.iter)
+        # a stress that falls as it is to fall is no failure
+        peak = plan.least_peak if sense > 0.0 else 1e300
+        self._drive(replace(plan, velocity=sense * plan.velocity, least_peak=peak))
         return _span(plan)
+
+    def _sense_to(self, stress: float, step: int) -> float:
+        """1 if the stress must rise from what the record has at a step, else -1."""
+        record = self.record
+        before = record["axial_stress"][record["step"] <= step]
+        return 1.0 if stress > (before[-1] if len(before) else 0.0) else -1.0
 
     def _at_rest(self) -> bool:
         """Whether forces balance under the full pressure; looked at each crossing of a wave."""
