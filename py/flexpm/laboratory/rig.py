@@ -23,7 +23,7 @@ from ..models.spheres import SphereModel
 from ..require import require_number
 from ..results import doubts, measures
 from ..results.record import Curve
-from .loading_rate import Loading, Scales, Schedule, schedule
+from .loading_rate import RUNNING_SHARE, Loading, Scales, Schedule, schedule
 from .runner import Runner, Span
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
@@ -131,7 +131,10 @@ class TestRig(ABC):
             )
 
     def stress_to(self, stress: float, rate: float = 1.0) -> None:
-        """Load or unload at a constant rate until the record's axial stress has come to `stress`.
+        """Load or unload until the record's axial stress has come to `stress`.
+
+        Grains are loaded as by ``Loading(kind="waiting")``: damping would drag on what moves
+        steadily, and one part would bear what another one does not.
 
         Args:
             stress: Where to stop, at the next row of the record [Pa].
@@ -346,7 +349,8 @@ class TestRig(ABC):
         return Span(_PATIENCE * plan.steps + _LATEST_LOOK, plan.steps)
 
     def _begin_stress(self, stress: float, rate: float) -> Span:
-        plan, sense = self._schedule(Loading(rate)), self._sense_to(stress, yade.O.iter)
+        kind = "waiting" if self.built.name in RUNNING_SHARE else "constant"
+        plan, sense = self._schedule(Loading(rate, kind)), self._sense_to(stress, yade.O.iter)
         # a stress that falls as it is to fall is no failure
         peak = plan.least_peak if sense > 0.0 else 1e300
         self._drive(replace(plan, velocity=sense * plan.velocity, least_peak=peak))
