@@ -25,7 +25,7 @@ from ..require import require_number
 from ..results import doubts, measures
 from ..results.record import Curve
 from ..threads import limited
-from .loading_rate import Loading, Scales, Schedule, schedule
+from .loading_rate import RUNNING_SHARE, Loading, Scales, Schedule, schedule
 from .runner import Runner, Span
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
@@ -162,7 +162,10 @@ class TestRig(ABC):
             )
 
     def stress_to(self, stress: float, rate: float = 1.0) -> None:
-        """Load or unload at a constant rate until the record's axial stress has come to `stress`.
+        """Load or unload until the record's axial stress has come to `stress`.
+
+        Grains are loaded as by ``Loading(kind="waiting")``: damping would drag on what moves
+        steadily, and one part would bear what another one does not.
 
         Args:
             stress: Where to stop, at the next row of the record [Pa].
@@ -173,13 +176,14 @@ class TestRig(ABC):
             SimulationError: if the specimen does not bear it.
         """
         stress = require_number("stress_to: stress", stress, unit="Pa")
-        rising = stress > self.stress
+        senses: list[float] = []  # of a stage that is taken up: that with which it began
 
         def there() -> bool:
-            now = self._readings.stress
-            return now >= stress if rising else now <= stress
+            if not senses:
+                senses.append(self._sense_to(stress, self._runner.position.stage_start))
+            return senses[0] * (self._readings.stress - stress) >= 0.0
 
-        begin = partial(self._begin_stress, rate, 1.0 if rising else -1.0)
+        begin = partial(self._begin_stress, stress, rate)
         entered = self._stage(begin, lambda: there() or self._is_over())
         if self.diverged or (entered and not there()):
             raise SimulationError(
@@ -390,10 +394,19 @@ class TestRig(ABC):
         self._drive(replace(endless, min_strain=least, max_strain=largest))
         return Span(_PATIENCE * plan.steps + _LATEST_LOOK, plan.steps)
 
-    def _begin_stress(self, rate: float, sense: float) -> Span:
-        plan = self._schedule(Loading(rate))
-        self._drive(replace(plan, velocity=sense * plan.velocity, min_strain=-1e300))
+    def _begin_stress(self, stress: float, rate: float) -> Span:
+        kind = "waiting" if self.built.name in RUNNING_SHARE else "constant"
+        plan, sense = self._schedule(Loading(rate, kind)), self._sense_to(stress, yade.O.iter)
+        # a stress that falls as it is to fall is no failure
+        peak = plan.least_peak if sense > 0.0 else 1e300
+        self._drive(replace(plan, velocity=sense * plan.velocity, least_peak=peak))
         return _span(plan)
+
+    def _sense_to(self, stress: float, step: int) -> float:
+        """1 if the stress must rise from what the record has at a step, else -1."""
+        record = self.record
+        before = record["axial_stress"][record["step"] <= step]
+        return 1.0 if stress > (before[-1] if len(before) else 0.0) else -1.0
 
     def _at_rest(self) -> bool:
         """Whether forces balance under the full pressure; looked at each crossing of a wave."""
