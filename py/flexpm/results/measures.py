@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..arrays import FloatArray
+from .doubts import SET_POINT_OFF
 from .record import Curve
 
 ENERGIES = (

@@ -76,6 +76,22 @@ def _is_outline(value: object) -> bool:
     return _RING(value)
 
 
+def _is_cuts(value: object) -> bool:
+    """What came of the lines of each joint, by its name."""
+    return isinstance(value, Mapping) and all(
+        isinstance(cut, Mapping)
+        and _CUT.keys() >= cut.keys() >= _CUT.keys() - {"on", "reason"}
+        and all(_CUT[key](one) for key, one in cut.items())
+        for cut in value.values()
+    )
+
+
+_CUT: dict[str, _Rule] = {
+    **dict.fromkeys(("lines", "idle"), _is_count),
+    **dict.fromkeys(("length", "cut", "taken", "outside"), _is_number),
+    "on": _or_none(_is_text),
+    "reason": _is_text,
+}
 _RING = _list(_row(2), 3)
 #: What each key of a file holds.
 _KEYS: dict[str, _Rule] = {
@@ -90,11 +106,12 @@ _KEYS: dict[str, _Rule] = {
     "sides": _list(_row(3, _is_count)),
     "joints": _list(_row(3, _is_count)),
     "lines": lambda value: isinstance(value, Mapping),
+    "cuts": _is_cuts,
     "strengths": _or_none(_list(_is_positive)),
     "grains": _or_none(_list(_is_count, 1)),
 }
 #: Keys that files of earlier versions lack.
-_LATER = ("lines",)
+_LATER = ("lines", "cuts")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, _Rule] = {
     "kind": _is_text,

@@ -88,8 +88,7 @@ def parts(content: Table) -> Table:
         "holes": tuple(np.array(hole, dtype=float) for hole in content["holes"]),
         "joints": joint_lines.checked(content["lines"]) if content.get("lines") else {},
         "joint_cuts": {
-            name: joint_lines.Cut.from_json(cut)
-            for name, cut in (content.get("cuts") or {}).items()
+            name: joint_lines.Cut.from_json(cut) for name, cut in content.get("cuts", {}).items()
         },
     }
     found |= {key: np.array(values, dtype=np.int32) for key, values in given.items()}

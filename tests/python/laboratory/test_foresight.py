@@ -44,8 +44,9 @@ def test_the_steps_of_the_loading_are_told_once(test, model, confinement, tmp_pa
 
 @pytest.mark.parametrize(
     ("test", "most"),
-    # a joint slides all its way at the fastest rate; cracks of beams take as long as they take
-    [("shear", 1.1), ("bending", 4.0), ("scb", 4.0)],
+    # a joint slides all its way at the fastest rate but for the look ahead of its slip (D58), which
+    # takes up to as many steps again; cracks of beams take as long as they take
+    [("shear", 2.2), ("bending", 4.0), ("scb", 4.0)],
 )
 @pytest.mark.parametrize("rate", [2.0, 8.0])
 def test_steps_between_parts_are_told(test, most, rate):

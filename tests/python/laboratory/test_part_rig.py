@@ -109,7 +109,9 @@ def test_energies_of_each_row_are_the_boundary_work_and_that_is_the_work_of_the_
     work = record["boundary_work"]
     assert energies == pytest.approx(work, rel=0.0, abs=1e-3 * work[-1])
     assert rig.initial_energy == 0.0
-    assert work[0] > 0.05 * work[-1]  # the elastic start, which the loading has taken back since
+    assert (
+        work[0] > 0.0
+    )  # the elastic start, small since a loading of one's own begins slowly (D58)
     done = sum(part.work for part in parts)
     assert done == pytest.approx(work[-1], rel=2e-3)
     assert rig.motion_energy == pytest.approx(work[-1] - done, rel=1e-9)
