@@ -84,6 +84,7 @@ public:
 	py::tuple  cracks();
 	py::dict   counts();
 	py::object sideNodes(int side);
+	py::dict   overlaps(Real smallestPart);
 	Real       unbalanced();
 	void       clearPressure(int side);
 
@@ -147,6 +148,8 @@ public:
 		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
 		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
+		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
+			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2].")
 		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
 		.def("clearPressure", AfterAssembly<&GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
 		.def("sideNodes", AfterAssembly<&GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The two faces that a bond has left where it cracked: the edges of its grains, which lay on each other when
+/// bonded. Deviation D59. SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+
+#include <array>
+
+namespace flexpm {
+
+/// Where the faces of a bond lie against each other now.
+struct BondFaces {
+    Point start[2];  ///< of the edge of each grain [m]
+    Point along[2];  ///< from there to its end [m]
+    Point normal;    ///< unit vector across the mean of both, from the first grain to the second
+
+    /// Opening at shares of the two edges' second nodes [m].
+    double opening(double share_a, double share_b) const;
+
+    /// Distance of the middles along the mean of both edges, as a part of its length [-].
+    double slide() const;
+
+    /// Cosine of the angle between the edges.
+    double cosine() const;
+};
+
+/// The faces of a contact that has been a bond.
+BondFaces bond_faces(const Assembly& a, int contact);
+
+/// Whether faces lie as they did when bonded: slid by less than half an edge and turned by less than 30 degrees.
+bool is_facing(const BondFaces& faces);
+
+}  // namespace flexpm
