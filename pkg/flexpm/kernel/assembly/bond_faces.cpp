@@ -1,33 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/assembly/bond_faces.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace flexpm {
 
 namespace {
 
-constexpr double largest_slide = 0.5;                    // of an edge
-constexpr double least_cosine = 0.86602540378443864676;  // of 30 degrees
+constexpr double facing_slide = 0.5;                // of an edge
+constexpr double facing_turn = 0.52359877559829887;  // 30 degrees
+constexpr double least_cosine = 0.5;                // of 60 degrees
+
+/// 0 up to a limit, 1 from twice that on.
+double beyond(double value, double limit)
+{
+    return std::min(std::max(value / limit - 1.0, 0.0), 1.0);
+}
 
 }  // namespace
 
-double BondFaces::opening(double share_a, double share_b) const
+Point BondFaces::apart(double share_a, double share_b) const
 {
-    return dot((start[1] + share_b * along[1]) - (start[0] + share_a * along[0]), normal);
+    return (start[1] + share_b * along[1]) - (start[0] + share_a * along[0]);
 }
 
 double BondFaces::slide() const
 {
     const Point mean = 0.5 * (along[0] + along[1]);
-    const Point apart = (start[1] + 0.5 * along[1]) - (start[0] + 0.5 * along[0]);
-    return std::fabs(dot(apart, mean)) / dot(mean, mean);
+    return std::fabs(dot(apart(0.5, 0.5), mean)) / dot(mean, mean);
 }
 
 double BondFaces::cosine() const
 {
     return dot(along[0], along[1]) / (norm(along[0]) * norm(along[1]));
 }
+
+double BondFaces::turn() const { return std::acos(std::min(cosine(), 1.0)); }
 
 BondFaces bond_faces(const Assembly& a, int contact)
 {
@@ -43,9 +52,16 @@ BondFaces bond_faces(const Assembly& a, int contact)
     return faces;
 }
 
-bool is_facing(const BondFaces& faces)
+double parting(const BondFaces& faces)
 {
-    return faces.cosine() > least_cosine && faces.slide() < largest_slide;
+    if (!(faces.cosine() > least_cosine)) return 1.0;  // two that are opposed have no mean
+    return std::max(beyond(faces.slide(), facing_slide), beyond(faces.turn(), facing_turn));
+}
+
+bool is_facing(const BondFaces& faces, double part)
+{
+    return faces.cosine() > least_cosine && faces.slide() <= part * facing_slide
+        && faces.turn() <= part * facing_turn;
 }
 
 }  // namespace flexpm

@@ -15,20 +15,25 @@ struct BondFaces {
     Point along[2];  ///< from there to its end [m]
     Point normal;    ///< unit vector across the mean of both, from the first grain to the second
 
-    /// Opening at shares of the two edges' second nodes [m].
-    double opening(double share_a, double share_b) const;
+    /// From the place at a share of the first edge's second node to that at one of the other's [m].
+    Point apart(double share_a, double share_b) const;
 
     /// Distance of the middles along the mean of both edges, as a part of its length [-].
     double slide() const;
 
-    /// Cosine of the angle between the edges.
+    /// Cosine of the angle between the edges, and the angle [rad].
     double cosine() const;
+    double turn() const;
 };
 
 /// The faces of a contact that has been a bond.
 BondFaces bond_faces(const Assembly& a, int contact);
 
-/// Whether faces lie as they did when bonded: slid by less than half an edge and turned by less than 30 degrees.
-bool is_facing(const BondFaces& faces);
+/// How far two faces have parted from where they lay when bonded: 0 as long as they have slid by less than half an edge and turned
+/// by less than 30 degrees, 1 from twice that on.
+double parting(const BondFaces& faces);
+
+/// Whether they lie as they did, by this part of what parting() allows.
+bool is_facing(const BondFaces& faces, double part = 1.0);
 
 }  // namespace flexpm

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
+#include <flexpm/kernel/topology/crack_faces.hpp>
 #include <flexpm/kernel/topology/joint_faces.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 #include <flexpm/kernel/topology/touch_point.hpp>
@@ -292,9 +293,11 @@ bool has_ended(const Assembly& a, int contact)
     }
     if (contacts.joint[contact] >= 0) return false;  // follow_faces() ends it
     const GrainPair pair = contacts.pairs[contact];
-    double limit = touching_distance(a, pair);
-    if (contacts.bonded[contact]) limit = std::max(limit, norm(contacts.branch(contact)));
-    return centre_distance(a.grains, pair) > limit;
+    const double distance = centre_distance(a.grains, pair);
+    if (!contacts.bonded[contact]) return distance > touching_distance(a, pair);
+    if (presses(contacts, contact)) return false;
+    if (is_between_faces(contacts, contact)) return distance > watched_distance(a, contact);
+    return distance > std::max(touching_distance(a, pair), bonded_distance(a.grains, pair));
 }
 
 std::vector<int> ended_contacts(const Assembly& a)
@@ -317,6 +320,13 @@ std::vector<int> ended_contacts(const Assembly& a)
     return ended;
 }
 
+void renew_step(Assembly& a, double damping, double dt)
+{
+    pad_contacts(a.contacts);
+    prepare_step(a);
+    if (dt > 0.0) raise_masses(a, damping, dt);
+}
+
 bool follow_touches(Assembly& a, double damping, double dt)
 {
     Contacts& contacts = a.contacts;
@@ -328,11 +338,8 @@ bool follow_touches(Assembly& a, double damping, double dt)
         attach(contacts, c, touch);
         moved = true;
     }
-    if (!moved) return false;
-    pad_contacts(contacts);
-    prepare_step(a);
-    if (dt > 0.0) raise_masses(a, damping, dt);
-    return true;
+    if (moved) renew_step(a, damping, dt);
+    return moved;
 }
 
 std::vector<GrainPair> follow_faces(Assembly& a, double damping, double dt)
