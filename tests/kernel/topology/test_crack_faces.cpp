@@ -2,7 +2,7 @@
 /// @file  Bonds that have cracked meet again at their faces. SI units, tension positive.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/assembly/bond_faces.hpp>
+#include <flexpm/kernel/forces/bond_faces.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
 
@@ -176,7 +176,8 @@ TEST_CASE("A pair that parts, slides and meets again makes no energy")
     double friction = 0.0;
     const auto look = [&] {
         const flexpm::Energies e = flexpm::energies(a);
-        CAPTURE(rigid, disc, e.elastic, e.friction, e.damage, e.kinetic, e.boundary_work, e.initial, e.damping);
+        CAPTURE(rigid, disc, e.elastic, e.friction, e.damage, e.kinetic, e.boundary_work, e.initial,
+            e.damping);
         CHECK(e.friction >= friction - 1e-9);
         friction = e.friction;
         CHECK(balance::miss(e) == Approx(0.0).margin(2e-3 * (e.friction + e.elastic) + 1e-9));

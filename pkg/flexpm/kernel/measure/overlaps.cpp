@@ -2,7 +2,7 @@
 #include <flexpm/kernel/measure/overlaps.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/bond_faces.hpp>
+#include <flexpm/kernel/forces/bond_faces.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 
 #include <algorithm>
@@ -81,8 +81,7 @@ double closed_area(const Assembly& a, int contact)
     double sum = 0.0;
     for (int p = 0; p < a.contacts.points_of(contact); ++p) {
         const PointState s = a.contacts.point_state(contact, p);
-        sum -= a.contacts.area(contact, p)
-            * std::min(law::gap(a.contacts.law_of(contact), s), 0.0);
+        sum -= a.contacts.area(contact, p) * std::min(law::gap(a.contacts.law_of(contact), s), 0.0);
     }
     return sum / a.thickness;
 }
@@ -109,14 +108,14 @@ std::vector<Overlap> find_overlaps(const Assembly& a, double smallest_part)
     std::vector<Box> boxes;
     for (int g = 0; g < a.grains.count; ++g) {
         outlines[g] = outline_of(a.grains, g);
-        const bool is_somewhere
-            = std::all_of(outlines[g].begin(), outlines[g].end(), is_finite);
+        const bool is_somewhere = std::all_of(outlines[g].begin(), outlines[g].end(), is_finite);
         if (!a.grains.erased[g] && is_somewhere) boxes.push_back(box_of(outlines[g], g));
     }
     std::vector<Overlap> found;
     for_each_near(boxes, [&](int g, int h) {
         const double area = common_area(outlines[g], outlines[h]);
-        const double least = std::min(polygon_shape(outlines[g]).area, polygon_shape(outlines[h]).area);
+        const double least =
+            std::min(polygon_shape(outlines[g]).area, polygon_shape(outlines[h]).area);
         if (!(area > smallest_part * least)) return;
         Overlap overlap { { g, h }, area, area / least, false, false, 0.0 };
         add_contacts(a, overlap);

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/topology/crack_faces.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/bond_faces.hpp>
+#include <flexpm/kernel/forces/bond_faces.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 #include <flexpm/kernel/topology/edge_points.hpp>
 
@@ -16,8 +16,9 @@ namespace {
 // parts of the sum of two radii, beyond the distance at which the pair was bonded or its discs touch
 constexpr double kept_within = 0.2;
 constexpr double found_within = 0.15;
-constexpr double largest_turn = 0.02;  // of the normal of a contact that bears something, at once [rad]
-constexpr double again = 0.9;          // of the limits of facing: a crack that acts again
+constexpr double largest_turn =
+    0.02;                      // of the normal of a contact that bears something, at once [rad]
+constexpr double again = 0.9;  // of the limits of facing: a crack that acts again
 
 Point between_bonded_centres(const Grains& grains, GrainPair pair)
 {
@@ -82,12 +83,12 @@ PointState open_state(PointState s, const LawParameters& law, Point apart, Point
 PointState turned_state(PointState s, const LawParameters& law, Point from, Point to)
 {
     const double before = law::elastic_energy(law, s);
-    const Point traction = (law.normal_stiffness * law::gap(law, s)) * from
-        + s.shear_traction * tangent_of(from);
+    const Point traction =
+        (law.normal_stiffness * law::gap(law, s)) * from + s.shear_traction * tangent_of(from);
     const double normal = std::min(dot(traction, to), 0.0);
     const double shear = normal < 0.0 ? dot(traction, tangent_of(to)) : 0.0;
-    const double stored = 0.5 * normal * normal / law.normal_stiffness
-        + 0.5 * shear * shear / law.shear_stiffness;
+    const double stored =
+        0.5 * normal * normal / law.normal_stiffness + 0.5 * shear * shear / law.shear_stiffness;
     const double part = stored > before ? std::sqrt(before / stored) : 1.0;
     s.shear_traction = part * shear;
     s.opening = part * normal / law.normal_stiffness + law::dilated(law, s.slip, s.shear_traction);
@@ -133,9 +134,9 @@ void set_couple(Contacts& contacts, int contact, const BondFaces& faces)
 void set_branch(Assembly& a, int contact, Point normal, bool between_faces)
 {
     const GrainPair pair = a.contacts.pairs[contact];
-    const Point bonded = between_bonded_centres(a.grains, pair), now = between_centres(a.grains, pair);
-    a.contacts.set_branch(
-        contact, between_faces ? Point {} : norm(now) * normal - (now - bonded));
+    const Point bonded = between_bonded_centres(a.grains, pair),
+                now = between_centres(a.grains, pair);
+    a.contacts.set_branch(contact, between_faces ? Point {} : norm(now) * normal - (now - bonded));
 }
 
 /// Normal that a crack should have: across its faces while these lie as they did, then turning to the line of the centres the
@@ -203,8 +204,8 @@ void restore(Assembly& a, int contact)
 {
     Contacts& contacts = a.contacts;
     const auto [from, to] = contacts.edge(contact, 0);
-    const double area = a.thickness
-        * norm(vector_at(a.grains.reference, to) - vector_at(a.grains.reference, from));
+    const double area =
+        a.thickness * norm(vector_at(a.grains.reference, to) - vector_at(a.grains.reference, from));
     const EdgePoints places = edge_points(contacts.points_of(contact));
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         PointState s = contacts.point_state(contact, p);

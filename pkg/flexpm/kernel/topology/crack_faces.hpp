@@ -28,8 +28,8 @@ double watched_distance(const Assembly& a, int contact);
 
 /// What follow_cracks() has changed.
 struct CrackChanges {
-    bool any = false;               ///< contacts have other normals, or have come or gone
-    std::vector<GrainPair> pairs;   ///< of those that have come or gone, ascending
+    bool any = false;              ///< contacts have other normals, or have come or gone
+    std::vector<GrainPair> pairs;  ///< of those that have come or gone, ascending
 };
 
 /// Let bonds that have cracked through follow their faces or discs, and let those that have ended act again where their

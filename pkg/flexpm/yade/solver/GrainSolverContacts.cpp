@@ -110,9 +110,9 @@ void GrainSolver::followFaces()
 	vector<flexpm::GrainPair> changed;
 	{
 		const std::lock_guard<std::mutex> lock(scene->interactions->drawloopmutex); // a window may be drawing contacts
-		const Real massesFor = scaled ? scene->dt : 0.;
-		changed              = flexpm::follow_faces(assembly, massDamping, massesFor);
-		const auto cracks    = flexpm::follow_cracks(assembly, massDamping, massesFor);
+		const Real                        massesFor = scaled ? scene->dt : 0.;
+		changed                                     = flexpm::follow_faces(assembly, massDamping, massesFor);
+		const auto cracks                           = flexpm::follow_cracks(assembly, massDamping, massesFor);
 		changed.insert(changed.end(), cracks.pairs.begin(), cracks.pairs.end());
 		if (cracks.any || !changed.empty()) limitStep();
 	}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/assembly/bond_faces.hpp>
+#include <flexpm/kernel/forces/bond_faces.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@ namespace flexpm {
 
 namespace {
 
-constexpr double facing_slide = 0.5;                // of an edge
+constexpr double facing_slide = 0.5;                 // of an edge
 constexpr double facing_turn = 0.52359877559829887;  // 30 degrees
-constexpr double least_cosine = 0.5;                // of 60 degrees
+constexpr double least_cosine = 0.5;                 // of 60 degrees
 
 /// 0 up to a limit, 1 from twice that on.
 double beyond(double value, double limit)
