@@ -159,7 +159,7 @@ TEST_CASE("Faces that have turned meet with their ends, up to an angle")
         == Approx(-material.normal_stiffness * closed * area / 6.0).epsilon(0.01));
     turn(a, -1e-3 * degree, 100);
     // turned by less than 30 degrees, the face meets with its end
-    const double first = 0.5 * size * std::sin(20.0 * degree);
+    const double first = size * std::tan(10.0 * degree);  // across the mean of both faces
     lead(a, { 0.6 * size, 0.0 }, 1000);
     turn(a, 20.0 * degree, 1000);
     lead(a, { first + press - 0.6 * size, 0.0 }, 1000);

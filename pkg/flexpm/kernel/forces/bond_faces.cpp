@@ -18,6 +18,14 @@ double beyond(double value, double limit)
     return std::min(std::max(value / limit - 1.0, 0.0), 1.0);
 }
 
+/// Whether the second face looks to the first, and not from far behind it. Two that are opposed have no mean.
+bool is_before(const BondFaces& faces)
+{
+    if (!(faces.cosine() > least_cosine)) return false;
+    const double length = 0.5 * norm(faces.along[0] + faces.along[1]);
+    return dot(faces.apart(0.5, 0.5), faces.normal) > -deepest * length;
+}
+
 }  // namespace
 
 Point BondFaces::apart(double share_a, double share_b) const
@@ -54,13 +62,13 @@ BondFaces bond_faces(const Assembly& a, int contact)
 
 double parting(const BondFaces& faces)
 {
-    if (!(faces.cosine() > least_cosine)) return 1.0;  // two that are opposed have no mean
+    if (!is_before(faces)) return 1.0;
     return std::max(beyond(faces.slide(), facing_slide), beyond(faces.turn(), facing_turn));
 }
 
 bool is_facing(const BondFaces& faces, double part)
 {
-    return faces.cosine() > least_cosine && faces.slide() <= part * facing_slide
+    return is_before(faces) && faces.slide() <= part * facing_slide
         && faces.turn() <= part * facing_turn;
 }
 

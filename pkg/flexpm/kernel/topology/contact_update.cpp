@@ -296,7 +296,7 @@ bool has_ended(const Assembly& a, int contact)
     const double distance = centre_distance(a.grains, pair);
     if (!contacts.bonded[contact]) return distance > touching_distance(a, pair);
     if (presses(contacts, contact)) return false;
-    if (is_between_faces(contacts, contact)) return distance > watched_distance(a, contact);
+    if (is_between_faces(contacts, contact)) return !is_watched(a, contact);
     return distance > std::max(touching_distance(a, pair), bonded_distance(a.grains, pair));
 }
 

@@ -13,7 +13,7 @@ namespace flexpm {
 
 namespace {
 
-// parts of the sum of two radii, beyond the distance at which the pair was bonded or its discs touch
+// parts of the sum of two radii: how near faces are
 constexpr double kept_within = 0.2;
 constexpr double found_within = 0.15;
 constexpr double largest_turn =
@@ -29,14 +29,6 @@ Point between_bonded_centres(const Grains& grains, GrainPair pair)
 Point between_centres(const Grains& grains, GrainPair pair)
 {
     return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
-}
-
-/// Distance at which the centres of a pair are when its discs or, as bonded, its faces touch, and a part of the radii more [m].
-double distance_with_margin(const Assembly& a, int contact, double margin)
-{
-    const GrainPair pair = a.contacts.pairs[contact];
-    const double radii = a.grains.radius[pair[0]] + a.grains.radius[pair[1]];
-    return std::max(radii, bonded_distance(a.grains, pair)) + margin * radii;
 }
 
 /// Whether a contact is a bond between grains of the rock or particles that has no strength left.
@@ -99,6 +91,22 @@ PointState turned_state(PointState s, const LawParameters& law, Point from, Poin
 Point apart_at(const Contacts& contacts, int contact, int point, const BondFaces& faces)
 {
     return faces.apart(contacts.weight(contact, point, 0), contacts.weight(contact, point, 1));
+}
+
+/// Whether a place on the faces of a crack, or the discs, are less than a part of both radii from touching, or the centres from
+/// where they were bonded.
+bool is_near(const Assembly& a, int contact, const BondFaces& faces, double part)
+{
+    const GrainPair pair = a.contacts.pairs[contact];
+    const double radii = a.grains.radius[pair[0]] + a.grains.radius[pair[1]];
+    const double margin = part * radii;
+    if (norm(between_centres(a.grains, pair))
+        < std::max(radii, bonded_distance(a.grains, pair)) + margin) {
+        return true;
+    }
+    for (int p = 0; p < a.contacts.points_of(contact); ++p)
+        if (dot(apart_at(a.contacts, contact, p, faces), faces.normal) < margin) return true;
+    return false;
 }
 
 /// Bring the points of a crack to their places about a normal; what they bear goes over.
@@ -181,11 +189,10 @@ bool follow(Assembly& a, int contact)
 }
 
 /// Whether a crack that has ended may act again.
-bool is_near(const Assembly& a, int contact)
+bool may_act(const Assembly& a, int contact)
 {
-    const double distance = distance_with_margin(a, contact, found_within);
-    return square_distance(a.grains, a.contacts.pairs[contact]) < distance * distance
-        && is_facing(bond_faces(a, contact), again);
+    const BondFaces faces = bond_faces(a, contact);
+    return is_facing(faces, again) && is_near(a, contact, faces, found_within);
 }
 
 /// The touch of a pair that has no bond any more; -1: none.
@@ -241,9 +248,9 @@ bool presses(const Contacts& contacts, int contact)
     return false;
 }
 
-double watched_distance(const Assembly& a, int contact)
+bool is_watched(const Assembly& a, int contact)
 {
-    return distance_with_margin(a, contact, kept_within);
+    return is_near(a, contact, bond_faces(a, contact), kept_within);
 }
 
 CrackChanges follow_cracks(Assembly& a, double damping, double dt)
@@ -256,7 +263,7 @@ CrackChanges follow_cracks(Assembly& a, double damping, double dt)
             changes.any = follow(a, c) || changes.any;
             continue;
         }
-        if (!is_near(a, c)) continue;
+        if (!may_act(a, c)) continue;
         const int touch = touch_of(a.contacts, a.contacts.pairs[c]);
         if (touch >= 0 && presses(a.contacts, touch)) continue;
         restore(a, c);

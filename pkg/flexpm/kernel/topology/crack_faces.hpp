@@ -23,8 +23,8 @@ double bonded_distance(const Grains& grains, GrainPair pair);
 /// Whether a point of a contact bears compression.
 bool presses(const Contacts& contacts, int contact);
 
-/// Distance of centres up to which a cracked bond between faces is kept though it is open [m].
-double watched_distance(const Assembly& a, int contact);
+/// Whether the faces of a crack are so near that it is kept though it is open.
+bool is_watched(const Assembly& a, int contact);
 
 /// What follow_cracks() has changed.
 struct CrackChanges {
