@@ -11,6 +11,7 @@ namespace {
 constexpr double facing_slide = 0.5;                 // of an edge
 constexpr double facing_turn = 0.52359877559829887;  // 30 degrees
 constexpr double least_cosine = 0.5;                 // of 60 degrees
+constexpr double deepest = 0.5;                      // of an edge: a face further behind the other
 
 /// 0 up to a limit, 1 from twice that on.
 double beyond(double value, double limit)
