@@ -173,6 +173,19 @@ TEST_CASE("Faces that have turned meet with their ends, up to an angle")
     CHECK(norm(force_on_first(a)) == 0.0);
 }
 
+TEST_CASE("A grain that has gone round to the other side does not meet the back of a face")
+{
+    Assembly a = held_pair(GENERATE(false, true), 0.87);
+    lead(a, { 1e-5, 0.0 }, 2000);
+    lead(a, { 0.5 * size, 0.0 }, 100);
+    lead(a, { 0.0, 2.0 * size }, 400);
+    lead(a, { -2.5 * size, 0.0 }, 400);
+    lead(a, { 0.0, -2.0 * size }, 400);
+    CHECK(active_contacts(a) == 0);
+    lead(a, { -0.1 * size, 0.0 }, 100);
+    CHECK(norm(force_on_first(a)) == 0.0);
+}
+
 TEST_CASE("A pair that parts, slides and meets again makes no energy")
 {
     const bool rigid = GENERATE(false, true);

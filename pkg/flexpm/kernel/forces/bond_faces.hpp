@@ -30,7 +30,7 @@ struct BondFaces {
 BondFaces bond_faces(const Assembly& a, int contact);
 
 /// How far two faces have parted from where they lay when bonded: 0 as long as they have slid by less than half an edge and turned
-/// by less than 30 degrees, 1 from twice that on.
+/// by less than 30 degrees, 1 from twice that on, and where the middle of one lies by half an edge behind the other.
 double parting(const BondFaces& faces);
 
 /// Whether they lie as they did, by this part of what parting() allows.
