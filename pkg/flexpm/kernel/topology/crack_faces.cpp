@@ -17,7 +17,7 @@ namespace {
 constexpr double kept_within = 0.2;
 constexpr double found_within = 0.15;
 constexpr double largest_turn =
-    0.02;                      // of the normal of a contact that bears something, at once [rad]
+    0.1;                       // of the normal of a contact that bears something, at once [rad]
 constexpr double again = 0.9;  // of the limits of facing: a crack that acts again
 
 Point between_bonded_centres(const Grains& grains, GrainPair pair)
