@@ -63,6 +63,8 @@ def case(seed: int) -> dict:
         "plane": draw.choice(["stress", "strain"]),
         "softening": draw.choice(["brittle", "bilinear"]),
     }
+    if model != "flexible":  # whose grains alone deform
+        del material["young"], material["poisson"], material["plane"]
     if material["softening"] == "bilinear":
         stiffness = material["normal_stiffness"]
         ductile = power(0.0, 3.0)

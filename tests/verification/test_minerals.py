@@ -299,7 +299,7 @@ def with_pair(**values):
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_two_layers_part_at_the_strength_and_with_the_energy_of_their_pair(model):
-    specimen = grid(2, 2).with_minerals([0, 0, 1, 1])
+    specimen = grid(2, 4).with_minerals([0] * 4 + [1] * 4)
     material = with_pair(values=WEAK)
     slow = {"loading": "constant", "start": "rest", "rate": 0.02, "stop_ratio": 1e-9}
     slow["max_strain"] = 6e-3  # the pair is open by 1e-5 m at 2.5e-3, of centres of grains at 5e-3
