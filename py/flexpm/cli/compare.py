@@ -26,6 +26,7 @@ from .options import Each, Name, Quantity
 _SHARED = (
     *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start"),
     *("loading", "span", "notch", "normal_stress", "max_displacement", "wave", "control"),
+    "interaction_range",
 )
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
 @cli_options.specimen_option
 @cli_options.joints_option
 @cli_options.loading_options
+@cli_options.range_option
 @cli_options.threads_option
 @cli_options.out_option
 @cli_options.report_option
@@ -85,8 +87,11 @@ def compare(
     options["material"] = options["material"] or COMPARED
     _require_use(options["assignments"], models)
     chosen = {model: inputs.material(options, model) for model in models}
+    farthest = ranges(models, options["interaction_range"])
     specs = [
-        inputs.run_spec(test, options | {"model": model}, material)
+        inputs.run_spec(
+            test, options | {"model": model, "interaction_range": farthest[model]}, material
+        )
         for model, material in chosen.items()
     ]
     if several := packings.asked(options):

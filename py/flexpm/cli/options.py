@@ -16,7 +16,7 @@ from ..errors import InputError
 from ..laboratory.loading_rate import LOADINGS
 from ..laboratory.output import FILMS, MOST_FRAMES
 from ..laboratory.run_spec import CONTROLS, STARTS, WAVES, RunSpec
-from ..models.options import MESHES, MODELS, POINTS
+from ..models.options import MESHES, MODELS, POINTS, RANGE
 from ..require import (
     ANY,
     NOT_NEGATIVE,
@@ -359,6 +359,13 @@ model_options = combined(
         help="Model of the grains.",
     ),
     material_options,
+)
+range_option = click.option(
+    "--interaction-range",
+    type=Quantity("", RANGE),
+    metavar="G",
+    help="For jcfpm and cohfrict: bond spheres nearer than G times the sum of their radii, too, 1 "
+    "to 2 [-].  [default: only neighbours]",
 )
 loading_options = combined(
     click.option(

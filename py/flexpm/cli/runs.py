@@ -53,6 +53,7 @@ _discard_option = click.option(
     help="Lateral pressure [Pa].",
 )
 @cli_options.loading_options
+@cli_options.range_option
 @cli_options.threads_option
 @cli_options.out_option
 @_discard_option

@@ -91,6 +91,7 @@ def run(
     wave: str | None = None,
     control: str | None = None,
     damping: float | None = None,
+    interaction_range: float | None = None,
     threads: int = 1,
     out: Path | str | None = None,
     progress: Progress | None = None,
@@ -153,6 +154,8 @@ def run(
         damping: Local damping alpha of the loading [-], 0 <= alpha < 1, not for ``sonic``; None:
             0.7 with scaled masses, 0 with `dynamic`. Confining pressures act on a specimen that is
             damped with 0.7 at least, until it is at rest.
+        interaction_range: For ``jcfpm`` and ``cohfrict``: spheres nearer than this multiple of the
+            sum of their radii are bonded, too, 1 to 2 [-]; None: only neighbours.
         threads: Threads of a step; results do not depend on it.
         out: Folder for the files of the result; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -192,6 +195,7 @@ def run(
         wave=wave,
         control=control,
         damping=damping,
+        interaction_range=interaction_range,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval, output)
     return carry_out(plan, threads=threads, progress=progress)
@@ -289,6 +293,7 @@ def carry_out(
         damping=spec.settling_damping,
         dynamic=spec.dynamic,
         gravity=spec.gravity,
+        interaction_range=spec.interaction_range,
         threads=threads,
     )
     if checkpoint is not None and checkpoint.found:

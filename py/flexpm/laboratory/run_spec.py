@@ -177,7 +177,7 @@ _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
     *("dynamic", "gravity", "damping", "start", "loading", "span", "notch"),
     *("normal_stress", "max_displacement"),
-    *("wave", "control"),
+    *("wave", "control", "interaction_range"),
 )
 #: Fields that options of the command set, by their names.
 OPTIONS = (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, *_SIMULATION)
@@ -222,6 +222,8 @@ class RunSpec:
         damping: Local damping alpha [-] of the loading; None: 0.7, as always before it could be
             chosen. With real masses it is 0 unless it is given; a specimen is settled under its
             confinement with 0.7 at least. None for ``sonic``, which has none, and ``elastic``.
+        interaction_range: Of YADE's spheres, up to which multiple of the sum of their radii they
+            are bonded [-]; None: only neighbours, and for other models.
     """
 
     test: str
@@ -245,6 +247,7 @@ class RunSpec:
     wave: str | None = None
     control: str | None = None
     damping: float | None = None
+    interaction_range: float | None = None
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
@@ -257,6 +260,7 @@ class RunSpec:
             mesh=self.mesh,
             dynamic=self.dynamic,
             gravity=self.gravity,
+            interaction_range=self.interaction_range,
         )
         self._check_start()
         self._check_loading()
@@ -581,6 +585,11 @@ def models_of(test: str) -> tuple[str, ...]:
     if test == ELASTIC:
         return GRAIN_MODELS
     return PART_MODELS if test in (*PART_TESTS, SONIC) else MODELS
+
+
+def takes_range(model: object) -> bool:
+    """Whether a model can have an interaction range."""
+    return model in SPHERE_MODELS
 
 
 def shape_of(test: str) -> str:

@@ -191,6 +191,7 @@ def build(
     damping: float | None = None,
     dynamic: bool = False,
     gravity: float = 0.0,
+    interaction_range: float | None = None,
     threads: int = 1,
 ) -> Model | spheres.SphereModel:
     """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
@@ -208,6 +209,9 @@ def build(
             ones. What moves freely under gravity g gains (1 - alpha) g.
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
         gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
+        interaction_range: For ``jcfpm`` and ``cohfrict``: pairs of discs nearer than this multiple
+            of the sum of their radii are bonded, too, 1 to 2 [-] (deviation D61); None: only those
+            whose cells share an edge.
         threads: Threads of a step; results do not depend on it.
 
     Returns:
@@ -216,7 +220,14 @@ def build(
     Raises:
         InputError: for an argument or a material property out of range.
     """
-    check_options(model, points=points, mesh=mesh, dynamic=dynamic, gravity=gravity)
+    check_options(
+        model,
+        points=points,
+        mesh=mesh,
+        dynamic=dynamic,
+        gravity=gravity,
+        interaction_range=interaction_range,
+    )
     points = int(points)  # numpy's integers are no integers for the kernel
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
@@ -225,7 +236,13 @@ def build(
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
         return spheres.build(
-            specimen, material, model, damping=damping, dynamic=dynamic, threads=threads
+            specimen,
+            material,
+            model,
+            damping=damping,
+            dynamic=dynamic,
+            interaction_range=interaction_range,
+            threads=threads,
         )
     if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")

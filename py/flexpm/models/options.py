@@ -26,6 +26,8 @@ MESHES = ("refined", "fan")
 POINTS = (1, 2, 3)
 #: Local damping with scaled masses, unless told otherwise [-], paper Sec. 4.1.
 DAMPING = 0.7
+#: Distances up to which spheres are bonded, over the sum of their radii [-].
+RANGE = Bounds(at_least=1.0, at_most=2.0)
 _DAMPING = Bounds(at_least=0.0, below=1.0)
 
 
@@ -46,7 +48,13 @@ def local_damping(damping: float | None, *, dynamic: bool) -> float:
 
 
 def check_options(
-    model: str, *, points: int, mesh: str, dynamic: bool = False, gravity: float = 0.0
+    model: str,
+    *,
+    points: int,
+    mesh: str,
+    dynamic: bool = False,
+    gravity: float = 0.0,
+    interaction_range: float | None = None,
 ) -> None:
     """Raise InputError for an unknown model, or for an option that it cannot have.
 
@@ -56,10 +64,18 @@ def check_options(
         mesh: Triangles in each grain.
         dynamic: Real masses and time.
         gravity: Acceleration downwards [m/s2].
+        interaction_range: Distance up to which spheres are bonded over the sum of their radii [-].
     """
     require_one_of("build: model", model, MODELS)
     require_whole("build: points", points)
     require_flag("build: dynamic", dynamic)
+    if interaction_range is not None:
+        require_number("build: interaction_range", interaction_range, RANGE)
+        if model not in SPHERE_MODELS:
+            raise InputError(
+                f"build: interaction_range = {interaction_range}, must not be given for model "
+                f"{model}; it is for {' and '.join(SPHERE_MODELS)}"
+            )
     if model in SPHERE_MODELS:
         require_one_of(f"build: points of model {model}", points, (POINTS[-1],))
         require_one_of(f"build: mesh of model {model}", mesh, (MESHES[0],))

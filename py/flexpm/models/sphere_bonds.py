@@ -9,6 +9,9 @@ its strengths it takes
 
 so that one bond carries in tension and in shear what the edge's contact points carry together. Both
 models break at once: fracture energies are not used. Strengths are forces and magnitudes.
+
+Pairs within an interaction range are bonded, too, if one is asked for: as if they shared an edge of
+the length of the smaller disc's diameter, across their middle (deviation D61).
 """
 
 from __future__ import annotations
@@ -54,21 +57,27 @@ def in_order(values: Iterable[float]) -> float:
     return reduce(operator.add, values, 0.0)
 
 
-def bonds_of(specimen: Specimen, law: Law) -> Bonds:
+def bonds_of(specimen: Specimen, law: Law, interaction_range: float | None = None) -> Bonds:
     """Bonds of a specimen.
 
     Args:
         specimen: The grains; a bond stands on each edge that two of them share.
         law: Effective parameters, ``Material.law``.
+        interaction_range: Distance up to which discs are bonded, too, over the sum of their radii
+            [-]; None for none but those.
     """
     cells = specimen.tessellation
     edges = np.array(cells.shared_edges, dtype=int).reshape(-1, 4)
-    ends = np.array(cells.vertices)[edges[:, 2:4]]
+    grains, ends = edges[:, :2], np.array(cells.vertices)[edges[:, 2:4]]
+    if interaction_range is not None:
+        farther = _farther_pairs(specimen, grains, interaction_range)
+        grains = np.concatenate((grains, farther))
+        ends = np.concatenate((ends, _edges_across(specimen, farther)))
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     areas = lengths * specimen.thickness
     normal = law["normal_stiffness"] * areas
     return Bonds(
-        grains=edges[:, :2],
+        grains=grains,
         ends=ends,
         areas=areas,
         normal_stiffness=normal,
@@ -77,6 +86,52 @@ def bonds_of(specimen: Specimen, law: Law) -> Bonds:
         tensile_strength=law["tensile_strength"] * areas,
         shear_strength=law["cohesion"] * areas,
     )
+
+
+def _farther_pairs(specimen: Specimen, bonded: IntArray, interaction_range: float) -> IntArray:
+    """Pairs of discs within a range that share no edge, and see each other inside the outline."""
+    from scipy.spatial import cKDTree
+
+    centres, radii = specimen.centres, specimen.radii
+    farthest = 2.0 * interaction_range * float(radii.max())
+    pairs = cKDTree(centres).query_pairs(farthest, output_type="ndarray").astype(int)
+    pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    apart = np.hypot(*(centres[pairs[:, 1]] - centres[pairs[:, 0]]).T)
+    near = apart < interaction_range * radii[pairs].sum(axis=1)
+    known = {(min(pair), max(pair)) for pair in bonded.tolist()}
+    new = np.array([tuple(pair) not in known for pair in pairs.tolist()], dtype=bool)
+    pairs = pairs[near & new]
+    found: IntArray = pairs[~_meet_outline(specimen, centres[pairs])]
+    return found
+
+
+def _meet_outline(specimen: Specimen, lines: FloatArray) -> BoolArray:
+    """Of each line between two points inside, (n, 2, 2) [m], whether it meets an outer edge."""
+    cells = specimen.tessellation
+    outer = np.array(cells.boundary_edges, dtype=int)[:, 1:3]
+    start, end = np.moveaxis(np.array(cells.vertices)[outer], 1, 0)
+    met = [
+        bool(np.any((_side(a, b, start) != _side(a, b, end)) & (_side(start, end, a) != _side(start, end, b))))
+        for a, b in lines
+    ]
+    return np.array(met, dtype=bool)
+
+
+def _side(start: FloatArray, end: FloatArray, point: FloatArray) -> BoolArray:
+    """Whether points lie left of lines."""
+    along, to = end - start, point - start
+    left: BoolArray = along[..., 0] * to[..., 1] - along[..., 1] * to[..., 0] > 0.0
+    return left
+
+
+def _edges_across(specimen: Specimen, pairs: IntArray) -> FloatArray:
+    """Ends of the edges that pairs without one get, as long as the smaller disc is wide [m]."""
+    centres, radii = specimen.centres[pairs], specimen.radii[pairs]
+    along = centres[:, 1] - centres[:, 0]
+    along /= np.hypot(*along.T)[:, None]
+    gap = 0.5 * (centres[:, 0] + radii[:, :1] * along + centres[:, 1] - radii[:, 1:] * along)
+    half = radii.min(axis=1)[:, None] * np.column_stack((-along[:, 1], along[:, 0]))
+    return np.stack((gap - half, gap + half), axis=1)
 
 
 def tributary_lengths(specimen: Specimen, side: int) -> dict[int, float]:

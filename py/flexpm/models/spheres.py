@@ -2,7 +2,8 @@
 """YADE's own bonded models, JCFpm and CohFrict, on the discs and bonds of a specimen. SI units.
 
 Spheres at the disc centres move in the plane and turn about z; each edge that two cells share is a
-bond whose stiffness and strength follow the rule of ``sphere_bonds``. Spheres that meet later touch
+bond whose stiffness and strength follow the rule of ``sphere_bonds``, and so is each pair within an
+interaction range if one is asked for. Spheres that meet later touch
 with friction only. As in the other models masses are scaled for a time step of 1 unless the model
 is dynamic.
 """
@@ -229,6 +230,7 @@ def build(
     *,
     damping: float,
     dynamic: bool = False,
+    interaction_range: float | None = None,
     threads: int = 1,
 ) -> SphereModel:
     """Put a specimen into YADE's scene as bonded spheres.
@@ -239,6 +241,8 @@ def build(
         model: ``jcfpm`` or ``cohfrict``.
         damping: Local damping alpha [-].
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
+        interaction_range: Distance up to which discs are bonded over the sum of their radii [-];
+            None: only those whose cells share an edge.
         threads: Threads of YADE's engines.
 
     Returns:
@@ -252,7 +256,7 @@ def build(
     description(chosen, model)  # refuses minerals
     law = chosen.law(model)
     kind = LAWS[model]
-    bonds, radii = bonds_of(specimen, law), kind.radii(specimen)
+    bonds, radii = bonds_of(specimen, law, interaction_range), kind.radii(specimen)
     # new contacts are as stiff as the mean bond
     young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
     sphere, plate = kind.materials(law, young)

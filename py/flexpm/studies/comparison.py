@@ -18,7 +18,7 @@ from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
 from ..laboratory.loading_rate import default_stop_ratio
 from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec, described
+from ..laboratory.run_spec import RunSpec, described, takes_range
 from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
@@ -142,6 +142,7 @@ def compare(
     output = Output(False, options.pop("frames", 0), options.pop("film", None))
     shared = {name: value for name, value in options.items() if value is not None}
     shared.setdefault("stop_ratio", default_stop_ratio(test))
+    farthest = ranges(models, shared.pop("interaction_range", None))
     cases = [
         Case(
             RunSpec(
@@ -150,6 +151,7 @@ def compare(
                 described(chosen, model),
                 model,
                 confinement=confinement,
+                interaction_range=farthest[model],
                 **shared,
             ),
             chosen,
@@ -179,6 +181,20 @@ def compare(
     return found
 
 
+def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, float | None]:
+    """Interaction range of each model; only YADE's spheres have one.
+
+    Raises:
+        InputError: if it is given and none of the models can have it.
+    """
+    if interaction_range is not None and not any(map(takes_range, models)):
+        raise InputError(
+            f"compare: interaction_range = {interaction_range}, must not be given for "
+            f"{', '.join(models)}; it is for YADE's spheres"
+        )
+    return {model: interaction_range if takes_range(model) else None for model in models}
+
+
 def table(cases: Sequence[Case]) -> str:
     """One line for each run of a comparison."""
     shown = words_of_test(cases[0].spec.test).shown
@@ -192,6 +208,13 @@ def table(cases: Sequence[Case]) -> str:
         numbers = (_cell(getattr(found, name), one) for name, one in shown.items())
         rows.append((case.name, *numbers, str(found.fragments), found.status))
     drawn = columns((*header, "status"), rows)
+    farther = {case.model: case.spec.interaction_range for case in cases}
+    for model, reach in farther.items():
+        if reach is not None:
+            drawn += (
+                f"\n  {model} bonds pairs within {reach:g} (R1 + R2), too; its pairs are not those "
+                "of the other models"
+            )
     used = {case.model: name_of(case.material.name) for case in cases}
     if len(set(used.values())) == 1:
         return f"{drawn}\n  material of all: {next(iter(used.values()))}"

@@ -20,9 +20,8 @@ from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..materials import interface, joint
-from ..materials.keys import UNITS, is_used
+from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
-from ..models.options import MODELS
 from ..require import require_known, require_text
 from ..specimens import joint_lines, specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
@@ -130,9 +129,11 @@ def make(inputs: Table, base: Path) -> Job:
 
 def has_use(key: str, test: str, model: object) -> bool:
     """Whether an option, or ``set.KEY``, means something for a test on a model."""
+    if key == "interaction_range":
+        return model not in ELASTIC_SET or run_spec.takes_range(model)
     if not key.startswith("set.") or joint.is_key(key.removeprefix("set.")):
         return key not in run_spec.UNUSED[test]
-    return model not in MODELS or is_used(key, str(model))
+    return model not in ELASTIC_SET or is_used(key, str(model))
 
 
 def _specimen(test: str, used: Table) -> SpecimenSpec:

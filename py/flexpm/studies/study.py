@@ -107,8 +107,9 @@ def run(
 
 
 def _require_use(asked: Sequence[Table], made: Sequence[Job]) -> None:
-    """Refuse changes of the material that no run uses."""
-    given = {key for inputs in asked for key in inputs if key.startswith("set.")}
+    """Refuse what is for models that the study does not have."""
+    keys = {key.replace("-", "_") for inputs in asked for key in inputs}
+    given = {key for key in keys if key.startswith("set.") or key == "interaction_range"}
     for key in sorted(given.difference(*(job.inputs for job in made))):
         raise InputError(f"study {key}, is used by no model of the study; leave it out")
 
