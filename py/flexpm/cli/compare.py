@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError, SimulationError
-from ..laboratory.run_spec import PRESSED, TESTS
+from ..laboratory.run_spec import PRESSED, TESTS, ranges
 from ..materials.keys import is_used
 from ..materials.material import COMPARED
 from ..models.options import MODELS

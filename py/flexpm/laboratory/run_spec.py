@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, asdict, dataclass, fields, replace
 from numbers import Number
 
@@ -590,6 +590,20 @@ def models_of(test: str) -> tuple[str, ...]:
 def takes_range(model: object) -> bool:
     """Whether a model can have an interaction range."""
     return model in SPHERE_MODELS
+
+
+def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, float | None]:
+    """Interaction range of each model; only YADE's spheres have one.
+
+    Raises:
+        InputError: if it is given and none of the models can have it.
+    """
+    if interaction_range is not None and not any(map(takes_range, models)):
+        raise InputError(
+            f"compare: interaction_range = {interaction_range}, must not be given for "
+            f"{', '.join(models)}; it is for YADE's spheres"
+        )
+    return {model: interaction_range if takes_range(model) else None for model in models}
 
 
 def shape_of(test: str) -> str:

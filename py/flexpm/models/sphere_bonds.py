@@ -111,7 +111,10 @@ def _meet_outline(specimen: Specimen, lines: FloatArray) -> BoolArray:
     outer = np.array(cells.boundary_edges, dtype=int)[:, 1:3]
     start, end = np.moveaxis(np.array(cells.vertices)[outer], 1, 0)
     met = [
-        bool(np.any((_side(a, b, start) != _side(a, b, end)) & (_side(start, end, a) != _side(start, end, b))))
+        np.any(
+            (_side(a, b, start) != _side(a, b, end))
+            & (_side(start, end, a) != _side(start, end, b))
+        )
         for a, b in lines
     ]
     return np.array(met, dtype=bool)
@@ -125,7 +128,10 @@ def _side(start: FloatArray, end: FloatArray, point: FloatArray) -> BoolArray:
 
 
 def _edges_across(specimen: Specimen, pairs: IntArray) -> FloatArray:
-    """Ends of the edges that pairs without one get, as long as the smaller disc is wide [m]."""
+    """Ends of the edges that pairs without one get, as long as the smaller disc is wide [m].
+
+    Deviation D61.
+    """
     centres, radii = specimen.centres[pairs], specimen.radii[pairs]
     along = centres[:, 1] - centres[:, 0]
     along /= np.hypot(*along.T)[:, None]

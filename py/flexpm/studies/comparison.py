@@ -18,7 +18,7 @@ from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
 from ..laboratory.loading_rate import default_stop_ratio
 from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec, described, takes_range
+from ..laboratory.run_spec import RunSpec, described, ranges
 from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
@@ -179,20 +179,6 @@ def compare(
 
             pages.write(folder)
     return found
-
-
-def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, float | None]:
-    """Interaction range of each model; only YADE's spheres have one.
-
-    Raises:
-        InputError: if it is given and none of the models can have it.
-    """
-    if interaction_range is not None and not any(map(takes_range, models)):
-        raise InputError(
-            f"compare: interaction_range = {interaction_range}, must not be given for "
-            f"{', '.join(models)}; it is for YADE's spheres"
-        )
-    return {model: interaction_range if takes_range(model) else None for model in models}
 
 
 def table(cases: Sequence[Case]) -> str:

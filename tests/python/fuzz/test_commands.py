@@ -22,7 +22,8 @@ KEYS = st.sampled_from(
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
     --thickness --diameters --points --gravity --diameter --length --span --notch --normal-stress
-    --max-displacement --seeds --frames --workers --damping""".split()
+    --max-displacement --seeds --frames --workers --damping
+    --interaction-range""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
     --joints""".split()

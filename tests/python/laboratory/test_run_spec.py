@@ -75,6 +75,7 @@ def specs(draw) -> RunSpec:
     specimen = draw(specimens(shape_of(test)))
     if test == SONIC:  # of 50 grains at least
         specimen = dataclasses.replace(specimen, height=draw(st.floats(0.2, 1.0)))
+    spheres = st.none() | st.floats(1.0, 2.0) if model in SPHERE_MODELS else st.none()
     return RunSpec(
         test,
         specimen,
@@ -90,6 +91,7 @@ def specs(draw) -> RunSpec:
         gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded else 0.0,
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
+        interaction_range=draw(spheres),
         damping=None if "damping" in unused else draw(st.none() | st.floats(0.0, 0.99)),
     )
 
