@@ -37,8 +37,8 @@ def require_no_flight(seed: int) -> None:
     assert abs(result.curve["lateral_strain"][-1]) < 0.15
     kinetic, work = result.curve["kinetic_energy"], result.curve["boundary_work"]
     assert kinetic[-1] < doubts.LARGEST_KINETIC_SHARES["at the end under a pressure"] * work[-1]
-    # Loose grains may hit others at 2 um a step, forty times the opening at which a contact softens:
-    # the work of such a step is booked by its ends alone. Then the status and a warning say so.
+    # Loose grains may hit others at 2 um a step, forty times the opening at which a contact
+    # softens; the work of such a step is booked by its ends alone. Status and a warning say so.
     told = result.status != "ok" and any("energy_error" in line for line in result.warnings)
     assert result.energy_error < 1e-3 or told
     assert result.largest_parting == parting["any"] / diameter

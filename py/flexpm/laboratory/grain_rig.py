@@ -22,7 +22,7 @@ from ..require import nearest, quoted
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from .loading_rate import SLOWEST_WAIT, Scales, Schedule
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
 from .runner import Runner
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
@@ -136,11 +136,12 @@ class GrainRig(TestRig):
         """
         now, energies = self.built.solver.balance(), self.built.solver.energies()
         mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
-        with np.errstate(divide="ignore", invalid="ignore"):  # of a specimen that bears nothing
-            missing = np.hypot(*now["missing_force"]) / np.float64(self._pressing_force())
-            stress = np.abs(mean - outside).max() / np.abs(outside).max()
-            motion = np.sqrt(energies["kinetic_energy"] / np.float64(energies["elastic_energy"]))
-        return Balance(max(float(missing), now["plate_share"]), float(stress), float(motion))
+        missing = part_of(np.hypot(*now["missing_force"]), self._pressing_force())
+        stress = part_of(np.abs(mean - outside).max(), np.abs(outside).max())
+        # a product of two velocities is negative where a node turns within a step
+        moving = abs(energies["kinetic_energy"])
+        motion = np.sqrt(part_of(moving, energies["elastic_energy"]))
+        return Balance(max(missing, now["plate_share"]), stress, float(motion))
 
     def _pressing_force(self) -> float:
         """Least force with which the pressure acts on a whole side [N]."""

@@ -67,6 +67,13 @@ class Balance:
         return float(np.max([self.reaction, self.stress, self.motion]))
 
 
+def part_of(part: float, whole: float) -> float:
+    """Ratio of two sizes that are not negative; of nothing 0, of what has no whole infinite."""
+    if part == 0.0:
+        return 0.0
+    return float(part / whole) if whole != 0.0 else math.inf
+
+
 class Readings(Protocol):
     """What the last row of a record says."""
 

@@ -35,7 +35,7 @@ from ..models.spheres import SphereModel
 from ..results.record import Curve
 from . import sphere_ends as ends
 from .loading_rate import Scales, Schedule
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig
+from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
 from .runner import Runner
 
 #: Rows of the record up to the reference strain.
@@ -159,11 +159,12 @@ class SphereRig(TestRig):
         net, away = np.array(forces), np.array(places) - np.mean(places, axis=0)
         sizes, thickness = self.built.specimen.dimensions, self.built.specimen.thickness
         pressing = (self.confinement or 0.0) * thickness
-        short = np.abs(net.T @ away).max() / (pressing * sizes["width"] * sizes["height"])
-        missing = np.hypot(*net.sum(axis=0)) / (pressing * min(sizes["width"], sizes["height"]))
-        energy = self.built.elastic_energy()
-        motion = math.sqrt(utils.kineticEnergy() / energy) if energy > 0.0 else math.inf
-        return Balance(float(missing), float(short), motion)
+        area = sizes["width"] * sizes["height"]
+        short = part_of(np.abs(net.T @ away).max(), pressing * area)
+        least = pressing * min(sizes["width"], sizes["height"])
+        missing = part_of(np.hypot(*net.sum(axis=0)), least)
+        motion = math.sqrt(part_of(utils.kineticEnergy(), self.built.elastic_energy()))
+        return Balance(missing, short, motion)
 
     @property
     def _readings(self) -> Readings:
