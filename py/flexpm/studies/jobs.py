@@ -129,11 +129,12 @@ def make(inputs: Table, base: Path) -> Job:
 
 def has_use(key: str, test: str, model: object) -> bool:
     """Whether an option, or ``set.KEY``, means something for a test on a model."""
+    known = isinstance(model, str) and model in ELASTIC_SET  # what is not known is refused later
     if key == "interaction_range":
-        return model not in ELASTIC_SET or run_spec.takes_range(model)
+        return not known or run_spec.takes_range(model)
     if not key.startswith("set.") or joint.is_key(key.removeprefix("set.")):
         return key not in run_spec.UNUSED[test]
-    return model not in ELASTIC_SET or is_used(key, str(model))
+    return not known or is_used(key, str(model))
 
 
 def _specimen(test: str, used: Table) -> SpecimenSpec:

@@ -255,7 +255,16 @@ def started(tmp_path, *before):
     return process
 
 
+@pytest.fixture
+def heard():
+    """Processes that are started here end by SIGHUP, also where the tests themselves ignore it."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, before)
+
+
 @pytest.mark.long
+@pytest.mark.usefixtures("heard")
 def test_a_run_whose_terminal_is_closed_saves_its_state(tmp_path):
     process = started(tmp_path)
     process.send_signal(signal.SIGHUP)
@@ -288,6 +297,7 @@ sum(iter(int, 1))  # never comes back to Python's own loop
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("heard")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_a_process_in_a_library_that_loops_ends_within_ten_seconds(number):
     process = subprocess.Popen(
