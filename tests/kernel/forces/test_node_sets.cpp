@@ -5,8 +5,8 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

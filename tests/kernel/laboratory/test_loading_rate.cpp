@@ -7,8 +7,8 @@
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>

@@ -7,9 +7,10 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
+#include <flexpm/kernel/statics/unilateral_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>

@@ -5,8 +5,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/laboratory/loading_field.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

@@ -5,8 +5,8 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
-#include <flexpm/kernel/laboratory/loading_field.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 

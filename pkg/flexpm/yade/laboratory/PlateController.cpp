@@ -4,7 +4,7 @@
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/statics/static_solve.hpp>
+#include <flexpm/kernel/statics/unilateral_solve.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -87,111 +84,6 @@ void add_motion(Grains& grains, int grain, Point velocity, double spin)
     set_motion(grains, grain, v, grains.spin[grains.slot[grain]] + spin, 1.0);
 }
 
-/// Part of its stiffness that a contact keeps which bears nothing. It keeps loose grains in their place.
-constexpr double loose = 1e-6;
-
-/// Damage from which on a point counts as a crack for the motion that the loading gives.
-constexpr double softened = 0.5;
-
-/// Solutions after which points that open or lift off are not looked for any more.
-constexpr int most_lifts = 5;
-
-/// Opening of a plate's point, or damage of a crack's, that marks it as loosened in a copy of the state.
-constexpr double loosened = std::numeric_limits<double>::max();
-
-/// Pressure between the faces of a point [Pa]; below 0: they are apart, and it would be there had they stuck.
-double pressure_of(const Contacts& contacts, int contact, int point)
-{
-    const LawParameters& law = contacts.law_of(contact);
-    return -law.normal_stiffness * law::gap(law, contacts.point_state(contact, point));
-}
-
-/// Whether all of a contact is cracked and its faces slide past each other.
-bool slides(const Contacts& contacts, int contact)
-{
-    const LawParameters& law = contacts.law_of(contact);
-    for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const PointState s = contacts.point_state(contact, p);
-        const double pressure = pressure_of(contacts, contact, p);
-        const double limit = sliding_share * law.friction * pressure;
-        if (damage_of(contacts, contact, p) < softened) return false;
-        if (pressure > 0.0 && std::fabs(s.shear_traction) < limit) return false;
-    }
-    return true;
-}
-
-/// Whether the faces of a contact bear on each other anywhere.
-bool is_pressed(const Contacts& contacts, int contact)
-{
-    for (int p = 0; p < contacts.points_of(contact); ++p) {
-        if (pressure_of(contacts, contact, p) > 0.0) return true;
-    }
-    return false;
-}
-
-/// Loosen the points of cracks that a motion opens and that nothing presses together now (deviation D45), and the shear of cracks that slide; returns whether there are any.
-///
-/// @param laws  number of laws before cracks got theirs
-bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
-{
-    Contacts& contacts = a.contacts;
-    bool any = false;
-    for (int c = 0; c < contacts.count; ++c) {
-        if (contacts.erased[c]) continue;
-        const Point n = bonded_normal(a, c);
-        for (int p = 0; p < contacts.points_of(c); ++p) {
-            double& mark = contacts.state(c, p, PointRow::shear_damage);
-            if (damage_of(contacts, c, p) < softened || mark == loosened) continue;
-            if (pressure_of(contacts, c, p) > 0.0) continue;
-            if (!(dot(n, relative_velocity(contacts, c, p, velocity)) > 0.0)) continue;
-            contacts.area(c, p) *= loose;
-            mark = loosened;
-            any = true;
-        }
-        if (contacts.law[c] >= laws || !slides(contacts, c)) continue;
-        any = true;
-        LawParameters law = contacts.law_of(c);
-        law.shear_stiffness *= loose;
-        contacts.law[c] = static_cast<int>(contacts.laws.size());
-        contacts.laws.push_back(law);
-    }
-    return any;
-}
-
-/// Loosen the points of plates that do not press and that a motion takes off; returns whether there are any.
-bool loosen_plates(Assembly& a, const Array<double>& velocity)
-{
-    bool any = false;
-    for (Plate& plate : a.plates) {
-        if (plate.bonded) continue;
-        for (int i = 0; i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
-            const Point v = vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
-            const bool leaves = dot(plate.normal, v - plate.displacement) > 0.0;
-            if (plate.opening[i] < 0.0 || !leaves || plate.opening[i] == loosened) continue;
-            plate.area[i] *= loose;
-            plate.opening[i] = loosened;
-            any = true;
-        }
-    }
-    return any;
-}
-
-/// Elastic solution in which cracks and plates bear pressure and friction alone.
-StaticSolution unilateral_solution(Assembly& a, const std::vector<Prescribed>& prescribed)
-{
-    StaticSolution found = solve_static(a, prescribed);
-    const int laws = static_cast<int>(a.contacts.laws.size());
-    // what one point lets go may take off the next one
-    for (int i = 0; i < most_lifts; ++i) {
-        const bool cracks = loosen_cracks(a, laws, found.displacement);
-        const bool plates = loosen_plates(a, found.displacement);
-        if (!cracks && !plates) break;
-        found = solve_static(a, prescribed);
-    }
-    return found;
-}
-
 /// All components whose velocity is given, not found by a set that floats.
 std::vector<Prescribed> given_velocities(const Assembly& a, double sense)
 {
@@ -224,7 +116,7 @@ StaticSolution solution_along(const Assembly& a, Held held, double sense)
     }
     for (NodeSet& set : moved.node_sets)
         set.angle = sense * set.spin;
-    if (held == Held::by_parts) return unilateral_solution(moved, prescribed);
+    if (held == Held::by_parts) return solve_unilateral(moved, prescribed);
     // smooth plates leave the specimen free to slide
     prescribed.push_back({ middle_of(a, bottom_side), 0.0 });
     return solve_static(moved, prescribed);
@@ -333,26 +225,6 @@ bool renew_loading(Assembly& a, double sense)
     return true;
 }
 
-int count_softened(const Assembly& a)
-{
-    int count = 0;
-    for (int c = 0; c < a.contacts.count; ++c) {
-        for (int p = 0; p < a.contacts.points_of(c); ++p)
-            count += damage_of(a.contacts, c, p) >= softened;
-    }
-    return count;
-}
-
-int count_sliding_joints(const Assembly& a)
-{
-    int count = 0;
-    for (int c = 0; c < a.contacts.count; ++c) {
-        if (a.contacts.joint[c] < 0 || a.contacts.erased[c]) continue;
-        count += is_pressed(a.contacts, c) && slides(a.contacts, c);
-    }
-    return count;
-}
-
 void change_loading(Assembly& a, double ratio)
 {
     check_finite("velocity of the loading over that before", ratio, "");
@@ -388,39 +260,28 @@ void change_loading(Assembly& a, double ratio)
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
 }
 
-void preload(Assembly& a, double share, int steps, double dt)
+Array<double> loading_field(const Assembly& a)
 {
-    if (!(share > 0.0 && share < 1.0)) {
-        refuse("share of the elastic limit", share, "", "must be above 0 and below 1");
+    const Grains& grains = a.grains;
+    Array<double> field = velocity_of_loading(a);
+    const Array<double>& spins = spin_of_loading(a);
+    for (int g = 0; g < grains.count; ++g) {
+        if (!grains.is_rigid(g)) {
+            for_each_component(grains, g, [&](int i) {
+                if (grains.prescribed[i]) field[i] = grains.velocity[i];
+            });
+            continue;
+        }
+        const int c = grains.centre(g);
+        const Point middle = grains.position(c), velocity = vector_at(field, c);
+        const double spin = spins[grains.slot[g]];
+        for (int k = 0; k < grains.nodes_of(g); ++k) {
+            const int n = grains.node(g, k);
+            const Point arm = grains.position(n) - middle;
+            set_vector(field, n, velocity + spin * Point { -arm.y, arm.x });
+        }
     }
-    if (steps < 1) refuse("steps to the elastic limit", steps, "", "must be at least 1");
-    const Array<double> velocity = elastic_velocities(a);
-    const double factor = share * elastic_time(a, velocity) / (steps * dt);
-    check_positive("velocity to the elastic limit over that of the test", factor, "");
-    for_each_component(a.grains, [&](int i) {
-        a.grains.prescribed[i] = 1;
-        a.grains.velocity[i] = factor * velocity[i];
-    });
-}
-
-void release_preload(Assembly& a, double velocity, double dt, bool undamped)
-{
-    need_sides(a);
-    const double now = a.grains.velocity[component(side_nodes(a, top_side).front(), 1)];
-    check_finite("velocity after the preload", velocity, "m/s");
-    if (!(std::isfinite(now) && now != 0.0)) {
-        refuse("velocity of the preload", now, "m/s", "must not be 0; preload the specimen first");
-    }
-    for_each_component(a.grains, [&](int i) { a.grains.velocity[i] *= velocity / now; });
-    update_prescribed_work(a, dt);
-    for_each_component(a.grains, [&](int i) { a.grains.prescribed[i] = 0; });
-    grip_bottom(a);
-    move_top(a, velocity);
-    for_each_component(a.grains, [&](int i) {
-        if (undamped && !a.grains.prescribed[i])
-            a.grains.loading_velocity[i] = a.grains.velocity[i];
-    });
-    a.ledger.prescribed_work[0] += kinetic_of_velocities(a.grains);
+    return field;
 }
 
 }  // namespace flexpm
