@@ -233,17 +233,17 @@ TEST_CASE("A loading that changes its velocity takes one that floats along, and 
     start(a, right, {}, 1e-9);
     reset_energy_balance(a);
     run(a, 200);
-    const double before = a.node_sets[right].velocity.y, moment = a.node_sets[right].loading_moment;
+    const double before = a.node_sets[right].velocity.y, moment = a.loading.sets[right].moment;
     set_motion_of(a, right, {}, 2e-9);
     change_loading(a, 2.0);
     drive_node_sets(a, 1.0);
     CHECK(a.node_sets[right].velocity.y == Approx(2.0 * before).epsilon(0.05));
-    CHECK(a.node_sets[right].loading_moment == Approx(2.0 * moment));
+    CHECK(a.loading.sets[right].moment == Approx(2.0 * moment));
     run(a, 200);
     CHECK(renew_loading(a));
-    CHECK(a.node_sets[right].loading_moment == Approx(2.0 * moment));
+    CHECK(a.loading.sets[right].moment == Approx(2.0 * moment));
     CHECK(renew_loading(a, -1.0));
-    CHECK(a.node_sets[right].loading_moment == Approx(2.0 * moment));
+    CHECK(a.loading.sets[right].moment == Approx(2.0 * moment));
     run(a, 200);
     CHECK(miss_of(a) < 1e-9);
 }

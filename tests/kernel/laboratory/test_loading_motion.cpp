@@ -48,7 +48,7 @@ TEST_CASE("Ends that move apart take the halves of a cracked specimen with them"
     }
     REQUIRE(renew_loading(a));
     for (int g = 0; g < a.grains.count; ++g) {
-        const double along = a.grains.loading_velocity[component(a.grains.centre(g), 1)];
+        const double along = a.loading.grains.velocity[component(a.grains.centre(g), 1)];
         CHECK(along == Approx(is_upper(g) ? velocity : 0.0).margin(1e-3 * velocity));
     }
 }

@@ -268,7 +268,7 @@ TEST_CASE("A specimen that is cracked through moves as two halves under an undam
     start_elastically(a, true, Held::by_parts);
     CHECK(count_softened(a) == 0);
     const auto x = [&](int g) { return a.grains.reference[a.grains.centre(g)]; };
-    const auto along = [&](int g) { return a.grains.loading_velocity[a.grains.centre(g)]; };
+    const auto along = [&](int g) { return a.loading.grains.velocity[a.grains.centre(g)]; };
     for (int g = 0; g < a.grains.count; ++g)
         CHECK(along(g) == Approx(x(g) / width).margin(0.15));
     for (int c = 0; c < a.contacts.count; ++c) {
@@ -358,10 +358,10 @@ TEST_CASE("Where a grain has come loose the motion of the loading stays what it 
     Blocks b = blocks_with_joint({ 0.0, -1.0 });
     start_elastically(b.a, true, Held::by_parts);
     CHECK(renew_loading(b.a));
-    const Array<double> before = b.a.grains.loading_velocity;
+    const Array<double> before = b.a.loading.grains.velocity;
     b.a.plates.pop_back();
     for (int p = 0; p < b.a.contacts.points_of(b.joint); ++p)
         b.a.contacts.area(b.joint, p) = 0.0;  // nothing holds the upper block
     CHECK_FALSE(renew_loading(b.a));
-    CHECK(b.a.grains.loading_velocity == before);
+    CHECK(b.a.loading.grains.velocity == before);
 }

@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 
 #include "support/specimens.hpp"

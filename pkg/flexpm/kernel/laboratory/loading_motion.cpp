@@ -6,7 +6,6 @@
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/unilateral_solve.hpp>
@@ -127,10 +126,13 @@ StaticSolution solution_along(const Assembly& a, Held held, double sense)
 void note_rates(Assembly& a, const StaticSolution& found, double sense)
 {
     const Grains& grains = a.grains;
-    for (NodeSet& set : a.node_sets) {
+    a.loading.sets.resize(a.node_sets.size());
+    for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
+        const NodeSet& set = a.node_sets[s];
+        PartMotion& given = a.loading.sets[s];
         const Point pivot = set.pivot - set.displacement;
-        set.loading_force = {};
-        set.loading_moment = 0.0;
+        given.force = {};
+        given.moment = 0.0;
         for (std::size_t i = 0; i < set.nodes.size(); ++i) {
             const int g = set.grains[i];
             Point on = vector_at(found.force, set.nodes[i]);
@@ -138,16 +140,25 @@ void note_rates(Assembly& a, const StaticSolution& found, double sense)
                 on = on + vector_at(found.force, grains.node(g, k));
             const Point held = { set.holds_x ? -sense * on.x : 0.0,
                 set.holds_y ? -sense * on.y : 0.0 };
-            set.loading_force = set.loading_force + held;
-            set.loading_moment += cross(vector_at(grains.reference, set.nodes[i]) - pivot, held);
+            given.force = given.force + held;
+            given.moment += cross(vector_at(grains.reference, set.nodes[i]) - pivot, held);
         }
         if (!set.floats || set.nodes.empty()) continue;
         const int first = set.nodes.front();
         const Point arm = vector_at(grains.reference, first) - pivot;
         const Point v =
             sense * vector_at(found.displacement, first) - set.spin * Point { -arm.y, arm.x };
-        set.loading_velocity = { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0 };
+        given.velocity = { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0 };
     }
+}
+
+/// Bring a part that has this velocity to `ratio` times what the loading gives to it.
+void change_part(Point& velocity, PartMotion& given, double ratio)
+{
+    velocity = velocity + (ratio - 1.0) * given.velocity;
+    given.velocity = ratio * given.velocity;
+    given.force = ratio * given.force;
+    given.moment *= ratio;
 }
 
 }  // namespace
@@ -163,14 +174,17 @@ void start_elastically(Assembly& a, bool undamped, Held held)
     const Array<double>& velocity = found.displacement;
     const double before = kinetic_energy(a);
     note_rates(a, found, 1.0);
-    for (NodeSet& set : a.node_sets) {
-        set.velocity = set.velocity + set.loading_velocity;
-        if (!undamped) set.loading_velocity = {};
+    LoadingMotion& loading = a.loading;
+    for (std::size_t i = 0; i < a.node_sets.size(); ++i) {
+        a.node_sets[i].velocity = a.node_sets[i].velocity + loading.sets[i].velocity;
+        if (!undamped) loading.sets[i].velocity = {};
     }
-    for (Plate& p : a.plates) {
+    loading.plates.resize(a.plates.size());
+    for (std::size_t i = 0; i < a.plates.size(); ++i) {
+        Plate& p = a.plates[i];
         if (!p.loaded) continue;
         p.velocity = velocity_before(a, p, velocity);
-        if (undamped) p.loading_velocity = p.velocity;
+        if (undamped) loading.plates[i].velocity = p.velocity;
     }
     Grains& grains = a.grains;
     for (int g = 0; g < grains.count; ++g) {
@@ -180,14 +194,14 @@ void start_elastically(Assembly& a, bool undamped, Held held)
             const Point v = vector_at(velocity, grains.centre(g));
             add_motion(grains, g, v, spin);
             if (!undamped) continue;
-            set_vector(grains.loading_velocity, grains.centre(g), v);
-            grains.loading_spin[grains.slot[g]] = spin;
+            set_vector(loading.grains.velocity, grains.centre(g), v);
+            loading.grains.spin[grains.slot[g]] = spin;
             continue;
         }
         for_each_component(grains, g, [&](int i) {
             if (grains.prescribed[i]) return;
             grains.velocity[i] += velocity[i];
-            if (undamped) grains.loading_velocity[i] = velocity[i];
+            if (undamped) loading.grains.velocity[i] = velocity[i];
         });
     }
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
@@ -205,21 +219,23 @@ bool renew_loading(Assembly& a, double sense)
     Array<double>& velocity = found.displacement;
     for (double& v : velocity)
         v *= sense;
-    for (Plate& p : a.plates) {
-        if (p.loaded) p.loading_velocity = velocity_before(a, p, velocity);
+    LoadingMotion& loading = a.loading;
+    loading.plates.resize(a.plates.size());
+    for (std::size_t i = 0; i < a.plates.size(); ++i) {
+        const Plate& p = a.plates[i];
+        if (p.loaded) loading.plates[i].velocity = velocity_before(a, p, velocity);
     }
-    Grains& grains = a.grains;
-    Array<double>&of_loading = velocity_of_loading(a), &spins = spin_of_loading(a);
+    const Grains& grains = a.grains;
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
             const Point v = vector_at(velocity, grains.centre(g));
-            set_vector(of_loading, grains.centre(g), v);
-            spins[grains.slot[g]] = spin_in(grains, g, velocity);
+            set_vector(loading.grains.velocity, grains.centre(g), v);
+            loading.grains.spin[grains.slot[g]] = spin_in(grains, g, velocity);
             continue;
         }
         for_each_component(grains, g, [&](int i) {
-            if (!grains.prescribed[i]) of_loading[i] = velocity[i];
+            if (!grains.prescribed[i]) loading.grains.velocity[i] = velocity[i];
         });
     }
     return true;
@@ -229,32 +245,28 @@ void change_loading(Assembly& a, double ratio)
 {
     check_finite("velocity of the loading over that before", ratio, "");
     Grains& grains = a.grains;
-    Array<double>&of_loading = velocity_of_loading(a), &spins = spin_of_loading(a);
+    LoadingMotion& loading = a.loading;
     const double before = kinetic_energy(a);
-    for (Plate& p : a.plates) {
-        p.velocity = p.velocity + (ratio - 1.0) * p.loading_velocity;
-        p.loading_velocity = ratio * p.loading_velocity;
-    }
-    for (NodeSet& set : a.node_sets) {
-        set.velocity = set.velocity + (ratio - 1.0) * set.loading_velocity;
-        set.loading_velocity = ratio * set.loading_velocity;
-        set.loading_force = ratio * set.loading_force;
-        set.loading_moment *= ratio;
-    }
+    loading.plates.resize(a.plates.size());
+    for (std::size_t i = 0; i < a.plates.size(); ++i)
+        change_part(a.plates[i].velocity, loading.plates[i], ratio);
+    loading.sets.resize(a.node_sets.size());
+    for (std::size_t i = 0; i < a.node_sets.size(); ++i)
+        change_part(a.node_sets[i].velocity, loading.sets[i], ratio);
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
-            const Point v = vector_at(of_loading, grains.centre(g));
-            double& spin = spins[grains.slot[g]];
+            const Point v = vector_at(loading.grains.velocity, grains.centre(g));
+            double& spin = loading.grains.spin[grains.slot[g]];
             add_motion(grains, g, (ratio - 1.0) * v, (ratio - 1.0) * spin);
-            set_vector(of_loading, grains.centre(g), ratio * v);
+            set_vector(loading.grains.velocity, grains.centre(g), ratio * v);
             spin *= ratio;
             continue;
         }
         for_each_component(grains, g, [&](int i) {
             if (grains.prescribed[i]) return;  // held since the loading began
-            grains.velocity[i] += (ratio - 1.0) * of_loading[i];
-            of_loading[i] *= ratio;
+            grains.velocity[i] += (ratio - 1.0) * loading.grains.velocity[i];
+            loading.grains.velocity[i] *= ratio;
         });
     }
     a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
@@ -263,8 +275,8 @@ void change_loading(Assembly& a, double ratio)
 Array<double> loading_field(const Assembly& a)
 {
     const Grains& grains = a.grains;
-    Array<double> field = velocity_of_loading(a);
-    const Array<double>& spins = spin_of_loading(a);
+    Array<double> field = a.loading.grains.velocity;
+    const Array<double>& spins = a.loading.grains.spin;
     for (int g = 0; g < grains.count; ++g) {
         if (!grains.is_rigid(g)) {
             for_each_component(grains, g, [&](int i) {

@@ -43,7 +43,7 @@ void release_preload(Assembly& a, double velocity, double dt, bool undamped)
     move_top(a, velocity);
     for_each_component(a.grains, [&](int i) {
         if (undamped && !a.grains.prescribed[i])
-            a.grains.loading_velocity[i] = a.grains.velocity[i];
+            a.loading.grains.velocity[i] = a.grains.velocity[i];
     });
     a.ledger.prescribed_work[0] += kinetic_of_velocities(a.grains);
 }

@@ -11,20 +11,12 @@
 
 namespace flexpm {
 
-/// Give the velocities that damping does not act on those of the mean motion since the last look, from the second look on.
+/// Let damping leave alone the mean motion since the last look, from the second look on.
 ///
 /// @param dt  time step [s]
 void follow_steady_motion(Assembly& a, double dt, double fastest);
 
-/// Give them those of the loading alone again.
+/// Let it leave alone that of the loading again.
 void end_steady_motion(Assembly& a);
-
-/// Velocities that the loading alone gives, whatever else damping does not act on [m/s].
-Array<double>& velocity_of_loading(Assembly& a);
-const Array<double>& velocity_of_loading(const Assembly& a);
-
-/// The same of the spins of rigid grains [rad/s].
-Array<double>& spin_of_loading(Assembly& a);
-const Array<double>& spin_of_loading(const Assembly& a);
 
 }  // namespace flexpm

@@ -16,13 +16,13 @@ struct RigidRows {
     const double* reference;
     double* displacement;
     double* velocity;
-    const double* loading_velocity;  ///< of the centre
+    const double* undamped_velocity;  ///< of the centre; null where no step is done
     const double* force;
     const std::uint8_t* prescribed;  ///< of the centre
     const double* inverse_mass;      ///< of the centre
     double* rotation;                ///< [RotationRow]
     double* spin;
-    const double* loading_spin;
+    const double* undamped_spin;  ///< likewise
     const std::uint8_t* spin_prescribed;
     const double* inverse_inertia;
 };

@@ -63,9 +63,9 @@ void update_grain_block(Assembly& a, int block, const StepOptions& o)
     if (a.gravity.x != 0.0 || a.gravity.y != 0.0) add_weight(a, block);
     StepSums sums;
     if (group.rigid) {
-        step_rigid(rigid_rows(grains, block), o.dt, o.damping, o.measure, sums);
+        step_rigid(rigid_rows(a, block), o.dt, o.damping, o.measure, sums);
     } else {
-        const NodeRows rows = node_rows(grains, block);
+        const NodeRows rows = node_rows(a, block);
         move_nodes(rows, o.dt);
         add_element_forces(grains, block, a.plan.prefetch.needed);
         integrate_nodes(rows, o.dt, o.damping, o.measure, sums);
