@@ -18,8 +18,6 @@ from ..require import Bounds, require_flag, require_number, require_one_of, requ
 RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 #: Largest strains of a loading [-]; 0 for one that ends where it is.
 _STRAIN = Bounds(at_least=0.0, at_most=1e6)
-#: Tests that are held by parts, of flexible and rigid grains, and tests of one's own.
-PART_TESTS = ("bending", "own")
 
 #: k of the loading rate by model and test [-]: the mean strain grows by k times the reference
 #: strain while a wave crosses the specimen once. Halving it moved the mean peak by less than 2 %.

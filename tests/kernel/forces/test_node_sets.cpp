@@ -15,6 +15,7 @@
 #include <flexpm/kernel/topology/removal.hpp>
 
 #include "support/balance.hpp"
+#include "support/driven.hpp"
 #include "support/specimens.hpp"
 
 #include <cmath>
@@ -166,7 +167,7 @@ TEST_CASE("Nodes that turn about a point go round it, however far")
     set_motion_of(a, all, {}, 1e-3);
     drive_node_sets(a, 1.0);
     for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.is_rigid(g)) prescribe_spin(a.grains, g, 1e-3, 1.0);
+        if (a.grains.is_rigid(g)) driven::prescribe_spin(a.grains, g, 1e-3);
     }
     run(a, 1571);  // a quarter of a turn
     const double angle = 1.571;

@@ -123,7 +123,7 @@ TEST_CASE("friction of a plate is Coulomb's, and its loss is booked", "[plate]")
     flexpm::scale_masses(a, 0.0);
     a.grains.prescribed[a.grains.centre(0)] =
         a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
-    flexpm::prescribe_spin(a.grains, 0, 0.0, 1.0);
+    driven::prescribe_spin(a.grains, 0, 0.0);
     flexpm::set_velocity(a, upper, { 0.0, -1e-9 });
     run(a, 100, 0.0);
     const double normal = -flexpm::plate_force(a, flexpm::top_side).y;

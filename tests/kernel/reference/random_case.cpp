@@ -249,7 +249,7 @@ void draw_boundary(Random& random, Assembly& a, std::string& name)
             flexpm::prescribe(a, flexpm::side_nodes(a, side), below(random, 2), 0.0);
     }
     if (a.grains.is_rigid(0) && chance(random, 0.3))
-        flexpm::prescribe_spin(a.grains, below(random, a.grains.count), 0.0, 1.0);
+        driven::prescribe_spin(a.grains, below(random, a.grains.count), 0.0);
 }
 
 /// Let a part of all velocities be that of a loading, which is not damped.

@@ -55,13 +55,6 @@ void set_motion(Grains& grains, int grain, Point velocity, double spin, double d
     spread_velocities(rows_of(grains, grains.block_of(grain)), dt);
 }
 
-void prescribe_spin(Grains& grains, int grain, double spin, double dt)
-{
-    const int centre = grains.centre(grain);
-    set_motion(grains, grain, vector_at(grains.velocity, centre), spin, dt);
-    grains.spin_prescribed[grains.slot[grain]] = 1;
-}
-
 double rotation_of(const Grains& grains, int grain)
 {
     return grains.rotation[row_index(grains.slot[grain], RotationRow::angle, RotationRow::count)];

@@ -19,9 +19,6 @@ RigidRows rigid_rows(Assembly& a, int block);
 /// nodes, for a rigid grain.
 void set_motion(Grains& grains, int grain, Point velocity, double spin, double dt);
 
-/// Prescribe the spin [rad/s] instead of integrating it.
-void prescribe_spin(Grains& grains, int grain, double spin, double dt);
-
 /// Angle from the reference [rad].
 double rotation_of(const Grains& grains, int grain);
 
