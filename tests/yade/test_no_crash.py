@@ -113,6 +113,8 @@ REFUSED = {
     "build(); wrapper.EndDisplacementController().preload(nan, 1)": "= nan",
     "b = build(); b.add_engines(before=(wrapper.PlateController(plates=[7]),)); "
     "b.run(1)": "plate = 7",
+    "b = build(); b.add_engines(before=(wrapper.PressureController(plates=[7]),)); "
+    "b.run(1)": "plate = 7",
     "build(); O.bodies[0].shape.setMotion((0, 0, 0), 0)": "grain = 0, is deformable",
     "build(); wrapper.LaguerreCell(grain=37).positions": "grain = 37",
     "build(); wrapper.LobattoPhys().opening": "contact = -1",
@@ -233,7 +235,7 @@ for name in [n for n in vars(cls) if n[0] != "_" and not callable(present(cls(),
     "kind",
     [
         *("GrainSolver", "AxialRecorder", "ConfinementController", "EndDisplacementController"),
-        *("PlateController", "LoadingRateController"),
+        *("PlateController", "PressureController", "LoadingRateController"),
     ],
 )
 def test_no_value_of_an_attribute_ends_the_process(forks, kind):

@@ -284,7 +284,7 @@ class GrainRig(TestRig):
         self.built.solver.mirrorBodies()
 
     @abstractmethod
-    def _pressing(self) -> wrapper.ConfinementController | wrapper.PlateController | None:
+    def _pressing(self) -> wrapper.ConfinementController | wrapper.PressureController | None:
         """The engine that presses on the sides."""
 
     @abstractmethod
@@ -340,17 +340,14 @@ class NodeRig(GrainRig):
 class PlateRig(GrainRig):
     """Rigid plates: the first is the lower one, the second the upper one."""
 
-    def _pressing(self) -> wrapper.PlateController | None:
-        plates = self.built.engine(wrapper.PlateController)
-        return plates if plates and plates.loaded else None
+    def _pressing(self) -> wrapper.PressureController | None:
+        return self.built.engine(wrapper.PressureController)
 
     def _press(self, pressure: float, ramp: int) -> None:
         self._lay_ends()
         pressed = [1, *self._lay_membranes()]
         self.built.set_masses()
-        engine = wrapper.PlateController(
-            plates=pressed, loaded=True, pressure=pressure, rampSteps=ramp
-        )
+        engine = wrapper.PressureController(plates=pressed, pressure=pressure, rampSteps=ramp)
         self.built.add_engines(before=(engine,))
 
     def _take_hold(self) -> wrapper.LoadingController:

@@ -401,24 +401,23 @@ class PartRig(GrainRig, PartLayout):
         own = [name for name in self._recorder.names if name not in COLUMNS]
         return tuple(name for name in own if name not in ("initial_energy", "displacement"))
 
-    def _pressing(self) -> wrapper.PlateController | None:
-        plates = self.built.engine(wrapper.PlateController)
-        return plates if plates and plates.loaded else None
+    def _pressing(self) -> wrapper.PressureController | None:
+        return self.built.engine(wrapper.PressureController)
 
     def _press(self, pressure: float, ramp: int) -> None:
         if self.pressed is None:
             raise InputError("confine: part = None, must be one of the rig; call press")
         self._require_scene("press")
         self._let_go([self.pressed.number])
-        engine = wrapper.PlateController(
-            plates=[self.pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
+        engine = wrapper.PressureController(
+            plates=[self.pressed.number], pressure=pressure, rampSteps=ramp
         )
         self.built.add_engines(before=(engine,))
 
     def _let_go(self, plates: list[int]) -> None:
         """Take plates from the engines that press them."""
         for engine in tuple(self.built.engines):
-            if isinstance(engine, wrapper.PlateController) and engine.loaded:
+            if isinstance(engine, wrapper.PressureController):
                 engine.plates = [plate for plate in engine.plates if plate not in plates]
                 if not engine.plates:
                     self.built.remove_engines(engine)

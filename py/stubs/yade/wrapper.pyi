@@ -165,12 +165,14 @@ class PlateController(LoadingController):
     plates: list[int]
     nodeSets: list[int]
     backSets: list[int]
-    loaded: bool
-    pressure: float
     @property
     def velocity(self) -> Vector3: ...
     @velocity.setter
     def velocity(self, value: _Vector) -> None: ...
+
+class PressureController(Engine):
+    plates: list[int]
+    pressure: float
 
 class ConfinementController(Engine):
     pressure: float
