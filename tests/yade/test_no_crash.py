@@ -98,9 +98,13 @@ REFUSED = {
     "b.run(100)": "stop ratio = nan",
     "b = build(); b.add_engines(after=(wrapper.AxialRecorder(maxStrain=nan),)); "
     "b.run(100)": "largest strain = nan",
-    "b = build(); b.add_engines(after=(wrapper.AxialRecorder(diameter=nan),)); "
-    "b.run(100)": "diameter = nan m",
-    "build(); wrapper.AxialRecorder(diameter=nan).scales()": "diameter = nan m",
+    "b = build(); disc = wrapper.DiscFrame(diameter=nan); "
+    "b.add_engines(after=(wrapper.AxialRecorder(frame=disc),)); b.run(100)": "diameter = nan m",
+    "build(); wrapper.AxialRecorder(frame=wrapper.TestFrame()).scales()": "frame = TestFrame",
+    "build(); wrapper.AxialRecorder(frame=None).names": "frame = None",
+    "build().solver.crossingSteps(-1.0)": "diameter = -1 m",
+    "build(); disc = wrapper.DiscFrame(diameter=nan); "
+    "wrapper.AxialRecorder(frame=disc).scales()": "diameter = nan m",
     "b = build(); O.bodies[0].material.young = 1.0; b.run(1)": "GrainMat.young = 1 Pa",
     "b = build(); O.bodies[0].material.friction = 1.0; b.run(1)": "GrainMat.friction = 1",
     "b = build(); O.bodies[0].material.planeStrain = True; b.run(1)": "GrainMat.planeStrain = 1",

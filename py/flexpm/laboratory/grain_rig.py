@@ -54,9 +54,8 @@ class GrainRig(TestRig):
     ) -> None:
         """Take grains that have just been built, or whose scene has been loaded."""
         super().__init__(built, tension=tension, runner=runner)
-        diameter = built.specimen.dimensions["diameter"] if self.disc else 0.0
         self._recorder = built.engine(wrapper.AxialRecorder) or wrapper.AxialRecorder(
-            diameter=diameter, tension=tension
+            frame=self._new_frame()
         )
 
     @property
@@ -124,6 +123,12 @@ class GrainRig(TestRig):
             raise InputError(
                 f"load: {error}, or lay parts that the loading does not lift"
             ) from None
+
+    def _new_frame(self) -> wrapper.TestFrame:
+        """Where the record's load and strains come from."""
+        if self.disc:
+            return wrapper.DiscFrame(diameter=self.built.specimen.dimensions["diameter"])
+        return wrapper.RectangleFrame(tension=self.tension)
 
     def unbalanced(self) -> float:
         """Largest unbalanced force over the mean contact force [-], at the last measured step."""

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
@@ -137,7 +138,7 @@ TEST_CASE("A beam that sets pull has equal forces at both ends, and their work i
     CHECK(part_displacement(a, parts) == driven.displacement.x);
     PartGeometry both = parts;
     both.holding_sets = { left };
-    CHECK(observe_parts(a, both).end_mismatch < 1e-3);
+    CHECK(observe(a, part_frame(a, both)).end_mismatch < 1e-3);
     CHECK(part_scales(a, both, 1.0, 1.0).modulus
         == Approx(driven.force.x / driven.displacement.x).epsilon(1e-3));
     const Array<double> none(a.grains.displacement.size(), 0.0);
@@ -221,9 +222,9 @@ TEST_CASE("Two ends that turn against each other load by the sum of their moment
     CHECK(a.node_sets[left].angle == Approx(-1e-6));
     CHECK(part_scales(a, parts, 1.0, 1.0).modulus
         == Approx(part_load(a, parts) / part_displacement(a, parts)).epsilon(1e-3));
-    CHECK_THROWS_WITH(
-        observe_parts(a, of_sets({ 7 }, {}, 1.0)), Contains("must be the number of a node set"));
-    CHECK_THROWS_WITH(observe_parts(a, of_sets({ 0 }, {})), Contains("direction"));
+    CHECK_THROWS_WITH(observe(a, part_frame(a, of_sets({ 7 }, {}, 1.0))),
+        Contains("must be the number of a node set"));
+    CHECK_THROWS_WITH(observe(a, part_frame(a, of_sets({ 0 }, {}))), Contains("direction"));
 }
 
 TEST_CASE("A loading that changes its velocity takes one that floats along, and the balance closes")

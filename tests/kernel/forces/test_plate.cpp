@@ -76,7 +76,7 @@ TEST_CASE("plates are in series with a grid of rigid squares", "[plate]")
     CHECK(flexpm::plate_force(a, flexpm::top_side).y == Approx(-force).epsilon(1e-6));
     CHECK(flexpm::plate_force(a, flexpm::bottom_side).y == Approx(force).epsilon(1e-6));
     if (ny > 2) {
-        const auto o = flexpm::observe(a, flexpm::rectangle_of(a, flexpm::Sense::compression));
+        const auto o = flexpm::observe(a, flexpm::rectangle_frame(a, flexpm::Sense::compression));
         CHECK(o.axial_stress == Approx(stress).epsilon(1e-6));
         CHECK(o.axial_stress / o.axial_strain == Approx(stiffness * size).epsilon(1e-6));
     }

@@ -24,7 +24,7 @@ TEST_CASE("A start from rest without damping of the loading keeps to the elastic
     reset_energy_balance(a);
     gripped::run(a, 400);
     const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
-    const AxialObservation o = observe(a, rectangle_of(a, sense));
+    const AxialObservation o = observe(a, rectangle_frame(a, sense));
     CHECK(o.axial_stress / o.axial_strain == Approx(solved.youngs_modulus).epsilon(1e-3));
     CHECK(o.lateral_strain / o.axial_strain == Approx(solved.poissons_ratio).epsilon(1e-3));
     CHECK(unbalanced_ratio(a) < 1e-3);
@@ -60,7 +60,7 @@ TEST_CASE("A change of the loading's velocity raises no wave")
     start_elastically(a, true);
     reset_energy_balance(a);
     gripped::run(a, 200);
-    const AxialGeometry g = rectangle_of(a, Sense::compression);
+    const TestFrame g = rectangle_frame(a, Sense::compression);
     const AxialObservation before = observe(a, g);
     move_top(a, -1e-9 * ratio);
     update_prescribed_work(a, 1.0);

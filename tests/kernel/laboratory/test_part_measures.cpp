@@ -6,6 +6,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
@@ -244,7 +245,7 @@ TEST_CASE("Load and reaction of parts agree, and their work is the specimen's en
     options.measure = true;
     for (int i = 0; i < 2000; ++i)
         step(a, options);
-    const AxialObservation now = observe_parts(a, parts);
+    const AxialObservation now = observe(a, part_frame(a, parts));
     CHECK(part_displacement(a, parts) == Approx(2e-6));
     CHECK(now.axial_strain == Approx(2e-6 / height));
     CHECK(now.axial_stress * parts.area == Approx(part_load(a, parts)));
@@ -255,7 +256,7 @@ TEST_CASE("Load and reaction of parts agree, and their work is the specimen's en
     const double work = a.plates[0].boundary_work + a.plates[1].boundary_work;
     CHECK(work == Approx(now.energies.elastic).epsilon(0.02));
     parts.holding.clear();  // the load alone counts
-    CHECK(observe_parts(a, parts).end_mismatch == 0.0);
+    CHECK(observe(a, part_frame(a, parts)).end_mismatch == 0.0);
 }
 
 TEST_CASE("A specimen that is cracked through moves as two halves under an undamped loading")

@@ -49,7 +49,7 @@ TEST_CASE(
     preload(a, share, steps, 1.0);
     gripped::run(a, steps);
     const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
-    const AxialObservation o = observe(a, rectangle_of(a, sense));
+    const AxialObservation o = observe(a, rectangle_frame(a, sense));
     // the solution is linear: strains of a few 1e-4 turn and stretch by as much of each term
     CHECK(utilisation(a) == Approx(share).epsilon(2e-3));
     CHECK(o.axial_stress / o.axial_strain == Approx(solved.youngs_modulus).epsilon(2e-3));
@@ -66,7 +66,7 @@ TEST_CASE("After the elastic solution the test goes on without a jolt")
     preload(a, share, steps, 1.0);
     gripped::run(a, steps);
     const Sense sense = velocity < 0.0 ? Sense::compression : Sense::tension;
-    const AxialGeometry g = rectangle_of(a, sense);
+    const TestFrame g = rectangle_frame(a, sense);
     const AxialObservation before = observe(a, g);
     release_preload(a, velocity, 1.0, false);
     CHECK(unbalanced_ratio(a) == 0.0);  // nothing was free

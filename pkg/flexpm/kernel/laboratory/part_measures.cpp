@@ -7,6 +7,7 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <algorithm>
@@ -211,13 +212,19 @@ double part_displacement(const Assembly& a, const PartGeometry& parts)
     return dot(set.displacement, parts.direction) + parts.turn * set.angle;
 }
 
-AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts)
+TestFrame part_frame(const Assembly& a, const PartGeometry& parts)
 {
     check(a, parts);
-    AxialObservation o = observe_ends(a, ends_of(a, parts), Sense::tension, parts.area);
-    o.axial_strain = part_displacement(a, parts) / parts.length;
-    o.lateral_strain = std::numeric_limits<double>::quiet_NaN();
-    return o;
+    TestFrame frame;
+    frame.area = parts.area;
+    frame.height = parts.length;
+    frame.sense = Sense::tension;
+    frame.ends = [parts](const Assembly& now) { return ends_of(now, parts); };
+    frame.strains = [parts](const Assembly& now) {
+        return TestStrains { part_displacement(now, parts) / parts.length,
+            std::numeric_limits<double>::quiet_NaN() };
+    };
+    return frame;
 }
 
 TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/PressureController.hpp>
 
-#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

@@ -88,6 +88,7 @@ public:
 	py::dict   counts();
 	py::object sideNodes(int side);
 	Real       unbalanced();
+	Real       crossingSteps(Real diameter);
 	py::dict   balance();
 	void       clearPressure(int side);
 
@@ -157,6 +158,7 @@ public:
 		.def("parting", AfterAssembly<&GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("crossingSteps", AfterAssembly<&GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc of the grains of a diameter [m] [-].")
 		.def("balance", AfterAssembly<&GrainSolver::balance>::call,
 			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
 			"of rigid grains by the contact forces and branches. outside_stress: what pressure, plates, held nodes and weight would make of it in balance [Pa]. "
