@@ -89,6 +89,7 @@ REFUSED = {
     "b = build(dynamic=True); O.dt *= 2; b.run(1)": "O.dt = ",
     "build().solver.sideNodes(99)": "side = 99",
     "build().solver.clearPressure(99)": "side = 99",
+    "build().solver.holdSide(99, x=True)": "side = 99",
     "build().solver.addSidePlates(99)": "side = 99",
     "b = build(); b.add_engines(before=(wrapper.ConfinementController(sides=[99]),)); "
     "b.run(1)": "side = 99",

@@ -23,6 +23,7 @@ struct Assembly {
     BoundaryEdges edges;
     std::vector<Plate> plates;
     std::vector<NodeSet> node_sets;
+    std::vector<HeldEdge> held_edges;
     EnergyLedger ledger;
     LoadingMotion loading;
     SteadyMotion steady;
@@ -47,6 +48,7 @@ struct Assembly {
         visit("edges", s.edges);
         visit("plates", s.plates);
         visit("node_sets", s.node_sets);
+        visit("held_edges", s.held_edges);
         visit("ledger", s.ledger);
         visit("loading", s.loading);
         visit("steady", s.steady);

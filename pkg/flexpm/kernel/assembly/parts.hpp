@@ -158,4 +158,20 @@ struct NodeSet {
     }
 };
 
+/// The edge of a rigid grain that must not move along an axis, see hold_side().
+struct HeldEdge {
+    int grain = 0;
+    int axis = 0;
+    double lever =
+        0.0;  ///< velocity along the axis that a spin of 1 gives to it, at the reference [m]
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("grain", s.grain);
+        visit("axis", s.axis);
+        visit("lever", s.lever);
+    }
+};
+
 }  // namespace flexpm

@@ -265,6 +265,10 @@ void check_state(const Assembly& a)
     check_index("node sets", static_cast<std::int64_t>(a.node_sets.size()), most);
     for (const NodeSet& set : a.node_sets)
         check_node_set(a.grains, set);
+    for (const HeldEdge& edge : a.held_edges) {
+        check_index("grain of a held edge", edge.grain, a.grains.count);
+        check_index("axis of a held edge", edge.axis, dimension);
+    }
     check_ledger(a.ledger, a.grains.blocks());
     check_index("step", a.step, std::int64_t { 1 } << 60);
     check_loading(a);

@@ -2,6 +2,7 @@
 /// @file  Plates against boundary edges.
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/central_difference.hpp>
 
 #include <algorithm>
@@ -107,6 +108,39 @@ void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 }
 
 }  // namespace
+
+void require_plate(const Assembly& a, int plate)
+{
+    if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
+        refuse("plate", plate, "", "must be the number of a plate; add one first");
+    }
+}
+
+void press(Assembly& a, int plate, double pressure)
+{
+    require_plate(a, plate);
+    check_not_negative("pressure on a plate", pressure, "Pa");
+    if (a.plates[plate].mass <= 0.0) {
+        refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
+    }
+    a.plates[plate].loaded = true;
+    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
+}
+
+void set_velocity(Assembly& a, int plate, Point velocity)
+{
+    require_plate(a, plate);
+    check_finite("velocity of a plate", velocity.x, "m/s");
+    check_finite("velocity of a plate", velocity.y, "m/s");
+    Plate& p = a.plates[plate];
+    // the half step that a loaded plate was promised is not taken any more
+    if (p.loaded) {
+        p.boundary_work_next = p.damping_work_next = p.drag_work_next = 0.0;
+        p.kinetic = p.unbalanced = 0.0;
+    }
+    p.loaded = false;
+    p.velocity = velocity;
+}
 
 int plate_points(const Plate& p) { return static_cast<int>(p.edges.size()) * p.points; }
 

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/forces/contact_forces.hpp>
 #include <flexpm/kernel/forces/element_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/forces/held_sides.hpp>
 #include <flexpm/kernel/forces/nodal_forces.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
@@ -159,6 +160,7 @@ void step(Assembly& a, const StepOptions& options)
     const ThreadTeam::Work share = [&](int thread) { update_share(a, options, team, thread); };
     team.run(share);
     update_node_sets(a, options.dt, options.damping);  // which are few
+    hold_edges(a, options.dt);                         // likewise
     ++a.step;
 }
 
