@@ -3,6 +3,8 @@
 /// change it. SI units, tension positive.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
@@ -87,4 +89,28 @@ TEST_CASE("A node that is held later keeps its velocity when that of the loading
     change_loading(a, 3.0);
     CHECK(a.grains.velocity[component(node, 1)] == 0.0);
     CHECK(a.grains.velocity[component(a.grains.centre(1), 1)] == Approx(3.0 * free));
+}
+
+TEST_CASE("A motion of the loading that does not fit its specimen is refused")
+{
+    Assembly a = gripped::grains(-1e-9);
+    start_elastically(a, true);
+    check_state(a);
+    const auto refused = [&](auto change, const char* part) {
+        Assembly bad = a;
+        change(bad.loading);
+        CHECK_THROWS_WITH(check_state(bad), Catch::Contains(part));
+    };
+    refused([](LoadingMotion& l) { l.grains.velocity.pop_back(); }, "velocities of the loading");
+    refused([](LoadingMotion& l) { l.grains.spin.push_back(0.0); }, "spins of the loading");
+    refused([](LoadingMotion& l) { l.plates.resize(1); }, "plates of the loading");
+    refused([](LoadingMotion& l) { l.sets.resize(1); }, "node sets of the loading");
+}
+
+TEST_CASE("Parts that came after the loading had begun have no motion of it")
+{
+    Assembly a = gripped::grains(-1e-9);
+    start_elastically(a, true);
+    CHECK(norm(a.loading.of_plate(0).velocity) == 0.0);
+    CHECK(a.loading.of_set(3).moment == 0.0);
 }
