@@ -34,6 +34,8 @@ FEWEST = 50
 _LATER = 3
 #: It does within this multiple of the error of its move, as 19 of 20 exponentials do.
 _MOVES = 2.0
+#: ... or within this part of b: some events are missing from the most frequent magnitude on.
+_BENDS = 0.1
 
 
 class EventRule(NamedTuple):
@@ -139,7 +141,7 @@ def frequencies(magnitudes: FloatArray) -> Frequencies:
     """Magnitude of completeness and b value of events.
 
     Completeness by maximum curvature: the bin with most events. No b value for numbers that follow
-    no line: b from 0.3 above it differs by more than twice the error of that difference.
+    no line: b from 0.3 above it differs by more than twice the error of that difference and 10 %.
     """
     bins = binned(magnitudes)
     if len(bins) == 0:
@@ -179,7 +181,8 @@ def _is_line(found: Sequence[Fit]) -> bool:
         return True
     first, later = found
     variance = max(later.b_error**2 - first.b_error**2, 0.0)
-    return abs(later.b_value - first.b_value) <= _MOVES * math.sqrt(variance)
+    allowed = max(_MOVES * math.sqrt(variance), _BENDS * first.b_value)
+    return abs(later.b_value - first.b_value) <= allowed
 
 
 def binned(magnitudes: FloatArray) -> IntArray:
