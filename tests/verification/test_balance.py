@@ -152,7 +152,7 @@ def test_spheres_balance_too(model):
 
 @pytest.mark.parametrize("model", ["flexible", "rigid", "jcfpm"])
 def test_a_pressure_rises_as_gently_after_other_steps(model):
-    """Where it counted from step 0 it was there at once, and waves had up to 64 times the energy."""
+    """Where it counted from step 0 it was there at once, waves had up to 64 times the energy."""
     steps, motion = [], []
     for before in (0, 500):
         grains = built(0.02, 1, model)
