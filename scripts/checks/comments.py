@@ -23,7 +23,7 @@ SUFFIXES = (".cpp", ".hpp", ".py", ".pyi", ".txt", "")
 #: Where lines have 100 columns and no other tool looks: ruff does so for Python.
 NARROW = ("pkg/flexpm/kernel", "tests/kernel")
 COLUMNS = 100
-#: A comment, a docstring or an entry of one that begins so; a comment alone on its line in any case.
+#: A comment, a docstring or an entry of one that begins so.
 NO_SUBJECT = re.compile(r"""(?://[/!]?<?|\#:?|\"\"\"|^\s+\w+:)[ ]*Of[ ]""", re.VERBOSE)
 LINE = re.compile(r"^(\s*(?://[/!]?|#:?) ?)(\s*)(.*)$")
 #: Where a paragraph of a comment begins anew.
