@@ -288,9 +288,9 @@ class GrainRig(TestRig):
         self.built.solver.mirrorPeriod = 1  # a script may go on from here
         self.built.solver.mirrorBodies()
 
-    @abstractmethod
-    def _pressing(self) -> wrapper.ConfinementController | wrapper.PressureController | None:
+    def _pressing(self) -> wrapper.PressureController | None:
         """The engine that presses on the sides."""
+        return self.built.engine(wrapper.PressureController)
 
     @abstractmethod
     def _take_hold(self) -> wrapper.LoadingController:
@@ -311,6 +311,10 @@ class NodeRig(GrainRig):
         return self.built.engine(wrapper.ConfinementController)
 
     def _press(self, pressure: float, ramp: int) -> None:
+        if edges := self._pressing():
+            edges.startPressure, edges.pressure = edges.pressure, pressure
+            edges.rampSteps, edges.rampBegin = ramp, -1
+            return
         edges = wrapper.ConfinementController(
             pressure=pressure, sides=[RIGHT, TOP, LEFT], rampSteps=ramp
         )
@@ -344,9 +348,6 @@ class NodeRig(GrainRig):
 
 class PlateRig(GrainRig):
     """Rigid plates: the first is the lower one, the second the upper one."""
-
-    def _pressing(self) -> wrapper.PressureController | None:
-        return self.built.engine(wrapper.PressureController)
 
     def _press(self, pressure: float, ramp: int) -> None:
         self._lay_ends()

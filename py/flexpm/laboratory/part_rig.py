@@ -415,26 +415,33 @@ class PartRig(GrainRig, PartLayout):
         own = [name for name in self._recorder.names if name not in COLUMNS]
         return tuple(name for name in own if name not in ("initial_energy", "displacement"))
 
-    def _pressing(self) -> wrapper.PressureController | None:
-        return self.built.engine(wrapper.PressureController)
-
     def _press(self, pressure: float, ramp: int) -> None:
         if self.pressed is None:
             raise InputError("confine: part = None, must be one of the rig; call press")
         self._require_scene("press")
-        self._let_go([self.pressed.number])
+        number = self.pressed.number
         engine = wrapper.PressureController(
-            plates=[self.pressed.number], pressure=pressure, rampSteps=ramp
+            plates=[number],
+            pressure=pressure,
+            startPressure=self._pressure_on(number),
+            rampSteps=ramp,
         )
+        self._let_go([number])
         self.built.add_engines(before=(engine,))
+
+    def _pressing_engines(self) -> list[wrapper.PressureController]:
+        return [one for one in self.built.engines if isinstance(one, wrapper.PressureController)]
+
+    def _pressure_on(self, plate: int) -> float:
+        """Pressure that a plate has been given [Pa]."""
+        return sum(one.pressure for one in self._pressing_engines() if plate in one.plates)
 
     def _let_go(self, plates: list[int]) -> None:
         """Take plates from the engines that press them."""
-        for engine in tuple(self.built.engines):
-            if isinstance(engine, wrapper.PressureController):
-                engine.plates = [plate for plate in engine.plates if plate not in plates]
-                if not engine.plates:
-                    self.built.remove_engines(engine)
+        for engine in self._pressing_engines():
+            engine.plates = [plate for plate in engine.plates if plate not in plates]
+            if not engine.plates:
+                self.built.remove_engines(engine)
 
     def _pressing_force(self) -> float:
         pressing = self._pressing()

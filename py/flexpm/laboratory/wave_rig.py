@@ -130,9 +130,6 @@ class WaveRig(GrainRig):
             else:
                 shape.velocities[:, self._moved] = velocity
 
-    def _pressing(self) -> None:
-        return None
-
     def _press(self, pressure: float, ramp: int) -> NoReturn:
         self._refuse("confine")
 

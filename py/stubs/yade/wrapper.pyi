@@ -174,8 +174,7 @@ class PressureController(Engine):
     plates: list[int]
     pressure: float
 
-class ConfinementController(Engine):
-    pressure: float
+class ConfinementController(PressureController):
     sides: list[int]
 
 class LoadingRateController(Engine):

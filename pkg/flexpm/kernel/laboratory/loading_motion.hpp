@@ -16,22 +16,25 @@ enum class Held {
 };
 
 /// Velocities of all nodes at which the bonded assembly deforms in elastic equilibrium with the
-/// velocities of its held nodes, of its plates and node sets; plates under a load and sets that float give way [m/s].
+/// velocities of its held nodes, of its plates and node sets; plates under a load and sets that
+/// float give way [m/s].
 ///
 /// @throws std::runtime_error  as solve_static()
 Array<double> elastic_velocities(const Assembly& a, Held held = Held::by_ends);
 
 /// Add these velocities to all nodes that are free, and give them to plates under a load, so that
-/// loading starts without a wave. Held nodes and driven plates have theirs already. The kinetic energy that this gives is
-/// work of the boundary. Call drive_node_sets() afterwards.
+/// loading starts without a wave. Held nodes and driven plates have theirs already. The kinetic
+/// energy that this gives is work of the boundary. Call drive_node_sets() afterwards.
 ///
-/// @param undamped  damping then acts only on what grains and plates move beyond these velocities, deviation D30
+/// @param undamped  damping then acts only on what grains and plates move beyond these velocities,
+///         deviation D30
 /// @throws std::runtime_error  as solve_static()
 void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
 
-/// Give the velocities of the loading those of the elastic solution of the specimen as it is now, held by
-/// parts or by driven ends: its cracks open and slide freely. A beam that is broken turns as two halves. Where grains
-/// have come loose there is no such solution; the velocities then stay as they are. Deviation D40.
+/// Give the velocities of the loading those of the elastic solution of the specimen as it is now,
+/// held by parts or by driven ends: its cracks open and slide freely. A beam that is broken turns
+/// as two halves. Where grains have come loose there is no such solution; the velocities then stay
+/// as they are. Deviation D40.
 ///
 /// @param sense  -1 if the loading goes back: what opens as it goes on counts as open still
 /// @returns  whether there is a solution

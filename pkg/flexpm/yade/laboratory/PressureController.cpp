@@ -14,8 +14,14 @@ PressureController::~PressureController() = default;
 void PressureController::action()
 {
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	if (rampBegin < 0) rampBegin = assembly.step;
+	press(assembly, flexpm::ramped(startPressure, pressure, assembly.step - rampBegin, rampSteps));
+}
+
+void PressureController::press(flexpm::Assembly& assembly, Real now) const
+{
 	for (int plate : plates)
-		flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
+		flexpm::press(assembly, plate, now);
 }
 
 } // namespace yade
