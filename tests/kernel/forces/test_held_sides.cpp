@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sides that are kept from moving along an axis: what a push on an edge leaves alone. SI units.
+/// @file  Sides that are kept from moving along an axis: what a push on an edge leaves alone. SI
+/// units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/state_check.hpp>

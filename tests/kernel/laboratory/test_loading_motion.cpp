@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion that the loading gives: start from the elastic solution, change of its velocity, cracks that
-/// change it. SI units, tension positive.
+/// @file  Motion that the loading gives: start from the elastic solution, change of its velocity,
+/// cracks that change it. SI units, tension positive.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Preload of a test along its elastic solution: equilibrium, the first point's utilisation, and the
-/// energy balance. SI units, tension positive.
+/// @file  Preload of a test along its elastic solution: equilibrium, the first point's utilisation,
+/// and the energy balance. SI units, tension positive.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion that damping leaves alone while a specimen comes down from its peak, deviation D55.
+/// @file  Motion that damping leaves alone while a specimen comes down from its peak, deviation
+/// D55.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The motion that a loading gives to grains and parts, deviation D30, and the one by which a specimen comes down
-/// from its peak, deviation D55, as the state holds them. What writes and uses them is laboratory/loading_motion.hpp and
-/// laboratory/steady_motion.hpp. SI units.
+/// @file  The motion that a loading gives to grains and parts, deviation D30, and the one by which
+/// a specimen comes down from its peak, deviation D55, as the state holds them. What writes and
+/// uses them is laboratory/loading_motion.hpp and laboratory/steady_motion.hpp. SI units.
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>
@@ -41,11 +41,12 @@ struct PartMotion {
     }
 };
 
-/// The elastic solution at the present velocity of the loading. Its velocities are parts of those that grains and parts
-/// have. Damping does not act on them.
+/// The elastic solution at the present velocity of the loading. Its velocities are parts of those
+/// that grains and parts have. Damping does not act on them.
 struct LoadingMotion {
     GrainMotion grains;
-    /// As Assembly::plates and node_sets; parts that came after the loading had begun are not there, it gives them nothing.
+    /// As Assembly::plates and node_sets; parts that came after the loading had begun are not
+    /// there, it gives them nothing.
     std::vector<PartMotion> plates, sets;
 
     PartMotion of_plate(std::size_t plate) const
@@ -65,8 +66,8 @@ struct LoadingMotion {
     }
 };
 
-/// What the motion of the grains is followed by while a specimen comes down from its peak; all lists are empty while it is
-/// not.
+/// What the motion of the grains is followed by while a specimen comes down from its peak; all
+/// lists are empty while it is not.
 struct SteadyMotion {
     GrainMotion mean;            ///< since the last look; damping then leaves it alone instead
     Array<double> displacement;  ///< at the last look [m]

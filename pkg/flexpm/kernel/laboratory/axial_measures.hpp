@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What an axial test records of a specimen in its frame, paper Sec. 4.1. Stress and strain are magnitudes:
-/// positive in compression, or in tension in a tension test.
+/// @file  What an axial test records of a specimen in its frame, paper Sec. 4.1. Stress and strain
+/// are magnitudes: positive in compression, or in tension in a tension test.
 #pragma once
 
 #include <flexpm/kernel/laboratory/test_frame.hpp>
@@ -30,7 +30,8 @@ struct AxialObservation {
     Energies energies;
 };
 
-/// Name of the first value that is not a finite number, null if all are; a lateral strain need not be there.
+/// Name of the first value that is not a finite number, null if all are; a lateral strain need not
+/// be there.
 const char* find_bad_value(const AxialObservation& now);
 
 /// Axial stress above the confinement [Pa]: what the end of a test goes by.

@@ -61,7 +61,7 @@ double spin_in(const Grains& grains, int grain, const Array<double>& velocity)
     return cross(arm, vector_at(velocity, n) - vector_at(velocity, c)) / dot(arm, arm);
 }
 
-/// Of all that is free to move.
+/// Kinetic energy of all that is free to move [J].
 double kinetic_energy(const Assembly& a)
 {
     double total = kinetic_of_velocities(a.grains);
@@ -121,8 +121,8 @@ StaticSolution solution_along(const Assembly& a, Held held, double sense)
     return solve_static(moved, prescribed);
 }
 
-/// What the sets' forces grow by, and the velocities of those that float, in an elastic solution at `sense` times their
-/// velocities.
+/// What the sets' forces grow by, and the velocities of those that float, in an elastic solution at
+/// `sense` times their velocities.
 void note_rates(Assembly& a, const StaticSolution& found, double sense)
 {
     const Grains& grains = a.grains;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The motion that a loading gives to a specimen: the elastic solution at the present velocity of its ends and
-/// parts, deviation D30, found anew as cracks open and slide, deviation D40. Damping does not act on it.
+/// @file  The motion that a loading gives to a specimen: the elastic solution at the present
+/// velocity of its ends and parts, deviation D30, found anew as cracks open and slide, deviation
+/// D40. Damping does not act on it.
 ///
 /// steady_motion.hpp says what damping leaves alone besides. SI units, tension positive.
 #pragma once
@@ -11,8 +12,10 @@ namespace flexpm {
 
 /// What holds a specimen, for its elastic solution.
 enum class Held {
-    by_ends,  ///< plates along whole ends, which leave it free to slide: it is kept from that
-    by_parts,  ///< supports that hold it by themselves; cracks and joints bear pressure and friction alone
+    /// plates along whole ends, which leave it free to slide: it is kept from that
+    by_ends,
+    /// supports that hold it by themselves; cracks and joints bear pressure and friction alone
+    by_parts,
 };
 
 /// Velocities of all nodes at which the bonded assembly deforms in elastic equilibrium with the
@@ -40,13 +43,13 @@ void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
 /// @returns  whether there is a solution
 bool renew_loading(Assembly& a, double sense = 1.0);
 
-/// Change the velocities that the loading gives to `ratio` times what they are, and all velocities with them, so
-/// that a change of the loading's velocity raises no wave. The kinetic energy that this gives is work of the boundary.
-/// Call drive_node_sets() afterwards.
+/// Change the velocities that the loading gives to `ratio` times what they are, and all velocities
+/// with them, so that a change of the loading's velocity raises no wave. The kinetic energy that
+/// this gives is work of the boundary. Call drive_node_sets() afterwards.
 void change_loading(Assembly& a, double ratio);
 
-/// Velocities of all nodes in that motion, in the layout of Grains::displacement; held and driven nodes have their own
-/// [m/s].
+/// Velocities of all nodes in that motion, in the layout of Grains::displacement; held and driven
+/// nodes have their own [m/s].
 Array<double> loading_field(const Assembly& a);
 
 }  // namespace flexpm

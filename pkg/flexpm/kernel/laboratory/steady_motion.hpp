@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion that goes on steadily while a specimen comes down from its peak, deviation D55: damping does not act on it.
+/// @file  Motion that goes on steadily while a specimen comes down from its peak, deviation D55:
+/// damping does not act on it.
 ///
-/// Grains that slide down are shaken by the cracks around them. The damping of Eq. 2 opposes the velocity of each node by a share
-/// of its force, which the shaking makes large, so that it drags on a slow motion like a thick fluid and holds the specimen
-/// together. What damping leaves alone is therefore the mean motion since the last look, that of the loading among it; what
-/// nodes move beyond it is damped as ever. SI units.
+/// Grains that slide down are shaken by the cracks around them. The damping of Eq. 2 opposes the
+/// velocity of each node by a share of its force, which the shaking makes large, so that it drags
+/// on a slow motion like a thick fluid and holds the specimen together. What damping leaves alone
+/// is therefore the mean motion since the last look, that of the loading among it; what nodes move
+/// beyond it is damped as ever. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

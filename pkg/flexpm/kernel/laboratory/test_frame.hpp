@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Where an axial test takes its load and its strains from, and what they refer to: one maker for each outline and
-/// way to hold it; part_frame() is in part_measures.hpp. SI units.
+/// @file  Where an axial test takes its load and its strains from, and what they refer to: one
+/// maker for each outline and way to hold it; part_frame() is in part_measures.hpp. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -16,7 +16,8 @@ struct EndForces {
     double top = 0.0;
 };
 
-/// Strains of a test [-]: axial positive in the sense of the loading, lateral as Poisson's effect; nan: there is none.
+/// Strains of a test [-]: axial positive in the sense of the loading, lateral as Poisson's effect;
+/// nan: there is none.
 struct TestStrains {
     double axial = 0.0;
     double lateral = 0.0;
@@ -50,7 +51,8 @@ TestScales disc_scales(const Assembly& a, double diameter, double dt);
 /// Area over which the force of a Brazilian test gives its stress 2 P / (pi D t) [m^2].
 double splitting_area(double diameter, double thickness);
 
-/// Lateral strain of a rectangle where nodes move so, in the layout of Grains::displacement; positive as Poisson's effect [-].
+/// Lateral strain of a rectangle where nodes move so, in the layout of Grains::displacement;
+/// positive as Poisson's effect [-].
 double lateral_strain(const Assembly& a, Sense sense, const Array<double>& moved);
 
 }  // namespace flexpm

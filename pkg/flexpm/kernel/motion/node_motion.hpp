@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion of the nodes of one block of deformable grains, each free of the others, paper Eqs. 1-3.
+/// @file  Motion of the nodes of one block of deformable grains, each free of the others, paper
+/// Eqs. 1-3.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

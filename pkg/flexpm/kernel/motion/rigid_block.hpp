@@ -28,8 +28,8 @@ struct RigidRows {
 };
 
 /// Move the grains to the end of the step; then new velocities and spins from the nodal forces and
-/// their moments about the centres, and velocities of all nodes so that dt times them is the exact way
-/// of the coming step.
+/// their moments about the centres, and velocities of all nodes so that dt times them is the exact
+/// way of the coming step.
 ///
 /// @param measure  also sum kinetic energy and largest unbalanced force
 void step_rigid(const RigidRows& b, double dt, double damping, bool measure, StepSums& sums);

@@ -11,7 +11,8 @@ namespace flexpm {
 
 namespace {
 
-/// Part of its stiffness that a contact keeps which bears nothing. It keeps loose grains in their place.
+/// Part of its stiffness that a contact keeps which bears nothing. It keeps loose grains in their
+/// place.
 constexpr double loose = 1e-6;
 
 /// Damage from which on a point counts as a crack for the motion that the loading gives.
@@ -20,10 +21,12 @@ constexpr double softened = 0.5;
 /// Solutions after which points that open or lift off are not looked for any more.
 constexpr int most_lifts = 5;
 
-/// Opening of a plate's point, or damage of a crack's, that marks it as loosened in a copy of the state.
+/// Opening of a plate's point, or damage of a crack's, that marks it as loosened in a copy of the
+/// state.
 constexpr double loosened = std::numeric_limits<double>::max();
 
-/// Pressure between the faces of a point [Pa]; below 0: they are apart, and it would be there had they stuck.
+/// Pressure between the faces of a point [Pa]; below 0: they are apart, and it would be there had
+/// they stuck.
 double pressure_of(const Contacts& contacts, int contact, int point)
 {
     const LawParameters& law = contacts.law_of(contact);
@@ -53,7 +56,8 @@ bool is_pressed(const Contacts& contacts, int contact)
     return false;
 }
 
-/// Loosen the points of cracks that a motion opens and that nothing presses together now (deviation D45), and the shear of cracks that slide; returns whether there are any.
+/// Loosen the points of cracks that a motion opens and that nothing presses together now (deviation
+/// D45), and the shear of cracks that slide; returns whether there are any.
 ///
 /// @param laws  number of laws before cracks got theirs
 bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
@@ -82,7 +86,8 @@ bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
     return any;
 }
 
-/// Loosen the points of plates that do not press and that a motion takes off; returns whether there are any.
+/// Loosen the points of plates that do not press and that a motion takes off; returns whether there
+/// are any.
 bool loosen_plates(Assembly& a, const Array<double>& velocity)
 {
     bool any = false;
