@@ -31,7 +31,7 @@ from ..results.cracks import count_by_pair, cracks_from_snapshot
 from ..results.emission import EventRule, event_rule
 from ..results.result import Result
 from ..results.vtu import read_vtu, write_vtu
-from ..specimens import given
+from ..specimens.files import given
 from ..specimens.specimen import Specimen
 from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint

@@ -16,6 +16,7 @@ from subprocess import CompletedProcess
 
 from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
+from ..joints import lines as joint_lines
 from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
@@ -23,7 +24,7 @@ from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
 from ..require import require_known, require_text
-from ..specimens import joint_lines, specimen_file
+from ..specimens.files import specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
 
 #: Tests of a study; `elastic` is the direct solve.
