@@ -31,7 +31,7 @@ def cut_cells(
         discs: Rows x, y, radius [m], one for each cell.
         edge_joints: Per shared edge an index into `names`, -1: none; None: no joints.
         lines: By the name of their joint.
-        names: Of all joints, those of earlier cuts included.
+        names: All joints, those of earlier cuts included.
         progress: Called with (lines done, lines, text).
 
     Returns:

@@ -51,7 +51,7 @@ class PlaneShapes(ABC):
         """Pack a disc about the origin, as ``rectangle`` does; its rim has a chord per grain.
 
         Args:
-            diameter: Of the specimen [m].
+            diameter: Diameter of the specimen [m].
             thickness: Out of plane [m].
             in_order: As for ``rectangle``.
             packing: As for ``rectangle``.
@@ -68,7 +68,7 @@ class PlaneShapes(ABC):
         The arc has one chord for each grain along it, one of them on top.
 
         Args:
-            diameter: Of the disc, along x [m].
+            diameter: Diameter of the disc, along x [m].
             thickness: Out of plane [m].
             in_order: As for ``rectangle``.
             packing: As for ``rectangle``.
@@ -91,7 +91,7 @@ class PlaneShapes(ABC):
         their cells. A rectangle along x and y, with holes or without, can be tested as such.
 
         Args:
-            corners: Of a simple polygon, convex or not, in any sense [m]; the first one may come
+            corners: Simple polygon, convex or not, in any sense [m]; the first one may come
                 again at the end, here and wherever corners are given.
             thickness: Out of plane [m].
             in_order: As for ``rectangle``.
