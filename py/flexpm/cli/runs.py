@@ -65,6 +65,7 @@ _discard_option = click.option(
 @cli_options.frames_options
 @cli_options.quiet_option
 def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
+    """Run a laboratory test and write its files."""
     require_known("test", test, TESTS)
     chosen = inputs.material(options)
     spec = inputs.run_spec(test, options, chosen)

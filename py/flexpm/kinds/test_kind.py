@@ -106,7 +106,7 @@ class TestKind:
     no_constants: tuple[str, ...] = ()  #: slopes of its record that are none of the rock
     #: What it measures beside its peak: keys of result.json, from the record and the peak stress.
     measure: Callable[[Frame, Columns, float | None], Mapping[str, float | None]] | None = None
-    words: Words = Words()
+    words: Words = field(default_factory=Words)
     rows: tuple[str, ...] = ()  #: of the common rows of a table of its outcome; none: all
     #: What a calibration can meet, by its own names: keys of result.json.
     calibrates: Mapping[str, str] = field(default_factory=dict)
