@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Halve the loading rate of tests until their peaks stand still: the study behind the constants of kinds.
+"""Halve the loading rate of tests until their peaks stand still: the study behind kinds' rates.
 
 Runs each test on packings of the paper's size at falling constants k of the
 loading rate and adds one CSV row a run. SI units; the confinement counts for biaxial tests only.

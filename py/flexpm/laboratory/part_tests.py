@@ -85,8 +85,17 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     if spec.kind.measure is None:
         return
     frame = _frame_of(spec, rig.built)
+    result.grains_across = min(frame.width, spec.kind.ligament(frame)) / frame.grain
     for name, value in spec.kind.measure(frame, result.curve, result.peak_stress).items():
         setattr(result, name, value)
+
+
+def grains_across(specimen: Specimen) -> float:
+    """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
+    if not isinstance(specimen.outline, np.ndarray):
+        return specimen.dimensions["diameter"] / specimen.mean_diameter
+    (left, bottom), (right, top) = _corners(specimen)
+    return min(right - left, top - bottom) / specimen.mean_diameter
 
 
 def notch_depth(specimen: Specimen) -> float:

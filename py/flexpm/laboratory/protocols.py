@@ -42,7 +42,7 @@ from .frames import COLLECTION, STATE, TABLE, FrameWriter
 from .loading_rate import Loading, quasistatic_ratio
 from .output import Output, refuse_other_result
 from .part_rig import PartRig
-from .part_tests import measure, part_rig, prepared
+from .part_tests import grains_across, measure, part_rig, prepared
 from .rig import TestRig
 from .rigs import rig as rig_of
 from .run_spec import TESTS, RunSpec, described
@@ -414,6 +414,8 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         particles=counts.get("particles"),
         inner_contacts=counts.get("inner_contacts"),
     )
+    if spec.kind.quasi_static:
+        result.grains_across = grains_across(rig.built.specimen)
     result.inputs = spec.to_json()
     result.curve = rig.record
     kinds = [kind["name"] for kind in result.material.get("minerals", ())]

@@ -28,7 +28,8 @@ KIND = TestKind(
     falls_freely=True,
     regains=True,
     pulled=True,
-    no_constants=("youngs_modulus", "poissons_ratio"),  # slopes of the plates' closure
+    # slopes of the plates' closure
+    no_constants=("youngs_modulus", "poissons_ratio", "elastic_poissons_ratio"),
     words=Words(
         strain("closure of the plates / D"),
         stress("stress 2 P / (π D t)"),
