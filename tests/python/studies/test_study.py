@@ -24,7 +24,7 @@ from flexpm import materials
 from flexpm.cli import inputs, main
 from flexpm.errors import InputError
 from flexpm.kinds.registry import kind_of
-from flexpm.laboratory import run_spec
+from flexpm.runs import run_spec
 from flexpm.specimens import joint_lines
 from flexpm.studies import figures, jobs, pool, study, tables
 
