@@ -108,7 +108,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 
     def specimen(shown: terminal.Progress) -> Specimen:
         inputs.load_yade()
-        from ..specimens import given
+        from ..specimens.files import given
 
         return given.load(spec.specimen, file.parent, shown)
 
@@ -217,7 +217,7 @@ def _solve(
         refuse_other_result(folder, spec)
     inputs.load_yade()
     from ..models import grains
-    from ..specimens import given
+    from ..specimens.files import given
 
     with terminal.Progress(quiet) as progress:
         specimen = make(progress)

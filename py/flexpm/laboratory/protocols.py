@@ -45,7 +45,7 @@ from ..runs.loading_rate import Loading, quasistatic_ratio
 from ..runs.output import Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec, described
 from ..runs.runner import Foresee, Runner
-from ..specimens import given
+from ..specimens.files import given
 from ..specimens.specimen import Specimen
 from .part_tests import grains_across, measure, part_rig, prepared
 

@@ -16,6 +16,7 @@ from subprocess import CompletedProcess
 
 from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
+from ..joints import lines as joint_lines
 from ..kinds.registry import KINDS, kind_of
 from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
@@ -24,7 +25,7 @@ from ..require import require_known, require_text
 from ..runs import run_spec
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
-from ..specimens import joint_lines, specimen_file
+from ..specimens.files import specimen_file
 from ..specimens.spec import SpecimenSpec
 
 #: Tests of a study; `elastic` is the direct solve.

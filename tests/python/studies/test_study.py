@@ -23,9 +23,9 @@ import flexpm
 from flexpm import materials
 from flexpm.cli import inputs, main
 from flexpm.errors import InputError
+from flexpm.joints import lines as joint_lines
 from flexpm.kinds.registry import kind_of
 from flexpm.runs import run_spec
-from flexpm.specimens import joint_lines
 from flexpm.studies import figures, jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
