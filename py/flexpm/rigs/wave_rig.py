@@ -22,10 +22,10 @@ from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results import waves
 from ..results.record import Curve
+from ..runs.runner import Runner, Span
 from ..specimens import mineral_map
 from .grain_rig import GrainRig
 from .rig import LEFT, RIGHT
-from .runner import Runner, Span
 
 #: Heights of the two sections over that of the specimen [-].
 _SECTIONS = (0.25, 0.75)
