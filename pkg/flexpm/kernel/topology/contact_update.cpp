@@ -244,11 +244,6 @@ void shift_contact(Assembly& a, const FaceContact& face)
     a.ledger.removed_friction += before.elastic - now.elastic;
 }
 
-Point between_centres(const Grains& grains, GrainPair pair)
-{
-    return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
-}
-
 }  // namespace
 
 bool is_active(const Contacts& contacts, int contact)
@@ -257,6 +252,11 @@ bool is_active(const Contacts& contacts, int contact)
     for (int p = 0; p < contacts.points_of(contact); ++p)
         area += contacts.area(contact, p);
     return area > 0.0;
+}
+
+Point between_centres(const Grains& grains, GrainPair pair)
+{
+    return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
 }
 
 double square_distance(const Grains& grains, GrainPair pair)

@@ -14,6 +14,9 @@
 
 namespace flexpm {
 
+/// From the centre of the first grain of a pair to that of the second, now [m].
+Point between_centres(const Grains& grains, GrainPair pair);
+
 /// Current distance of the centres of two grains [m].
 double centre_distance(const Grains& grains, GrainPair pair);
 

@@ -26,11 +26,6 @@ Point between_bonded_centres(const Grains& grains, GrainPair pair)
         - vector_at(grains.reference, grains.centre(pair[0]));
 }
 
-Point between_centres(const Grains& grains, GrainPair pair)
-{
-    return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
-}
-
 double elastic_energy(const Contacts& contacts, int contact)
 {
     double sum = 0.0;
@@ -90,7 +85,7 @@ bool is_near(const Assembly& a, int contact, const BondFaces& faces, double part
     const GrainPair pair = a.contacts.pairs[contact];
     const double radii = a.grains.radius[pair[0]] + a.grains.radius[pair[1]];
     const double margin = part * radii;
-    if (norm(between_centres(a.grains, pair))
+    if (centre_distance(a.grains, pair)
         < std::max(radii, bonded_distance(a.grains, pair)) + margin) {
         return true;
     }
