@@ -9,7 +9,7 @@ import yade
 
 import flexpm
 
-#: Of the smaller grain: what increments of opening lose while faces slide by hundreds of
+#: Part of the smaller grain that increments of opening lose while faces slide by hundreds of
 #: micrometres.
 LOST = 2e-3
 #: Overlap over what force and stiffness account for where one end of a face is closed, by the
