@@ -30,8 +30,8 @@ inline TriangleShape shape_of(const Grains& grains, int grain, int triangle)
 
 inline PlaneStiffness stiffness_of(const Grains& grains, int grain)
 {
-    return load_stiffness(&grains.stiffness[StiffnessRow::count * lanes * grains.block_of(grain)],
-        grains.lane_of(grain));
+    return load_rows<PlaneStiffness>(
+        &grains.stiffness[stiffness_rows * lanes * grains.block_of(grain)], grains.lane_of(grain));
 }
 
 /// A node of a grain, by the grain and its number in it.
@@ -160,7 +160,7 @@ inline double mean_opening(const Contacts& contacts, int contact)
 {
     double sum = 0.0, area = 0.0;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        sum += contacts.area(contact, p) * contacts.state(contact, p, PointRow::opening);
+        sum += contacts.area(contact, p) * contacts.state(contact, p, &PointState::opening);
         area += contacts.area(contact, p);
     }
     return area > 0.0 ? sum / area : 0.0;

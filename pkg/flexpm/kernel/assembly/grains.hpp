@@ -70,8 +70,8 @@ struct Grains {
     Array<std::uint8_t> spin_prescribed;  ///< 1: the spin is given, not integrated
 
     // triangles
-    Array<double> shape;      ///< [block][triangle][ShapeRow][lane]
-    Array<double> stiffness;  ///< [block][StiffnessRow][lane] [Pa]
+    Array<double> shape;      ///< [block][triangle][row of TriangleShape][lane]
+    Array<double> stiffness;  ///< [block][row of PlaneStiffness][lane] [Pa]
 
     int blocks() const { return static_cast<int>(block_group.size()); }
     int block_of(int grain) const { return slot[grain] / lanes; }

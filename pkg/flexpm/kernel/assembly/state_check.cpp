@@ -91,7 +91,7 @@ void check_blocks(const Grains& grains)
         check_equal("place of nodes", grains.block_nodes[b], nodes);
         check_equal("place of triangles", grains.block_triangles[b], triangles);
         nodes += std::int64_t { node_stride } * group.nodes;
-        triangles += std::int64_t { ShapeRow::count } * lanes * group.triangle_count();
+        triangles += std::int64_t { shape_rows } * lanes * group.triangle_count();
         check_index("values of nodes", nodes, std::numeric_limits<int>::max() / 2);
         check_index("values of triangles", triangles, std::numeric_limits<int>::max());
     }
@@ -136,7 +136,7 @@ void check_grains(const Grains& grains)
         check_size("rotations", size, slots);
     }
     check_size("rotations", grains.rotation.size(), RotationRow::count * slots);
-    check_size("stiffnesses", grains.stiffness.size(), StiffnessRow::count * slots);
+    check_size("stiffnesses", grains.stiffness.size(), stiffness_rows * slots);
 }
 
 /// A node of a grain, by its offset.

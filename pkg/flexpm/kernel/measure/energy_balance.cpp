@@ -146,8 +146,8 @@ void reset_energy_balance(Assembly& a)
     Contacts& contacts = a.contacts;
     for (int c = 0; c < contacts.count; ++c) {
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            for (int row : { PointRow::damage_energy, PointRow::friction_energy })
-                contacts.state(c, p, row) = 0.0;
+            for (auto member : { &PointState::damage_energy, &PointState::friction_energy })
+                contacts.state(c, p, member) = 0.0;
             contacts.crack_energies[contacts.point_index(c, p)] = 0.0;
         }
     }

@@ -75,7 +75,7 @@ void add_contacts(const Assembly& a, Virial& total)
             }
         }
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            const double gap = contacts.state(c, p, PointRow::opening);
+            const double gap = contacts.state(c, p, &PointState::opening);
             total.volume += contacts.area(c, p) * std::min(gap, 0.0);
         }
     }

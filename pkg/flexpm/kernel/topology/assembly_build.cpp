@@ -100,7 +100,7 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
         a.grains.block_nodes.push_back(nodes);
         a.grains.block_triangles.push_back(triangles);
         nodes += node_stride * group.nodes;
-        triangles += ShapeRow::count * lanes * group.triangle_count();
+        triangles += shape_rows * lanes * group.triangle_count();
     }
     for (auto* array : { &a.grains.reference, &a.grains.displacement, &a.grains.velocity,
              &a.grains.loading_velocity, &a.grains.force })
@@ -108,7 +108,7 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
     a.grains.prescribed.assign(nodes, 0);
     a.grains.inverse_mass.assign(nodes / dimension, 0.0);
     a.grains.shape.assign(triangles, 0.0);
-    a.grains.stiffness.assign(StiffnessRow::count * lanes * a.grains.blocks(), 0.0);
+    a.grains.stiffness.assign(stiffness_rows * lanes * a.grains.blocks(), 0.0);
     a.grains.rotation.assign(RotationRow::count * lanes * a.grains.blocks(), 0.0);
     a.grains.spin.assign(lanes * a.grains.blocks(), 0.0);
     a.grains.loading_spin.assign(lanes * a.grains.blocks(), 0.0);
@@ -141,10 +141,11 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
         TriangleShape s =
             triangle_shape(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], a.thickness);
         if (!real) s.volume = 0.0;
-        store_shape(s, &a.grains.shape[a.grains.block_triangles[block]], static_cast<int>(i), lane);
+        double* rows = &a.grains.shape[a.grains.block_triangles[block]];
+        store_rows(s, rows + shape_rows * lanes * i, lane);
     }
-    store_stiffness(plane_stiffness(a.grains.elastic[a.grains.material[g]]),
-        &a.grains.stiffness[StiffnessRow::count * lanes * block], lane);
+    store_rows(plane_stiffness(a.grains.elastic[a.grains.material[g]]),
+        &a.grains.stiffness[stiffness_rows * lanes * block], lane);
 }
 
 /// Weight of the edge's end for the point where Eq. 7 with d_v = 0 puts it: between the two discs,
@@ -253,7 +254,7 @@ int law_of_edge(Assembly& a, const SharedEdge& e, int edge, const AssemblyOption
 void crack_from_start(Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p)
-        contacts.state(contact, p, PointRow::shear_damage) = 1.0;
+        contacts.state(contact, p, &PointState::shear_damage) = 1.0;
 }
 
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,

@@ -113,7 +113,7 @@ void fill_new(Assembly& a, int c, const NewContact& made)
     Contacts& contacts = a.contacts;
     for (int p = 0; p < contacts.points_of(c); ++p) {
         contacts.crack_steps[contacts.point_index(c, p)] = -1;
-        contacts.state(c, p, PointRow::shear_damage) = 1.0;
+        contacts.state(c, p, &PointState::shear_damage) = 1.0;
     }
     if (made.face)
         fill_face(a, c, *made.face);
@@ -237,8 +237,8 @@ void shift_contact(Assembly& a, const FaceContact& face)
     fill_face(a, face.contact, face);
     const ContactEnergy now = energy_of(contacts, face.contact);
     for (int p = 0; p < contacts.points_of(face.contact); ++p) {
-        contacts.state(face.contact, p, PointRow::damage_energy) = before.damage / now.area;
-        contacts.state(face.contact, p, PointRow::friction_energy) = before.friction / now.area;
+        contacts.state(face.contact, p, &PointState::damage_energy) = before.damage / now.area;
+        contacts.state(face.contact, p, &PointState::friction_energy) = before.friction / now.area;
     }
     a.ledger.removed_friction += before.elastic - now.elastic;
 }

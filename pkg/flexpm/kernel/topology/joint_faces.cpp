@@ -65,7 +65,7 @@ bool has_moved(const Contacts& contacts, int contact)
     if (!is_active(contacts, contact)) return true;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const double way =
-            contacts.state(contact, p, PointRow::slip) - contacts.paired_slip(contact, p);
+            contacts.state(contact, p, &PointState::slip) - contacts.paired_slip(contact, p);
         for (int side = 0; side < 2; ++side) {
             const double part = way * contacts.inverse_edge_length(contact, side);
             if (std::fabs(part) > small_part) return true;

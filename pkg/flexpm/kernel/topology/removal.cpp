@@ -61,7 +61,7 @@ void remove_triangles(Grains& grains, int grain)
 {
     const int block = grains.block_of(grain);
     for (int t = 0; t < grains.group(block).triangle_count(); ++t) {
-        const int row = ShapeRow::count * t + ShapeRow::volume;
+        const int row = shape_rows * t + row_of<&TriangleShape::volume>;
         grains.shape[grains.block_triangles[block] + row * lanes + grains.lane_of(grain)] = 0.0;
     }
 }

@@ -29,10 +29,11 @@ namespace {
 		return flexpm_bindings::copied(all, columns, Access::readOnly);
 	}
 
-	/// The same of a row of the state of each point.
-	py::object stateCopy(int contact, int row)
+	/// The same of a member of the state of each point.
+	py::object stateCopy(int contact, double flexpm::PointState::*member)
 	{
-		return pointCopy<double>(contact, 0, [row](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.state(place, p, row)); });
+		return pointCopy<double>(
+		        contact, 0, [member](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.state(place, p, member)); });
 	}
 
 	Vector3r vector(flexpm::Point p) { return Vector3r(p.x, p.y, 0); }
@@ -133,9 +134,9 @@ void hideBond(LobattoGeom& geom, LobattoPhys& phys)
 	geom.penetrationDepth                                                = none[0];
 }
 
-py::object LobattoPhys::opening() const { return stateCopy(contact, flexpm::PointRow::opening); }
+py::object LobattoPhys::opening() const { return stateCopy(contact, &flexpm::PointState::opening); }
 
-py::object LobattoPhys::slip() const { return stateCopy(contact, flexpm::PointRow::slip); }
+py::object LobattoPhys::slip() const { return stateCopy(contact, &flexpm::PointState::slip); }
 
 py::object LobattoPhys::area() const
 {
