@@ -101,7 +101,8 @@ TEST_CASE("real masses add up to the specimen's", "[vibration]")
         == Approx(2650.0 * width * height * specimens::thickness).epsilon(1e-12));
 }
 
-TEST_CASE("masses keep every mode below the limit of damped central differences", "[vibration]")
+TEST_CASE("masses keep every mode below the limit of damped central differences",
+    "[vibration][eigenvalues]")
 {
     const auto set_up = GENERATE(std::make_pair(3, false), std::make_pair(2, false),
         std::make_pair(1, false), std::make_pair(1, true));
