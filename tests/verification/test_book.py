@@ -28,7 +28,7 @@ CLAIMS = {
 
 
 def errors(name: str) -> dict[float, list[float]]:
-    """Of a case, by fineness [%]."""
+    """Errors of a case, by fineness [%]."""
     found: dict[float, list[float]] = {}
     for row in read():
         if row["case"] == name:
