@@ -42,6 +42,9 @@ from .options import (
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
 
+#: Keys of a law that a GrainMat takes in another form, or not at all.
+_OTHERWISE = {"name", "plane", "softening", "open", "shear_stiffness", "dilation_angle"}
+
 
 @dataclass
 class Model:
@@ -396,34 +399,27 @@ def _tell_joints(cells: AssemblyInput, grains: _Grains, chosen: Material) -> lis
 def _joint_material(law: Table) -> wrapper.GrainMat:
     return wrapper.GrainMat(
         label=law["name"],
-        normalStiffness=law["normal_stiffness"],
         shearRatio=law["shear_stiffness"] / law["normal_stiffness"],
-        tensileStrength=law["tensile_strength"],
-        cohesion=law["cohesion"],
-        friction=law["friction"],
-        tensileFractureEnergy=law["tensile_fracture_energy"] or 0.0,
-        shearFractureEnergy=law["shear_fracture_energy"] or 0.0,
         dilation=math.tan(math.radians(law["dilation_angle"])),
-        dilationSlip=law["dilation_slip"] or 0.0,
+        **_numbers(law),
     )
 
 
 def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
     law = chosen.law(model)
     return wrapper.GrainMat(
-        label=chosen.name,
-        young=law["young"] or 0.0,  # rigid grains have none
-        poisson=law["poisson"] or 0.0,
-        density=law["density"],
-        normalStiffness=law["normal_stiffness"],
-        shearRatio=law["shear_ratio"],
-        tensileStrength=law["tensile_strength"],
-        cohesion=law["cohesion"],
-        friction=law["friction"],
-        tensileFractureEnergy=law["tensile_fracture_energy"],
-        shearFractureEnergy=law["shear_fracture_energy"],
-        planeStrain=law["plane"] == "strain",
+        label=chosen.name, planeStrain=law["plane"] == "strain", **_numbers({**law})
     )
+
+
+def _numbers(law: Table) -> dict[str, float]:
+    """Numbers of a law as a GrainMat spells their names; 0 where it has none, as rigid grains."""
+    return {_spelt(key): value or 0.0 for key, value in law.items() if key not in _OTHERWISE}
+
+
+def _spelt(key: str) -> str:
+    first, *others = key.split("_")
+    return first + "".join(word.capitalize() for word in others)
 
 
 def _idle_newton() -> wrapper.Engine:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Inner particles: equal areas, and a conforming tessellation across the edges of grains.
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/geometry/lloyd.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
@@ -9,6 +8,7 @@
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/catch.hpp"
 

@@ -27,7 +27,7 @@ double lateral_pressure(const Assembly& a, const AxialGeometry& g)
 {
     if (has_plates(a, right_side)) {
         const double squeeze = plate_force(a, left_side).x - plate_force(a, right_side).x;
-        return 0.5 * squeeze / (g.height * a.thickness);
+        return 0.5 * squeeze / a.area_of(g.height);
     }
     for (int e = 0; e < a.edges.count; ++e) {
         if (is_on_side(a, e, right_side)) return a.edges.pressure[e];
@@ -116,7 +116,7 @@ AxialObservation observe(const Assembly& a, const AxialGeometry& g)
 {
     const double sign = g.sense == Sense::compression ? -1.0 : 1.0;
     const EndForces ends = { end_force(a, bottom_side), end_force(a, top_side) };
-    AxialObservation o = observe_ends(a, ends, g.sense, g.width * a.thickness);
+    AxialObservation o = observe_ends(a, ends, g.sense, a.area_of(g.width));
     const SpecimenStrain strain = specimen_strain(a);
     o.axial_strain = sign * strain.axial;
     o.lateral_strain = -sign * strain.lateral;

@@ -24,7 +24,7 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
     const TouchPoint touch = touch_point(a.grains, pair);
     attach(contacts, c, touch);
     const double area =
-        std::min(touch.closest[0].edge_length, touch.closest[1].edge_length) * a.thickness;
+        a.area_of(std::min(touch.closest[0].edge_length, touch.closest[1].edge_length));
     const int centre_rows[] = { NodeRow::centre_a, NodeRow::centre_b };
     for (int side = 0; side < 2; ++side) {
         contacts.nodes[row_index(c, centre_rows[side], NodeRow::count)] =
@@ -35,8 +35,8 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
         contacts.area(c, p) = area / points;
     }
     contacts.set_branch(c,
-        vector_at(a.grains.reference, a.grains.centre(pair[1]))
-            - vector_at(a.grains.reference, a.grains.centre(pair[0])));
+        a.grains.reference_at(a.grains.centre(pair[1]))
+            - a.grains.reference_at(a.grains.centre(pair[0])));
     contacts.set_normal(c, touch.normal);
 }
 
