@@ -71,6 +71,23 @@ class GrainMeshes:
     @property
     def smallest_angle(self) -> FloatArray: ...
 
+class AssemblyInput:
+    """What `GrainSolver.assemble` takes beside the materials; arrays are copied."""
+
+    def __init__(
+        self, tessellation: Tessellation, centres: FloatArray, radii: FloatArray, thickness: float
+    ) -> None: ...
+    rigid: bool
+    mesh: str
+    points: int
+    centre_line: bool
+    minerals: IntArray
+    parent: IntArray
+    outer: IntArray
+    edge_normals: bool
+    edge_strengths: FloatArray
+    edge_joints: IntArray
+
 class InnerCells:
     @property
     def tessellation(self) -> Tessellation: ...

@@ -28,7 +28,15 @@ specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
 disc = flexpm.Specimen.disc(0.02, 0.01, seed=1)
 centres = np.ascontiguousarray(specimen.discs[:, :2])
 radii = np.ascontiguousarray(specimen.discs[:, 2])
-options = {"rigid": False, "mesh": "fan", "points": 3, "centre_line": False}
+def cells(centres=centres, radii=radii, **members):
+    found = flexpm._flexpm.AssemblyInput(specimen.tessellation, centres, radii, 0.01)
+    for name, value in {"mesh": "fan", **members}.items():
+        setattr(found, name, value)
+    return found
+def assemble(cells, materials=(wrapper.GrainMat(),)):
+    solver = wrapper.GrainSolver()
+    solver.assemble(cells, list(materials))
+    return solver
 def build(**options):
     return flexpm.build(specimen, **options)
 """

@@ -42,7 +42,7 @@ def members() -> list[str]:
                     for kind, attribute, flags in _ATTRIBUTE.findall(part)
                     if "noSave" not in flags
                 ]
-    for file in sorted((PKG / "kernel" / "assembly").glob("*.hpp")):
+    for file in sorted(PKG.glob("kernel/*/*.hpp")):
         found += [f"{file.stem}: {name}" for name in _MEMBER.findall(file.read_text())]
     return found
 

@@ -40,28 +40,24 @@ REFUSED = {
     "O.engines = [wrapper.EndDisplacementController()]; O.step()": "none with grains",
     "O.engines = [wrapper.LoadingRateController()]; O.step()": "none with grains",
     # steps before all is done that flexpm.build does
-    "g = wrapper.GrainSolver(); g.assemble(specimen.tessellation, centres, radii, 0.01, "
-    "[wrapper.GrainMat()], options); O.engines = [g]; O.step()": "bodyIds = 0 bodies",
-    "g = wrapper.GrainSolver(); g.assemble(specimen.tessellation, centres, radii, 0.01, "
-    "[wrapper.GrainMat()], options); g.addToScene(); O.engines = [g]; O.step()": "masses = none",
+    "O.engines = [assemble(cells())]; O.step()": "bodyIds = 0 bodies",
+    "g = assemble(cells()); g.addToScene(); O.engines = [g]; O.step()": "masses = none",
     "build().solver.addToScene()": "bodyIds = 37 bodies",
     # arrays and options that do not fit, arrays that are looked at
     "v = build() and O.bodies[0].shape.velocities; O.engines[1].assemble("
-    "specimen.tessellation, centres, radii, 0.01, [wrapper.GrainMat()], options)": "grains = 37",
+    "cells(), [wrapper.GrainMat()])": "grains = 37",
     "flexpm._flexpm.grain_meshes(specimen.tessellation, centres[:3], radii[:3], 'fan')": "= 3",
-    "wrapper.GrainSolver().assemble(specimen.tessellation, centres[:5], radii[:5], 0.01, "
-    "[wrapper.GrainMat()], options)": "discs of the cells = 5",
-    "wrapper.GrainSolver().assemble(specimen.tessellation, centres, nan * radii, 0.01, "
-    "[wrapper.GrainMat()], options)": "radius = nan m",
-    "wrapper.GrainSolver().assemble(specimen.tessellation, centres, radii, 0.01, [None], "
-    "options)": "material 0 = no GrainMat",
-    "wrapper.GrainSolver().assemble(specimen.tessellation, centres, radii, 0.01, "
-    "[wrapper.GrainMat()], {**options, 'mesh': 'fans'})": "mesh = fans",
-    "wrapper.GrainSolver().assemble(specimen.tessellation, centres, radii, 0.01, "
-    "[wrapper.GrainMat()], {'mesh': 'fan'})": "option rigid = none",
-    "n = len(specimen.tessellation.shared_edges); wrapper.GrainSolver().assemble("
-    "specimen.tessellation, centres, radii, 0.01, [wrapper.GrainMat()], {**options, 'outer': "
-    "np.ones(n, 'i4'), 'edge_normals': True, 'parent': np.full(37, 2**31 - 1, 'i4')})": "particle",
+    "assemble(cells(centres[:5], radii[:5]))": "discs of the cells = 5",
+    "cells(centres[:5])": "radii = 37 values",
+    "assemble(cells(radii=nan * radii))": "radius = nan m",
+    "assemble(cells(), [None])": "material 0 = no GrainMat",
+    "assemble(cells(mesh='fans'))": "mesh = fans",
+    "assemble(cells(rigid='no'))": "rigid = of type str, must be True or False",
+    "assemble(cells(points=2.5))": "points = of type float",
+    "assemble(cells(points=4))": "points",
+    "assemble(cells(minerals=radii))": "minerals = array of type d",
+    "n = len(specimen.tessellation.shared_edges); assemble(cells(outer=np.ones(n, 'i4'), "
+    "edge_normals=True, parent=np.full(37, 2**31 - 1, 'i4')))": "particle",
     "gauge = flexpm._flexpm.StrainGauge(0.0, 0.024, 0.002, [(99, 1.0)], [(0, 1.0)]); "
     "gauge.strains(centres, centres)": "grain of a strain gauge = 99",
     "gauge = flexpm._flexpm.StrainGauge(0.0, 0.024, 0.002, [(0, 1.0)], [(0, 1.0)]); "

@@ -75,6 +75,7 @@ BOOST_PYTHON_MODULE(_flexpm)
 	py::def("set_engines", setEngines, py::arg("engines"), "Give the scene its engines; unlike O.engines it lets them go with the scene.");
 	flexpm_abi::registerBindings();
 	flexpm_bindings::register_geometry_bindings();
+	flexpm_bindings::register_assembly_bindings();
 	flexpm_bindings::register_instruction_set_bindings();
 	flexpm_bindings::register_laboratory_bindings();
 	flexpm_bindings::register_subdivision_bindings();

@@ -15,7 +15,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
-from .._flexpm import Tessellation, set_engines
+from .._flexpm import AssemblyInput, InnerCells, Tessellation, set_engines
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError, SimulationError
 from ..files import Table
@@ -41,6 +41,9 @@ from .options import (
 )
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
+
+#: Keys of a law that a GrainMat takes in another form, or not at all.
+_OTHERWISE = {"name", "plane", "softening", "open", "shear_stiffness", "dilation_angle"}
 
 
 @dataclass
@@ -248,7 +251,7 @@ def build(
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
     grains = _grains(specimen, model, points, mesh)
     chosen = _fitted(specimen, grains, load_material(material, model), model)
-    solver = _assembled(grains, chosen, model)
+    solver = _assembled(grains, chosen)
     solver.damping = damping
     solver.addToScene()
     mean_diameter = 2.0 * float(np.mean(grains.discs[:, 2]))
@@ -288,39 +291,34 @@ def elastic(
     require_one_of("build: model", model, GRAIN_MODELS)
     grains = _grains(specimen, model, points, mesh)
     chosen = _fitted(specimen, grains, load_material(material, model), model)
-    solver = _assembled(grains, chosen, model)
+    solver = _assembled(grains, chosen)
     modulus, ratio = _constants(solver)
     return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
 
 
 @dataclass
 class _Grains:
-    """What the solver assembles: cells, their discs (rows x, y, radius [m]) and its options."""
+    """What the solver assembles: cells, their discs (rows x, y, radius [m]) and the model."""
 
     specimen: Specimen
+    model: str
     tessellation: Tessellation
     discs: FloatArray
-    options: Table
+    points: int
+    mesh: str
+    inner: InnerCells | None = None  #: of the inner particles that the cells are
 
 
 def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
     """The grains of a specimen, or the inner particles of all of them."""
     require_one_of("build: points", points, POINTS)
     require_one_of("build: mesh", mesh, MESHES)
-    options: Table = {
-        "rigid": model != "flexible",
-        "mesh": mesh,
-        "points": points,
-        "centre_line": False,
-    }
-    if model in INNER_MODELS:
-        specimen.spec.require_alike(model)
-    else:
+    if model not in INNER_MODELS:
         discs = np.asarray(specimen.discs, dtype=float)
-        return _Grains(specimen, specimen.tessellation, discs, options)
+        return _Grains(specimen, model, specimen.tessellation, discs, points, mesh)
+    specimen.spec.require_alike(model)
     cells = inner_particles.cells(specimen)
-    options |= {"points": 1, **inner_particles.edge_options(cells, model)}
-    return _Grains(specimen, cells.tessellation, cells.discs, options)
+    return _Grains(specimen, model, cells.tessellation, cells.discs, 1, mesh, cells)
 
 
 def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -> Material:
@@ -331,9 +329,7 @@ def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -
     if specimen.kind == "disc":  # no test of it gives a modulus
         like = inner_particles.rectangle_like(specimen)
         grains = _grains(like, model, POINTS[0], MESHES[0])
-    return inner_particles.fitted(
-        chosen, lambda tried: _constants(_assembled(grains, tried, model))
-    )
+    return inner_particles.fitted(chosen, lambda tried: _constants(_assembled(grains, tried)))
 
 
 def _constants(solver: wrapper.GrainSolver) -> tuple[float, float]:
@@ -344,87 +340,86 @@ def _constants(solver: wrapper.GrainSolver) -> tuple[float, float]:
         raise InputError(f"elastic: {error}") from error
 
 
-def _assembled(grains: _Grains, chosen: Material, model: str) -> wrapper.GrainSolver:
+def _assembled(grains: _Grains, chosen: Material) -> wrapper.GrainSolver:
     """Make the solver with the packed arrays of the bonded, unloaded grains."""
-    description(chosen, model)  # refuses minerals that do not go together
+    description(chosen, grains.model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
+    materials = [_grain_material(kind, grains.model) for kind in mineral_materials(chosen)]
     try:
-        solver.assemble(
-            tessellation=grains.tessellation,
-            centres=np.ascontiguousarray(grains.discs[:, :2]),
-            radii=np.ascontiguousarray(grains.discs[:, 2]),
-            thickness=float(grains.specimen.thickness),
-            materials=_grain_materials(chosen, model),
-            options=grains.options
-            | _mineral_options(grains.specimen, chosen, model)
-            | _joint_options(grains.specimen, chosen, model),
-        )
+        cells = _input(grains)
+        pairs = _tell_minerals(cells, grains, chosen)
+        joints = _tell_joints(cells, grains, chosen)
+        solver.assemble(cells, materials, pairs, joints)
     except (ValueError, RuntimeError) as error:
         raise InputError(f"build: {error}") from error
     return solver
 
 
-def _grain_materials(chosen: Material, model: str) -> list[wrapper.GrainMat]:
-    """Of each mineral, or of all grains."""
-    return [_grain_material(kind, model) for kind in mineral_materials(chosen)]
+def _input(grains: _Grains) -> AssemblyInput:
+    """Cells and how they are bonded, but for what the material says."""
+    cells = AssemblyInput(
+        grains.tessellation,
+        np.ascontiguousarray(grains.discs[:, :2]),
+        np.ascontiguousarray(grains.discs[:, 2]),
+        float(grains.specimen.thickness),
+    )
+    cells.rigid = grains.model != "flexible"
+    cells.mesh = grains.mesh
+    cells.points = grains.points
+    if grains.inner is not None:
+        inner_particles.tell(cells, grains.inner, grains.model)
+    return cells
 
 
-def _mineral_options(specimen: Specimen, chosen: Material, model: str) -> Table:
-    """Minerals of the grains and contacts of each pair of minerals, for the solver."""
-    found = mineral_map.minerals_of(specimen, chosen)
+def _tell_minerals(
+    cells: AssemblyInput, grains: _Grains, chosen: Material
+) -> list[wrapper.GrainMat]:
+    """Set the mineral of each grain; returns the materials of the contacts of each two minerals."""
+    found = mineral_map.minerals_of(grains.specimen, chosen)
     if found is None:
-        return {}
-    pairs = pair_materials(chosen, model)
-    return {"minerals": found, "pairs": [_grain_material(pair, model) for pair in pairs]}
+        return []
+    cells.minerals = found
+    return [_grain_material(pair, grains.model) for pair in pair_materials(chosen, grains.model)]
 
 
-def _joint_options(specimen: Specimen, chosen: Material, model: str) -> Table:
-    """Strengths of the contacts, their joints and the laws of these, for the solver."""
-    strengths: Table = {}
+def _tell_joints(cells: AssemblyInput, grains: _Grains, chosen: Material) -> list[wrapper.GrainMat]:
+    """Set strengths and joints of the contacts; returns the materials of the joints."""
+    specimen = grains.specimen
     if specimen.strengths is not None:
-        strengths["edge_strengths"] = np.ascontiguousarray(specimen.strengths)
+        cells.edge_strengths = np.ascontiguousarray(specimen.strengths)
     if specimen.edge_joints is None:
-        return strengths
-    laws = {law["name"]: law for law in chosen.joint_laws(model)}
+        return []
+    laws = {law["name"]: law for law in chosen.joint_laws(grains.model)}
     names = specimen.spec.joint_names or ()
     require_joints(names, list(laws))
-    return strengths | {
-        "edge_joints": np.ascontiguousarray(specimen.edge_joints, dtype=np.int32),
-        "joints": [_joint_material(laws[name]) for name in names],
-    }
+    cells.edge_joints = np.ascontiguousarray(specimen.edge_joints, dtype=np.int32)
+    return [_joint_material(laws[name]) for name in names]
 
 
 def _joint_material(law: Table) -> wrapper.GrainMat:
     return wrapper.GrainMat(
         label=law["name"],
-        normalStiffness=law["normal_stiffness"],
         shearRatio=law["shear_stiffness"] / law["normal_stiffness"],
-        tensileStrength=law["tensile_strength"],
-        cohesion=law["cohesion"],
-        friction=law["friction"],
-        tensileFractureEnergy=law["tensile_fracture_energy"] or 0.0,
-        shearFractureEnergy=law["shear_fracture_energy"] or 0.0,
         dilation=math.tan(math.radians(law["dilation_angle"])),
-        dilationSlip=law["dilation_slip"] or 0.0,
+        **_numbers(law),
     )
 
 
 def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
     law = chosen.law(model)
     return wrapper.GrainMat(
-        label=chosen.name,
-        young=law["young"] or 0.0,  # rigid grains have none
-        poisson=law["poisson"] or 0.0,
-        density=law["density"],
-        normalStiffness=law["normal_stiffness"],
-        shearRatio=law["shear_ratio"],
-        tensileStrength=law["tensile_strength"],
-        cohesion=law["cohesion"],
-        friction=law["friction"],
-        tensileFractureEnergy=law["tensile_fracture_energy"],
-        shearFractureEnergy=law["shear_fracture_energy"],
-        planeStrain=law["plane"] == "strain",
+        label=chosen.name, planeStrain=law["plane"] == "strain", **_numbers({**law})
     )
+
+
+def _numbers(law: Table) -> dict[str, float]:
+    """Numbers of a law as a GrainMat spells their names; 0 where it has none, as rigid grains."""
+    return {_spelt(key): value or 0.0 for key, value in law.items() if key not in _OTHERWISE}
+
+
+def _spelt(key: str) -> str:
+    first, *others = key.split("_")
+    return first + "".join(word.capitalize() for word in others)
 
 
 def _idle_newton() -> wrapper.Engine:

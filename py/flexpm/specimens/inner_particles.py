@@ -14,8 +14,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import root_scalar
 
-from .._flexpm import InnerCells, inner_cells
-from ..arrays import IntArray
+from .._flexpm import AssemblyInput, InnerCells, inner_cells
 from ..errors import InputError
 from ..materials.material import Material
 from .specimen import Specimen
@@ -34,13 +33,11 @@ def cells(specimen: Specimen) -> InnerCells:
     return inner_cells(specimen.tessellation)
 
 
-def edge_options(inner: InnerCells, model: str) -> dict[str, IntArray | bool]:
-    """Options of the solver's assembly that tell contacts between grains from those within."""
-    return {
-        "parent": np.ascontiguousarray(inner.grain, dtype=np.int32),
-        "outer": np.ascontiguousarray(inner.outer, dtype=np.int32),
-        "edge_normals": model == "inner-un",
-    }
+def tell(cells: AssemblyInput, inner: InnerCells, model: str) -> None:
+    """Tell contacts between grains from those within."""
+    cells.parent = np.ascontiguousarray(inner.grain, dtype=np.int32)
+    cells.outer = np.ascontiguousarray(inner.outer, dtype=np.int32)
+    cells.edge_normals = model == "inner-un"
 
 
 def rectangle_like(specimen: Specimen) -> Specimen:

@@ -5,7 +5,7 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from flexpm._flexpm import EnumClass_TestState, Tessellation
+from flexpm._flexpm import AssemblyInput, EnumClass_TestState
 
 # ---- values
 
@@ -250,12 +250,10 @@ class GrainSolver(Engine):
     def gravity(self, value: _Vector) -> None: ...
     def assemble(
         self,
-        tessellation: Tessellation,
-        centres: npt.NDArray[np.float64],
-        radii: npt.NDArray[np.float64],
-        thickness: float,
+        input: AssemblyInput,
         materials: Sequence[GrainMat],
-        options: dict[str, Any],
+        pairs: Sequence[GrainMat] = ...,
+        joints: Sequence[GrainMat] = ...,
     ) -> None: ...
     def addToScene(self) -> None: ...
     def scaleMasses(self) -> None: ...

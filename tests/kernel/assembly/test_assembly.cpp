@@ -86,6 +86,31 @@ double largest_force(const Assembly& a)
 
 }  // namespace
 
+TEST_CASE("a layout tells node, component and grain of a value apart", "[assembly]")
+{
+    // eight grains side by side, and one whose vectors fill four values
+    for (const Layout& layout : { plane_layout, Layout { 3, 1, 1, 4 } }) {
+        std::set<int> places, scalars;
+        for (int number = 0; number < 5; ++number) {
+            for (int lane = 0; lane < layout.grains_per_block; ++lane) {
+                const int node = layout.node_stride * number + lane;
+                scalars.insert(layout.scalar_index(node));
+                for (int axis = 0; axis < layout.dimension; ++axis) {
+                    const int index = layout.component(node, axis);
+                    places.insert(index);
+                    CHECK(layout.axis_of(index) == axis);
+                    CHECK(index / layout.node_stride == number);
+                }
+            }
+        }
+        const int nodes = 5 * layout.grains_per_block;
+        CHECK(static_cast<int>(places.size()) == layout.dimension * nodes);
+        CHECK(static_cast<int>(scalars.size()) == nodes);
+        CHECK(*scalars.begin() == 0);
+        CHECK(*scalars.rbegin() == nodes - 1);
+    }
+}
+
 TEST_CASE("every node has its own place in the packed arrays", "[assembly]")
 {
     const Assembly a = random_assembly();

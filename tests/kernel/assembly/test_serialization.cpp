@@ -83,6 +83,7 @@ TEST_CASE("Each saved part lists all its members")
     check_members(flexpm::Contacts());
     check_members(flexpm::BoundaryEdges());
     check_members(flexpm::EnergyLedger());
+    check_members(flexpm::Layout());
     check_members(flexpm::MeshGroup());
     check_members(flexpm::ElasticMaterial());
     check_members(flexpm::LawParameters());

@@ -33,6 +33,8 @@ TEST_CASE("A damaged state is refused by the part that does not fit")
     };
     const Damage damages[] = {
         { "grains = -1", [](Assembly& a) { a.grains.count = -1; } },
+        { "components of a vector", [](Assembly& a) { a.grains.layout.dimension = 3; } },
+        { "values to the next node", [](Assembly& a) { a.grains.layout.node_stride = 4; } },
         { "slots of grains", [](Assembly& a) { ++a.grains.count; } },
         { "slot of a grain", [](Assembly& a) { a.grains.slot[3] = 4096; } },
         { "grain in a slot", [](Assembly& a) { std::swap(a.grains.slot[0], a.grains.slot[1]); } },

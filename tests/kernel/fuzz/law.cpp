@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/core/vector.hpp>
-#include <flexpm/kernel/law/bilinear.hpp>
+#include <flexpm/kernel/law/bilinear_step.hpp>
 
 #include "fuzz/bytes.hpp"
 #include "fuzz/holds.hpp"

@@ -44,8 +44,8 @@ TEST_CASE("Ends that move apart take the halves of a cracked specimen with them"
         const auto [g, h] = a.contacts.pairs[c];
         if (is_upper(g) == is_upper(h)) continue;
         for (int p = 0; p < a.contacts.points_of(c); ++p) {
-            a.contacts.state(c, p, PointRow::shear_damage) = 1.0;
-            a.contacts.state(c, p, PointRow::opening) = 1e-6;
+            a.contacts.state(c, p, &PointState::shear_damage) = 1.0;
+            a.contacts.state(c, p, &PointState::opening) = 1e-6;
         }
     }
     REQUIRE(renew_loading(a));

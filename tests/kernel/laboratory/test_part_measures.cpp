@@ -276,7 +276,7 @@ TEST_CASE("A specimen that is cracked through moves as two halves under an undam
         const auto [g, h] = a.contacts.pairs[c];
         if ((x(g) < width / 2) == (x(h) < width / 2)) continue;
         for (int p = 0; p < a.contacts.points_of(c); ++p)
-            a.contacts.state(c, p, PointRow::shear_damage) = 1.0;
+            a.contacts.state(c, p, &PointState::shear_damage) = 1.0;
     }
     CHECK(count_softened(a) > 0);
     renew_loading(a);
@@ -315,8 +315,8 @@ void press_faces(Blocks& b, double share)
 {
     const LawParameters& law = b.a.contacts.law_of(b.joint);
     for (int p = 0; p < b.a.contacts.points_of(b.joint); ++p) {
-        b.a.contacts.state(b.joint, p, PointRow::opening) = -1e-7;
-        b.a.contacts.state(b.joint, p, PointRow::shear_traction) =
+        b.a.contacts.state(b.joint, p, &PointState::opening) = -1e-7;
+        b.a.contacts.state(b.joint, p, &PointState::shear_traction) =
             share * law.friction * law.normal_stiffness * 1e-7;
     }
 }

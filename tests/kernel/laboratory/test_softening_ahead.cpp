@@ -144,7 +144,7 @@ TEST_CASE("Points that make up a small part of a cut may come faster, brittle on
         const auto [g, h] = a.contacts.pairs[c];
         const bool below = (g == corner || h == corner) && std::abs(g - h) == 30;
         for (int p = 0; p < a.contacts.points_of(c) && !below; ++p)
-            a.contacts.state(c, p, PointRow::shear_damage) = 1.0;
+            a.contacts.state(c, p, &PointState::shear_damage) = 1.0;
     }
     CHECK(std::isinf(factor_before_softening(a, v, dt, rule)));
     a.contacts.laws[0] = brittle;

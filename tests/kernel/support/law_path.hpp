@@ -4,7 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/law/bilinear.hpp>
+#include <flexpm/kernel/law/bilinear_step.hpp>
 
 #include "support/specimens.hpp"
 

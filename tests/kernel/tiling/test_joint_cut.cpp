@@ -10,7 +10,7 @@
 
 using namespace driven;
 using flexpm::ContactMaterial;
-using flexpm::PointRow;
+using flexpm::PointState;
 
 namespace {
 
@@ -148,7 +148,7 @@ TEST_CASE("A joint without strength is cracked from the start and no crack", "[t
 {
     Assembly a = two_blocks(joint(0.0, 0.0, 0.35));
     for (int p = 0; p < 3; ++p)
-        CHECK(a.contacts.state(0, p, PointRow::shear_damage) == 1.0);
+        CHECK(a.contacts.state(0, p, &PointState::shear_damage) == 1.0);
     set_velocity(a, 1, Point { 1e-9, 1e-9 });
     run(a, 100);
     CHECK(resultant(a, 0).x == 0.0);

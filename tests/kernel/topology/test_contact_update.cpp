@@ -271,7 +271,7 @@ namespace {
 void crack(Assembly& a, int contact)
 {
     for (int p = 0; p < a.contacts.points_of(contact); ++p)
-        a.contacts.state(contact, p, flexpm::PointRow::shear_damage) = 1.0;
+        a.contacts.state(contact, p, &flexpm::PointState::shear_damage) = 1.0;
 }
 
 }  // namespace

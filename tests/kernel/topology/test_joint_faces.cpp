@@ -167,8 +167,8 @@ int contact_of(const Assembly& a, GrainPair pair)
 void set_damage(Assembly& a, int contact, double damage)
 {
     for (int p = 0; p < a.contacts.points_of(contact); ++p) {
-        a.contacts.state(contact, p, flexpm::PointRow::shear_damage) = damage;
-        a.contacts.state(contact, p, flexpm::PointRow::max_opening) = 0.0;
+        a.contacts.state(contact, p, &flexpm::PointState::shear_damage) = damage;
+        a.contacts.state(contact, p, &flexpm::PointState::max_opening) = 0.0;
     }
 }
 

@@ -39,7 +39,7 @@ void shift(Assembly& a, int grain, Point way)
 void crack(Assembly& a, int contact)
 {
     for (int p = 0; p < a.contacts.points_of(contact); ++p)
-        a.contacts.state(contact, p, flexpm::PointRow::max_opening) =
+        a.contacts.state(contact, p, &flexpm::PointState::max_opening) =
             2.0 * a.contacts.law_of(contact).critical_opening;
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("Fragments hang together by what has not cracked, the largest is 0", "
     crack(a, 0);
     CHECK(flexpm::grain_values(a, GrainValue::fragment)
         == std::vector<double> { 1.0, 0.0, 0.0, 0.0 });
-    a.contacts.state(0, 1, flexpm::PointRow::max_opening) = 0.0;  // one point holds
+    a.contacts.state(0, 1, &flexpm::PointState::max_opening) = 0.0;  // one point holds
     CHECK(flexpm::grain_values(a, GrainValue::fragment) == std::vector<double>(4, 0.0));
 }
 

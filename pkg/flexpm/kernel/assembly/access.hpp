@@ -30,8 +30,8 @@ inline TriangleShape shape_of(const Grains& grains, int grain, int triangle)
 
 inline PlaneStiffness stiffness_of(const Grains& grains, int grain)
 {
-    return load_stiffness(&grains.stiffness[StiffnessRow::count * lanes * grains.block_of(grain)],
-        grains.lane_of(grain));
+    return load_rows<PlaneStiffness>(
+        &grains.stiffness[stiffness_rows * lanes * grains.block_of(grain)], grains.lane_of(grain));
 }
 
 /// A node of a grain, by the grain and its number in it.
@@ -45,7 +45,8 @@ inline GrainNode grain_node(const Grains& grains, int node)
     const auto& first = grains.block_nodes;
     const auto next = std::upper_bound(first.begin(), first.end(), node);
     const int block = static_cast<int>(next - first.begin()) - 1, within = node - first[block];
-    return { grains.in_slot[block * lanes + within % node_stride], within / node_stride };
+    const int stride = grains.layout.node_stride;
+    return { grains.in_slot[block * lanes + within % stride], within / stride };
 }
 
 /// Law of a contact between two grains of the material of `grain`.
@@ -68,8 +69,8 @@ template <class Value> double grain_mean(const Grains& grains, Value value)
 template <class Visit> void for_each_component(const Grains& grains, int grain, Visit visit)
 {
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
-        for (int axis = 0; axis < dimension; ++axis)
-            visit(component(grains.node(grain, n), axis));
+        for (int axis = 0; axis < grains.layout.dimension; ++axis)
+            visit(grains.component(grains.node(grain, n), axis));
     }
 }
 
@@ -160,7 +161,7 @@ inline double mean_opening(const Contacts& contacts, int contact)
 {
     double sum = 0.0, area = 0.0;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        sum += contacts.area(contact, p) * contacts.state(contact, p, PointRow::opening);
+        sum += contacts.area(contact, p) * contacts.state(contact, p, &PointState::opening);
         area += contacts.area(contact, p);
     }
     return area > 0.0 ? sum / area : 0.0;
@@ -199,6 +200,28 @@ inline Point relative_velocity(
     return sum;
 }
 
+/// Opening of a point [m], relative to the bonded state; compression < 0.
+inline double opening_of(const Assembly& a, int contact, int point)
+{
+    return a.contacts.state(contact, point, &PointState::opening);
+}
+
+/// Slip of a point along the tangent [m], relative to the bonded state.
+inline double slip_of(const Assembly& a, int contact, int point)
+{
+    return a.contacts.state(contact, point, &PointState::slip);
+}
+
+/// Normal and shear traction of a point [Pa], tension positive; 0 of a contact that has ended.
+inline Point traction_of(const Assembly& a, int contact, int point)
+{
+    if (a.contacts.area(contact, point) == 0.0) return {};
+    const PointState s = a.contacts.point_state(contact, point);
+    const LawParameters& law = a.contacts.law_of(contact);
+    const double damage = damage_of(a.contacts, contact, point);
+    return { law::normal_traction(law, law::gap(law, s), s.max_opening, damage), s.shear_traction };
+}
+
 /// Shares of an edge's second node between which a contact acts: the whole edge, but a part where the faces of a joint have slid.
 inline std::array<double, 2> acting_part(const Assembly& a, int contact, int side)
 {
@@ -208,9 +231,8 @@ inline std::array<double, 2> acting_part(const Assembly& a, int contact, int sid
     if (last > 0)
         return { contacts.weight(contact, 0, side), contacts.weight(contact, last, side) };
     const auto [from, to] = contacts.edge(contact, side);
-    const double length =
-        norm(vector_at(a.grains.reference, to) - vector_at(a.grains.reference, from));
-    const double half = 0.5 * contacts.area(contact, 0) / (length * a.thickness);
+    const double length = norm(a.grains.reference_at(to) - a.grains.reference_at(from));
+    const double half = 0.5 * contacts.area(contact, 0) / a.area_of(length);
     const double middle = contacts.weight(contact, 0, side);
     return { middle - half, middle + half };
 }
@@ -221,8 +243,8 @@ inline Point bonded_normal(const Assembly& a, int contact)
 {
     Point along = a.contacts.branch(contact);
     if (along.x == 0.0 && along.y == 0.0) {
-        const Point from = vector_at(a.grains.reference, a.contacts.node(contact, 0, 0));
-        const Point to = vector_at(a.grains.reference, a.contacts.node(contact, 0, 1));
+        const Point from = a.grains.reference_at(a.contacts.node(contact, 0, 0));
+        const Point to = a.grains.reference_at(a.contacts.node(contact, 0, 1));
         along = { to.y - from.y, from.x - to.x };
     }
     const double length = norm(along);

@@ -40,6 +40,12 @@ struct Assembly {
         return steady.is_followed() ? steady.mean : loading.grains;
     }
 
+    /// What the plane leaves out: area of a facet and volume of a section, from what is seen of them. The order
+    /// of products decides the last digit: a factor that comes first goes in with the length.
+    double area_of(double length) const { return length * thickness; }
+    double length_of(double area) const { return area / thickness; }
+    double volume_of(double section) const { return section * thickness; }
+
     /// Calls visit(name, member) for all members that are saved.
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/layout.hpp>
-#include <flexpm/kernel/assembly/point_rows.hpp>
+#include <flexpm/kernel/core/member_rows.hpp>
+#include <flexpm/kernel/law/bilinear.hpp>
 
 #include <array>
 #include <cstddef>
@@ -17,6 +18,10 @@ using GrainPair = std::array<int, 2>;  ///< two grains, the smaller number first
 
 /// How a point of contact lost its bond; one that a script has erased did not crack.
 enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2, erased_point = 3 };
+
+/// Rows of a point: a member of PointState or LawParameters each.
+constexpr int point_rows = row_count<PointState>;
+constexpr int law_rows = row_count<LawParameters>;
 
 /// Rows of a contact's nodes: ends of the edges of grains a and b, and the places of their centres in
 /// StepPlan::next_centre.
@@ -49,7 +54,7 @@ struct Contacts {
     Array<double> branches;
     Array<double> inverse_edge_lengths;  ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
     Array<double> normals;               ///< [component] of the current unit normal, from a to b
-    Array<double> states;                ///< [point][PointRow]
+    Array<double> states;                ///< [point][row of PointState]
     /// [point]: slip at which its places on the two edges lay opposite to each other [m]; 0 until faces slide far.
     Array<double> paired_slips;
     Array<int> crack_steps;           ///< [point]: step of the crack or erasure, -1 while intact
@@ -103,21 +108,22 @@ struct Contacts {
         return inverse_edge_lengths[row_index(contact, side, 2)];
     }
 
-    double& state(int contact, int point, int row)
+    double& state(int contact, int point, double PointState::*member)
     {
-        return states[point_index(contact, point, row, PointRow::count)];
+        return states[point_index(contact, point, member_row(member), point_rows)];
     }
-    double state(int contact, int point, int row) const
+    double state(int contact, int point, double PointState::*member) const
     {
-        return states[point_index(contact, point, row, PointRow::count)];
+        return states[point_index(contact, point, member_row(member), point_rows)];
     }
+
     PointState point_state(int contact, int point) const
     {
-        return load_state(&states[point_index(contact, point, 0, PointRow::count)], 0);
+        return load_rows<PointState>(&states[point_index(contact, point, 0, point_rows)], 0);
     }
     void set_point_state(int contact, int point, const PointState& s)
     {
-        store_state(s, &states[point_index(contact, point, 0, PointRow::count)], 0);
+        store_rows(s, &states[point_index(contact, point, 0, point_rows)], 0);
     }
 
     double& paired_slip(int contact, int point)
@@ -162,7 +168,7 @@ struct Contacts {
         visit(s.branches, dimension, row_index);
         visit(s.inverse_edge_lengths, 2, row_index);
         visit(s.normals, dimension, row_index);
-        visit(s.states, s.points * PointRow::count, row_index);
+        visit(s.states, s.points * point_rows, row_index);
         visit(s.paired_slips, s.points, row_index);
         visit(s.crack_steps, s.points, row_index);
         visit(s.crack_modes, s.points, row_index);

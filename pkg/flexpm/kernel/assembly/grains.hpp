@@ -37,6 +37,7 @@ struct RotationRow {
 /// Grains of one mesh connectivity form a group and are stepped `lanes` at a time. Node arrays are laid out
 /// [block][node of the grain][component][lane]; a node is named by the offset of its x value.
 struct Grains {
+    Layout layout = plane_layout;
     int count = 0;
     std::vector<MeshGroup> groups;
     std::vector<int> block_group;      ///< group of each block
@@ -68,8 +69,8 @@ struct Grains {
     Array<std::uint8_t> spin_prescribed;  ///< 1: the spin is given, not integrated
 
     // triangles
-    Array<double> shape;      ///< [block][triangle][ShapeRow][lane]
-    Array<double> stiffness;  ///< [block][StiffnessRow][lane] [Pa]
+    Array<double> shape;      ///< [block][triangle][row of TriangleShape][lane]
+    Array<double> stiffness;  ///< [block][row of PlaneStiffness][lane] [Pa]
 
     int blocks() const { return static_cast<int>(block_group.size()); }
     int block_of(int grain) const { return slot[grain] / lanes; }
@@ -83,7 +84,7 @@ struct Grains {
     /// Offset of a grain's node in the node arrays.
     int node(int grain, int number) const
     {
-        return block_nodes[block_of(grain)] + node_stride * number + lane_of(grain);
+        return block_nodes[block_of(grain)] + layout.node_stride * number + lane_of(grain);
     }
     int centre(int grain) const { return node(grain, vertices_of(grain)); }
 
@@ -96,15 +97,36 @@ struct Grains {
         return material[grain_a] * static_cast<int>(elastic.size()) + material[grain_b];
     }
 
-    /// Current position of a node [m].
-    Point position(int node) const
+    // a vector of a node, by the node's offset, and the places of its components in the arrays of nodes
+    int component(int node, int axis) const { return layout.component(node, axis); }
+    int scalar_index(int node) const { return layout.scalar_index(node); }
+    Point vector_at(const Array<double>& values, int node) const
     {
-        return vector_at(reference, node) + vector_at(displacement, node);
+        return { values[component(node, 0)], values[component(node, 1)] };
     }
+    void set_vector(Array<double>& values, int node, Point p) const
+    {
+        values[component(node, 0)] = p.x;
+        values[component(node, 1)] = p.y;
+    }
+    Point reference_at(int node) const { return vector_at(reference, node); }
+    Point displacement_at(int node) const { return vector_at(displacement, node); }
+    Point velocity_at(int node) const { return vector_at(velocity, node); }
+    Point force_at(int node) const { return vector_at(force, node); }
+
+    /// Vector at share `weight` of the way from the first to the second node of an edge.
+    Point vector_on_edge(const Array<double>& values, std::array<int, 2> nodes, double weight) const
+    {
+        return (1.0 - weight) * vector_at(values, nodes[0]) + weight * vector_at(values, nodes[1]);
+    }
+
+    /// Current position of a node [m].
+    Point position(int node) const { return reference_at(node) + displacement_at(node); }
 
     /// Calls visit(name, member) for all members.
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
+        visit("layout", s.layout);
         visit("count", s.count);
         visit("groups", s.groups);
         visit("block_group", s.block_group);

@@ -25,7 +25,7 @@ void LawRows::fill(const Contacts& contacts, int block)
         const int kind = kinds[std::min(first + l, last)];
         if (kind == filled[l]) continue;
         const LawParameters& law = contacts.laws[kind];
-        store_law(law, values, l);
+        store_rows(law, values, l);
         filled[l] = kind;
         lane_dilates[l] = law.dilation_compliance > 0.0;
     }

@@ -12,7 +12,7 @@ struct LawRows {
     int filled[lanes];         ///< index of the law in each lane, -1: none
     bool lane_dilates[lanes];  ///< whether that law dilates
     bool dilating = false;     ///< whether any of them does
-    alignas(64) double values[LawRow::count * lanes];
+    alignas(64) double values[law_rows * lanes];
 
     LawRows();
     void fill(const Contacts& contacts, int block);

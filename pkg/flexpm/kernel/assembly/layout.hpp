@@ -12,20 +12,43 @@
 
 namespace flexpm {
 
-/// Components of a vector.
-constexpr int dimension = 2;
+/// Where the components of the vectors of nodes lie. A node is named by the place of its first component.
+struct Layout {
+    int dimension = 0;         ///< components of a vector
+    int grains_per_block = 0;  ///< grains whose values lie side by side
+    int axis_stride = 0;       ///< values from a component to the next
+    int node_stride = 0;       ///< values from a node of a grain to its next
 
-/// Values of one node of each grain of a block: a row for each component.
-constexpr int node_stride = dimension * lanes;
+    /// Index of a component (0: x, 1: y), from the node's offset.
+    constexpr int component(int node, int axis) const { return node + axis * axis_stride; }
 
-/// Index of a component of a node's vector (0: x, 1: y), from the node's offset.
-constexpr int component(int node, int axis) { return node + axis * lanes; }
+    /// Component that an index names.
+    constexpr int axis_of(int index) const { return index % node_stride / axis_stride; }
 
-/// Component that an index names.
-constexpr int axis_of(int index) { return index % node_stride / lanes; }
+    /// Index into the arrays with one value per node, from a node's offset.
+    constexpr int scalar_index(int node) const
+    {
+        return node / node_stride * grains_per_block + node % node_stride;
+    }
 
-/// Index into the arrays with one value per node, from a node's offset.
-constexpr int scalar_index(int node) { return (node + node % lanes) / dimension; }
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("dimension", s.dimension);
+        visit("grains_per_block", s.grains_per_block);
+        visit("axis_stride", s.axis_stride);
+        visit("node_stride", s.node_stride);
+    }
+};
+
+/// Grains of the plane: a row of `lanes` grains for each component.
+constexpr Layout plane_layout { 2, lanes, lanes, 2 * lanes };
+
+// The same as constants, for lanes, which are made for the one layout. What is no lane asks Grains::layout.
+constexpr int dimension = plane_layout.dimension;
+constexpr int node_stride = plane_layout.node_stride;
+constexpr int component(int node, int axis) { return plane_layout.component(node, axis); }
+constexpr int scalar_index(int node) { return plane_layout.scalar_index(node); }
 
 /// Index of a value of an item (grain's slot, contact, boundary edge) in an array with `rows` rows
 /// per block.

@@ -90,8 +90,8 @@ void check_blocks(const Grains& grains)
         const MeshGroup& group = grains.groups[grains.block_group[b]];
         check_equal("place of nodes", grains.block_nodes[b], nodes);
         check_equal("place of triangles", grains.block_triangles[b], triangles);
-        nodes += std::int64_t { node_stride } * group.nodes;
-        triangles += std::int64_t { ShapeRow::count } * lanes * group.triangle_count();
+        nodes += std::int64_t { grains.layout.node_stride } * group.nodes;
+        triangles += std::int64_t { shape_rows } * lanes * group.triangle_count();
         check_index("values of nodes", nodes, std::numeric_limits<int>::max() / 2);
         check_index("values of triangles", triangles, std::numeric_limits<int>::max());
     }
@@ -99,7 +99,7 @@ void check_blocks(const Grains& grains)
              grains.velocity.size(), grains.force.size(), grains.prescribed.size() }) {
         check_size("values of nodes", size, nodes);
     }
-    check_size("masses", grains.inverse_mass.size(), nodes / dimension);
+    check_size("masses", grains.inverse_mass.size(), nodes / grains.layout.dimension);
     check_size("shapes of triangles", grains.shape.size(), triangles);
 }
 
@@ -123,8 +123,18 @@ void check_steady(const Assembly& a)
     check_index("step of the last look", s.step, a.step + 1);
 }
 
+/// The one layout that lanes are made for.
+void check_layout(const Layout& layout)
+{
+    check_equal("components of a vector", layout.dimension, plane_layout.dimension);
+    check_equal("grains of a block", layout.grains_per_block, plane_layout.grains_per_block);
+    check_equal("values to the next component", layout.axis_stride, plane_layout.axis_stride);
+    check_equal("values to the next node", layout.node_stride, plane_layout.node_stride);
+}
+
 void check_grains(const Grains& grains)
 {
+    check_layout(grains.layout);
     check_index("grains", grains.count, most);
     for (const MeshGroup& group : grains.groups)
         check_group(group);
@@ -144,7 +154,7 @@ void check_grains(const Grains& grains)
         check_size("rotations", size, slots);
     }
     check_size("rotations", grains.rotation.size(), RotationRow::count * slots);
-    check_size("stiffnesses", grains.stiffness.size(), StiffnessRow::count * slots);
+    check_size("stiffnesses", grains.stiffness.size(), stiffness_rows * slots);
 }
 
 /// A node of a grain, by its offset.
@@ -152,8 +162,8 @@ void check_node(const Grains& grains, int grain, int offset)
 {
     const std::int64_t from = std::int64_t { offset } - grains.node(grain, 0);
     const char* part = "node of a contact or an edge";
-    check_index(part, from, std::int64_t { node_stride } * grains.nodes_of(grain));
-    check_equal(part, from % node_stride, 0);
+    check_index(part, from, std::int64_t { grains.layout.node_stride } * grains.nodes_of(grain));
+    check_equal(part, from % grains.layout.node_stride, 0);
 }
 
 void check_pair(const Grains& grains, const GrainPair& pair)

@@ -3,54 +3,18 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/grains.hpp>
+#include <flexpm/kernel/core/member_rows.hpp>
 #include <flexpm/kernel/fem/triangle.hpp>
 
 namespace flexpm {
 
-/// Rows of a triangle, the members of TriangleShape.
-struct ShapeRow {
-    enum : int { g1x, g1y, g2x, g2y, volume, count };
-};
-
-/// Rows of the elastic stiffness of a block, the members of PlaneStiffness.
-struct StiffnessRow {
-    enum : int { normal, cross, shear, count };
-};
-
-static_assert(sizeof(TriangleShape) == ShapeRow::count * sizeof(double), "a row for each member");
-static_assert(
-    sizeof(PlaneStiffness) == StiffnessRow::count * sizeof(double), "a row for each member");
+/// Rows of a triangle and of the elastic stiffness of a grain.
+constexpr int shape_rows = row_count<TriangleShape>;
+constexpr int stiffness_rows = row_count<PlaneStiffness>;
 
 FLEXPM_INLINE TriangleShape load_shape(const double* rows, int triangle, int lane)
 {
-    const double* r = rows + ShapeRow::count * lanes * triangle + lane;
-    return { r[ShapeRow::g1x * lanes], r[ShapeRow::g1y * lanes], r[ShapeRow::g2x * lanes],
-        r[ShapeRow::g2y * lanes], r[ShapeRow::volume * lanes] };
-}
-
-inline void store_shape(const TriangleShape& s, double* rows, int triangle, int lane)
-{
-    double* r = rows + ShapeRow::count * lanes * triangle + lane;
-    r[ShapeRow::g1x * lanes] = s.g1x;
-    r[ShapeRow::g1y * lanes] = s.g1y;
-    r[ShapeRow::g2x * lanes] = s.g2x;
-    r[ShapeRow::g2y * lanes] = s.g2y;
-    r[ShapeRow::volume * lanes] = s.volume;
-}
-
-FLEXPM_INLINE PlaneStiffness load_stiffness(const double* rows, int lane)
-{
-    const double* r = rows + lane;
-    return { r[StiffnessRow::normal * lanes], r[StiffnessRow::cross * lanes],
-        r[StiffnessRow::shear * lanes] };
-}
-
-inline void store_stiffness(const PlaneStiffness& c, double* rows, int lane)
-{
-    double* r = rows + lane;
-    r[StiffnessRow::normal * lanes] = c.normal;
-    r[StiffnessRow::cross * lanes] = c.cross;
-    r[StiffnessRow::shear * lanes] = c.shear;
+    return load_rows<TriangleShape>(rows + shape_rows * lanes * triangle, lane);
 }
 
 /// The elements of a block and what moves their nodes, [row][lane].
@@ -67,7 +31,7 @@ inline TriangleRows triangle_rows(const Grains& grains, int block)
     const MeshGroup& group = grains.group(block);
     return { group.triangle_count(), group.triangles.data(),
         grains.shape.data() + grains.block_triangles[block],
-        grains.stiffness.data() + StiffnessRow::count * lanes * block,
+        grains.stiffness.data() + stiffness_rows * lanes * block,
         grains.displacement.data() + grains.block_nodes[block] };
 }
 

@@ -4,10 +4,13 @@
 
 /// A function that becomes part of its caller, and with it of the caller's instruction set. FLEXPM_ONE_COPY: it stays
 /// one function, and so do the variants for instruction sets, for builds that count what runs.
+/// FLEXPM_INLINED says the same of a function without a name, behind its parameters.
 #ifdef FLEXPM_ONE_COPY
 #define FLEXPM_INLINE inline
+#define FLEXPM_INLINED
 #else
 #define FLEXPM_INLINE __attribute__((always_inline)) inline
+#define FLEXPM_INLINED __attribute__((always_inline))
 #endif
 
 /// No iteration of the loop that follows reads what another one writes.

@@ -11,8 +11,19 @@ namespace flexpm {
 
 /// Reference shape: gradients of the shape functions of nodes 1 and 2, and the volume.
 struct TriangleShape {
-    double g1x, g1y, g2x, g2y;  ///< [1/m]
-    double volume;              ///< area times thickness [m^3]
+    double g1x = 0.0, g1y = 0.0, g2x = 0.0, g2y = 0.0;  ///< [1/m]
+    double volume = 0.0;                                ///< area times thickness [m^3]
+
+    /// Calls visit(name, member) for all members in the order of their rows.
+    template <class Self, class Visitor>
+    FLEXPM_INLINE static constexpr void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("g1x", s.g1x);
+        visit("g1y", s.g1y);
+        visit("g2x", s.g2x);
+        visit("g2y", s.g2y);
+        visit("volume", s.volume);
+    }
 };
 
 /// Shape of a triangle of given thickness [m].

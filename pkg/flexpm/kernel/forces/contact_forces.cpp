@@ -7,6 +7,7 @@
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/contact_kinematics.hpp>
 #include <flexpm/kernel/forces/crack_record.hpp>
+#include <flexpm/kernel/law/bilinear_step.hpp>
 
 namespace flexpm {
 
@@ -23,17 +24,18 @@ template <int Points> FLEXPM_INLINE bool is_intact(const ContactLanes& b)
     for (int l = 0; l < lanes; ++l) {
         double opened = 0.0, sheared = 0.0;
         for (int p = 0; p < Points; ++p) {
-            const PointState s = load_state(b.state + p * PointRow::count * lanes, l);
+            const PointState s = load_rows<PointState>(b.state + p * point_rows * lanes, l);
             opened = std::max(opened, s.max_opening);
             sheared = std::max(sheared, s.shear_damage);
         }
-        damaged[l] = (opened > load_law(b.law, l).elastic_opening) | (sheared > 0.0);
+        damaged[l] =
+            (opened > load_rows<LawParameters>(b.law, l).elastic_opening) | (sheared > 0.0);
     }
     return !any_of(damaged);
 }
 
 /// Rows of a state that an elastic step changes: the first ones.
-constexpr int elastic_rows = PointRow::slip + 1;
+constexpr int elastic_rows = row_of<&PointState::slip> + 1;
 
 /// Traction of one point of each contact [Pa].
 struct TractionRows {
@@ -47,21 +49,21 @@ template <bool Dilating>
 FLEXPM_INLINE void slide_lanes(
     const ContactLanes& b, int p, const std::int64_t* leaves, double* next, TractionRows traction)
 {
-    double* state = b.state + p * PointRow::count * lanes;
+    double* state = b.state + p * point_rows * lanes;
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const PointState s = load_state(state, l);
+        const PointState s = load_rows<PointState>(state, l);
         PointState trial = s;
-        trial.opening = next[PointRow::opening * lanes + l];
-        trial.shear_traction = next[PointRow::shear_traction * lanes + l];
-        trial.slip = next[PointRow::slip * lanes + l];
-        const Sliding slide =
-            slide_used_up<Dilating>(load_law(b.law, l), traction.normal[l], s, trial);
+        trial.opening = next[row_of<&PointState::opening> * lanes + l];
+        trial.shear_traction = next[row_of<&PointState::shear_traction> * lanes + l];
+        trial.slip = next[row_of<&PointState::slip> * lanes + l];
+        const Sliding slide = slide_used_up<Dilating>(
+            load_rows<LawParameters>(b.law, l), traction.normal[l], s, trial);
         const bool slides = leaves[l] != 0;
         traction.normal[l] = slides ? slide.normal : traction.normal[l];
         traction.shear[l] = slides ? slide.shear : traction.shear[l];
-        next[PointRow::shear_traction * lanes + l] = traction.shear[l];
-        state[PointRow::friction_energy * lanes + l] =
+        next[row_of<&PointState::shear_traction> * lanes + l] = traction.shear[l];
+        state[row_of<&PointState::friction_energy> * lanes + l] =
             s.friction_energy + (slides ? slide.loss : 0.0);
     }
 }
@@ -72,20 +74,20 @@ template <bool Intact, bool Dilating>
 FLEXPM_INLINE bool advance_elastic_lanes(
     const ContactLanes& b, const PointMotion& motion, int p, TractionRows traction)
 {
-    double* state = b.state + p * PointRow::count * lanes;
+    double* state = b.state + p * point_rows * lanes;
     alignas(64) std::int64_t leaves[lanes], needs_law[lanes];
     alignas(64) double next[elastic_rows * lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s;
         Traction t;
-        const PointState old = load_state(state, l);
-        const bool elastic = advance_elastic<Intact, Dilating>(load_law(b.law, l),
+        const PointState old = load_rows<PointState>(state, l);
+        const bool elastic = advance_elastic<Intact, Dilating>(load_rows<LawParameters>(b.law, l),
             motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
-        next[PointRow::opening * lanes + l] = s.opening;
-        next[PointRow::max_opening * lanes + l] = s.max_opening;
-        next[PointRow::shear_traction * lanes + l] = s.shear_traction;
-        next[PointRow::slip * lanes + l] = s.slip;
+        next[row_of<&PointState::opening> * lanes + l] = s.opening;
+        next[row_of<&PointState::max_opening> * lanes + l] = s.max_opening;
+        next[row_of<&PointState::shear_traction> * lanes + l] = s.shear_traction;
+        next[row_of<&PointState::slip> * lanes + l] = s.slip;
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
         leaves[l] = !elastic;
@@ -105,14 +107,14 @@ template <bool Dilating>
 FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion, int p,
     TractionRows traction, std::uint8_t* cracked)
 {
-    double* state = b.state + p * PointRow::count * lanes;
+    double* state = b.state + p * point_rows * lanes;
     alignas(64) double fresh[lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        PointState s = load_state(state, l);
-        const Traction t = advance_point<Dilating>(
-            load_law(b.law, l), motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
-        store_state(s, state, l);
+        PointState s = load_rows<PointState>(state, l);
+        const Traction t = advance_point<Dilating>(load_rows<LawParameters>(b.law, l),
+            motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
+        store_rows(s, state, l);
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
         fresh[l] = ((t.damage_before < 1.0) & (t.damage >= 1.0)) ? 1.0 : 0.0;
@@ -134,8 +136,8 @@ FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motio
     for (int p = 0; p < Points; ++p) {
         const TractionRows traction = { normal + p * lanes, shear + p * lanes };
         if (b.prefetch_distance != 0) {
-            const int row = (b.prefetch_distance * Points + p) * PointRow::count;
-            prefetch_rows(b.state + row * lanes, PointRow::count);
+            const int row = (b.prefetch_distance * Points + p) * point_rows;
+            prefetch_rows(b.state + row * lanes, point_rows);
         }
         if (advance_elastic_lanes<Intact, Dilating>(b, motion, p, traction)) continue;
         cracks += advance_lanes<Dilating>(b, motion, p, traction, cracked + p * lanes);
@@ -190,7 +192,7 @@ ContactLanes rows_from(Assembly& a, int block, const LawRows& law)
         contacts.branches.data() + contact * dimension,
         contacts.inverse_edge_lengths.data() + contact * 2,
         contacts.normals.data() + contact * dimension,
-        contacts.states.data() + contact * points * PointRow::count,
+        contacts.states.data() + contact * points * point_rows,
         contacts.paired_slips.data() + contact * points,
         contacts.forces.data() + contact * Contacts::force_values, law.values, false, false,
         a.plan.prefetch.needed ? block_distance : 0 };
@@ -205,7 +207,7 @@ void advance_block(ContactLanes& b, int points)
     b.branch += lanes * dimension;
     b.inverse_edge_length += lanes * 2;
     b.normal += lanes * dimension;
-    b.state += lanes * points * PointRow::count;
+    b.state += lanes * points * point_rows;
     b.paired_slip += lanes * points;
     b.force += lanes * Contacts::force_values;
 }

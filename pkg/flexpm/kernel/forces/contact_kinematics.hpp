@@ -103,7 +103,7 @@ FLEXPM_INLINE double between_edges(const ContactLanes& b, int p, int l, double o
 /// Distance along the tangent between the places of a point on the two edges [m].
 template <bool Whole> FLEXPM_INLINE double gap_along(const ContactLanes& b, int p, int l)
 {
-    const double slip = b.state[(p * PointRow::count + PointRow::slip) * lanes + l];
+    const double slip = b.state[(p * point_rows + row_of<&PointState::slip>)*lanes + l];
     return Whole ? slip : slip - b.paired_slip[p * lanes + l];
 }
 
@@ -186,10 +186,10 @@ FLEXPM_INLINE void move_points(const ContactLanes& b, double dt, PointMotion& mo
         const double turn = -0.5
             * (b.inverse_edge_length[l] * a_apart + inverse_length_of_b<Whole>(b, l) * b_apart);
         for (int p = 0; p < Points; ++p) {
-            const double* state = b.state + p * PointRow::count * lanes + l;
+            const double* state = b.state + p * point_rows * lanes + l;
             const double apart = g_apart + between_edges<Whole>(b, p, l, a_apart, b_apart);
             const double along = g_along + between_edges<Whole>(b, p, l, a_along, b_along);
-            const double opening = state[PointRow::opening * lanes],
+            const double opening = state[row_of<&PointState::opening> * lanes],
                          slip = gap_along<Whole>(b, p, l);
             motion.opening[p * lanes + l] = apart + turn * (slip + 0.5 * (along - turn * opening));
             motion.slip[p * lanes + l] = along - turn * (opening + 0.5 * (apart + turn * slip));
@@ -235,8 +235,9 @@ FLEXPM_INLINE void spread_forces(const ContactLanes& b, const double* normal, co
         for (int p = 0; p < Points; ++p) {
             const double area = b.area[(Whole && p == 2 ? 0 : p) * lanes + l];
             const double fn = area * normal[p * lanes + l], fs = area * shear[p * lanes + l];
-            const double* state = b.state + p * PointRow::count * lanes + l;
-            moment += state[PointRow::opening * lanes] * fs - gap_along<Whole>(b, p, l) * fn;
+            const double* state = b.state + p * point_rows * lanes + l;
+            moment +=
+                state[row_of<&PointState::opening> * lanes] * fs - gap_along<Whole>(b, p, l) * fn;
             sum_n += fn;
             sum_s += fs;
             end_n.add<Whole>(b, p, l, fn);

@@ -10,7 +10,7 @@ namespace {
 Point point_position(const Assembly& a, int contact, int point, double dt)
 {
     const auto moved = [&](int node) {
-        return a.grains.position(node) + dt * vector_at(a.grains.velocity, node);
+        return a.grains.position(node) + dt * a.grains.velocity_at(node);
     };
     Point sum;
     for (int side = 0; side < 2; ++side) {
@@ -24,7 +24,8 @@ Point point_position(const Assembly& a, int contact, int point, double dt)
 /// What a point that is about to lose its bond has dissipated by damage.
 double point_damage_energy(const Contacts& contacts, int contact, int point)
 {
-    return contacts.area(contact, point) * contacts.state(contact, point, PointRow::damage_energy);
+    return contacts.area(contact, point)
+        * contacts.state(contact, point, &PointState::damage_energy);
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ void record_erasure(Assembly& a, int contact)
         contacts.crack_modes[index] = erased_point;
         contacts.set_crack_position(contact, p, point_position(a, contact, p, 0.0));
         contacts.crack_energies[index] = point_damage_energy(contacts, contact, p);
-        contacts.state(contact, p, PointRow::shear_damage) = 1.0;  // nothing is left to crack
+        contacts.state(contact, p, &PointState::shear_damage) = 1.0;  // nothing is left to crack
     }
 }
 

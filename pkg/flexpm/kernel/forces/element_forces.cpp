@@ -26,8 +26,8 @@ FLEXPM_INLINE void prefetch_ahead(const ElementRows& b, int triangle)
 {
     if (!b.prefetches) return;
     const int next_node = node_stride * (b.nodes + triangle);
-    prefetch_rows(b.triangles.shape + ShapeRow::count * lanes * (triangle + prefetch_distance),
-        ShapeRow::count);
+    prefetch_rows(
+        b.triangles.shape + shape_rows * lanes * (triangle + prefetch_distance), shape_rows);
     prefetch_rows(b.triangles.displacement + next_node, dimension);
     prefetch_rows(b.force + next_node, dimension);
 }
@@ -42,7 +42,7 @@ FLEXPM_INLINE void add_forces(const ElementRows& b)
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const TriangleForces e = triangle_forces(load_shape(rows.shape, t, l),
-                load_stiffness(rows.stiffness, l), displacement_of(rows, n.n0, l),
+                load_rows<PlaneStiffness>(rows.stiffness, l), displacement_of(rows, n.n0, l),
                 displacement_of(rows, n.n1, l), displacement_of(rows, n.n2, l));
             f[component(n.n0 + l, 0)] -= e.f1x + e.f2x;
             f[component(n.n0 + l, 1)] -= e.f1y + e.f2y;

@@ -212,7 +212,7 @@ double contact_width(const Assembly& a, int plate)
         const Point x = vector_on_edge(a.grains.reference, nodes, point.weight)
             + vector_on_edge(a.grains.displacement, nodes, point.weight);
         const double place = dot(tangent, x);
-        const double half = 0.5 * p.area[i] / a.thickness;
+        const double half = a.length_of(0.5 * p.area[i]);
         first = any ? std::min(first, place - half) : place - half;
         last = any ? std::max(last, place + half) : place + half;
         any = true;

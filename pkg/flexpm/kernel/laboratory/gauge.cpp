@@ -11,7 +11,7 @@ namespace flexpm {
 
 namespace {
 
-Point reference_of(const Assembly& a, int node) { return vector_at(a.grains.reference, node); }
+Point reference_of(const Assembly& a, int node) { return a.grains.reference_at(node); }
 
 /// Node nearest to a place, of the grains whose centres are nearer to it than to another place.
 int nearest_node(const Assembly& a, Point place, Point other)

@@ -68,11 +68,11 @@ struct RigidStiffness {
 RigidStiffness rigid_stiffness(const Assembly& a)
 {
     const Grains& grains = a.grains;
-    const Point first = vector_at(grains.reference, grains.centre(0));
+    const Point first = grains.reference_at(grains.centre(0));
     Point low = first, high = first;
     double stiffest = 1.0;
     for (int g = 0; g < grains.count; ++g) {
-        const Point p = vector_at(grains.reference, grains.centre(g));
+        const Point p = grains.reference_at(grains.centre(g));
         low = { std::min(low.x, p.x), std::min(low.y, p.y) };
         high = { std::max(high.x, p.x), std::max(high.y, p.y) };
     }
@@ -83,16 +83,16 @@ RigidStiffness rigid_stiffness(const Assembly& a)
             const PlatePoint p = plate_point(plate, i);
             const auto n = a.edges.nodes(p.edge);
             const StiffnessBlock springs = plate_springs(plate, i);
-            k.add(vector_on_edge(grains.reference, n, p.weight), springs);
+            k.add(grains.vector_on_edge(grains.reference, n, p.weight), springs);
             stiffest = std::max(stiffest, springs.xx + springs.yy);
         }
     }
     for_each_component(grains, [&](int i) {
         if (!grains.prescribed[i]) return;
-        const int axis = axis_of(i);
+        const int axis = grains.layout.axis_of(i);
         const StiffnessBlock held = { axis == 0 ? stiffest : 0.0, 0.0, 0.0,
             axis == 0 ? 0.0 : stiffest };
-        k.add(vector_at(grains.reference, i - component(0, axis)), held);
+        k.add(grains.reference_at(i - grains.component(0, axis)), held);
     });
     return k;
 }
@@ -188,7 +188,7 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const Point v = vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
+            const Point v = a.grains.vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
             const Point way = plate.velocity - v;
             const StiffnessBlock k = plate_springs(plate, i);
             const Point force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
@@ -268,7 +268,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
         strength = strength_over_softening * softening / parts.length * modulus;
     }
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length,
-        parts.area / a.thickness, damage_share(a) };
+        a.length_of(parts.area), damage_share(a) };
 }
 
 }  // namespace flexpm

@@ -110,7 +110,7 @@ double cut_area(const Assembly& a)
     double area = 0.0;
     for (double r : a.grains.radius)
         area += pi * r * r;
-    return std::sqrt(area) * a.thickness;
+    return a.area_of(std::sqrt(area));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Bilinear softening of one local contact point, paper Sec. 2.5-2.6, Eqs. 22-27 and Fig. 3.
+/// @file  Bilinear softening of one local contact point, paper Sec. 2.5-2.6, Eqs. 22-27 and Fig. 3: its parameters, its
+/// state and what follows from both. bilinear_step.hpp advances it.
 /// Opening and tension are positive, slip is counted along the contact's tangent. SI units.
 /// Deviation D1: Eqs. 26-27 print D; D = 1 means cracked, so strengths are multiplied by (1 - D).
 /// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
@@ -43,6 +44,24 @@ struct LawParameters {
         0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_limit` in the limit
     double dilation_compliance = 0.0;  ///< tan psi / (eta K_n) [m/Pa]
     double dilation_limit = 0.0;       ///< eta K_n times the slip at which dilation ends [Pa]
+
+    /// Calls visit(name, member) for all members in the order of their rows.
+    template <class Self, class Visitor>
+    FLEXPM_INLINE static constexpr void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("normal_stiffness", s.normal_stiffness);
+        visit("shear_stiffness", s.shear_stiffness);
+        visit("tensile_strength", s.tensile_strength);
+        visit("cohesion", s.cohesion);
+        visit("friction", s.friction);
+        visit("elastic_opening", s.elastic_opening);
+        visit("critical_opening", s.critical_opening);
+        visit("critical_slip", s.critical_slip);
+        visit("inverse_softening_length", s.inverse_softening_length);
+        visit("slip_compliance", s.slip_compliance);
+        visit("dilation_compliance", s.dilation_compliance);
+        visit("dilation_limit", s.dilation_limit);
+    }
 };
 
 /// Stand-in for infinity: any excess over the strength uses up all damage at once, and an
@@ -79,15 +98,34 @@ struct PointState {
     double shear_damage = 0.0;     ///< D_s [-]: plastic slip / s_c, at most 1
     double damage_energy = 0.0;    ///< dissipated by damage [J/m^2]
     double friction_energy = 0.0;  ///< dissipated by friction [J/m^2]
+
+    /// Calls visit(name, member) for all members in the order of their rows.
+    template <class Self, class Visitor>
+    FLEXPM_INLINE static constexpr void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("opening", s.opening);
+        visit("max_opening", s.max_opening);
+        visit("shear_traction", s.shear_traction);
+        visit("slip", s.slip);
+        visit("shear_damage", s.shear_damage);
+        visit("damage_energy", s.damage_energy);
+        visit("friction_energy", s.friction_energy);
+    }
 };
 
 namespace law {
 
-/// Opening that plastic slip has made, s_p = s - tau / (eta K_n): tan psi min(|s_p|, dilation_slip) [m].
+/// Opening that plastic slip has made: tan psi min(|s_p|, dilation_slip) [m].
+/// @param plastic  eta K_n |s_p| [Pa], where s_p = s - tau / (eta K_n)
+inline double dilated(const LawParameters& p, double plastic)
+{
+    return p.dilation_compliance * std::min(plastic, p.dilation_limit);
+}
+
+/// The same of a slip and a shear traction along one tangent.
 inline double dilated(const LawParameters& p, double slip, double shear_traction)
 {
-    const double plastic = std::fabs(p.shear_stiffness * slip - shear_traction);
-    return p.dilation_compliance * std::min(plastic, p.dilation_limit);
+    return dilated(p, std::fabs(p.shear_stiffness * slip - shear_traction));
 }
 
 /// Opening less what dilation has made of it [m]: what the normal traction follows.
@@ -151,150 +189,5 @@ inline double elastic_energy(const LawParameters& p, const PointState& s)
 }
 
 }  // namespace law
-
-/// Normal and shear traction of a point [Pa] and its damage before and after the step.
-struct Traction {
-    double normal;
-    double shear;
-    double damage_before;
-    double damage;
-};
-
-namespace law {
-
-/// dilated() of a point, or 0 where no law at hand dilates.
-template <bool Dilating>
-FLEXPM_INLINE double dilated_if(const LawParameters& p, double slip, double shear_traction)
-{
-    return Dilating ? dilated(p, slip, shear_traction) : 0.0;
-}
-
-}  // namespace law
-
-/// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and
-/// changes nothing, if it would not.
-///
-/// @tparam Intact  true: the point has no damage, which need not be worked out
-/// @tparam Dilating  false: the law does not dilate
-template <bool Intact = false, bool Dilating = true>
-FLEXPM_INLINE bool advance_elastic(const LawParameters& p, double opening_step, double slip_step,
-    const PointState& s, PointState& next, Traction& traction)
-{
-    const double d = Intact ? 0.0 : law::damage(p, s.max_opening, s.shear_damage);
-    const double apart = s.opening + opening_step;
-    const double opening = apart - law::dilated_if<Dilating>(p, s.slip, s.shear_traction);
-    const double largest = std::max(s.max_opening, opening);
-    const double slope = Intact ? p.normal_stiffness : law::secant(p, s.max_opening, d);
-    const double normal = opening * (opening > 0.0 ? slope : p.normal_stiffness);
-    const double shear = s.shear_traction + p.shear_stiffness * slip_step;
-    const double limit = std::max((1.0 - d) * p.cohesion - p.friction * normal, 0.0);
-    // a new largest opening stays elastic below the strength that is left, hence below u_e
-    const bool same_secant = (largest == s.max_opening)
-        | (p.normal_stiffness * largest <= (1.0 - d) * p.tensile_strength);
-    next = s;
-    next.opening = apart;
-    next.max_opening = largest;
-    next.shear_traction = shear;
-    next.slip = s.slip + slip_step;
-    traction = { normal, shear, d, d };
-    return same_secant & (std::fabs(shear) <= limit);
-}
-
-/// Energy [J/m^2] that goes from friction into the gap when dilation changes it at one damage.
-inline double lifting_work(double gap_before, double normal_before, double gap, double normal)
-{
-    return 0.5 * (gap * normal - gap_before * normal_before);
-}
-
-/// Tractions [Pa] that friction leaves and energy [J/m^2] that it takes in a step.
-struct Sliding {
-    double shear;
-    double normal;
-    double loss;
-};
-
-/// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be damaged
-/// further. Together with advance_elastic() this is the whole step of such a point. `trial` is what
-/// that has made of `before`, with the tractions that the point would have without friction.
-template <bool Dilating = true>
-FLEXPM_INLINE Sliding slide_used_up(
-    const LawParameters& p, double normal, const PointState& before, const PointState& trial)
-{
-    const double size = std::fabs(trial.shear_traction);
-    const double limit = std::max(-p.friction * normal, 0.0);
-    const double shear = std::min(size, limit);
-    const double slip = (size - shear) / p.shear_stiffness;
-    const double along = std::copysign(1.0, trial.shear_traction) * before.shear_traction;
-    const double held = std::copysign(shear, trial.shear_traction);
-    const double loss = 0.5 * std::max(along + shear, 0.0) * slip;
-    if (!Dilating) return { held, normal, loss };
-    const double first = trial.opening - law::dilated(p, before.slip, before.shear_traction);
-    const double opening = trial.opening - law::dilated(p, trial.slip, held);
-    const double lifted = p.normal_stiffness * std::min(opening, 0.0);
-    return { held, lifted, loss - lifting_work(first, normal, opening, lifted) };
-}
-
-/// Advance a point by an increment of opening and slip [m]: tensile damage, normal traction, shear
-/// return with its damage in closed form, and the normal traction once more with the new damage and
-/// dilation.
-/// The function has no branches, so that eight points advance at once.
-///
-/// @tparam Dilating  false: the law does not dilate
-template <bool Dilating = true>
-FLEXPM_INLINE Traction advance_point(
-    const LawParameters& p, double opening_step, double slip_step, PointState& s)
-{
-    const double before = law::damage(p, s.max_opening, s.shear_damage);
-    const double apart = s.opening + opening_step;
-    const double opening = apart - law::dilated_if<Dilating>(p, s.slip, s.shear_traction);
-    const double largest = std::max(s.max_opening, opening);
-    const double normal_part = law::normal_damage(p, largest);
-    const double opened = std::min(normal_part + s.shear_damage, 1.0);
-    const double first_normal = law::normal_traction(p, opening, largest, opened);
-
-    const double trial = s.shear_traction + p.shear_stiffness * slip_step;
-    const double size = std::fabs(trial);
-    const double limit = (1.0 - opened) * p.cohesion - p.friction * first_normal;
-    const double excess = std::max(size - std::max(limit, 0.0), 0.0);
-    const double slip_left = (1.0 - opened) * p.critical_slip;
-    const double softening = p.cohesion / p.critical_slip;
-    const double damaging = std::min(excess * p.slip_compliance, slip_left);
-    const double new_limit = std::max(limit - softening * damaging, 0.0);
-    const double shear_size = excess > 0.0 ? std::min(size, new_limit) : size;
-    const double slip = (size - shear_size) / p.shear_stiffness;
-    // both tests: round-off in `slip`, and brittle shear under tension, which slips less than slip_left
-    const bool used_up = (damaging >= slip_left) | (slip >= slip_left);
-    const double shear_damage =
-        excess > 0.0 ? (used_up ? 1.0 : s.shear_damage + slip / p.critical_slip) : s.shear_damage;
-    const double after = std::min(normal_part + shear_damage, 1.0);
-    const double normal = law::normal_traction(p, opening, largest, after);
-    const double shear = std::copysign(shear_size, trial), slipped = s.slip + slip_step;
-    const double lifted =
-        Dilating && excess > 0.0 ? apart - law::dilated(p, slipped, shear) : opening;
-    const double lifted_normal =
-        Dilating ? law::normal_traction(p, lifted, largest, after) : normal;
-
-    // normal: growth of the largest opening at the old shear damage, then the loss of secant slope
-    const double opening_loss = law::opening_dissipation(p, largest, s.shear_damage)
-        - law::opening_dissipation(p, s.max_opening, s.shear_damage);
-    const double secant_loss = 0.5 * opening * (first_normal - normal);
-    // shear: the trapezoidal work of the step less what it stores, never below zero (a reversal in
-    // one step); what friction does not take is damage
-    const double along = std::copysign(1.0, trial) * s.shear_traction;
-    const double shear_loss = 0.5 * std::max(along + shear_size, 0.0) * slip;
-    const double resisted = std::max(-p.friction * first_normal, 0.0) * slip;
-    const double friction_loss = before >= 1.0 ? shear_loss : std::min(resisted, shear_loss);
-
-    s.opening = apart;
-    s.max_opening = largest;
-    s.shear_traction = shear;
-    s.slip = slipped;
-    s.shear_damage = shear_damage;
-    s.damage_energy += opening_loss + secant_loss + (shear_loss - friction_loss);
-    s.friction_energy += Dilating
-        ? friction_loss - lifting_work(opening, normal, lifted, lifted_normal)
-        : friction_loss;
-    return { lifted_normal, shear, before, after };
-}
 
 }  // namespace flexpm

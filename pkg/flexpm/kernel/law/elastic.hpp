@@ -15,13 +15,31 @@ struct ElasticMaterial {
     double poisson = 0.0;  ///< [-], 0 < nu < 0.5
     double density = 0.0;  ///< [kg/m^3], > 0
     Plane plane = Plane::stress;
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("young", s.young);
+        visit("poisson", s.poisson);
+        visit("density", s.density);
+        visit("plane", s.plane);
+    }
 };
 
 /// Plane stiffness: S11 = normal E11 + cross E22, S12 = 2 shear E12 [Pa].
 struct PlaneStiffness {
-    double normal;
-    double cross;
-    double shear;
+    double normal = 0.0;
+    double cross = 0.0;
+    double shear = 0.0;
+
+    /// Calls visit(name, member) for all members in the order of their rows.
+    template <class Self, class Visitor>
+    FLEXPM_INLINE static constexpr void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("normal", s.normal);
+        visit("cross", s.cross);
+        visit("shear", s.shear);
+    }
 };
 
 /// Plane stiffness of a material.

@@ -44,9 +44,9 @@ double damping_power(const Assembly& a, double damping)
     double total = 0.0;
     const auto add = [&](double force, double velocity) { total += std::fabs(force * velocity); };
     const auto add_vector = [&](Point force, int node) {
-        const Point v = vector_at(grains.velocity, node) - vector_at(undamped.velocity, node);
-        if (!grains.prescribed[component(node, 0)]) add(force.x, v.x);
-        if (!grains.prescribed[component(node, 1)]) add(force.y, v.y);
+        const Point v = grains.velocity_at(node) - grains.vector_at(undamped.velocity, node);
+        if (!grains.prescribed[grains.component(node, 0)]) add(force.x, v.x);
+        if (!grains.prescribed[grains.component(node, 1)]) add(force.y, v.y);
     };
     for (int g = 0; g < grains.count; ++g) {
         if (grains.is_rigid(g)) {
@@ -58,7 +58,7 @@ double damping_power(const Assembly& a, double damping)
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
-            add_vector(vector_at(grains.force, grains.node(g, n)), grains.node(g, n));
+            add_vector(grains.force_at(grains.node(g, n)), grains.node(g, n));
     }
     for (std::size_t i = 0; i < a.plates.size(); ++i) {
         const Plate& p = a.plates[i];
@@ -86,10 +86,10 @@ double kinetic_of_velocities(const Grains& grains)
         }
         for (int n = 0; n < grains.nodes_of(g); ++n) {
             const int node = grains.node(g, n);
-            const double inverse_mass = grains.inverse_mass[scalar_index(node)];
+            const double inverse_mass = grains.inverse_mass[grains.scalar_index(node)];
             if (inverse_mass == 0.0) continue;
-            for (int axis = 0; axis < dimension; ++axis) {
-                const int i = component(node, axis);
+            for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+                const int i = grains.component(node, axis);
                 if (grains.prescribed[i]) continue;
                 total += 0.5 * grains.velocity[i] * grains.velocity[i] / inverse_mass;
             }
@@ -150,8 +150,8 @@ void reset_energy_balance(Assembly& a)
     Contacts& contacts = a.contacts;
     for (int c = 0; c < contacts.count; ++c) {
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            for (int row : { PointRow::damage_energy, PointRow::friction_energy })
-                contacts.state(c, p, row) = 0.0;
+            for (auto member : { &PointState::damage_energy, &PointState::friction_energy })
+                contacts.state(c, p, member) = 0.0;
             contacts.crack_energies[contacts.point_index(c, p)] = 0.0;
         }
     }
@@ -214,8 +214,8 @@ std::string find_bad_number(const Assembly& a)
     for (int g = 0; g < grains.count; ++g) {
         for (int n = 0; n < grains.nodes_of(g); ++n) {
             const int node = grains.node(g, n);
-            const bool force = is_finite(vector_at(grains.force, node));
-            if (force && is_finite(vector_at(grains.velocity, node))) continue;
+            const bool force = is_finite(grains.force_at(node));
+            if (force && is_finite(grains.velocity_at(node))) continue;
             return std::string(force ? "velocity" : "force") + " of node " + std::to_string(n)
                 + " of grain " + std::to_string(g) + " is not a finite number at step "
                 + std::to_string(a.step) + "; lower the loading rate or check the material";

@@ -36,7 +36,7 @@ FLEXPM_INLINE void add_strain(const TriangleRows& b, LaneSum& energy)
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             sum.lane[l] += triangle_energy(load_shape(b.shape, t, l),
-                load_stiffness(b.stiffness, l), displacement_of(b, n.n0, l),
+                load_rows<PlaneStiffness>(b.stiffness, l), displacement_of(b, n.n0, l),
                 displacement_of(b, n.n1, l), displacement_of(b, n.n2, l));
         }
     }
@@ -48,11 +48,11 @@ FLEXPM_INLINE void add_stored(
 {
     LaneSum sum = energy;
     for (int p = 0; p < points; ++p) {
-        const double *a = area + p * lanes, *state = states + p * PointRow::count * lanes;
+        const double *a = area + p * lanes, *state = states + p * point_rows * lanes;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
-            const PointState s = load_state(state, l);
-            sum.lane[l] += a[l] * law::elastic_energy(load_law(law, l), s);
+            const PointState s = load_rows<PointState>(state, l);
+            sum.lane[l] += a[l] * law::elastic_energy(load_rows<LawParameters>(law, l), s);
         }
     }
     energy = sum;
@@ -63,10 +63,10 @@ FLEXPM_INLINE void add_lost(
 {
     LaneSum of_damage = damage, of_friction = friction;
     for (int r = 0; r < rows; ++r) {
-        const double *a = area + r * lanes, *state = states + r * PointRow::count * lanes;
+        const double *a = area + r * lanes, *state = states + r * point_rows * lanes;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
-            const PointState s = load_state(state, l);
+            const PointState s = load_rows<PointState>(state, l);
             of_damage.lane[l] += a[l] * s.damage_energy;
             of_friction.lane[l] += a[l] * s.friction_energy;
         }
@@ -81,7 +81,7 @@ FLEXPM_INLINE void add_softened(const double* area, const double* states,
     LaneSum sum = energy;
     for (int r = 0; r < rows; ++r) {
         const double* a = area + r * lanes;
-        const double* lost = states + (r * PointRow::count + PointRow::damage_energy) * lanes;
+        const double* lost = states + (r * point_rows + row_of<&PointState::damage_energy>)*lanes;
         const std::uint8_t* mode = crack_modes + r * lanes;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l)
@@ -128,8 +128,8 @@ double contact_energy(const Contacts& contacts)
     for (int block = 0; block < contacts.blocks(); ++block) {
         const int points = contacts.points_in(block), first = block * lanes * points;
         law.fill(contacts, block);
-        add(contacts.areas.data() + first, contacts.states.data() + first * PointRow::count,
-            law.values, points, sum);
+        add(contacts.areas.data() + first, contacts.states.data() + first * point_rows, law.values,
+            points, sum);
     }
     return sum.total();
 }
@@ -140,7 +140,7 @@ ContactLoss contact_loss(const Contacts& contacts)
     const auto add = variant_of<add_lost>();
     for (int block = 0; block < contacts.blocks(); ++block) {
         const int points = contacts.points_in(block), first = block * lanes * points;
-        add(contacts.areas.data() + first, contacts.states.data() + first * PointRow::count, points,
+        add(contacts.areas.data() + first, contacts.states.data() + first * point_rows, points,
             damage, friction);
     }
     return { damage.total(), friction.total() };
@@ -152,7 +152,7 @@ double softened_energy(const Contacts& contacts)
     const auto add = variant_of<add_softened>();
     for (int block = 0; block < contacts.blocks(); ++block) {
         const int points = contacts.points_in(block), first = block * lanes * points;
-        add(contacts.areas.data() + first, contacts.states.data() + first * PointRow::count,
+        add(contacts.areas.data() + first, contacts.states.data() + first * point_rows,
             contacts.crack_modes.data() + first, points, sum);
     }
     return sum.total();

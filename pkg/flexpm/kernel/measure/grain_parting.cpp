@@ -11,7 +11,7 @@ double parted_by(const Grains& grains, GrainPair pair)
 {
     const int a = grains.centre(pair[0]), b = grains.centre(pair[1]);
     return norm(grains.position(b) - grains.position(a))
-        - norm(vector_at(grains.reference, b) - vector_at(grains.reference, a));
+        - norm(grains.reference_at(b) - grains.reference_at(a));
 }
 
 }  // namespace

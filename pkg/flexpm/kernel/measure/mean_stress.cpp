@@ -41,9 +41,7 @@ void add_triangles(const Grains& grains, int grain, Virial& total)
     for (int t = 0; t < triangles_of(grains, grain); ++t) {
         const TriangleShape shape = shape_of(grains, grain, t);
         const auto n = triangle_nodes(grains, grain, t);
-        const auto u = [&](int k) {
-            return vector_at(grains.displacement, grains.node(grain, n[k]));
-        };
+        const auto u = [&](int k) { return grains.displacement_at(grains.node(grain, n[k])); };
         const Gradient h = displacement_gradient(shape, u(0), u(1), u(2));
         const double ratio = (1.0 + h.xx) * (1.0 + h.yy) - h.xy * h.yx;
         total.add(cauchy_stress(shape, c, u(0), u(1), u(2)), ratio * shape.volume);
@@ -56,9 +54,9 @@ void add_rigid(const Assembly& a, int grain, Virial& total)
     const Point centre = a.grains.position(a.grains.centre(grain));
     for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
         const int node = a.grains.node(grain, n);
-        total.add(vector_at(a.grains.force, node), a.grains.position(node) - centre);
+        total.add(a.grains.force_at(node), a.grains.position(node) - centre);
     }
-    total.volume += cell_section(a.grains, grain).area * a.thickness;
+    total.volume += a.volume_of(cell_section(a.grains, grain).area);
 }
 
 /// What contacts bear between the places of their two faces.
@@ -75,7 +73,7 @@ void add_contacts(const Assembly& a, Virial& total)
             }
         }
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            const double gap = contacts.state(c, p, PointRow::opening);
+            const double gap = opening_of(a, c, p);
             total.volume += contacts.area(c, p) * std::min(gap, 0.0);
         }
     }
@@ -94,8 +92,8 @@ double overlap(const Plate& plate)
 template <class Visit> void for_each_net_force(const Grains& grains, Visit visit)
 {
     const auto free = [&](Point force, int node) {
-        if (grains.prescribed[component(node, 0)]) force.x = 0.0;
-        if (grains.prescribed[component(node, 1)]) force.y = 0.0;
+        if (grains.prescribed[grains.component(node, 0)]) force.x = 0.0;
+        if (grains.prescribed[grains.component(node, 1)]) force.y = 0.0;
         visit(force, grains.position(node));
     };
     for (int g = 0; g < grains.count; ++g) {
@@ -105,7 +103,7 @@ template <class Visit> void for_each_net_force(const Grains& grains, Visit visit
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
-            free(vector_at(grains.force, grains.node(g, n)), grains.node(g, n));
+            free(grains.force_at(grains.node(g, n)), grains.node(g, n));
     }
 }
 

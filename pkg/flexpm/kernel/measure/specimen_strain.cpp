@@ -23,7 +23,7 @@ StrainGauge gauge_of(const Assembly& a, double height)
     double diameters = 0.0;
     for (double r : a.grains.radius)
         diameters += 2.0 * r;
-    const double bottom = a.grains.reference[component(side_nodes(a, bottom_side).front(), 1)];
+    const double bottom = a.grains.reference_at(side_nodes(a, bottom_side).front()).y;
     return { bottom, height, diameters / a.grains.count, shares_of(a, left_side),
         shares_of(a, right_side), a.grains.erased };
 }
@@ -47,7 +47,9 @@ SpecimenStrain specimen_strain(const Assembly& a, const Array<double>& moved)
             (side_displacement(a, right_side, 0, moved) - side_displacement(a, left_side, 0, moved))
                 / width };
     }
-    const auto index = [&](int grain, int axis) { return component(a.grains.centre(grain), axis); };
+    const auto index = [&](int grain, int axis) {
+        return a.grains.component(a.grains.centre(grain), axis);
+    };
     return centre_strain(
         gauge_of(a, height), a.grains.count,
         [&](int grain, int axis) { return a.grains.reference[index(grain, axis)]; },

@@ -26,7 +26,8 @@ Point static_force(const Assembly& a, const Plate& plate)
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
         const auto n = a.edges.nodes(p.edge);
-        const Point u = plate.displacement - vector_on_edge(a.grains.displacement, n, p.weight);
+        const Point u =
+            plate.displacement - a.grains.vector_on_edge(a.grains.displacement, n, p.weight);
         sum.x += k.xx * u.x + k.xy * u.y;
         sum.y += k.yx * u.x + k.yy * u.y;
     }
@@ -51,9 +52,9 @@ std::vector<Prescribed> hold_ends(Assembly& a, double height)
     }
     std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
     for (int n : bottom)
-        prescribed.push_back({ component(n, 1), 0.0 });
+        prescribed.push_back({ a.grains.component(n, 1), 0.0 });
     for (int n : top)
-        prescribed.push_back({ component(n, 1), test_strain * height });
+        prescribed.push_back({ a.grains.component(n, 1), test_strain * height });
     return prescribed;
 }
 
@@ -80,7 +81,7 @@ ElasticConstants elastic_constants(const Assembly& a)
     }
     if (solved.plates.empty()) top = reaction(solved, side_nodes(a, top_side), 1);
     const SpecimenStrain strain = specimen_strain(solved);
-    return { top / (width * a.thickness * strain.axial), -strain.lateral / strain.axial };
+    return { top / (a.area_of(width) * strain.axial), -strain.lateral / strain.axial };
 }
 
 }  // namespace flexpm

@@ -36,7 +36,7 @@ void add_plate_loads(const Assembly& a, Array<double>& loads)
             const double part[] = { 1.0 - p.weight, p.weight };
             for (int r = 0; r < 2; ++r) {
                 loads[n[r]] += part[r] * (k.xx * u.x + k.xy * u.y);
-                loads[component(n[r], 1)] += part[r] * (k.yx * u.x + k.yy * u.y);
+                loads[a.grains.component(n[r], 1)] += part[r] * (k.yx * u.x + k.yy * u.y);
             }
         }
     }
@@ -88,11 +88,11 @@ void follow_centre(const Grains& grains, int grain, Unknowns& n)
     for (int k = 0; k < grains.nodes_of(grain); ++k) {
         const int node = grains.node(grain, k);
         if (node == centre) continue;
-        const Point arm = vector_at(grains.reference, node) - vector_at(grains.reference, centre);
-        for (int axis = 0; axis < dimension; ++axis) {
-            const int entry = component(node, axis);
+        const Point arm = grains.reference_at(node) - grains.reference_at(centre);
+        for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+            const int entry = grains.component(node, axis);
             n.kind[entry] = Kind::follower;
-            n.leader[entry] = component(centre, axis);
+            n.leader[entry] = grains.component(centre, axis);
             n.lever[entry] = { rotation, axis == 0 ? -arm.y : arm.x };
         }
     }
@@ -104,12 +104,12 @@ void follow_first(const Grains& grains, const NodeSet& set, int rotation, Unknow
     for (int node : set.nodes) {
         const int first = set.nodes.front();
         if (node == first) continue;
-        const Point arm = vector_at(grains.reference, node) - vector_at(grains.reference, first);
-        for (int axis = 0; axis < dimension; ++axis) {
+        const Point arm = grains.reference_at(node) - grains.reference_at(first);
+        for (int axis = 0; axis < grains.layout.dimension; ++axis) {
             if (!set.holds(axis)) continue;
-            const int entry = component(node, axis);
+            const int entry = grains.component(node, axis);
             n.kind[entry] = Kind::follower;
-            n.leader[entry] = component(first, axis);
+            n.leader[entry] = grains.component(first, axis);
             n.lever[entry] = { rotation, axis == 0 ? -arm.y : arm.x };
         }
     }
@@ -200,9 +200,9 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
 {
     const int size = static_cast<int>(grains.displacement.size());
     const bool turns = index >= size;
-    const int axis = turns ? 0 : axis_of(index);
+    const int axis = turns ? 0 : grains.layout.axis_of(index);
     const Point p = grains.position(
-        turns ? grains.centre(grains.in_slot[index - size]) : index - component(0, axis));
+        turns ? grains.centre(grains.in_slot[index - size]) : index - grains.component(0, axis));
     const std::string at = " at x, y = " + number(p.x) + ", " + number(p.y) + " m ";
     const char* motion = turns ? "about z" : axis == 1 ? "along y" : "along x";
     fail("solve_static: pivot / stiffness", number(ratio) + at + motion,

@@ -68,7 +68,7 @@ bool loosen_cracks(Assembly& a, int laws, const Array<double>& velocity)
         if (contacts.erased[c]) continue;
         const Point n = bonded_normal(a, c);
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            double& mark = contacts.state(c, p, PointRow::shear_damage);
+            double& mark = contacts.state(c, p, &PointState::shear_damage);
             if (damage_of(contacts, c, p) < softened || mark == loosened) continue;
             if (pressure_of(contacts, c, p) > 0.0) continue;
             if (!(dot(n, relative_velocity(contacts, c, p, velocity)) > 0.0)) continue;

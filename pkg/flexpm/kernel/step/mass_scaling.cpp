@@ -43,7 +43,7 @@ void add_elements(const Grains& grains, int grain, Array<double>& bound)
     }
     for (int i = 0; i < nodes; ++i) {
         for (int j = 0; j < nodes; ++j) {
-            bound[scalar_index(grains.node(grain, i))] += norm(rows[i * nodes + j]);
+            bound[grains.scalar_index(grains.node(grain, i))] += norm(rows[i * nodes + j]);
         }
     }
 }
@@ -65,7 +65,7 @@ SpringSide spring_side(
 {
     if (!grains.is_rigid(grain)) return { false, grain, edge, { 1.0 - w, w } };
     const int c = grains.centre(grain);
-    const Point arm = vector_on_edge(grains.reference, edge, w) - vector_at(grains.reference, c);
+    const Point arm = grains.vector_on_edge(grains.reference, edge, w) - grains.reference_at(c);
     return { true, grain, { c, c }, { 1.0, cross(arm, direction) / grains.radius[grain] } };
 }
 
@@ -129,7 +129,7 @@ void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
     if (!a.grains.is_rigid(grain) || a.grains.erased[grain]) return;
     const double r = a.grains.radius[grain];
     const double least = a.contacts.laws.front().normal_stiffness * r * a.thickness;
-    double& node = bound.node[scalar_index(a.grains.centre(grain))];
+    double& node = bound.node[a.grains.scalar_index(a.grains.centre(grain))];
     if (node == 0.0) node = least;
     double& rotation = bound.rotation[a.grains.slot[grain]];
     rotation = std::max(rotation, 0.01 * r * r * node);
@@ -140,11 +140,11 @@ template <class Visit> void for_each_node(const Grains& grains, Visit visit)
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
-            visit(scalar_index(grains.centre(g)));
+            visit(grains.scalar_index(grains.centre(g)));
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
-            visit(scalar_index(grains.node(g, n)));
+            visit(grains.scalar_index(grains.node(g, n)));
     }
 }
 
@@ -228,14 +228,14 @@ void add_real_mass(const Assembly& a, int g, Array<double>& mass, Array<double>&
     const double density = a.grains.elastic[a.grains.material[g]].density;
     if (a.grains.is_rigid(g)) {
         const GrainMass whole = real_mass(a, g);
-        mass[scalar_index(a.grains.centre(g))] = whole.mass;
+        mass[a.grains.scalar_index(a.grains.centre(g))] = whole.mass;
         inertia[a.grains.slot[g]] = whole.inertia;
         return;
     }
     for (int t = 0; t < triangles_of(a.grains, g); ++t) {
         const double share = density / 3.0 * shape_of(a.grains, g, t).volume;
         for (int n : triangle_nodes(a.grains, g, t))
-            mass[scalar_index(a.grains.node(g, n))] += share;
+            mass[a.grains.scalar_index(a.grains.node(g, n))] += share;
     }
 }
 

@@ -99,16 +99,16 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
         a.grains.block_group.push_back(b.group);
         a.grains.block_nodes.push_back(nodes);
         a.grains.block_triangles.push_back(triangles);
-        nodes += node_stride * group.nodes;
-        triangles += ShapeRow::count * lanes * group.triangle_count();
+        nodes += a.grains.layout.node_stride * group.nodes;
+        triangles += shape_rows * lanes * group.triangle_count();
     }
     for (auto* array : { &a.grains.reference, &a.grains.displacement, &a.grains.velocity,
              &a.loading.grains.velocity, &a.grains.force })
         array->assign(nodes, 0.0);
     a.grains.prescribed.assign(nodes, 0);
-    a.grains.inverse_mass.assign(nodes / dimension, 0.0);
+    a.grains.inverse_mass.assign(nodes / a.grains.layout.dimension, 0.0);
     a.grains.shape.assign(triangles, 0.0);
-    a.grains.stiffness.assign(StiffnessRow::count * lanes * a.grains.blocks(), 0.0);
+    a.grains.stiffness.assign(stiffness_rows * lanes * a.grains.blocks(), 0.0);
     a.grains.rotation.assign(RotationRow::count * lanes * a.grains.blocks(), 0.0);
     a.grains.spin.assign(lanes * a.grains.blocks(), 0.0);
     a.loading.grains.spin.assign(lanes * a.grains.blocks(), 0.0);
@@ -129,10 +129,10 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
     const int g = real ? a.grains.in_slot[slot] : a.grains.in_slot[block * lanes];
     const GrainMesh& mesh = grains[g].mesh;
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-        const int node = a.grains.block_nodes[block] + node_stride * static_cast<int>(n) + lane;
-        set_vector(a.grains.reference, node, mesh.nodes[n]);
-        for (int axis = 0; axis < dimension; ++axis)
-            a.grains.prescribed[component(node, axis)] = !real;
+        const int node = a.grains.node(g, static_cast<int>(n));
+        a.grains.set_vector(a.grains.reference, node, mesh.nodes[n]);
+        for (int axis = 0; axis < a.grains.layout.dimension; ++axis)
+            a.grains.prescribed[a.grains.component(node, axis)] = !real;
     }
     a.grains.spin_prescribed[slot] = !real;
     if (mesh.triangles.empty()) return;
@@ -141,10 +141,11 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
         TriangleShape s =
             triangle_shape(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], a.thickness);
         if (!real) s.volume = 0.0;
-        store_shape(s, &a.grains.shape[a.grains.block_triangles[block]], static_cast<int>(i), lane);
+        double* rows = &a.grains.shape[a.grains.block_triangles[block]];
+        store_rows(s, rows + shape_rows * lanes * i, lane);
     }
-    store_stiffness(plane_stiffness(a.grains.elastic[a.grains.material[g]]),
-        &a.grains.stiffness[StiffnessRow::count * lanes * block], lane);
+    store_rows(plane_stiffness(a.grains.elastic[a.grains.material[g]]),
+        &a.grains.stiffness[stiffness_rows * lanes * block], lane);
 }
 
 /// Weight of the edge's end for the point where Eq. 7 with d_v = 0 puts it: between the two discs,
@@ -179,7 +180,7 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
     for (int row = 0; row < NodeRow::count; ++row)
         a.contacts.nodes[row_index(c, row, NodeRow::count)] = nodes[row];
     const Point p0 = a.grains.position(nodes[0]), p1 = a.grains.position(nodes[1]);
-    const double area = std::hypot(p1.x - p0.x, p1.y - p0.y) * a.thickness;
+    const double area = a.area_of(norm(p1 - p0));
     for (int p = 0; p < a.contacts.points_of(c); ++p) {
         a.contacts.area(c, p) = real ? points.share[p] * area : 0.0;
         for (int side = 0; side < 2; ++side) {
@@ -253,7 +254,7 @@ int law_of_edge(Assembly& a, const SharedEdge& e, int edge, const AssemblyOption
 void crack_from_start(Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p)
-        contacts.state(contact, p, PointRow::shear_damage) = 1.0;
+        contacts.state(contact, p, &PointState::shear_damage) = 1.0;
 }
 
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,

@@ -25,7 +25,7 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
     const TouchPoint touch = touch_point(a.grains, pair);
     attach(contacts, c, touch);
     const double area =
-        std::min(touch.closest[0].edge_length, touch.closest[1].edge_length) * a.thickness;
+        a.area_of(std::min(touch.closest[0].edge_length, touch.closest[1].edge_length));
     const int centre_rows[] = { NodeRow::centre_a, NodeRow::centre_b };
     for (int side = 0; side < 2; ++side) {
         contacts.nodes[row_index(c, centre_rows[side], NodeRow::count)] =
@@ -36,8 +36,8 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
         contacts.area(c, p) = area / points;
     }
     contacts.set_branch(c,
-        vector_at(a.grains.reference, a.grains.centre(pair[1]))
-            - vector_at(a.grains.reference, a.grains.centre(pair[0])));
+        a.grains.reference_at(a.grains.centre(pair[1]))
+            - a.grains.reference_at(a.grains.centre(pair[0])));
     contacts.set_normal(c, touch.normal);
 }
 
@@ -114,7 +114,7 @@ void fill_new(Assembly& a, int c, const NewContact& made)
     Contacts& contacts = a.contacts;
     for (int p = 0; p < contacts.points_of(c); ++p) {
         contacts.crack_steps[contacts.point_index(c, p)] = -1;
-        contacts.state(c, p, PointRow::shear_damage) = 1.0;
+        contacts.state(c, p, &PointState::shear_damage) = 1.0;
     }
     if (made.face)
         fill_face(a, c, *made.face);
@@ -238,8 +238,8 @@ void shift_contact(Assembly& a, const FaceContact& face)
     fill_face(a, face.contact, face);
     const ContactEnergy now = energy_of(contacts, face.contact);
     for (int p = 0; p < contacts.points_of(face.contact); ++p) {
-        contacts.state(face.contact, p, PointRow::damage_energy) = before.damage / now.area;
-        contacts.state(face.contact, p, PointRow::friction_energy) = before.friction / now.area;
+        contacts.state(face.contact, p, &PointState::damage_energy) = before.damage / now.area;
+        contacts.state(face.contact, p, &PointState::friction_energy) = before.friction / now.area;
     }
     a.ledger.removed_friction += before.elastic - now.elastic;
 }

@@ -37,13 +37,13 @@ double power_on(const Grains& grains, int grain)
 {
     if (grains.is_rigid(grain)) {
         const Resultant on = resultant_on(grains, grain);
-        return dot(on.force, vector_at(grains.velocity, grains.centre(grain)))
+        return dot(on.force, grains.velocity_at(grains.centre(grain)))
             + on.moment * grains.spin[grains.slot[grain]];
     }
     double power = 0.0;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
-        power += dot(vector_at(grains.force, node), vector_at(grains.velocity, node));
+        power += dot(grains.force_at(node), grains.velocity_at(node));
     }
     return power;
 }
@@ -55,7 +55,7 @@ double power_of(const Assembly& a, int contact)
     for (int side = 0; side < 2; ++side) {
         for (int end = 0; end < 2; ++end) {
             const double* f = &a.contacts.forces[Contacts::force_index(contact, side, end)];
-            const Point v = vector_at(a.grains.velocity, a.contacts.node(contact, side, end));
+            const Point v = a.grains.velocity_at(a.contacts.node(contact, side, end));
             power += f[0] * v.x + f[1] * v.y;
         }
     }

@@ -65,7 +65,7 @@ bool has_moved(const Contacts& contacts, int contact)
     if (!is_active(contacts, contact)) return true;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const double way =
-            contacts.state(contact, p, PointRow::slip) - contacts.paired_slip(contact, p);
+            contacts.state(contact, p, &PointState::slip) - contacts.paired_slip(contact, p);
         for (int side = 0; side < 2; ++side) {
             const double part = way * contacts.inverse_edge_length(contact, side);
             if (std::fabs(part) > small_part) return true;
@@ -317,9 +317,8 @@ FaceContact contact_of(const Assembly& a, const Joint& joint, int number, const 
     made.normal = normal_across(lines[0], lines[1]);
     for (int side = 0; side < 2; ++side)
         made.inverse_edge_length[side] = 1.0 / cross(made.normal, lines[side].along);
-    const double area = a.thickness * o.on[0].length()
-        * norm(vector_at(a.grains.reference, made.edges[0][1])
-            - vector_at(a.grains.reference, made.edges[0][0]));
+    const double area = a.area_of(o.on[0].length())
+        * norm(a.grains.reference_at(made.edges[0][1]) - a.grains.reference_at(made.edges[0][0]));
     auto acting = acting_on(a.contacts, joint, *o.first);
     const bool of_first = !acting.empty();
     if (!of_first) acting = acting_on(a.contacts, joint, *o.second);

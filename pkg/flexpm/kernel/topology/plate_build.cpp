@@ -30,7 +30,7 @@ struct Edge {
 Edge edge_of(const Assembly& a, int edge)
 {
     const auto n = a.edges.nodes(edge);
-    return { vector_at(a.grains.reference, n[0]), vector_at(a.grains.reference, n[1]) };
+    return { a.grains.reference_at(n[0]), a.grains.reference_at(n[1]) };
 }
 
 double along(Point direction, Point p) { return direction.x * p.x + direction.y * p.y; }
@@ -71,7 +71,7 @@ void lay(const Assembly& a, Plate& p)
             const double gap = along(p.normal, x) - along(p.normal, p.position);
             const bool on_face = p.bonded || std::fabs(gap) < 1e-9 * edge.length();
             p.gap.push_back(on_face ? 0.0 : gap);
-            p.area.push_back(edge.length() * a.thickness / p.points);
+            p.area.push_back(a.area_of(edge.length()) / p.points);
         }
     }
     p.opening = p.gap;
@@ -153,9 +153,9 @@ std::pair<double, double> taken_part(const Assembly& a, const Plate& p, std::siz
     for (int i = 0; i < p.points; ++i) {
         const double part = p.area[edge * p.points + i];
         area += part;
-        middle += plate_weight(p, i) * part / (edge_of(a, p.edges[edge]).length() * a.thickness);
+        middle += plate_weight(p, i) * part / a.area_of(edge_of(a, p.edges[edge]).length());
     }
-    const double taken = area / (edge_of(a, p.edges[edge]).length() * a.thickness);
+    const double taken = area / a.area_of(edge_of(a, p.edges[edge]).length());
     middle = taken > 0.0 ? middle / taken : 0.0;
     return { middle - 0.5 * taken, middle + 0.5 * taken };
 }
@@ -330,7 +330,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     for (std::size_t i = 0; i < covered.size(); ++i) {
         const double part = covered[i].last - covered[i].first;
         const double middle = 0.5 * (covered[i].first + covered[i].last);
-        const double area = part * edge_of(a, p.edges[i]).length() * a.thickness;
+        const double area = a.area_of(part * edge_of(a, p.edges[i]).length());
         p.area[2 * i] = (1.0 - middle) * area;
         p.area[2 * i + 1] = middle * area;
     }
@@ -399,8 +399,8 @@ void fix_tangential(Assembly& a, int plate)
         ? a.grains.centre(grain)
         : a.edges.nodes(edge)[plate_weight(p, first % p.points) > 0.5];
     const int axis = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
-    a.grains.prescribed[component(node, axis)] = 1;
-    a.grains.velocity[component(node, axis)] = 0.0;
+    a.grains.prescribed[a.grains.component(node, axis)] = 1;
+    a.grains.velocity[a.grains.component(node, axis)] = 0.0;
 }
 
 int add_wall(Assembly& a, Point position, Point normal, const PlateContact& contact)

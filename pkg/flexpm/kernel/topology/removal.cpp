@@ -61,7 +61,7 @@ void remove_triangles(Grains& grains, int grain)
 {
     const int block = grains.block_of(grain);
     for (int t = 0; t < grains.group(block).triangle_count(); ++t) {
-        const int row = ShapeRow::count * t + ShapeRow::volume;
+        const int row = shape_rows * t + row_of<&TriangleShape::volume>;
         grains.shape[grains.block_triangles[block] + row * lanes + grains.lane_of(grain)] = 0.0;
     }
 }
@@ -70,11 +70,11 @@ void stop(Grains& grains, int grain)
 {
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
-        set_vector(grains.velocity, node, {});
-        set_vector(grains.force, node, {});
-        grains.inverse_mass[scalar_index(node)] = 0.0;
-        for (int axis = 0; axis < dimension; ++axis)
-            grains.prescribed[component(node, axis)] = 1;
+        grains.set_vector(grains.velocity, node, {});
+        grains.set_vector(grains.force, node, {});
+        grains.inverse_mass[grains.scalar_index(node)] = 0.0;
+        for (int axis = 0; axis < grains.layout.dimension; ++axis)
+            grains.prescribed[grains.component(node, axis)] = 1;
     }
     if (!grains.is_rigid(grain)) return;
     const int slot = grains.slot[grain];

@@ -41,7 +41,7 @@ double area_of(const Grains& grains, int grain)
 {
     std::vector<Point> corners;
     for (int n = 0; n < grains.vertices_of(grain); ++n)
-        corners.push_back(vector_at(grains.reference, grains.node(grain, n)));
+        corners.push_back(grains.reference_at(grains.node(grain, n)));
     return polygon_shape(corners).area;
 }
 
@@ -49,11 +49,11 @@ double area_of(const Grains& grains, int grain)
 Tensor stress_by_forces(const Assembly& a, int grain)
 {
     const Point centre = a.grains.position(a.grains.centre(grain));
-    const double volume = area_of(a.grains, grain) * a.thickness;
+    const double volume = a.volume_of(area_of(a.grains, grain));
     Tensor sum {};
     for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
         const int node = a.grains.node(grain, n);
-        const Point r = a.grains.position(node) - centre, f = vector_at(a.grains.force, node);
+        const Point r = a.grains.position(node) - centre, f = a.grains.force_at(node);
         sum.xx += r.x * f.x / volume;
         sum.yy += r.y * f.y / volume;
         sum.xy += 0.5 * (r.x * f.y + r.y * f.x) / volume;
@@ -69,9 +69,7 @@ Tensor stress_of_triangles(const Grains& grains, int grain)
     for (int t = 0; t < triangles_of(grains, grain); ++t) {
         const TriangleShape shape = shape_of(grains, grain, t);
         const auto n = triangle_nodes(grains, grain, t);
-        const auto u = [&](int k) {
-            return vector_at(grains.displacement, grains.node(grain, n[k]));
-        };
+        const auto u = [&](int k) { return grains.displacement_at(grains.node(grain, n[k])); };
         const Tensor one = cauchy_stress(shape, c, u(0), u(1), u(2));
         sum.xx += shape.volume * one.xx;
         sum.yy += shape.volume * one.yy;
@@ -158,7 +156,7 @@ double single_value(const Assembly& a, int grain, GrainValue what)
 {
     if (what == GrainValue::mineral) return a.grains.material[grain];
     if (what == GrainValue::displacement)
-        return norm(vector_at(a.grains.displacement, a.grains.centre(grain)));
+        return norm(a.grains.displacement_at(a.grains.centre(grain)));
     return stress_of(a, grain, what);
 }
 
@@ -215,7 +213,7 @@ Extent extent_of(const Grains& grains)
 
 Point drawn_position(const Grains& grains, int node, double factor)
 {
-    return vector_at(grains.reference, node) + factor * vector_at(grains.displacement, node);
+    return grains.reference_at(node) + factor * grains.displacement_at(node);
 }
 
 }  // namespace flexpm

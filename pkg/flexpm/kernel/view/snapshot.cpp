@@ -32,9 +32,9 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
     for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
         const int node = a.grains.node(grain, n);
         push(s.positions, a.grains.position(node));
-        push(s.reference, vector_at(a.grains.reference, node));
-        push(s.velocities, vector_at(a.grains.velocity, node));
-        push(s.forces, vector_at(a.grains.force, node));
+        push(s.reference, a.grains.reference_at(node));
+        push(s.velocities, a.grains.velocity_at(node));
+        push(s.forces, a.grains.force_at(node));
     }
     if (a.grains.is_rigid(grain)) add_fan(a, grain, first, s);
     const PlaneStiffness c = stiffness_of(a.grains, grain);
@@ -45,9 +45,9 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
         s.triangle_grain.push_back(a.grains.parent[grain]);
         s.triangle_particle.push_back(grain);
         const Tensor stress = cauchy_stress(shape_of(a.grains, grain, t), c,
-            vector_at(a.grains.displacement, a.grains.node(grain, n[0])),
-            vector_at(a.grains.displacement, a.grains.node(grain, n[1])),
-            vector_at(a.grains.displacement, a.grains.node(grain, n[2])));
+            a.grains.displacement_at(a.grains.node(grain, n[0])),
+            a.grains.displacement_at(a.grains.node(grain, n[1])),
+            a.grains.displacement_at(a.grains.node(grain, n[2])));
         s.triangle_stress.insert(s.triangle_stress.end(), { stress.xx, stress.yy, stress.xy });
     }
 }
@@ -72,9 +72,7 @@ void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
         step.push_back(a.contacts.crack_steps[index]);
         mode.push_back(a.contacts.crack_modes[index]);
         energy.push_back(a.contacts.crack_energies[index]);
-        push(position,
-            { a.contacts.crack_positions[row_index(contact, 2 * p, 2 * a.contacts.points)],
-                a.contacts.crack_positions[row_index(contact, 2 * p + 1, 2 * a.contacts.points)] });
+        push(position, a.contacts.crack_position(contact, p));
     }
 }
 
@@ -83,10 +81,10 @@ void add_contact(const Assembly& a, int contact, Snapshot& s)
     add_place(a, contact, s.contact, s.contact_grains, s.contact_ends);
     add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position, s.crack_energy);
     for (int p = 0; p < a.contacts.points; ++p) {
-        s.point_opening.push_back(a.contacts.point_state(contact, p).opening);
-        s.point_slip.push_back(a.contacts.point_state(contact, p).slip);
+        s.point_opening.push_back(opening_of(a, contact, p));
+        s.point_slip.push_back(slip_of(a, contact, p));
         s.point_damage.push_back(damage_of(a.contacts, contact, p));
-        push(s.point_traction, point_traction(a, contact, p));
+        push(s.point_traction, traction_of(a, contact, p));
     }
 }
 
@@ -103,16 +101,6 @@ void add_erased(const Assembly& a, int contact, Snapshot& s)
 }
 
 }  // namespace
-
-Point point_traction(const Assembly& a, int contact, int point)
-{
-    if (a.contacts.area(contact, point) == 0.0) return {};
-    const PointState s = a.contacts.point_state(contact, point);
-    const LawParameters& law = a.contacts.law_of(contact);
-    return { law::normal_traction(
-                 law, law::gap(law, s), s.max_opening, damage_of(a.contacts, contact, point)),
-        s.shear_traction };
-}
 
 Point contact_end(const Assembly& a, int contact, int end)
 {

@@ -50,9 +50,6 @@ struct Snapshot {
 
 Snapshot take_snapshot(const Assembly& a);
 
-/// Normal and shear traction of a point [Pa], tension positive; 0 of a contact that has ended.
-Point point_traction(const Assembly& a, int contact, int point);
-
 /// Current end of a contact's edge (0 or 1): the middle between the two grains.
 Point contact_end(const Assembly& a, int contact, int end);
 

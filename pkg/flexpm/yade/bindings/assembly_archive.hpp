@@ -21,6 +21,7 @@ namespace serialization {
 		flexpm::visit_members(part, [&archive](const char* name, auto& value) { archive& make_nvp(name, value); });
 	}
 
+	template <class Archive> void serialize(Archive& archive, flexpm::Layout& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::MeshGroup& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::ElasticMaterial& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& part, unsigned) { archiveMembers(archive, part); }

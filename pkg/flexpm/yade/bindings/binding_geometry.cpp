@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Python access to the geometry of a specimen: radii, insertion, tessellation, grain meshes (paper Sec. 3.1).
 #include <flexpm/yade/bindings/array_view.hpp>
+#include <flexpm/yade/bindings/assembly_input.hpp>
 #include <flexpm/yade/bindings/binding_discs.hpp>
 #include <flexpm/yade/bindings/bindings.hpp>
 
@@ -118,10 +119,8 @@ namespace {
 
 	std::shared_ptr<GrainMeshes> grainMeshes(const Tessellation& tessellation, py::object centres, py::object radii, const std::string& kind)
 	{
-		if (kind != "fan" && kind != "refined") throw std::invalid_argument("grain_meshes: mesh = " + kind + ", must be fan or refined; choose one");
 		auto result = std::make_shared<GrainMeshes>();
-		for (const auto& mesh :
-		     flexpm::make_grain_meshes(tessellation, discs(centres, radii), kind == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined))
+		for (const auto& mesh : flexpm::make_grain_meshes(tessellation, discs(centres, radii), meshKind("grain_meshes: mesh", kind)))
 			result->add(mesh);
 		return result;
 	}

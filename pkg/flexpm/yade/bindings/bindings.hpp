@@ -4,6 +4,9 @@
 
 namespace flexpm_bindings {
 
+/// AssemblyInput.
+void register_assembly_bindings();
+
 /// Outline, Tessellation, GrainMeshes; disc_count, disc_radii, insert_discs, tessellate, grain_meshes.
 void register_geometry_bindings();
 

@@ -38,6 +38,26 @@ namespace {
 
 } // namespace
 
+flexpm::ElasticMaterial elasticOf(const GrainMat& m)
+{
+	return { m.young, m.poisson, m.density, m.planeStrain ? flexpm::Plane::strain : flexpm::Plane::stress };
+}
+
+flexpm::ContactMaterial contactOf(const GrainMat& m)
+{
+	flexpm::ContactMaterial c;
+	c.normal_stiffness        = m.normalStiffness;
+	c.shear_ratio             = m.shearRatio;
+	c.tensile_strength        = m.tensileStrength;
+	c.cohesion                = m.cohesion;
+	c.friction                = m.friction;
+	c.tensile_fracture_energy = m.tensileFractureEnergy;
+	c.shear_fracture_energy   = m.shearFractureEnergy;
+	c.dilation                = m.dilation;
+	c.dilation_slip           = m.dilationSlip;
+	return c;
+}
+
 vector<Real> valuesOf(const GrainMat& material)
 {
 	vector<Real> values;

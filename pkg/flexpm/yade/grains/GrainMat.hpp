@@ -2,6 +2,8 @@
 /// @file  Material of deformable grains and of the contacts between them, paper Sec. 3.2. SI units.
 #pragma once
 
+#include <flexpm/kernel/law/bilinear.hpp>
+#include <flexpm/kernel/law/elastic.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 
@@ -30,6 +32,10 @@ public:
 	REGISTER_CLASS_INDEX(GrainMat, ElastMat);
 };
 REGISTER_SAVED(GrainMat);
+
+/// What the kernel takes from it: of a grain, and of a contact.
+flexpm::ElasticMaterial elasticOf(const GrainMat& material);
+flexpm::ContactMaterial contactOf(const GrainMat& material);
 
 /// All that grains and contacts take from a material when they are assembled, in the order of the messages.
 vector<Real> valuesOf(const GrainMat& material);

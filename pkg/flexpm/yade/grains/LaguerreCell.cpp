@@ -22,9 +22,9 @@ namespace {
 	template <class T> py::object nodeView(const OwnedAssembly& owned, int grain, const flexpm::Array<T>& values, Access access)
 	{
 		const auto&          grains = owned->grains;
-		const std::ptrdiff_t row = flexpm::lanes * sizeof(T), node = flexpm::node_stride * sizeof(T);
+		const std::ptrdiff_t row = grains.layout.axis_stride * sizeof(T), node = grains.layout.node_stride * sizeof(T);
 		const T*             first = values.data() + grains.node(grain, 0);
-		return flexpm_bindings::array_view(first, { grains.nodes_of(grain), flexpm::dimension }, { node, row }, py::object(owned.engine), access);
+		return flexpm_bindings::array_view(first, { grains.nodes_of(grain), grains.layout.dimension }, { node, row }, py::object(owned.engine), access);
 	}
 
 	template <class T> py::object nodeView(int grain, flexpm::Array<T> flexpm::Grains::*values, Access access)

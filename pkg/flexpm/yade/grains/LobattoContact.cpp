@@ -29,10 +29,10 @@ namespace {
 		return flexpm_bindings::copied(all, columns, Access::readOnly);
 	}
 
-	/// The same of a row of the state of each point.
-	py::object stateCopy(int contact, int row)
+	/// The same of a number of each point, read by that function.
+	py::object numbersOf(int contact, double (*read)(const flexpm::Assembly&, int, int))
 	{
-		return pointCopy<double>(contact, 0, [row](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.state(place, p, row)); });
+		return pointCopy<double>(contact, 0, [read](const auto& a, int place, int p, auto& all) { all.push_back(read(a, place, p)); });
 	}
 
 	Vector3r vector(flexpm::Point p) { return Vector3r(p.x, p.y, 0); }
@@ -133,9 +133,9 @@ void hideBond(LobattoGeom& geom, LobattoPhys& phys)
 	geom.penetrationDepth                                                = none[0];
 }
 
-py::object LobattoPhys::opening() const { return stateCopy(contact, flexpm::PointRow::opening); }
+py::object LobattoPhys::opening() const { return numbersOf(contact, flexpm::opening_of); }
 
-py::object LobattoPhys::slip() const { return stateCopy(contact, flexpm::PointRow::slip); }
+py::object LobattoPhys::slip() const { return numbersOf(contact, flexpm::slip_of); }
 
 py::object LobattoPhys::area() const
 {
@@ -156,7 +156,7 @@ py::object LobattoPhys::damage() const
 py::object LobattoPhys::traction() const
 {
 	return pointCopy<double>(contact, 2, [](const auto& a, int place, int p, auto& all) {
-		const auto t = flexpm::point_traction(a, place, p);
+		const auto t = flexpm::traction_of(a, place, p);
 		all.insert(all.end(), { t.x, t.y });
 	});
 }

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/topology/erasure.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
+#include <flexpm/yade/bindings/assembly_input.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 
@@ -57,7 +58,7 @@ public:
 	/// @throws std::runtime_error  if measurePeriod is below 1
 	bool measured() const;
 
-	void       assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list materials, py::dict options);
+	void       assemble(const flexpm_bindings::AssemblyInput& input, py::list materials, py::list pairs, py::list joints);
 	void       addToScene();
 	void       scaleMasses();
 	Real       useRealMasses();
@@ -119,8 +120,8 @@ public:
 		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, which has stopped the simulation |yupdate|."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
 		, /* ctor */
-		, .def("assemble", &GrainSolver::assemble, (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("thickness"), py::arg("materials"), py::arg("options")),
-			"Build the bonded, unloaded grains, once; flexpm.build calls it.")
+		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
+			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j, all that of i without them; joints: of the joints' contacts.")
 		.def("addToScene", AfterAssembly<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", AfterAssembly<&GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", AfterAssembly<&GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
-#include <flexpm/yade/bindings/binding_discs.hpp>
+#include <flexpm/yade/bindings/assembly_input.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
 #include <flexpm/yade/grains/LaguerreCell.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
@@ -15,26 +15,6 @@
 namespace yade {
 
 namespace {
-
-	flexpm::ElasticMaterial elasticOf(const GrainMat& m)
-	{
-		return { m.young, m.poisson, m.density, m.planeStrain ? flexpm::Plane::strain : flexpm::Plane::stress };
-	}
-
-	flexpm::ContactMaterial contactOf(const GrainMat& m)
-	{
-		flexpm::ContactMaterial c;
-		c.normal_stiffness        = m.normalStiffness;
-		c.shear_ratio             = m.shearRatio;
-		c.tensile_strength        = m.tensileStrength;
-		c.cohesion                = m.cohesion;
-		c.friction                = m.friction;
-		c.tensile_fracture_energy = m.tensileFractureEnergy;
-		c.shear_fracture_energy   = m.shearFractureEnergy;
-		c.dilation                = m.dilation;
-		c.dilation_slip           = m.dilationSlip;
-		return c;
-	}
 
 	vector<shared_ptr<Material>> materialsOf(const py::list& list)
 	{
@@ -48,69 +28,33 @@ namespace {
 		return all;
 	}
 
-	/// An option of that type, which must be there.
-	template <class Value> Value optionOf(const py::dict& options, const char* name)
-	{
-		if (!options.has_key(name)) flexpm::refuse(std::string("option ") + name, "none", "must be given; flexpm.build does");
-		const py::extract<Value> value(options[name]);
-		if (!value.check()) flexpm::refuse(std::string("option ") + name, "of another type", "must be of that which flexpm.build gives");
-		return value();
-	}
-
-	flexpm::MeshKind meshOf(const std::string& name)
-	{
-		if (name != "fan" && name != "refined") flexpm::refuse("option mesh", name, "must be fan or refined; choose one");
-		return name == "fan" ? flexpm::MeshKind::fan : flexpm::MeshKind::refined;
-	}
-
 	/// Inner particles: contacts inside a grain are elastic, those between grains may take the normal of the edge.
-	void chooseInner(const py::dict& options, flexpm::AssemblyOptions& o)
+	void chooseInner(const flexpm_bindings::AssemblyInput& input, flexpm::AssemblyOptions& o)
 	{
-		const flexpm_bindings::InputArray<int> outer(options["outer"], 1, "outer"), grains(options["parent"], 1, "parent");
-		o.parent.assign(grains.data(), grains.data() + grains.size(0));
-		const bool edgeNormals = optionOf<bool>(options, "edge_normals");
-		const int  inside      = static_cast<int>(o.laws.size());
+		const int inside = static_cast<int>(o.laws.size());
 		o.laws.push_back(flexpm::unbreakable(o.laws.front()));
-		for (std::size_t i = 0; i < outer.size(0); ++i) {
-			o.edge_law.push_back(outer.data()[i] != 0 ? 0 : inside);
-			o.edge_normal.push_back(outer.data()[i] != 0 && edgeNormals);
+		for (const auto outer : input.outer) {
+			o.edge_law.push_back(outer != 0 ? 0 : inside);
+			o.edge_normal.push_back(outer != 0 && input.edgeNormals);
 		}
 	}
 
 } // namespace
 
-void GrainSolver::assemble(py::object tessellation, py::object centres, py::object radii, Real thickness, py::list minerals, py::dict options)
+void GrainSolver::assemble(const flexpm_bindings::AssemblyInput& input, py::list minerals, py::list pairs, py::list joints)
 {
 	// views of the arrays live as long as the solver
 	if (assembly.grains.count > 0) flexpm::refuse("GrainSolver: grains", assembly.grains.count, "", "are assembled already; make another GrainSolver");
-	flexpm::AssemblyOptions o;
-	o.thickness         = thickness;
-	o.rigid             = optionOf<bool>(options, "rigid");
-	o.mesh              = meshOf(optionOf<std::string>(options, "mesh"));
-	o.points            = optionOf<int>(options, "points");
-	o.on_centre_line    = optionOf<bool>(options, "centre_line");
-	const auto ofGrains = materialsOf(minerals);
+	flexpm::AssemblyOptions o        = input.options;
+	const auto              ofGrains = materialsOf(minerals);
 	for (const auto& m : ofGrains)
 		o.elastic.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
-	for (const auto& m : options.has_key("pairs") ? materialsOf(py::list(options["pairs"])) : ofGrains)
+	for (const auto& m : py::len(pairs) > 0 ? materialsOf(pairs) : ofGrains)
 		o.laws.push_back(contactOf(static_cast<const GrainMat&>(*m)));
-	if (options.has_key("minerals")) {
-		const flexpm_bindings::InputArray<int> ofGrain(options["minerals"], 1, "minerals");
-		o.grain_material.assign(ofGrain.data(), ofGrain.data() + ofGrain.size(0));
-	}
-	if (options.has_key("outer")) chooseInner(options, o);
-	if (options.has_key("edge_strengths")) {
-		const flexpm_bindings::InputArray<double> ofEdge(options["edge_strengths"], 1, "edge_strengths");
-		o.edge_strength.assign(ofEdge.data(), ofEdge.data() + ofEdge.size(0));
-	}
-	if (options.has_key("edge_joints")) {
-		const flexpm_bindings::InputArray<int> ofEdge(options["edge_joints"], 1, "edge_joints");
-		o.edge_joint.assign(ofEdge.data(), ofEdge.data() + ofEdge.size(0));
-		for (const auto& m : materialsOf(py::list(options["joints"])))
-			o.joints.push_back(contactOf(static_cast<const GrainMat&>(*m)));
-	}
-	const py::extract<const flexpm::Tessellation&> cells(tessellation);
-	assembly  = flexpm::make_assembly(cells(), flexpm_bindings::discs(centres, radii), o);
+	for (const auto& m : materialsOf(joints))
+		o.joints.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	if (!input.outer.empty()) chooseInner(input, o);
+	assembly  = flexpm::make_assembly(*input.tessellation, input.discs, o);
 	materials = ofGrains;
 	for (const auto& m : ofGrains)
 		materialValues.push_back(valuesOf(static_cast<const GrainMat&>(*m)));
