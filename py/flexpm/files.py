@@ -148,7 +148,7 @@ def csv_text(names: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
     """A table as CSV text, numbers so that they read back unchanged.
 
     Args:
-        names: Of the columns.
+        names: Names of the columns.
         rows: Cells in the order of the columns; None makes an empty cell.
     """
     text = io.StringIO()

@@ -47,7 +47,7 @@ def results(
     """Table of a figure's runs and the folder for its pictures.
 
     Args:
-        name: Of the table, and of the study file.
+        name: Name of the table, and of the study file.
         chosen: The script's options.
         drawn: Tells by its inputs whether a run's curve is drawn.
         plan: The runs; None for those of the study file.

@@ -208,7 +208,7 @@ def table(rows: dict[Run, dict[str, str]]) -> Iterator[list[str]]:
 
 
 def ratios(rows: dict[Run, dict[str, str]]) -> Iterator[list[str]]:
-    """Of tests between parts: differences to the limit where it is known, and the ratios.
+    """Differences to the limit where it is known, and the ratios, of tests between parts.
 
     The ratio is the median under a constant loading, and that under way of one that waits.
     """

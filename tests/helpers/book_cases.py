@@ -54,7 +54,7 @@ def speed(model: str, wave: str, across: int, seed: int) -> Measured:
         model: ``flexible`` or ``rigid``.
         wave: ``p`` or ``s``.
         across: Grains over the width of the specimen, whose height is twice that.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     width = 0.08
     specimen = flexpm.Specimen.rectangle(
@@ -79,7 +79,7 @@ def intensity(shape: str, across: int, seed: int) -> Measured:
     Args:
         shape: ``beam``, of a span of 2.5 heights, or ``half-disc``, of one of 0.6 diameters.
         across: Grains over the height of the beam, or over the radius.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     case = _SHAPES[shape]
     grains = diameters(_HEIGHT / across)
@@ -223,8 +223,8 @@ def _sheared(
     Args:
         model: ``flexible`` or ``rigid``.
         fineness: One over the factor on the loading rate.
-        seed: Of the packing.
-        width: Of the specimen [m].
+        seed: Seed of the packing.
+        width: Width of the specimen [m].
         grains: Displacement over the mean diameter; None for that of the test.
     """
     height, friction, pressure = 0.016, 0.5, 2e6
@@ -254,7 +254,7 @@ def sliding(model: str, fineness: float, seed: int) -> Measured:
     Args:
         model: ``flexible`` or ``rigid``.
         fineness: One over the factor on the loading rate.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     specimen, _, stress = _sheared(model, fineness, seed, width=0.024)
     return Measured(float(stress.max()), len(specimen.discs))
@@ -266,7 +266,7 @@ def sliding_far(model: str, fineness: float, seed: int) -> Measured:
     Args:
         model: ``flexible`` or ``rigid``.
         fineness: One over the factor on the loading rate.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     specimen, curve, stress = _sheared(model, fineness, seed, width=0.036, grains=3.0)
     slides = curve["shear_displacement"] > 0.1 * _mean_diameter(specimen)
@@ -286,7 +286,7 @@ def closed_crack(fineness: float, seed: int) -> Measured:
 
     Args:
         fineness: Mean grains in half the length.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     rock = _stiff_rock()
     plate, cut = _cracked_plate(fineness, seed)
@@ -306,7 +306,7 @@ def rubbing_crack(fineness: float, seed: int) -> Measured:
 
     Args:
         fineness: Mean grains in half the length.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     friction = 0.3
     # strengths that are never reached, of which the strain at the end follows
@@ -333,7 +333,7 @@ def kink(fineness: float, seed: int) -> Measured:
 
     Args:
         fineness: Mean grains in half the length.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     _, cut = _cracked_plate(fineness, seed, side=0.5 * _PLATE)
     rock = flexpm.materials.load("augig-table2-brittle")
@@ -407,7 +407,7 @@ def strip(mode: str, grains: int, seed: int) -> Measured:
     Args:
         mode: ``opened``, or ``sheared`` by arms that turn alike.
         grains: Over the height of an arm.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     found = open_strip(mode, grains, seed)
     assert abs(found.energy - 1.0) < 1e-3, found

@@ -38,7 +38,7 @@ _REST, _CROSSINGS, _MOST_LOOKS = 3e-4, 10.0, 20
 
 @dataclass(frozen=True)
 class Sizes:
-    """Of a strip [m]."""
+    """Sizes of a strip [m]."""
 
     arm: float  #: height of an arm
     free: float  #: length of the arms
@@ -47,7 +47,7 @@ class Sizes:
 
     @property
     def length(self) -> float:
-        """Of the strip: what is left of the line is as long as the arms."""
+        """Length of the strip: what is left of the line is as long as the arms."""
         return 2.0 * self.free + self.growth
 
 
@@ -80,7 +80,7 @@ def open_strip(mode: str, grains: int, seed: int) -> Opened:
     Args:
         mode: ``opened``, or ``sheared`` by arms that turn alike, without friction.
         grains: Over the height of an arm.
-        seed: Of the packing.
+        seed: Seed of the packing.
     """
     size = sizes(mode, grains)
     share = 1.0 if mode == "opened" else 0.75
@@ -94,7 +94,7 @@ def open_strip(mode: str, grains: int, seed: int) -> Opened:
     moment = 0.5 * rig.record["load"][-1]
     found = moment / _curvature(rig.built.snapshot(), size)
     critical = math.sqrt(size.energy * THICKNESS * found / share)
-    # of an arm that is longer by the growth and half a zone; the ligament bends with arms alike
+    # the arm is longer by the growth and half a zone; the ligament bends with arms alike
     reach = size.free + 1.5 * size.growth
     angle = critical / found * (reach + (0.0 if share == 1.0 else 0.25 * (size.length - reach)))
     rig.load(Loading(kind="waiting", max_strain=angle, stop_ratio=0.01))
@@ -177,7 +177,7 @@ def _curvature(state: Snapshot, size: Sizes) -> float:
 
 
 def _angle(state: Snapshot, place: float, across: tuple[float, float]) -> float:
-    """Of the section through an arm, two grains wide, by a least-squares fit [rad]."""
+    """Angle of the section through an arm, two grains wide, by a least-squares fit [rad]."""
     x, y = state.reference.T
     inside = (np.abs(x - place) < GRAIN) & (y > across[0]) & (y < across[1])
     moved = (state.positions - state.reference)[inside, 0]

@@ -148,3 +148,51 @@ def test_spheres_balance_too(model):
     for _ in range(yade.O.iter):
         yade.O.step()
     assert rig.balance().largest < SHARE
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid", "jcfpm"])
+def test_a_pressure_rises_as_gently_after_other_steps(model):
+    """Where it counted from step 0 it was there at once, waves had up to 64 times the energy."""
+    steps, motion = [], []
+    for before in (0, 500):
+        grains = built(0.02, 1, model)
+        rig = flexpm.rig(grains)
+        for _ in range(before):
+            yade.O.step()
+        largest = [0.0]
+
+        def look(_, grains=grains, largest=largest):
+            if model == "jcfpm":
+                now = yade.utils.kineticEnergy()
+            else:
+                now = grains.solver.energies()["kinetic_energy"]
+            largest[0] = max(largest[0], now)
+
+        rig.watch = look
+        rig.confine(PRESSURE)
+        steps.append(yade.O.iter - before)
+        motion += largest
+    assert steps[1] == steps[0]
+    assert motion[1] == pytest.approx(motion[0], rel=0.01)
+
+
+def test_a_pressure_that_is_raised_goes_on_from_where_it_was():
+    grains = built(0.02, 1, "flexible")
+    rig, there = flexpm.rig(grains), []
+    rig.confine(0.5 * PRESSURE)
+    rig.watch = lambda _: there.append(stresses(grains)[1])
+    rig.confine(PRESSURE)
+    assert min(there) > 0.499
+    assert max(there) < 1.02
+    assert there[-1] == pytest.approx(1.0, abs=SHARE + 3e-4)
+
+
+def test_a_part_that_is_pressed_again_goes_on_from_its_pressure():
+    rig, there = PartRig(built(0.02, 1, "rigid")), []
+    floor, lid = rig.platen(rigs.BOTTOM), rig.platen(rigs.TOP, friction=0.5)
+    rig.drive([floor], (0.0, 1.0))
+    rig.press(lid, 0.5 * PRESSURE)
+    rig.watch = lambda _: there.append(-lid.force[1] / (PRESSURE * 0.02 * THICKNESS))
+    rig.press(lid, PRESSURE)
+    assert min(there) > 0.499
+    assert there[-1] == pytest.approx(1.0, abs=SHARE)

@@ -14,7 +14,7 @@ import flexpm
 from flexpm.results import doubts
 
 CONFINEMENT = 12e6
-#: Of which 32 flung grains by metres once, 35 by twelve of their diameters.
+#: Packings, of which 32 flung grains by metres once, 35 by twelve of their diameters.
 SEEDS = range(21, 41)
 QUICK = (32, 35)
 #: Damping gives where a node turns within a step, and in the sums of rows.

@@ -127,7 +127,7 @@ def test_minerals_are_drawn_by_the_seed_and_lie_scattered():
     areas = specimen.tessellation.cell_areas
     one, other = (mineral_map.assign([0.5, 0.5], areas, seed) for seed in (1, 2))
     assert not np.array_equal(one, other)
-    # of neighbours drawn independently half are alike; five standard deviations
+    # half of the neighbours drawn independently are alike; five standard deviations
     pairs = np.asarray(specimen.tessellation.shared_edges)[:, :2]
     alike = np.mean(one[pairs[:, 0]] == one[pairs[:, 1]])
     assert abs(alike - 0.5) < 5.0 * 0.5 / math.sqrt(len(pairs))

@@ -71,7 +71,7 @@ def test_functions_of_yade_see_the_bonds_when_the_simulation_stops(loaded, run):
     run(loaded)
     plane = utils.forcesOnPlane((0, 0.012, 0), (0, 1, 0))
     assert plane[1] == pytest.approx(top_force(loaded), rel=1e-3)
-    # of the bonds alone, without what the ends press on
+    # that of the bonds alone, without what the ends press on
     axial = utils.getStress(volume(loaded))[1, 1]
     assert axial == pytest.approx(-top_force(loaded) / (0.012 * 0.01), rel=0.2)
     stresses = utils.bodyStressTensors()

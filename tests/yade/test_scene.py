@@ -35,7 +35,7 @@ def test_an_erased_bond_carries_nothing_from_the_next_step(make):
     for bond in others:
         O.interactions.erase(bond.id1, bond.id2)
     O.step()
-    # of one bond alone: its tractions times its areas
+    # force of one bond alone: its tractions times its areas
     pull = last.phys.traction.T @ last.phys.area
     found = O.bodies[20].shape.forces.sum(axis=0)
     assert np.linalg.norm(found) == pytest.approx(np.linalg.norm(pull), rel=1e-9)

@@ -56,9 +56,9 @@ class Plan:
 
     Attributes:
         steps: Steps of each model; multiples of 1000 weigh measured steps evenly.
-        width: Of the specimen [m].
-        height: Of the specimen [m].
-        seed: Of the packing.
+        width: Width of the specimen [m].
+        height: Height of the specimen [m].
+        seed: Seed of the packing.
         threads: Threads of a step.
         scaling: Time the flexible model also with 10 and 40 times the grains.
     """

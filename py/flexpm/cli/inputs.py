@@ -48,7 +48,7 @@ def locked_folder(path: Path, kind: str = "") -> Path:
 
     Args:
         path: The folder.
-        kind: Of the results that go there, see ``KINDS``; empty for none.
+        kind: Kind of the results that go there, see ``KINDS``; empty for none.
 
     Raises:
         InputError: if it cannot be made, or holds results of another kind.
@@ -65,7 +65,7 @@ def material(options: Table, model: str | None = None) -> Material:
     """The material with its changes, checked for the model.
 
     Args:
-        options: Of the command.
+        options: Options of the command.
         model: One of several that are compared, which leave out what only others use; None for
             the one of the options.
     """
@@ -134,7 +134,7 @@ def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Spe
 
     Args:
         spec: The specimen, with or without the joints.
-        options: Of the command.
+        options: Options of the command.
         progress: Shows how far a packing is.
     """
     load_yade()

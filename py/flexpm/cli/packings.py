@@ -38,8 +38,8 @@ def carry_out(
 
     Args:
         placed: The runs, of any packing, by their folder below that of all.
-        seeds: Of the packings.
-        options: Of the command.
+        seeds: Seeds of the packings.
+        options: Options of the command.
         out: Folder of all.
         quiet: Show no progress.
 

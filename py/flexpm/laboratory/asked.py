@@ -80,7 +80,7 @@ def differences(before: Table, now: Table) -> list[str]:
 
     Args:
         before: Content of a result.json.
-        now: Of the other one.
+        now: Content of the other one.
     """
     return [
         name

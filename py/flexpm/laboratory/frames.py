@@ -55,7 +55,7 @@ class FrameWriter:
         """Take up the frames of an earlier start, or remove those of another run.
 
         Args:
-            folder: Of the run.
+            folder: Folder of the run.
             wanted: Number of frames at even strains up to the reference strain, > 0; twice as many
                 are kept at most, fewer if the test ends before or has fewer rows.
             about: What each file says of the run.

@@ -306,6 +306,10 @@ class NodeRig(GrainRig):
         return self.built.engine(wrapper.ConfinementController)
 
     def _press(self, pressure: float, ramp: int) -> None:
+        if edges := self._pressing():
+            edges.startPressure, edges.pressure = edges.pressure, pressure
+            edges.rampSteps, edges.rampBegin = ramp, -1
+            return
         edges = wrapper.ConfinementController(
             pressure=pressure, sides=[RIGHT, TOP, LEFT], rampSteps=ramp
         )

@@ -409,19 +409,31 @@ class PartRig(GrainRig, PartLayout):
         if self.pressed is None:
             raise InputError("confine: part = None, must be one of the rig; call press")
         self._require_scene("press")
-        self._let_go([self.pressed.number])
+        number = self.pressed.number
         engine = wrapper.PlateController(
-            plates=[self.pressed.number], loaded=True, pressure=pressure, rampSteps=ramp
+            plates=[number],
+            loaded=True,
+            pressure=pressure,
+            startPressure=self._pressure_on(number),
+            rampSteps=ramp,
         )
+        self._let_go([number])
         self.built.add_engines(before=(engine,))
+
+    def _pressing_engines(self) -> list[wrapper.PlateController]:
+        there = [one for one in self.built.engines if isinstance(one, wrapper.PlateController)]
+        return [one for one in there if one.loaded]
+
+    def _pressure_on(self, plate: int) -> float:
+        """Pressure that a plate has been given [Pa]."""
+        return sum(one.pressure for one in self._pressing_engines() if plate in one.plates)
 
     def _let_go(self, plates: list[int]) -> None:
         """Take plates from the engines that press them."""
-        for engine in tuple(self.built.engines):
-            if isinstance(engine, wrapper.PlateController) and engine.loaded:
-                engine.plates = [plate for plate in engine.plates if plate not in plates]
-                if not engine.plates:
-                    self.built.remove_engines(engine)
+        for engine in self._pressing_engines():
+            engine.plates = [plate for plate in engine.plates if plate not in plates]
+            if not engine.plates:
+                self.built.remove_engines(engine)
 
     def _pressing_force(self) -> float:
         pressing = self._pressing()

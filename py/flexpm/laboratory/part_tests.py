@@ -82,6 +82,7 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     specimen, box = rig.built.specimen, _box(rig.built.specimen)
     notch, height = notch_depth(specimen), box.top - box.bottom
     result.notch_depth = notch
+    result.grains_across = grains_across(specimen, notch)
     result.measure_fracture(specimen.thickness * (height - notch))
     if result.peak_load is None or not notch > 0.0 or spec.span is None:
         return
@@ -91,6 +92,19 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
         result.fracture_toughness = half_disc_toughness(result.peak_load, radius=radius, **shape)
     else:
         result.fracture_toughness = bending_toughness(result.peak_load, height=height, **shape)
+
+
+def grains_across(specimen: Specimen, notch: float = 0.0) -> float:
+    """Smallest size over the mean grain [-].
+
+    Args:
+        specimen: Its joints make smaller grains of those that they cut.
+        notch: Depth that the height lacks [m].
+    """
+    if not isinstance(specimen.outline, np.ndarray):
+        return specimen.dimensions["diameter"] / specimen.mean_diameter
+    box = _box(specimen)
+    return min(box.right - box.left, box.top - box.bottom - notch) / specimen.mean_diameter
 
 
 def notch_depth(specimen: Specimen) -> float:

@@ -39,7 +39,7 @@ from .frames import COLLECTION, STATE, TABLE, FrameWriter
 from .loading_rate import Loading, default_stop_ratio, quasistatic_ratio
 from .output import Output, refuse_other_result
 from .part_rig import PartRig
-from .part_tests import measure, part_rig, prepared
+from .part_tests import grains_across, measure, part_rig, prepared
 from .rig import TestRig
 from .rigs import rig as rig_of
 from .run_spec import MEASURES, PART_TESTS, SONIC, RunSpec, described, require_pulse
@@ -412,6 +412,8 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         particles=counts.get("particles"),
         inner_contacts=counts.get("inner_contacts"),
     )
+    if spec.test != SONIC:
+        result.grains_across = grains_across(rig.built.specimen)
     result.inputs = spec.to_json()
     result.curve = rig.record
     kinds = [kind["name"] for kind in result.material.get("minerals", ())]
@@ -429,7 +431,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     if isinstance(rig, WaveRig):
         result.measure_wave(spec.wave or "", rig.distance)
     if rig.disc:  # the slopes of the plates' closure are no constants of the rock
-        result.youngs_modulus = result.poissons_ratio = None
+        result.youngs_modulus = result.poissons_ratio = result.elastic_poissons_ratio = None
     if spec.model not in SPHERE_MODELS:  # whose bonds tell no energy
         result.measure_emission(_event_rule(rig.built.specimen))
     result.contact_width = rig.contact_width

@@ -45,7 +45,7 @@ class Ends:
 
 
 def heights(specimen: Specimen) -> tuple[float, float]:
-    """Of the lower and the upper end of a rectangle [m]."""
+    """Heights of the lower and the upper end of a rectangle [m]."""
     assert not isinstance(specimen.outline, Circle)
     return float(specimen.outline[:, 1].min()), float(specimen.outline[:, 1].max())
 
@@ -109,7 +109,7 @@ def strain_evenly(built: SphereModel, velocity: float) -> None:
 
     Args:
         built: A rectangle.
-        velocity: Of its upper end, positive away from the lower one [m/s, or m per step].
+        velocity: Velocity of its upper end, positive away from the lower one [m/s, or m per step].
     """
     bottom, top = heights(built.specimen)
     for body, y in zip(built.ids, built.specimen.centres[:, 1].tolist(), strict=True):

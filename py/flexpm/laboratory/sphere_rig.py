@@ -56,6 +56,7 @@ class _State:
     looks: int = 0
     confinement: float | None = None  #: [Pa]
     ramp: int = 0  #: steps over which it rises
+    ramp_begin: int = 0  #: step from which these count
     sides: list[int] = field(default_factory=list)  #: on which it acts
     recording: bool = False
     end: list[float] = field(default_factory=list)  #: of the test, as the kernel takes it
@@ -173,6 +174,7 @@ class SphereRig(TestRig):
     def _press(self, pressure: float, ramp: int) -> None:
         ends.hold_middle(self.built)
         self._now.confinement, self._now.ramp = pressure, ramp
+        self._now.ramp_begin = yade.O.iter
         self._now.period = max(1, math.ceil(self.scales().crossing_steps / _LOOKS_A_CROSSING))
         self._press_on(BOTTOM, RIGHT, TOP, LEFT)
 
@@ -181,7 +183,7 @@ class SphereRig(TestRig):
         self._follow_sides()
 
     def _follow_sides(self) -> None:
-        ramp = ramp_factor(yade.O.iter, self._now.ramp)
+        ramp = ramp_factor(yade.O.iter - self._now.ramp_begin, self._now.ramp)
         self._pressed.update(ramp * (self.confinement or 0.0))
 
     def _drive(self, plan: Schedule) -> None:

@@ -42,7 +42,7 @@ def _around(magnitude: float) -> Bounds:
     return Bounds(above=0.0, at_least=1e-12 * magnitude, at_most=1e12 * magnitude)
 
 
-#: Of energies [N/m]; those of brittle softening follow from squares.
+#: Range of energies [N/m]; those of brittle softening follow from squares.
 _ENERGY = Bounds(above=0.0, at_least=1e-40, at_most=1e40)
 #: Ranges of the keys: 1e-12 to 1e12 times a rock's, within which all sums are numbers.
 _BOUNDS = {

@@ -225,7 +225,7 @@ def _in_series(first: ElasticSet, second: ElasticSet) -> ElasticSet:
     shear = _harmonic(
         first.shear_ratio * first.normal_stiffness, second.shear_ratio * second.normal_stiffness
     )
-    # of the first grain: triangles have no part in a contact
+    # those of the first grain: triangles have no part in a contact
     return dataclasses.replace(first, normal_stiffness=normal, shear_ratio=shear / normal)
 
 

@@ -18,6 +18,6 @@ def collider(
 
     Args:
         bounds: Functors that bound the shapes.
-        mean_diameter: Of the grains or discs [m].
+        mean_diameter: Mean diameter of the grains or discs [m].
     """
     return wrapper.InsertionSortCollider(list(bounds), verletDist=_SWEEP * mean_diameter)

@@ -106,7 +106,7 @@ def _farther_pairs(specimen: Specimen, bonded: IntArray, interaction_range: floa
 
 
 def _meet_outline(specimen: Specimen, lines: FloatArray) -> BoolArray:
-    """Of each line between two points inside, (n, 2, 2) [m], whether it meets an outer edge."""
+    """Whether each line between two points inside, (n, 2, 2) [m], meets an outer edge."""
     cells = specimen.tessellation
     outer = np.array(cells.boundary_edges, dtype=int)[:, 1:3]
     start, end = np.moveaxis(np.array(cells.vertices)[outer], 1, 0)
@@ -190,8 +190,8 @@ def stiffness_bounds(
     levers of a bond are the parts of the distance of its two centres.
 
     Args:
-        centres: Of the spheres, (n, 2) [m].
-        radii: Of the spheres [m].
+        centres: Centres of the spheres, (n, 2) [m].
+        radii: Radii of the spheres [m].
         bonds: Their bonds.
         bending: Whether bonds resist bending.
 

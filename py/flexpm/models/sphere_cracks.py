@@ -80,12 +80,12 @@ class CrackWatch:
 
     @property
     def alive(self) -> BoolArray:
-        """Of each grain, whether its body is there."""
+        """Whether the body of each grain is there."""
         return np.array([body_with(number) is not None for number in self._bodies])
 
     @property
     def erased(self) -> BoolArray:
-        """Of each bond, whether a script has erased it or one of its grains; after a look."""
+        """Whether a script has erased each bond or one of its grains; after a look."""
         gone: BoolArray = (self.modes == ERASED) | ~self.alive[self._bonds.grains].all(axis=1)
         return gone
 
@@ -120,7 +120,7 @@ class CrackWatch:
         return TENSILE if self._kind.is_tensile(bond, tension, self._bonds, row) else SHEAR
 
     def _normal_force(self, bond: wrapper.IPhys, row: int) -> float:
-        """Of the last step before the bond broke, compression positive [N]."""
+        """Force of the last step before the bond broke, compression positive [N]."""
         first, second = self._bonds.grains[row]
         force = bond.normalForce
         along = self._centre(second) - self._centre(first)

@@ -288,7 +288,7 @@ def _touched_bounds(
 
     Args:
         specimen: The grains.
-        radii: Of the spheres [m].
+        radii: Radii of the spheres [m].
         bonds: Properties of the bonds.
         stiffness: K_n of the material [Pa/m].
         bending: Whether bonds resist bending.

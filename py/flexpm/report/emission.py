@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from ..arrays import FloatArray
 from ..files import remove_earlier
 from ..results.cracks import MODES, SHEAR, TENSILE
-from ..results.emission import BIN, Event, binned
+from ..results.emission import BIN, FEWEST, Event, binned, fits
 from ..results.result import Result
 from ..results.snapshot import Snapshot
 from ..text import label_of
@@ -155,11 +155,20 @@ def _note(result: Result) -> str:
         "what damage took."
     )
     if result.b_value is None or result.b_value_error is None:
-        return f"{text} No b value: fewer than 50 events from the magnitude of completeness on."
+        return f"{text} No b value: {_without_line(result)}."
     return (
         f"{text} b = {result.b_value:.2f} ± {result.b_value_error:.2f} from magnitude "
         f"{result.completeness_magnitude:.1f} on."
     )
+
+
+def _without_line(result: Result) -> str:
+    """Why there is no b value."""
+    found = fits(_magnitudes(result.emission or []))
+    if not found or found[0].number < FEWEST:
+        return f"fewer than {FEWEST} events from the magnitude of completeness on"
+    lines = (f"{one.b_value:.2f} ± {one.b_error:.2f} from {one.least:.1f} on" for one in found)
+    return f"their numbers follow no line, whose slope would be {', '.join(lines)}"
 
 
 def _magnitudes(events: list[Event]) -> FloatArray:

@@ -41,7 +41,7 @@ def crack_map(
     """Make the map of a test.
 
     Args:
-        name: Of its element, a word.
+        name: Name of its element, a word.
         title: Heading.
         drawing: The specimen before the test.
         result: The test, with at least one row in its record.

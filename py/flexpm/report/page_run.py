@@ -93,7 +93,7 @@ def write_page(
         about=size_text(result),
         versions=versions(result),
         status=STATUS.get(result.status),
-        results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1]),
+        results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1], _reading(result)),
         warnings=[*result.warnings, *missing],
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         maps=maps,
@@ -191,6 +191,20 @@ def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:
     ]
     note = "All digits are in result.json, in SI units."
     return Rows(title, ("input", "value", "source"), rows, note)
+
+
+def _reading(result: Result) -> str:
+    """How far numbers of a test are those of the rock."""
+    if result.test == "sonic":
+        return ""
+    lines = ["Fragments are counted as the test ends, in mid-fall: at rest there are fewer."]
+    if result.confinement:
+        lines.append(
+            "Under a confinement read the peak: what comes after it depends on the loading, too."
+        )
+    if result.material.get("joints") and result.model != "flexible" and result.youngs_modulus:
+        lines.append("Young's modulus is that of the middle half, with the joints in it (D21).")
+    return " ".join(lines)
 
 
 def _pairs_table(result: Result) -> Rows | None:

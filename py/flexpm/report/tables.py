@@ -68,7 +68,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
     rows = [
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
         ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
-        ("Poisson's ratio", scaled(result.poissons_ratio, 1.0, "", 3)),
+        ("Poisson's ratio", _poissons_ratio(result)),
         (words_of_test(result.test).peak, scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
@@ -124,6 +124,12 @@ def size_text(result: Result) -> str:
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
+
+
+def _poissons_ratio(result: Result) -> str:
+    text = scaled(result.poissons_ratio, 1.0, "", 3)
+    elastic = scaled(result.elastic_poissons_ratio, 1.0, "", 3)
+    return text if elastic in ("-", text) else f"{text}, elastic {elastic}"
 
 
 def _first_cracks(result: Result) -> str:

@@ -57,6 +57,11 @@ LARGEST_KINETIC_SHARES = {
 #: Growth of a distance between neighbours that is none, in mean diameters [-]. Specimens that are
 #: crushed by 3 % under a confinement have up to 1.6.
 LARGEST_PARTING = 2.0
+#: Mean grains across a specimen, or the ligament of a beam, that are not few [-]: standards of
+#: rock testing ask for ten, and for six where grains are coarse.
+FEWEST_GRAINS_ACROSS = 6.0
+#: Difference of Poisson's ratio from the elastic one that is none [-].
+LARGEST_POISSON_CHANGE = 0.05
 #: Of a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
@@ -163,6 +168,36 @@ def of_growth(growth: float | None) -> list[str]:
     return [
         f"load at the peak = {100.0 * growth:.3g} % above that a wave's crossing before, more than "
         f"{100.0 * LARGEST_GROWTH:g} %; the ends may bear more than the specimen, lower the rate"
+    ]
+
+
+def of_grains(across: float | None) -> list[str]:
+    """What few grains across say about the strength.
+
+    Args:
+        across: Smallest size of the specimen, or its ligament, over the mean grain [-].
+    """
+    if across is None or across >= FEWEST_GRAINS_ACROSS:
+        return []
+    return [
+        f"grains_across = {across:.2g}, is below {FEWEST_GRAINS_ACROSS:g}: a strength rests on few "
+        "contacts and scatters; take smaller grains or a larger specimen, and several seeds"
+    ]
+
+
+def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
+    """What points that soften early make of Poisson's ratio.
+
+    Args:
+        ratio: Between 5 and 25 % of the peak [-].
+        elastic: Before the first point softens [-].
+    """
+    if ratio is None or not elastic or abs(ratio / elastic - 1.0) <= LARGEST_POISSON_CHANGE:
+        return []
+    return [
+        f"poissons_ratio = {ratio:.3g}, differs by {100.0 * abs(ratio / elastic - 1.0):.2g} % from "
+        f"elastic_poissons_ratio = {elastic:.3g}: points soften below 25 % of the peak; the latter "
+        "is that of the elastic rock"
     ]
 
 

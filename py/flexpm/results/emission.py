@@ -30,6 +30,12 @@ _FAR = 1e100
 BIN = 0.1
 #: Fewest events from the magnitude of completeness on that give a b value.
 FEWEST = 50
+#: Bins by which the fit begins later, to see whether it stays where it is.
+_LATER = 3
+#: It does within this multiple of the error of its move, as 19 of 20 exponentials do.
+_MOVES = 2.0
+#: ... or within this part of b: some events are missing from the most frequent magnitude on.
+_BENDS = 0.1
 
 
 class EventRule(NamedTuple):
@@ -52,8 +58,17 @@ class Event(NamedTuple):
     magnitude: float  #: nan without energy [-]
 
 
+class Fit(NamedTuple):
+    """A line through the numbers of events over their magnitude."""
+
+    least: float  #: magnitude from which on they are counted [-]
+    number: int  #: of events from there on
+    b_value: float  #: decades of number for one of magnitude [-]
+    b_error: float  #: standard error [-]
+
+
 class Frequencies(NamedTuple):
-    """How many events there are of each magnitude; None without enough events."""
+    """How many events there are of each magnitude; None without enough events, or a line."""
 
     completeness: float | None  #: magnitude from which on they are counted: the most frequent [-]
     b_value: float | None  #: decades of number for one of magnitude [-]
@@ -125,21 +140,49 @@ def magnitudes_of(energies: FloatArray) -> FloatArray:
 def frequencies(magnitudes: FloatArray) -> Frequencies:
     """Magnitude of completeness and b value of events.
 
-    Completeness by maximum curvature: the bin with most events. b by maximum likelihood for
-    magnitudes in bins (Bender 1983), which is Aki's with Utsu's correction for narrow bins; its
-    error by Shi and Bolt (1982).
+    Completeness by maximum curvature: the bin with most events. No b value for numbers that follow
+    no line: b from 0.3 above it differs by more than twice the error of that difference and 10 %.
     """
     bins = binned(magnitudes)
     if len(bins) == 0:
         return Frequencies(None, None, None)
-    least = int(bins.min()) + int(np.argmax(np.bincount(bins - bins.min())))
-    above = BIN * (bins[bins >= least] - least)
-    completeness, number, mean = BIN * least, len(above), float(above.mean())
-    if number < FEWEST or mean == 0.0:
-        return Frequencies(completeness, None, None)
-    b = math.log10(1.0 + BIN / mean) / BIN
-    variance = float(np.sum((above - mean) ** 2)) / (number * (number - 1))
-    return Frequencies(completeness, b, math.log(10.0) * b * b * math.sqrt(variance))
+    found = fits(magnitudes)
+    if not found or found[0].number < FEWEST or not _is_line(found):
+        return Frequencies(BIN * _most_frequent(bins), None, None)
+    return Frequencies(found[0].least, found[0].b_value, found[0].b_error)
+
+
+def fits(magnitudes: FloatArray) -> list[Fit]:
+    """Lines from the magnitude of completeness on, and from 0.3 above it, where there are any.
+
+    By maximum likelihood for magnitudes in bins (Bender 1983), which is Aki's with Utsu's
+    correction for narrow bins; their error by Shi and Bolt (1982).
+    """
+    bins, found = binned(magnitudes), []
+    for later in (0, _LATER) if len(bins) else ():
+        least = _most_frequent(bins) + later
+        above = BIN * (bins[bins >= least] - least)
+        number, mean = len(above), float(above.mean()) if len(above) else 0.0
+        if number < 2 or mean == 0.0:
+            break
+        b = math.log10(1.0 + BIN / mean) / BIN
+        variance = float(np.sum((above - mean) ** 2)) / (number * (number - 1))
+        found.append(Fit(BIN * least, number, b, math.log(10.0) * b * b * math.sqrt(variance)))
+    return found
+
+
+def _most_frequent(bins: IntArray) -> int:
+    return int(bins.min()) + int(np.argmax(np.bincount(bins - bins.min())))
+
+
+def _is_line(found: Sequence[Fit]) -> bool:
+    """Whether the second fit, of a part of the first one's events, says the same."""
+    if len(found) < 2:
+        return True
+    first, later = found
+    variance = max(later.b_error**2 - first.b_error**2, 0.0)
+    allowed = max(_MOVES * math.sqrt(variance), _BENDS * first.b_value)
+    return abs(later.b_value - first.b_value) <= allowed
 
 
 def binned(magnitudes: FloatArray) -> IntArray:

@@ -90,6 +90,17 @@ def poissons_ratio(curve: Curve) -> float | None:
     return _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
 
 
+def elastic_poissons_ratio(curve: Curve) -> float | None:
+    """The same slope before the first contact point softens, up to 25 % of the largest stress [-].
+
+    Softening sets in below 5 % of the peak in places, so rows count from the first one on.
+    """
+    softened = np.flatnonzero(curve["damage_energy"] > 0.0)
+    end = elastic_rows(curve).stop
+    rows = slice(0, min(end, int(softened[0])) if len(softened) else end)
+    return _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
+
+
 def softening_slope(curve: Curve) -> float | None:
     """Slope of stress over strain from the peak to half of it, or to the end [Pa]."""
     peak = peak_row(curve)

@@ -44,10 +44,12 @@ class Result(Shown):
     contacts: int
     nodes: int | None
     triangles: int | None
+    grains_across: float | None = None  #: smallest size, or ligament, over the mean grain [-]
     particles: int | None = None  #: what moves: grains, or inner particles
     inner_contacts: int | None = None  #: between particles of the same grain
     youngs_modulus: float | None = None  #: [Pa]
     poissons_ratio: float | None = None  #: [-]
+    elastic_poissons_ratio: float | None = None  #: before the first contact point softens [-]
     peak_stress: float | None = None  #: [Pa]
     peak_strain: float | None = None  #: [-]
     confinement: float | None = None  #: [Pa]
@@ -118,6 +120,8 @@ class Result(Shown):
         if self.joint_bend:
             found.append(doubts.of_bend(self.joint_bend))
         found += doubts.of_cuts(self.joint_cuts or {})
+        found += doubts.of_grains(self.grains_across)
+        found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
         if self.test != "sonic":
             found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
@@ -154,6 +158,7 @@ class Result(Shown):
         self.late_modulus = measures.late_modulus(record)
         if self.model in _SOFTENING:
             self.softening_onset = measures.softening_onset(record)
+            self.elastic_poissons_ratio = measures.elastic_poissons_ratio(record)
         self._measure_onset()
         if len(whole):
             self.steps = int(whole["step"][-1])

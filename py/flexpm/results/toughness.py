@@ -80,8 +80,8 @@ def half_disc_toughness(
     Args:
         load: [N].
         span: Distance of the supports [m].
-        radius: Of the disc [m].
-        thickness: Of the disc [m].
+        radius: Radius of the disc [m].
+        thickness: Thickness of the disc [m].
         notch: Depth from the middle of the flat side [m].
     """
     ratio, slenderness = notch / radius, 0.5 * span / radius
@@ -123,8 +123,8 @@ def bending_toughness(
     Args:
         load: [N].
         span: Distance of the supports [m].
-        height: Of the beam [m].
-        thickness: Of the beam [m].
+        height: Height of the beam [m].
+        thickness: Thickness of the beam [m].
         notch: Depth from the side opposite to the load [m].
     """
     stress = 1.5 * load * span / (thickness * height**2)

@@ -54,7 +54,7 @@ def speed(curve: Curve, distance: float) -> float | None:
 
     Args:
         curve: With the columns of the displacements and of the time.
-        distance: Of the sections [m].
+        distance: Distance of the sections [m].
     """
     if len(curve) < 3 or not np.all(np.isfinite(curve[DISPLACEMENTS[1]])):
         return None

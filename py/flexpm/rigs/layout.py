@@ -115,7 +115,7 @@ class PartLayout:
     ) -> HeldNodes:
         """Hold the nodes of a region at rest; `drive`, `turn` or `HeldNodes.move` moves them.
 
-        Of deformable grains all nodes in the region are held, of rigid ones the centres, about
+        All nodes in the region of deformable grains are held, of rigid ones the centres, about
         which the grains are free to turn (deviation D52). What counts is where they were when
         bonded. The region is one of:
 

@@ -69,7 +69,7 @@ class Part(RigPart):
 
     @property
     def width(self) -> float:
-        """Of the outline before it [m]."""
+        """Width of the outline before it [m]."""
         return float(self._now["width"])
 
     @property
@@ -99,7 +99,7 @@ class HeldNodes(RigPart):
 
     @property
     def nodes(self) -> list[int]:
-        """Of the solver, see `GrainSolver.nodePlaces`."""
+        """Nodes of the solver, see `GrainSolver.nodePlaces`."""
         return [int(node) for node in self._now["nodes"]]
 
     @property

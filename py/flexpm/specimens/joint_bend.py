@@ -16,8 +16,8 @@ def largest_bend(lines: Sequence[Line], contacts: FloatArray) -> float:
     """Largest distance of contacts from their lines [m], each from the one that it follows best.
 
     Args:
-        lines: Of a joint; they go on beyond their ends.
-        contacts: Of the joint, places of both ends, (n, 2, 2) [m].
+        lines: Lines of a joint; they go on beyond their ends.
+        contacts: Contacts of the joint, places of both ends, (n, 2, 2) [m].
     """
     found = np.full(len(contacts), np.inf)
     for line in lines:
@@ -26,7 +26,7 @@ def largest_bend(lines: Sequence[Line], contacts: FloatArray) -> float:
 
 
 def _distances(line: Line, places: FloatArray) -> FloatArray:
-    """Of places, (n, m, 2), from a line that goes on beyond its ends."""
+    """Distances of places, (n, m, 2), from a line that goes on beyond its ends."""
     found = np.full(places.shape[:2], np.inf)
     corners = np.array(line)
     last = len(corners) - 2

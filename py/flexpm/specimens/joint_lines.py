@@ -150,14 +150,14 @@ class Cut:
 
     Attributes:
         lines: That were asked for.
-        idle: Of these, the ones that cut nothing.
-        length: Of all lines as they were asked for [m].
+        idle: Those of them that cut nothing.
+        length: Length of all lines as they were asked for [m].
         cut: Where they have made contacts of the joint [m].
         taken: Where they lie on contacts that a joint had before [m].
         outside: Outside of the specimen [m]. What is left ends within grains.
         on: The joint on which most of `taken` lies; None: nothing was taken.
 
-    Of what is cut, up to a tenth of a grain at the outline may count as left.
+    Up to a tenth of a grain at the outline of what is cut may count as left.
     """
 
     lines: int

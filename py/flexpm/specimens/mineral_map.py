@@ -22,8 +22,8 @@ def assign(fractions: Sequence[float], areas: FloatArray, seed: int) -> IntArray
     Grains in random order are cut where the fractions end: each cut is off by half a grain at most.
 
     Args:
-        fractions: Of each mineral [-], sum 1.
-        areas: Of each grain [m2].
+        fractions: Fraction of each mineral [-], sum 1.
+        areas: Area of each grain [m2].
         seed: The same seed draws the same.
 
     Returns:

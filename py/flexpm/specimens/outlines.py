@@ -50,7 +50,7 @@ def half_disc_corners(diameter: float, grain: float) -> FloatArray:
     The arc has a chord for each grain along it, one of them on top.
 
     Args:
-        diameter: Of the disc [m].
+        diameter: Diameter of the disc [m].
         grain: Mean diameter of the grains [m].
     """
     radius = 0.5 * diameter

@@ -134,7 +134,7 @@ class Specimen(Shown):
         """Pack a disc about the origin; its rim is one chord per boundary grain.
 
         Args:
-            diameter: Of the specimen [m].
+            diameter: Diameter of the specimen [m].
             thickness: Out of plane [m].
             diameters: Smallest and largest disc diameter [m].
             porosity: Sets the number of discs only [-]; the cells leave no pores.
@@ -198,7 +198,7 @@ class Specimen(Shown):
         """Saw the upper half of a disc out of a packed block, its lower left corner at the origin.
 
         Args:
-            diameter: Of the disc, along x [m].
+            diameter: Diameter of the disc, along x [m].
             thickness: Out of plane [m].
             diameters: Smallest and largest disc diameter [m].
             porosity: Sets the number of discs only [-]; the cells leave no pores.
@@ -242,7 +242,7 @@ class Specimen(Shown):
         their cells. A rectangle along x and y, with holes or without, can be tested as such.
 
         Args:
-            corners: Of a simple polygon, convex or not, in any sense [m]; the first one may come
+            corners: Simple polygon, convex or not, in any sense [m]; the first one may come
                 again at the end, here and wherever corners are given.
             thickness: Out of plane [m].
             diameters: Smallest and largest disc diameter [m].

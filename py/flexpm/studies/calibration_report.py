@@ -16,7 +16,7 @@ from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..report.style import drawing
 from ..text import label_of, words_of
-from .calibration_problem import Calibration
+from .calibration_problem import ELASTIC_MEASURES, Calibration
 from .calibration_search import Outcome
 
 #: Digits of the values in a preset.
@@ -42,7 +42,9 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
             text += f" ± {factor * spread:.2g}, error of the mean {factor * error:.2g}"
         verdict = "met" if outcome.met[target.name] else "NOT met"
         wanted = f"{factor * target.value:.4g} {unit}".rstrip()
-        rows.append((words_of(target.name), f"{text}, target {wanted}: {verdict}"))
+        # a run gives another Poisson's ratio where points soften early
+        kind = "elastic " if target.name in ELASTIC_MEASURES else ""
+        rows.append((f"{kind}{words_of(target.name)}", f"{text}, target {wanted}: {verdict}"))
     return rows
 
 

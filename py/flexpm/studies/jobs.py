@@ -49,7 +49,7 @@ class Job:
 
     Attributes:
         inputs: What was asked for, flat: ``test``, options by name, ``set.KEY`` for the material.
-        arguments: Of the command, without the folder.
+        arguments: Arguments of the command, without the folder.
         spec: All that determines the outcome.
         place: Folder of the run below that of all; empty for the key.
         output: What the run writes beside its results.
@@ -167,8 +167,8 @@ def known(folder: Path, key: str | None = None) -> Table | None:
     """The outcome of a job that has ended in `folder`, or None.
 
     Args:
-        folder: Of the run.
-        key: Of the job; the outcome of another one does not count. None: of any.
+        folder: Folder of the run.
+        key: Key of the job; the outcome of another one does not count. None: any.
     """
     try:
         outcome: Table = read_json(folder / _OUTCOME)

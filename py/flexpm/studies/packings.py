@@ -44,7 +44,7 @@ def plan(
     Args:
         spec: The run, of any of the seeds.
         given: Options by name that make this run, with ``set.KEY`` for the material.
-        seeds: Of the packings.
+        seeds: Seeds of the packings.
         output: What each run writes beside its results.
         place: Folder of these runs below that of all.
     """
@@ -112,7 +112,7 @@ def means(rows: pandas.DataFrame) -> pandas.DataFrame:
     """One row a model and confinement; runs that failed are counted and left out of the means.
 
     Args:
-        rows: Of the runs.
+        rows: Rows of the runs.
 
     Returns:
         ``runs``, ``failed``, and of each measure the mean, under its name, the standard deviation

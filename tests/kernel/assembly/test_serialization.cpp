@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Each saved part of an assembly lists all its members, and they are all that continues a run.
+/// @file  Each saved part of an assembly lists all its members, and they are all that continues a
+/// run.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/serialization.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Every state that the kernel makes passes the check of saved states, and each kind of damage is refused.
+/// @file  Every state that the kernel makes passes the check of saved states, and each kind of
+/// damage is refused.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/state_check.hpp>

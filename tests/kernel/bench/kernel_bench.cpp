@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Micro-benchmarks on a specimen of the paper's size: contact blocks alone, grain blocks alone,
-/// the whole step. Wall times a machine with other work to do are worth nothing: compare in turns
-/// (--benchmark_repetitions, --benchmark_enable_random_interleaving=true).
+/// @file  Micro-benchmarks on a specimen of the paper's size: contact blocks alone, grain blocks
+/// alone, the whole step. Wall times a machine with other work to do are worth nothing: compare in
+/// turns (--benchmark_repetitions, --benchmark_enable_random_interleaving=true).
 #include "loaded.hpp"
 
 #include <flexpm/kernel/forces/contact_forces.hpp>

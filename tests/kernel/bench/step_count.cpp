@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A fixed number of steps of a fixed specimen; scripts/checks/instructions.py counts what they cost.
+/// @file  A fixed number of steps of a fixed specimen; scripts/checks/instructions.py counts what
+/// they cost.
 #include "loaded.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Threads that share work: each does its part once, all meet, and a waiting thread leaves its core to others.
+/// @file  Threads that share work: each does its part once, all meet, and a waiting thread leaves
+/// its core to others.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/core/thread_team.hpp>

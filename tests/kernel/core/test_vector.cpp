@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Vectors of the plane: products that a turn keeps, and lengths beyond the range of squares.
+/// @file  Vectors of the plane: products that a turn keeps, and lengths beyond the range of
+/// squares.
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/core/vector.hpp>
 

@@ -18,7 +18,8 @@ std::vector<Point> regular_polygon(int corners)
     return polygon;
 }
 
-/// All triangles counter-clockwise, together the polygon; the polygon's edges once, all others twice.
+/// All triangles counter-clockwise, together the polygon; the polygon's edges once, all others
+/// twice.
 void require_mesh(const GrainMesh& mesh, const std::vector<Point>& polygon)
 {
     const int corners = static_cast<int>(polygon.size());

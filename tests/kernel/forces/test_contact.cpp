@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Contacts of held grains led along prescribed motions: points, moment and rotation, cracks,
-/// friction, paper Secs. 2.3-2.6. Tension positive.
+/// @file  Contacts of held grains led along prescribed motions: points, moment and rotation,
+/// cracks, friction, paper Secs. 2.3-2.6. Tension positive.
 #include "support/catch.hpp"
 
 #include "support/driven.hpp"
@@ -42,8 +42,8 @@ std::vector<ContactPoint> lobatto(int points)
     return { { -0.5 * size, area / 6.0 }, { 0.0, 4.0 * area / 6.0 }, { 0.5 * size, area / 6.0 } };
 }
 
-/// Both grains turn about the middle of the edge, against each other, and part: the opening grows by
-/// `stretch` + `turn` * y per step, the normal stays.
+/// Both grains turn about the middle of the edge, against each other, and part: the opening grows
+/// by `stretch` + `turn` * y per step, the normal stays.
 void set_bending(Assembly& a, double stretch, double turn)
 {
     for (int g = 0; g < 2; ++g) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Pressure on boundary edges: resultant, direction, work, paper Sec. 4.2. Compressive pressure
-/// is positive.
+/// @file  Pressure on boundary edges: resultant, direction, work, paper Sec. 4.2. Compressive
+/// pressure is positive.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/forces/sides.hpp>

@@ -84,7 +84,8 @@ private:
     Bytes& bytes;
 };
 
-/// States in which no part is empty: deformable and rigid grains between plates, rigid ones that have come to touch.
+/// States in which no part is empty: deformable and rigid grains between plates, rigid ones that
+/// have come to touch.
 const std::vector<Assembly>& saved_states()
 {
     static const std::vector<Assembly> states = { sample_runs::squeezed(false),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What the fuzzers try, each from any bytes: the kernel refuses its input with an exception of its own, or all
-/// that it makes of it holds. Anything else ends the process.
+/// @file  What the fuzzers try, each from any bytes: the kernel refuses its input with an exception
+/// of its own, or all that it makes of it holds. Anything else ends the process.
 #pragma once
 
 #include <cstddef>

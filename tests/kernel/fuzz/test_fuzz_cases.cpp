@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  All inputs that the fuzzers start from, and all that they once failed with, on any compiler.
+/// @file  All inputs that the fuzzers start from, and all that they once failed with, on any
+/// compiler.
 #include "support/catch.hpp"
 
 #include "fuzz/targets.hpp"

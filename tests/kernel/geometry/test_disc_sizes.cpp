@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Number and radii of discs: the paper's counts, bounds, moments, the generator's standard value.
+/// @file  Number and radii of discs: the paper's counts, bounds, moments, the generator's standard
+/// value.
 #include "support/disc_samples.hpp"
 
 #include <flexpm/kernel/geometry/disc_sizes.hpp>

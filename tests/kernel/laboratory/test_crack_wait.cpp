@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Loading that waits for cracks: how its velocity follows from what a test dissipates. SI units.
+/// @file  Loading that waits for cracks: how its velocity follows from what a test dissipates. SI
+/// units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/crack_wait.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Scales of a test against closed forms: bars of known wave speed, Mohr-Coulomb strengths. SI units.
+/// @file  Scales of a test against closed forms: bars of known wave speed, Mohr-Coulomb strengths.
+/// SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>

@@ -111,7 +111,8 @@ TEST_CASE("Shear peaks at c + mu sigma_n and softens on a line to mu sigma_n, ei
         CHECK(at_peak.traction.shear == Approx(sign * strength).epsilon(1e-11));
         CHECK(at_peak.traction.damage == 0.0);
 
-        // at constant pressure tau = c (1 - p / sc) + mu sigma_n with the plastic slip p = s - tau / k
+        // at constant pressure tau = c (1 - p / sc) + mu sigma_n with the plastic slip p = s - tau
+        // / k
         const double residual = m.friction * pressure, last = sc + residual / k;
         const double s = yield + (last - yield) * random.next();
         const double closed =

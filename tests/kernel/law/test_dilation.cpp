@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Dilation of a joint: the gap that plastic slip makes, what it does to the normal traction, and its
-/// work. Tension positive.
+/// @file  Dilation of a joint: the gap that plastic slip makes, what it does to the normal
+/// traction, and its work. Tension positive.
 #include "support/catch.hpp"
 
 #include "support/law_path.hpp"

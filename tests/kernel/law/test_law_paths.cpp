@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The bilinear law on random mixed-mode paths: envelope, damage, energy; and its brittle limit
-/// against Mohr-Coulomb with a tension cut-off. Tension positive.
+/// @file  The bilinear law on random mixed-mode paths: envelope, damage, energy; and its brittle
+/// limit against Mohr-Coulomb with a tension cut-off. Tension positive.
 #include "support/catch.hpp"
 
 #include "support/law_path.hpp"

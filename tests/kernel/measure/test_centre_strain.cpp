@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Strains from the centres of grains against the field that moves them. SI units, extension positive.
+/// @file  Strains from the centres of grains against the field that moves them. SI units, extension
+/// positive.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/measure/centre_strain.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One step of a plain specimen, written from doc/theory and for no speed at all: what the kernel's step, with its
-/// lanes and blocks, must agree with.
+/// @file  One step of a plain specimen, written from doc/theory and for no speed at all: what the
+/// kernel's step, with its lanes and blocks, must agree with.
 #pragma once
 
 #include "reference/plain_specimen.hpp"

@@ -37,7 +37,8 @@ double normal_traction(const LawParameters& law, double opening, double largest,
     return opening * std::min(law.normal_stiffness, strength / largest);
 }
 
-/// Area under the curve of traction over opening, from 0 to `largest`, at constant shear damage [J/m^2].
+/// Area under the curve of traction over opening, from 0 to `largest`, at constant shear damage
+/// [J/m^2].
 double work_of_opening(const LawParameters& law, double largest, double shear_damage)
 {
     const double strength = (1.0 - shear_damage) * law.tensile_strength;
@@ -70,8 +71,8 @@ struct ShearReturn {
     double doubt = 1.0;
 };
 
-/// The slip that brings the traction back solves |trial| - K_s slip = limit - c slip / s_c, on the falling branch of
-/// the limit; it ends where friction alone is left or nothing at all.
+/// The slip that brings the traction back solves |trial| - K_s slip = limit - c slip / s_c, on the
+/// falling branch of the limit; it ends where friction alone is left or nothing at all.
 ShearReturn return_shear(
     const LawParameters& law, double size, double limit, double opened, double before)
 {
@@ -149,8 +150,9 @@ PointTraction advance(
     const double lifted_normal = normal_traction(law, lifted, largest, damage);
     const double lifting = 0.5 * lifted * lifted_normal - 0.5 * opening * normal;
 
-    // losses: growth of the opening, then of the shear damage, which takes stiffness from the secant; a slip does the
-    // work of the mean traction, of which friction takes its share and damage the rest
+    // losses: growth of the opening, then of the shear damage, which takes stiffness from the
+    // secant; a slip does the work of the mean traction, of which friction takes its share and
+    // damage the rest
     const double lost_by_opening = loss_of_opening(law, largest, old.shear_damage)
         - loss_of_opening(law, old.max_opening, old.shear_damage);
     const double lost_by_secant = 0.5 * opening * (first_normal - normal);

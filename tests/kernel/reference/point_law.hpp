@@ -16,8 +16,9 @@ struct PointTraction {
 
 /// Advance a point by an opening and a slip [m].
 ///
-/// The law jumps where a brittle point reaches its strength, and the record of cracks where D reaches 1.
-/// ContactPoint::doubt says how far the step was from the nearest of these, as a part of the quantity that decides.
+/// The law jumps where a brittle point reaches its strength, and the record of cracks where D
+/// reaches 1. ContactPoint::doubt says how far the step was from the nearest of these, as a part of
+/// the quantity that decides.
 PointTraction advance(
     const flexpm::LawParameters& law, double opening_step, double slip_step, ContactPoint& point);
 

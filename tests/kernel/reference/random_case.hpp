@@ -10,15 +10,18 @@
 
 namespace plain {
 
-/// A specimen under way: outline, sizes, model, mesh, points, minerals, laws, masses, boundary and loading are drawn.
+/// A specimen under way: outline, sizes, model, mesh, points, minerals, laws, masses, boundary and
+/// loading are drawn.
 struct RandomCase {
     explicit RandomCase(std::uint64_t seed);
 
-    /// Change the loading as it goes: now and then new velocities of all grains, which open, close, shear and turn
-    /// their contacts by anything between a part of the elastic way and more than the critical one.
+    /// Change the loading as it goes: now and then new velocities of all grains, which open, close,
+    /// shear and turn their contacts by anything between a part of the elastic way and more than
+    /// the critical one.
     void load();
 
-    /// Whether a grain has left the specimen far behind: loads are drawn beyond what the elements stand.
+    /// Whether a grain has left the specimen far behind: loads are drawn beyond what the elements
+    /// stand.
     bool has_diverged() const;
 
     std::string name;  ///< what was drawn, for messages

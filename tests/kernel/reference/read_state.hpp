@@ -31,8 +31,8 @@ struct Differences {
     std::string text() const;
 };
 
-/// Compare the states that the kernel's and the plain step have made of the one `before`; the nodes of an excepted
-/// point are left out.
+/// Compare the states that the kernel's and the plain step have made of the one `before`; the nodes
+/// of an excepted point are left out.
 Differences compare(const Specimen& before, const Specimen& kernel, const Specimen& plain);
 
 }  // namespace plain

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The kernel's step against a plain one, step by step from the solver's own state, for random assemblies.
+/// @file  The kernel's step against a plain one, step by step from the solver's own state, for
+/// random assemblies.
 ///
 /// FLEXPM_ASSEMBLIES gives another number of assemblies, and has the largest differences printed;
 /// FLEXPM_FIRST_SEED is the first of their seeds:

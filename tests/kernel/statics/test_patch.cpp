@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Patch tests: grains and grids of grains under uniform stress, solved and stepped; a Voronoi
-/// assembly approaches uniform stress as its contacts stiffen. SI units, tension positive.
+/// @file  Patch tests: grains and grids of grains under uniform stress, solved and stepped; a
+/// Voronoi assembly approaches uniform stress as its contacts stiffen. SI units, tension positive.
 #include "support/specimens.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Stability of the scaled masses with local damping, paper Sec. 2.4, on specimens that no load
-/// breaks.
+/// @file  Stability of the scaled masses with local damping, paper Sec. 2.4, on specimens that no
+/// load breaks.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>

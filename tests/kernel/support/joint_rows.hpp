@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Two rows of squares on a joint without strength, along which they can slide far. SI units.
+/// @file  Two rows of squares on a joint without strength, along which they can slide far. SI
+/// units.
 #pragma once
 
 #include <flexpm/kernel/topology/contact_update.hpp>

@@ -86,7 +86,8 @@ template <class Part> std::string difference(const Part& a, const Part& b)
     return names;
 }
 
-/// A random specimen with pressed sides, sheared and drawn apart so fast that points crack within 500 steps.
+/// A random specimen with pressed sides, sheared and drawn apart so fast that points crack within
+/// 500 steps.
 inline flexpm::Assembly breaking(const flexpm::AssemblyOptions& options = specimens::options())
 {
     flexpm::Assembly a =

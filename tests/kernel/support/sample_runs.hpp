@@ -91,8 +91,8 @@ inline Assembly squeezed(bool rigid)
     return a;
 }
 
-/// The upper row of a grid of rigid grains is torn off and thrown back askew: its bonds end, its discs
-/// touch those below and roll.
+/// The upper row of a grid of rigid grains is torn off and thrown back askew: its bonds end, its
+/// discs touch those below and roll.
 inline Assembly thrown()
 {
     flexpm::AssemblyOptions o = specimens::options();

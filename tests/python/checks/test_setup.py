@@ -155,7 +155,7 @@ def test_a_package_has_the_study_files_that_pages_name() -> None:
     rules = (ROOT / "cmake" / "FlexpmPackage.cmake").read_text()
     (rule,) = re.findall(r"install\(DIRECTORY [^)]*scripts/studies[^)]*\)", rules)
     patterns = [one for one in re.findall(r'PATTERN "([^"]*)"', rule) if one != "__pycache__"]
-    pages = "".join(page.read_text() for page in (ROOT / "doc").glob("*.rst"))
+    pages = "".join(page.read_text() for page in (ROOT / "doc").rglob("*.rst"))
     named = set(re.findall(r"scripts/studies/([\w.]+\.(?:toml|table))", pages))
     named |= {"cohesion.table", "cohesion_batch.py"}
     assert {"augig_flexible.toml", "cohesion.toml"} <= named

@@ -20,7 +20,7 @@ from flexpm.specimens.spec import SpecimenSpec
 
 GRAVITY = 9.81
 SIDE = 0.012
-#: Of the block and what it lies on [m], and of the joint between them.
+#: Sizes of the block and what it lies on [m], and friction of the joint between them.
 WIDTH, HEIGHT, FRICTION = 0.016, 0.016, 0.5
 ANGLE = math.atan(FRICTION) + math.radians(10.0)
 #: So soft that no point opens as the sudden weight swings: points that rattle slide more easily.

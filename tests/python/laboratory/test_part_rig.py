@@ -354,3 +354,24 @@ def test_a_rig_of_parts_refuses_a_model_or_a_test_without_a_rate(beam):
     yade.O.reset()
     with pytest.raises(InputError, match="test of model rigid = 'pull', must be one of"):
         PartRig(flexpm.build(beam, model="rigid"), kind="pull")
+
+
+@pytest.mark.parametrize(
+    ("test", "sizes", "notch", "across"),
+    [
+        ("bending", (0.06, 0.012), None, 4.0),
+        ("bending", (0.1, 0.02), None, 6.7),
+        ("bending", (0.1, 0.02), 0.006, 4.9),
+        ("uniaxial", (0.012, 0.024), None, 4.0),
+        ("uniaxial", (0.02, 0.04), None, 6.7),
+        ("sonic", (0.012, 0.16), None, None),
+    ],
+)
+def test_few_grains_across_are_said(test, sizes, notch, across):
+    """The strength of a beam of four grains rested on one contact, without a word."""
+    specimen = flexpm.Specimen.rectangle(*sizes, 0.01)
+    options = {} if test == "sonic" else {"max_strain": 1e-5, "rate": 4.0}
+    result = flexpm.run(test, specimen, notch=notch, **options)
+    assert result.grains_across == (None if across is None else pytest.approx(across, abs=0.3))
+    told = [line for line in result.warnings if line.startswith("grains_across = ")]
+    assert bool(told) == (across is not None and across < 6.0)

@@ -443,3 +443,14 @@ def test_the_pointer_shows_the_values_of_the_record(browser, ended):
     record = Result.read(ended).curve
     row = np.argmin(np.abs(100.0 * record["axial_strain"] - strain))
     assert stress == pytest.approx(1e-6 * record["axial_stress"][row], rel=1e-4)
+
+
+def test_a_page_says_how_far_its_numbers_are_those_of_the_rock(ended):
+    result = Result.read(ended)
+    assert "in mid-fall" in (ended / page.FILE).read_text(encoding="utf-8")
+    confined = dataclasses.replace(result, confinement=4e6, model="rigid", youngs_modulus=2e10)
+    confined.material = {**result.material, "joints": [{"name": "a"}]}
+    assert page_run._reading(confined).split(". ")[1:] == [
+        "Under a confinement read the peak: what comes after it depends on the loading, too",
+        "Young's modulus is that of the middle half, with the joints in it (D21).",
+    ]

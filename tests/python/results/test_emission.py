@@ -19,6 +19,7 @@ from flexpm.results.emission import (
     event_rule,
     events_csv,
     find_events,
+    fits,
     frequencies,
     magnitudes_of,
     read_events,
@@ -84,10 +85,12 @@ def test_a_magnitude_is_that_of_gutenberg_and_richter():
 @pytest.mark.parametrize("b", [0.7, 1.0, 1.6])
 def test_b_value_of_an_exponential_distribution(b):
     rng = np.random.default_rng(3)
-    found = np.array(
-        [frequencies(rng.exponential(1.0 / (b * math.log(10.0)), 2000) - 4.05) for _ in range(100)]
-    )
-    completeness, values, errors = found.T
+    found = [
+        frequencies(rng.exponential(1.0 / (b * math.log(10.0)), 2000) - 4.05) for _ in range(100)
+    ]
+    lines = [one for one in found if one.b_value is not None]
+    assert len(lines) >= 90  # one in twenty moves by two errors
+    completeness, values, errors = np.array(lines).T
     assert completeness == pytest.approx(-4.0, abs=0.1 + 1e-9)  # a bin
     assert np.mean(values) == pytest.approx(b, abs=3.0 * np.std(values) / 10.0)
     assert np.mean(errors) == pytest.approx(np.std(values), rel=0.2)
@@ -102,6 +105,17 @@ def test_what_is_below_completeness_does_not_count():
     assert completeness == pytest.approx(-3.0, abs=0.15)
     assert b == pytest.approx(1.0, abs=0.1)
     assert error < 0.05
+
+
+def test_numbers_that_follow_no_line_have_no_b_value():
+    """Energies up to that of a point: the curve bends down, so b grows with its first magnitude."""
+    rng = np.random.default_rng(5)
+    magnitudes = 1.5 * (1.0 - np.sqrt(rng.random(2000))) - 4.05
+    first, later = fits(magnitudes)
+    assert later.least == pytest.approx(first.least + 0.3)
+    assert later.number < first.number
+    assert later.b_value > first.b_value + 3.0 * later.b_error
+    assert frequencies(magnitudes) == (first.least, None, None)
 
 
 def test_few_or_equal_events_have_no_b_value():

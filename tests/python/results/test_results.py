@@ -31,10 +31,12 @@ KEYS = [
     "contacts",
     "nodes",
     "triangles",
+    "grains_across",
     "particles",
     "inner_contacts",
     "youngs_modulus",
     "poissons_ratio",
+    "elastic_poissons_ratio",
     "peak_stress",
     "peak_strain",
     "confinement",
@@ -165,6 +167,29 @@ def test_measures_of_a_triangular_record(confinement):
     assert (result.unbalanced_ratio, result.end_mismatch) == (1e-3, 0.02)
     assert result.energy_error == pytest.approx(0.0, abs=1e-12)
     assert (result.steps, result.confinement) == (5000, confinement)
+
+
+def test_the_elastic_poissons_ratio_ends_where_points_soften():
+    """Both numbers are given, and a warning where they differ by more than 5 %."""
+    for bulging, warned in ((1.0, False), (1.02, False), (1.5, True)):
+        record, reference = Curve(), triangular_record()
+        for number in range(len(reference)):
+            values = {name: reference[name][number] for name in COLUMNS}
+            softened = max(values["axial_strain"] / (PEAK / YOUNG) - 0.03, 0.0)
+            values["damage_energy"] = 1e-6 * softened
+            values["lateral_strain"] *= 1.0 if softened == 0.0 else bulging
+            record.append(**values)
+        result = result_of(record)
+        result.measure(QUASISTATIC)
+        assert result.elastic_poissons_ratio == pytest.approx(POISSON, rel=1e-9)
+        assert result.poissons_ratio == pytest.approx(bulging * POISSON, rel=1e-9)
+        told = [line for line in result.warnings if line.startswith("poissons_ratio = 0.")]
+        assert bool(told) == warned
+        assert not warned or "50 % from elastic_poissons_ratio = 0.2" in told[0]
+    for model in ("inner", "jcfpm"):
+        result = result_of(reference, model=model)
+        result.measure(QUASISTATIC)
+        assert result.elastic_poissons_ratio is None
 
 
 def record_through(*points):

@@ -81,7 +81,7 @@ def test_either_sense_and_any_first_corner_give_the_same_rectangle():
 
 
 def test_a_plate_with_a_hole_is_softer():
-    """Of a rectangle with a hole the elastic constants are those of a plate with less to carry."""
+    """A rectangle with a hole has the elastic constants of a plate with less to carry."""
     hole = circle(0.01, 0.02, 0.003)
     outline = [(0, 0), (0.02, 0), (0.02, 0.04), (0, 0.04)]
     whole = flexpm.elastic(Specimen.polygon(outline, 0.08))["youngs_modulus"]

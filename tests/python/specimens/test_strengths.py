@@ -72,7 +72,7 @@ def test_weibulls_factors():
     assert drawn.spec != large.with_weibull_strengths(4.0, seed=4).spec
     count = contacts(large)
     assert drawn.strengths.mean() == pytest.approx(1.0, abs=4.0 * 0.28 / math.sqrt(count))
-    # of Weibull's distribution with m = 4
+    # moments of Weibull's distribution with m = 4
     variance = math.gamma(1.5) / math.gamma(1.25) ** 2 - 1.0
     assert drawn.strengths.std() == pytest.approx(math.sqrt(variance), rel=0.1)
 

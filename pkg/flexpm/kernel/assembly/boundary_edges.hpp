@@ -9,8 +9,8 @@
 
 namespace flexpm {
 
-/// Rows of the forces on a boundary edge: components on its first and on its second node, of the pressure and
-/// then of the plates.
+/// Rows of the forces on a boundary edge: components on its first and on its second node, of the
+/// pressure and then of the plates.
 struct EdgeRow {
     enum : int { of_pressure = 0, of_plates = 2 * dimension, count = 4 * dimension };
 };
@@ -43,8 +43,8 @@ struct BoundaryEdges {
         forces.resize(static_cast<std::size_t>(blocks()) * lanes * EdgeRow::count, 0.0);
     }
 
-    /// Index of the x component of the force on the first node, EdgeRow::of_pressure or of_plates, in `forces`; that
-    /// on the second node lies a node_stride further.
+    /// Index of the x component of the force on the first node, EdgeRow::of_pressure or of_plates,
+    /// in `forces`; that on the second node lies a node_stride further.
     static int force_index(int edge, int row) { return row_index(edge, row, EdgeRow::count); }
 
     /// Calls visit(name, member) for all members.

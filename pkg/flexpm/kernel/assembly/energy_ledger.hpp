@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The saved sums of an assembly's energy balance: works that only grow, and what was measured last.
+/// @file  The saved sums of an assembly's energy balance: works that only grow, and what was
+/// measured last.
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>
 
 namespace flexpm {
 
-/// Arrays hold one value or pair of values for each block of grains. Pairs are the work done so far and the second
-/// half of that of the last step, which belongs to the step that follows.
+/// Arrays hold one value or pair of values for each block of grains. Pairs are the work done so far
+/// and the second half of that of the last step, which belongs to the step that follows.
 struct EnergyLedger {
     Array<double> damping_work;  ///< [block][done, second half of the last step] [J]
-    /// The part of it that goes with the motion that damping leaves alone, positive where damping drags on that [J].
+    /// The part of it that goes with the motion that damping leaves alone, positive where damping
+    /// drags on that [J].
     Array<double> drag_work;
     Array<double> prescribed_work;  ///< the same of components with a given velocity [J]
     double pressure_work = 0.0;     ///< [J]
     double removed_damage = 0.0;    ///< dissipated by contacts that have been removed [J]
     double removed_friction = 0.0;  ///< [J]
-    /// Stored and in motion in grains and bonds when scripts erased them [J]; of the motion, what the half step
-    /// after the erasure adds follows with that step.
+    /// Stored and in motion in grains and bonds when scripts erased them [J]; of the motion, what
+    /// the half step after the erasure adds follows with that step.
     double erased = 0.0, erased_next = 0.0;
     double initial = 0.0;  ///< kinetic and elastic energy when the balance was last reset [J]
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Layout of the packed arrays: the values of `lanes` grains, contacts or edges lie side by side, one in each
-/// lane, row after row and block after block. Lanes that nothing fills repeat a real one, without effect.
+/// @file  Layout of the packed arrays: the values of `lanes` grains, contacts or edges lie side by
+/// side, one in each lane, row after row and block after block. Lanes that nothing fills repeat a
+/// real one, without effect.
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>
@@ -26,7 +27,8 @@ constexpr int axis_of(int index) { return index % node_stride / lanes; }
 /// Index into the arrays with one value per node, from a node's offset.
 constexpr int scalar_index(int node) { return (node + node % lanes) / dimension; }
 
-/// Index of a value of an item (grain's slot, contact, boundary edge) in an array with `rows` rows per block.
+/// Index of a value of an item (grain's slot, contact, boundary edge) in an array with `rows` rows
+/// per block.
 constexpr int row_index(int item, int row, int rows)
 {
     return (item / lanes * rows + row) * lanes + item % lanes;

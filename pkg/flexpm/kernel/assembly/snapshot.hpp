@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The assembly unpacked into plain rows, for files and pictures. Tension positive, SI units.
+/// @file  The assembly unpacked into plain rows, for files and pictures. Tension positive, SI
+/// units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -9,8 +10,8 @@
 
 namespace flexpm {
 
-/// Nodes grain after grain, triangles grain after grain, contacts in their order. Of what has been erased only the
-/// record is left.
+/// Nodes grain after grain, triangles grain after grain, contacts in their order. Of what has been
+/// erased only the record is left.
 struct Snapshot {
     std::vector<double> positions;   ///< [node][x, y] [m]
     std::vector<double> reference;   ///< [node][x, y] [m]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Arrays that start on a cache line, and the number of grains or contacts in a block of them.
+/// @file  Arrays that start on a cache line, and the number of grains or contacts in a block of
+/// them.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +9,12 @@
 
 namespace flexpm {
 
-/// Number of grains (and of contacts) in a block, which are stepped together, one in each lane. It is
-/// fixed, so that results do not depend on the instruction set chosen at run time.
+/// Number of grains (and of contacts) in a block, which are stepped together, one in each lane. It
+/// is fixed, so that results do not depend on the instruction set chosen at run time.
 constexpr int lanes = 8;
 
-/// Allocator that begins on a cache line, so that a block of eight doubles never straddles two of them.
+/// Allocator that begins on a cache line, so that a block of eight doubles never straddles two of
+/// them.
 template <class T> struct AlignedAllocator {
     using value_type = T;
     static constexpr std::align_val_t alignment { 64 };

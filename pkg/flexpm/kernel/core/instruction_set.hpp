@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Leaf functions compiled for several instruction sets, one of which is chosen at run time.
 ///
-/// Without contraction of products and sums all sets give the same bits. Only leaf functions are compiled
-/// more than once: whole sources compiled for a set would leave inline functions in it to the linker,
-/// which may take them for all.
+/// Without contraction of products and sums all sets give the same bits. Only leaf functions are
+/// compiled more than once: whole sources compiled for a set would leave inline functions in it to
+/// the linker, which may take them for all.
 #pragma once
 
 #include <vector>
@@ -31,8 +31,8 @@ inline InstructionSet instruction_set() { return detail::in_use; }
 /// @throws std::invalid_argument  if this machine does not have it
 void use_instruction_set(InstructionSet set);
 
-/// One function, compiled for each set. `WideBody` takes its place where one register holds a row of
-/// eight values. Both are FLEXPM_INLINE and become part of the functions here.
+/// One function, compiled for each set. `WideBody` takes its place where one register holds a row
+/// of eight values. Both are FLEXPM_INLINE and become part of the functions here.
 template <auto Body, auto WideBody = Body> struct Variants;
 
 template <class Result, class... Arguments, Result (*Body)(Arguments...),

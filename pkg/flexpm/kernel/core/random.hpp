@@ -7,8 +7,8 @@
 
 namespace flexpm {
 
-/// Generator of random numbers from the standard's engine. Its distributions are not used, because they
-/// differ between libraries.
+/// Generator of random numbers from the standard's engine. Its distributions are not used, because
+/// they differ between libraries.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine(seed) { }

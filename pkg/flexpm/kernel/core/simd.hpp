@@ -26,9 +26,9 @@ FLEXPM_INLINE void transpose(const double* from, int rows, double* to, int colum
     *column(3) = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-/// Rows of x and of y of eight pairs at(0) to at(7). Rows that one register holds are stored at once: a
-/// load of such a row would wait for two halves on their way to the cache. Without such registers the
-/// compiler would store them value by value.
+/// Rows of x and of y of eight pairs at(0) to at(7). Rows that one register holds are stored at
+/// once: a load of such a row would wait for two halves on their way to the cache. Without such
+/// registers the compiler would store them value by value.
 template <bool Wide, class Pair> FLEXPM_INLINE void unzip(Pair&& at, double* to)
 {
     Four x[2], y[2];

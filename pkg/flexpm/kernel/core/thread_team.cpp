@@ -13,7 +13,8 @@ namespace flexpm {
 
 namespace {
 
-/// Looks before a waiting thread sleeps, about 0.1 ms: longer than YADE's other engines take between two steps.
+/// Looks before a waiting thread sleeps, about 0.1 ms: longer than YADE's other engines take
+/// between two steps.
 constexpr int looks = 2000;
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Threads that share one piece of work and wait for each other without keeping a core that others need.
+/// @file  Threads that share one piece of work and wait for each other without keeping a core that
+/// others need.
 ///
-/// A step takes a few tenths of a millisecond and its threads meet several times in it, so a thread that waits looks
-/// again and again for a while: to sleep and to be woken takes longer than most waits. The while is bounded: where other
-/// programs use the cores, the thread waited for may have none, and gets one when the waiting thread sleeps.
+/// A step takes a few tenths of a millisecond and its threads meet several times in it, so a thread
+/// that waits looks again and again for a while: to sleep and to be woken takes longer than most
+/// waits. The while is bounded: where other programs use the cores, the thread waited for may have
+/// none, and gets one when the waiting thread sleeps.
 #pragma once
 
 #include <atomic>
@@ -29,7 +31,8 @@ public:
 
     int size() const { return members; }
 
-    /// Let each thread do its part of the work, and return when all have done it. The caller is thread 0.
+    /// Let each thread do its part of the work, and return when all have done it. The caller is
+    /// thread 0.
     void run(const Work& work);
 
     /// Wait within run() until all threads have come here.
@@ -48,8 +51,8 @@ private:
     std::vector<std::thread> threads;
 };
 
-/// The team of the calling thread, made at the first call and made again for another size. A process that was forked
-/// makes its own, since it has no thread but the one that forked it.
+/// The team of the calling thread, made at the first call and made again for another size. A
+/// process that was forked makes its own, since it has no thread but the one that forked it.
 ThreadTeam& team_of(int size);
 
 }  // namespace flexpm

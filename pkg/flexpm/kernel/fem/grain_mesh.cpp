@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Choice between the template at each start, flipped edges and a fan, by the smallest angle.
+/// @file  Choice between the template at each start, flipped edges and a fan, by the smallest
+/// angle.
 #include <flexpm/kernel/fem/grain_mesh.hpp>
 
 #include <flexpm/kernel/core/require.hpp>

@@ -19,8 +19,9 @@ MeshTemplate fan(int v)
     return t;
 }
 
-/// Template of a triangle. A half-size triangle with one edge merged would put the centre on the ring.
-/// Instead there are two inner nodes, half way from the centre to the middles of the first two edges.
+/// Template of a triangle. A half-size triangle with one edge merged would put the centre on the
+/// ring. Instead there are two inner nodes, half way from the centre to the middles of the first
+/// two edges.
 MeshTemplate refined_triangle()
 {
     constexpr int c = 3, p0 = 4, p1 = 5;

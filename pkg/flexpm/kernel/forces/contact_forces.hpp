@@ -6,8 +6,8 @@
 
 namespace flexpm {
 
-/// Update the contact blocks from `first` to before `end` over a step `dt`, at the positions reached at
-/// its end.
+/// Update the contact blocks from `first` to before `end` over a step `dt`, at the positions
+/// reached at its end.
 void update_contact_blocks(Assembly& a, int first, int end, double dt);
 
 }  // namespace flexpm

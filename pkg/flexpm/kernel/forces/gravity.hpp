@@ -7,8 +7,8 @@
 
 namespace flexpm {
 
-/// Set the acceleration that acts on all masses [m/s^2]. What this changes in the potential energy of
-/// an assembly that has moved counts as initial energy.
+/// Set the acceleration that acts on all masses [m/s^2]. What this changes in the potential energy
+/// of an assembly that has moved counts as initial energy.
 /// @throws std::invalid_argument  if a component is not finite
 void set_gravity(Assembly& a, Point acceleration);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Forces of contacts and boundary edges on the nodes of the grains, paper Eqs. 18-19, summed in
-/// a fixed order, so that results do not depend on the number of threads.
+/// @file  Forces of contacts and boundary edges on the nodes of the grains, paper Eqs. 18-19,
+/// summed in a fixed order, so that results do not depend on the number of threads.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Prefetching: memory is asked for some time before it is read, where a step's arrays exceed the caches. It is
-/// asked for bit by bit between computations: a core can wait for few lines at once.
+/// @file  Prefetching: memory is asked for some time before it is read, where a step's arrays
+/// exceed the caches. It is asked for bit by bit between computations: a core can wait for few
+/// lines at once.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -16,7 +17,8 @@ template <class T> FLEXPM_INLINE void prefetch_rows(const T* first, int count)
         __builtin_prefetch(first + i);
 }
 
-/// Rows to ask for before each block of contacts; none if the caches keep until the next step what one reads.
+/// Rows to ask for before each block of contacts; none if the caches keep until the next step what
+/// one reads.
 PrefetchLists list_prefetches(const Grains& grains, const Contacts& contacts);
 
 /// Ask for what a block of contacts gathers from the nodes of its grains.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sides of a specimen: nodes of prescribed velocity, reactions, mean displacements, pressure,
-/// paper Sec. 4.1. Components: 0 = x, 1 = y.
+/// @file  Sides of a specimen: nodes of prescribed velocity, reactions, mean displacements,
+/// pressure, paper Sec. 4.1. Components: 0 = x, 1 = y.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -21,15 +21,16 @@ bool is_on_side(const Assembly& a, int edge, int side);
 /// Whether any does.
 bool has_edges(const Assembly& a, int side);
 
-/// Offsets of the nodes on one side of the outline, ascending, each once; not those of erased grains.
+/// Offsets of the nodes on one side of the outline, ascending, each once; not those of erased
+/// grains.
 /// @throws std::invalid_argument  as require_side()
 std::vector<int> side_nodes(const Assembly& a, int side);
 
 /// Prescribe one velocity component of the nodes [m/s].
 void prescribe(Assembly& a, const std::vector<int>& nodes, int axis, double velocity);
 
-/// After velocities were prescribed between two steps: what the present forces work in the half step
-/// that follows goes with the new velocities, see integrate_one().
+/// After velocities were prescribed between two steps: what the present forces work in the half
+/// step that follows goes with the new velocities, see integrate_one().
 void update_prescribed_work(Assembly& a, double dt);
 
 /// Integrate the component again, from the velocity it has.
@@ -38,21 +39,24 @@ void release(Assembly& a, const std::vector<int>& nodes, int axis);
 /// Force that the holder exerts on the nodes [N]: minus the sum of the nodal forces.
 double reaction(const Assembly& a, const std::vector<int>& nodes, int axis);
 
-/// Mean displacement of a side, weighted by edge length, where nodes move so, in the layout of Grains::displacement [m].
+/// Mean displacement of a side, weighted by edge length, where nodes move so, in the layout of
+/// Grains::displacement [m].
 double side_displacement(const Assembly& a, int side, int axis, const Array<double>& moved);
 
 /// Reference length of a boundary edge [m].
 double edge_length(const Assembly& a, int edge);
 
-/// Reference length of a side, with the edges of erased grains: stresses refer to the whole specimen [m].
+/// Reference length of a side, with the edges of erased grains: stresses refer to the whole
+/// specimen [m].
 double side_length(const Assembly& a, int side);
 
-/// Pressure on a side, on the deformed edges, compressive positive [Pa]. It acts on grains that are not loose.
+/// Pressure on a side, on the deformed edges, compressive positive [Pa]. It acts on grains that are
+/// not loose.
 /// @throws std::invalid_argument  if no boundary edge lies on the side, or the pressure is below 0
 void set_pressure(Assembly& a, int side, double pressure);
 
-/// Update the pressure forces on block `block` of boundary edges, at the positions reached at the end of
-/// the step `dt`; returns their work [J].
+/// Update the pressure forces on block `block` of boundary edges, at the positions reached at the
+/// end of the step `dt`; returns their work [J].
 double update_edge_block(Assembly& a, int block, double dt);
 
 }  // namespace flexpm

@@ -29,8 +29,8 @@ void require_sound(const Disc& disc, const std::string& name)
 void require_discs_inside(const std::vector<Disc>& discs, const Outline& outline)
 {
     if (discs.empty()) refuse("tessellate: discs", 0.0, "", "must be >= 1; give at least one disc");
-    // the square of a larger radius leaves no digits for places inside the outline, and centres that a smaller one
-    // tells apart have too few digits between them
+    // the square of a larger radius leaves no digits for places inside the outline, and centres
+    // that a smaller one tells apart have too few digits between them
     const double size = bounding_circle(outline).radius;
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const Disc& d = discs[i];

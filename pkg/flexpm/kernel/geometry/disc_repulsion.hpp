@@ -22,8 +22,8 @@ struct PairPush {
     Point push;            ///< force on the second disc, the first takes the opposite; 0 if apart
 };
 
-/// Push between the discs at `first` and `second`. The order of operations is that of YADE's spheres, to
-/// the last bit, so that a packing does not depend on which of the two computed it.
+/// Push between the discs at `first` and `second`. The order of operations is that of YADE's
+/// spheres, to the last bit, so that a packing does not depend on which of the two computed it.
 inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
 {
     const Point apart = second - first;

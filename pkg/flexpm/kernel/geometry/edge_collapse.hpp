@@ -14,7 +14,8 @@ namespace flexpm {
 ///
 /// @param smallest  smallest area of a triangle (centroid, edge) of a changed cell; a small
 ///                  negative value lets edges of zero length go one by one
-/// @param seen_from_any  a changed cell is sound, too, if a point other than its centroid sees all its edges
+/// @param seen_from_any  a changed cell is sound, too, if a point other than its centroid sees all
+///         its edges
 /// @return          for each vertex, whether a collapsed edge ended in it
 std::vector<bool> collapse_edges(PowerDiagram& diagram, const Outline& outline, double threshold,
     double smallest, bool seen_from_any = false);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Lloyd's relaxation: each seed moves to the centroid of its power cell, and weights make the
-/// areas equal.
-/// The cells are not made by power_diagram(), because that function needs a convex outline and a grain
-/// is only star-shaped. Here each cell starts as the whole grain and every other seed cuts it once.
-/// This works for any polygon and is quick for the few seeds of a grain.
+/// @file  Lloyd's relaxation: each seed moves to the centroid of its power cell, and weights make
+/// the areas equal. The cells are not made by power_diagram(), because that function needs a convex
+/// outline and a grain is only star-shaped. Here each cell starts as the whole grain and every
+/// other seed cuts it once. This works for any polygon and is quick for the few seeds of a grain.
 #include <flexpm/kernel/geometry/lloyd.hpp>
 
 #include <flexpm/kernel/geometry/polygon.hpp>
@@ -58,7 +57,8 @@ std::vector<Point> first_seeds(const std::vector<Point>& polygon, int count)
     return seeds;
 }
 
-/// Cut a cell down to where `offset + slope . x` is not positive; beyond the new edge lies `beyond`.
+/// Cut a cell down to where `offset + slope . x` is not positive; beyond the new edge lies
+/// `beyond`.
 void clip(Cell& cell, Point slope, double offset, Beyond beyond, Cell& scratch)
 {
     const auto value = [&](Point p) { return dot(slope, p) + offset; };

@@ -33,8 +33,8 @@ struct InnerPacking {
     std::vector<std::vector<InnerCorner>> cells;  ///< counter-clockwise
 };
 
-/// Relax seeds until the areas of their cells agree to 1 % of the mean, in most polygons much better.
-/// The result depends on the polygon and the count alone.
+/// Relax seeds until the areas of their cells agree to 1 % of the mean, in most polygons much
+/// better. The result depends on the polygon and the count alone.
 /// @param polygon  counter-clockwise, star-shaped
 InnerPacking relax_seeds(const std::vector<Point>& polygon, int count);
 

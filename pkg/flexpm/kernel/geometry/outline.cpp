@@ -54,8 +54,8 @@ Chord clip_by_polygon(const Outline& outline, Point on_axis, Point direction)
         on_side(outline, side1, on_axis, direction) };
 }
 
-/// Size and place of an outline [m]: beyond them squares of lengths overflow, or coordinates lose the digits in which
-/// cells differ.
+/// Size and place of an outline [m]: beyond them squares of lengths overflow, or coordinates lose
+/// the digits in which cells differ.
 constexpr double least_size = 1e-9, largest_size = 1e9, farthest = 1e6;
 
 Outline with_checked_size(const Outline& outline)

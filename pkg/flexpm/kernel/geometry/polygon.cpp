@@ -6,8 +6,8 @@ namespace flexpm {
 
 namespace {
 
-/// Call visit(a, b, twice) for the triangle of `from` and each edge: the edge's ends relative to `from`
-/// and twice the triangle's area.
+/// Call visit(a, b, twice) for the triangle of `from` and each edge: the edge's ends relative to
+/// `from` and twice the triangle's area.
 template <class Visit>
 void for_each_triangle(const std::vector<Point>& polygon, Point from, Visit visit)
 {

@@ -13,8 +13,8 @@ inline double power(Point p, const Disc& d)
     return dot(from, from) - d.radius * d.radius;
 }
 
-/// Point of equal power of three discs. Coordinates are relative to the first disc, so that no digits
-/// are lost far from the origin.
+/// Point of equal power of three discs. Coordinates are relative to the first disc, so that no
+/// digits are lost far from the origin.
 inline Point radical_centre(const Disc& a, const Disc& b, const Disc& c)
 {
     const Point to_b = b.centre - a.centre, to_c = c.centre - a.centre;

@@ -97,7 +97,8 @@ int next_of(const std::vector<Corner>& cell, std::size_t k)
     return cell[(k + 1) % cell.size()].vertex;
 }
 
-/// Make the ends of each edge that two cells of a grain share the same vertices, and remove short edges.
+/// Make the ends of each edge that two cells of a grain share the same vertices, and remove short
+/// edges.
 void join_inside(Builder& b)
 {
     for (int i = 0; i < static_cast<int>(b.cells.size()); ++i) {

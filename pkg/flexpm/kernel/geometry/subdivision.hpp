@@ -14,8 +14,8 @@ namespace flexpm {
 /// Mean number of inner particles in a grain, paper Sec. 4.1.
 constexpr double inner_particles = 26.0;
 
-/// The cells of all inner particles as one tessellation. Along the edge between two grains, cells meet
-/// wherever they face each other: each stretch that two of them share is a shared edge.
+/// The cells of all inner particles as one tessellation. Along the edge between two grains, cells
+/// meet wherever they face each other: each stretch that two of them share is a shared edge.
 struct InnerCells {
     Tessellation cells;
     std::vector<Disc> discs;          ///< one per cell, of its area

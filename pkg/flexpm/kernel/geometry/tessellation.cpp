@@ -121,7 +121,7 @@ Tessellation tessellate(
             refuse("tessellate: discs", static_cast<double>(discs.size()), "",
                 "must be enough to span an area in a circle; add discs or use a polygon");
         }
-        // of discs in nearly one place some may keep no area
+        // some discs in nearly one place may keep no area
         if (!any || is_sliver || (cell.empty() && !options.allow_hidden)) hidden.push_back(i);
     }
     if (!hidden.empty()) refuse_hidden(discs, hidden);

@@ -19,7 +19,8 @@ void check(const CrackWaitRule& rule)
     check_positive("steps of a crossing", rule.crossing, "");
 }
 
-/// Part of the fastest velocity that suits what is dissipated [-]. Without a stress all that is dissipated counts.
+/// Part of the fastest velocity that suits what is dissipated [-]. Without a stress all that is
+/// dissipated counts.
 double wanted_part(const CrackWatch& seen, const CrackWaitRule& rule)
 {
     const double allowed = (seen.has_fallen() ? rule.share_after_peak : rule.running_share)

@@ -53,4 +53,9 @@ double ramp_factor(std::int64_t step, int ramp_steps)
     return part * part * part * (10.0 - 15.0 * part + 6.0 * part * part);
 }
 
+double ramped(double start, double full, std::int64_t done, int ramp_steps)
+{
+    return start + (full - start) * ramp_factor(done, ramp_steps);
+}
+
 }  // namespace flexpm

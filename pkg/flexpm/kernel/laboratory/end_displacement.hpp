@@ -21,4 +21,7 @@ void move_top(Assembly& a, double velocity);
 /// x of its steps done 10 x^3 - 15 x^4 + 6 x^5.
 double ramp_factor(std::int64_t step, int ramp_steps);
 
+/// Load of the coming step that goes from `start` to `full` in this way, `done` steps after it was asked for.
+double ramped(double start, double full, std::int64_t done, int ramp_steps);
+
 }  // namespace flexpm

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  End of a test: the one rule for grains and for the bonded spheres of a host program. SI units.
+/// @file  End of a test: the one rule for grains and for the bonded spheres of a host program. SI
+/// units.
 #pragma once
 
 #include <limits>
@@ -18,8 +19,8 @@ enum class TestState { running, past_peak, least_strain_reached, largest_strain_
 
 /// State of a test with these last readings, positive in the sense of the loading.
 ///
-/// @param stress  axial stress above the confinement [Pa]: a confined specimen that carries no more than the
-///                confinement has lost all of its strength
+/// @param stress  axial stress above the confinement [Pa]: a confined specimen that carries no more
+///                than the confinement has lost all of its strength
 /// @param peak    largest such stress so far [Pa]
 /// @param strain  axial strain [-]
 /// @throws std::invalid_argument  if not 0 <= stop_ratio <= 1, or a limit is no number

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Gauges on a specimen: how far two points move apart, how far a plate moves, or a section. SI units.
+/// @file  Gauges on a specimen: how far two points move apart, how far a plate moves, or a section.
+/// SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -13,9 +14,10 @@ struct GaugePoints {
     int first = -1, second = -1;
 };
 
-/// Nodes that are nearest to two places. Of two nodes that lie on each other, as on both sides of a notch, each place
-/// takes the one whose grain has its centre nearer to it than to the other place.
-/// @throws std::invalid_argument  if the places are one, or the specimen has no grain near one of them
+/// Nodes that are nearest to two places. Of two nodes that lie on each other, as on both sides of a
+/// notch, each place takes the one whose grain has its centre nearer to it than to the other place.
+/// @throws std::invalid_argument  if the places are one, or the specimen has no grain near one of
+///         them
 GaugePoints gauge_points(const Assembly& a, Point first, Point second);
 
 /// Distance of the points when bonded [m].
@@ -29,7 +31,8 @@ double plate_way(const Assembly& a, int plate, Point direction);
 /// @throws std::invalid_argument  as plate_way()
 double plate_rate(const Assembly& a, int plate, Point direction);
 
-/// How far the points move apart along a unit vector where nodes move so, in the layout of Grains::displacement [m].
+/// How far the points move apart along a unit vector where nodes move so, in the layout of
+/// Grains::displacement [m].
 /// @throws std::invalid_argument  if one of them is no node of the assembly
 double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Scales of a test: modulus, strength and the time of a wave, from which its loading rate and its default end
-/// follow, paper Sec. 4.1. They are functions of plain numbers, for grains and for the bonded spheres of a host
-/// program. SI units.
+/// @file  Scales of a test: modulus, strength and the time of a wave, from which its loading rate
+/// and its default end follow, paper Sec. 4.1. They are functions of plain numbers, for grains and
+/// for the bonded spheres of a host program. SI units.
 /// Deviation D5: the printed velocity of 6.25e-7 m/s is not metres per unit step; the rate follows
 /// from the slowest wave through the scaled masses.
 #pragma once
@@ -52,15 +52,16 @@ struct TestScales {
 };
 TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height);
 
-/// Scales of a disc between two plates, which close about four times as much as a strip of the disc's material
-/// strains under the recorded stress.
+/// Scales of a disc between two plates, which close about four times as much as a strip of the
+/// disc's material strains under the recorded stress.
 TestScales disc_scales(const ScaleInputs& inputs, double diameter);
 
-/// Least part of its fracture energies that damage takes at a contact's points [-]; 0 in the brittle limit.
+/// Least part of its fracture energies that damage takes at a contact's points [-]; 0 in the
+/// brittle limit.
 double damage_share(const LawParameters& law);
 
-/// The least between grains of one kind [-]; the rest is elastic energy that a contact has at its strength, which it
-/// releases.
+/// The least between grains of one kind [-]; the rest is elastic energy that a contact has at its
+/// strength, which it releases.
 double damage_share(const Assembly& a);
 
 /// The inputs of bonded grains, means over all of them; rigid grains have a contact_modulus().

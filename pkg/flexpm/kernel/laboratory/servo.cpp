@@ -14,7 +14,8 @@ namespace {
 constexpr double of_growth = 8.0, of_error = 8.0;
 /// Change of the slope in a crossing per unit of the error, over the growth of the set point [-].
 constexpr double of_slope = 2.0;
-/// Smallest factor over the largest: the motion of the loading is changed by a ratio, which needs one.
+/// Smallest factor over the largest: the motion of the loading is changed by a ratio, which needs
+/// one.
 constexpr double least = 1e-4;
 
 void check(const ServoRule& rule)
@@ -24,8 +25,8 @@ void check(const ServoRule& rule)
     check_positive("steps of a crossing", rule.crossing, "");
 }
 
-/// Within the limits of the rule and not 0. What is no number keeps the factor: the run has diverged, which is seen
-/// elsewhere.
+/// Within the limits of the rule and not 0. What is no number keeps the factor: the run has
+/// diverged, which is seen elsewhere.
 double limited(double wanted, double before, const ServoRule& rule)
 {
     if (!std::isfinite(wanted)) return before;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Servo of a loading, deviation D51: the velocity at which the ends must go, or go back, for a measure of the
-/// specimen to follow its set point. SI units; the derivation stands in the theory page.
+/// @file  Servo of a loading, deviation D51: the velocity at which the ends must go, or go back,
+/// for a measure of the specimen to follow its set point. SI units; the derivation stands in the
+/// theory page.
 ///
-/// A factor multiplies the slowest velocity of the ends, as in crack_wait.hpp. The measure's growth in a step along the
-/// elastic solution at the factor 1, `rate`, is the unit of its growths, and what it grows so while a wave crosses the
-/// specimen that of its errors.
+/// A factor multiplies the slowest velocity of the ends, as in crack_wait.hpp. The measure's growth
+/// in a step along the elastic solution at the factor 1, `rate`, is the unit of its growths, and
+/// what it grows so while a wave crosses the specimen that of its errors.
 #pragma once
 
 namespace flexpm {

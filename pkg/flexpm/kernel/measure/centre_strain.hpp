@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Mean strains of a rectangular specimen from the centres of its grains, for grains and for the bonded
-/// spheres of a host program, paper Sec. 4.1. Extension positive. SI units.
-/// Deviation D21: the axial strain is that between bands at a quarter and three quarters of the height, so
-/// that the contacts with plates do not count.
+/// @file  Mean strains of a rectangular specimen from the centres of its grains, for grains and for
+/// the bonded spheres of a host program, paper Sec. 4.1. Extension positive. SI units.
+/// Deviation D21: the axial strain is that between bands at a quarter and three quarters of the
+/// height, so that the contacts with plates do not count.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,8 @@ private:
 
 double strain_between(const Station& first, const Station& second);
 
-/// Whether a centre at this height above the bottom is within a mean diameter of `station`, another such height.
+/// Whether a centre at this height above the bottom is within a mean diameter of `station`, another
+/// such height.
 bool in_band(double above, double station, double mean_diameter);
 
 /// @throws std::invalid_argument  if the station at `height` above the bottom is empty

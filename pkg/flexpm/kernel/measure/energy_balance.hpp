@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sums over an assembly: energies, unbalanced force, cracks, and the search for bad numbers.
-/// All sums run in a fixed order.
+/// @file  Sums over an assembly: energies, unbalanced force, cracks, and the search for bad
+/// numbers. All sums run in a fixed order.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -9,8 +9,8 @@
 
 namespace flexpm {
 
-/// Energy balance at the last step [J]. What went in, boundary_work + initial, equals the sum of the
-/// others but for the discrete steps of the law.
+/// Energy balance at the last step [J]. What went in, boundary_work + initial, equals the sum of
+/// the others but for the discrete steps of the law.
 struct Energies {
     double kinetic = 0.0;  ///< 1/2 m v(n-1/2) v(n+1/2); of the last measured step
     double elastic = 0.0;  ///< triangles and contact points
@@ -18,7 +18,8 @@ struct Energies {
     double softened = 0.0;  ///< part of the damage: in points that have not cracked
     double friction = 0.0;
     double damping = 0.0;  ///< taken from what moves beyond the motion that damping leaves alone
-    /// Taken from that motion, of the loading and of the descent (D30, D55): below 0 what damping has given to it.
+    /// Taken from that motion, of the loading and of the descent (D30, D55): below 0 what damping
+    /// has given to it.
     double drag = 0.0;
     double potential = 0.0;      ///< in the field of gravity, 0 at the reference
     double erased = 0.0;         ///< has left with grains and bonds that scripts have erased
@@ -37,8 +38,9 @@ struct Dissipation {
 
 Dissipation dissipation(const Assembly& a);
 
-/// Power that local damping takes from what grains and loaded plates move beyond the velocities of the loading, by the
-/// forces and velocities of the last step [W, or J per unit step]. Waves that cracks send out feed it.
+/// Power that local damping takes from what grains and loaded plates move beyond the velocities of
+/// the loading, by the forces and velocities of the last step [W, or J per unit step]. Waves that
+/// cracks send out feed it.
 double damping_power(const Assembly& a, double damping);
 
 /// Start a new energy balance: the present energy becomes the initial energy, works and
@@ -60,8 +62,8 @@ struct CrackCount {
 };
 CrackCount count_cracks(const Assembly& a);
 
-/// Empty if all is well, else one line that names the step, the grain and the quantity that is not a
-/// finite number.
+/// Empty if all is well, else one line that names the step, the grain and the quantity that is not
+/// a finite number.
 std::string find_bad_number(const Assembly& a);
 
 }  // namespace flexpm

@@ -6,7 +6,8 @@
 
 namespace flexpm {
 
-/// Largest growth of the distance between the centres of two grains that were bonded to each other, whatever they do as one [m].
+/// Largest growth of the distance between the centres of two grains that were bonded to each other,
+/// whatever they do as one [m].
 struct Parting {
     double any = 0.0;       ///< of all pairs that are there
     double standing = 0.0;  ///< of those of which neither has come loose

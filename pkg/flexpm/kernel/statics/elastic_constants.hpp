@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Young's modulus and Poisson's ratio of a specimen by one static solve, paper Sec. 4.1. SI units.
+/// @file  Young's modulus and Poisson's ratio of a specimen by one static solve, paper Sec. 4.1. SI
+/// units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -12,8 +13,8 @@ struct ElasticConstants {
     double poissons_ratio;  ///< [-]
 };
 
-/// Test a rectangle in uniaxial tension (sides 0 bottom, 1 right, 2 top, 3 left): bottom and
-/// top nodes are held and moved axially (y) only. The modulus follows from the top's reaction over the
+/// Test a rectangle in uniaxial tension (sides 0 bottom, 1 right, 2 top, 3 left): bottom and top
+/// nodes are held and moved axially (y) only. The modulus follows from the top's reaction over the
 /// initial area, Poisson's ratio from the mean displacements of the left and right sides.
 ///
 /// @throws std::invalid_argument  if one of the four sides is missing

@@ -56,8 +56,8 @@ struct Term {
     double factor;
 };
 
-/// Numbers of the unknowns. Entries are those of Assembly::displacement, and behind them the rotation of each slot and
-/// of each node set.
+/// Numbers of the unknowns. Entries are those of Assembly::displacement, and behind them the
+/// rotation of each slot and of each node set.
 struct Unknowns {
     std::vector<Kind> kind;   ///< per entry
     std::vector<int> number;  ///< per entry that is unknown: its number

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Linear elastic equilibrium of a bonded assembly by one sparse direct solve, paper Sec. 4.1.
-/// SI units, tension positive.
+/// @file  Linear elastic equilibrium of a bonded assembly by one sparse direct solve, paper Sec.
+/// 4.1. SI units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -21,8 +21,8 @@ struct StaticSolution {
     Array<double> force;         ///< of triangles and contacts on the nodes [N]; reactions = -force
 };
 
-/// Displacements at which the nodal forces balance `loads` wherever nothing is prescribed. Node sets that float turn by
-/// their angle, as plates have their displacement.
+/// Displacements at which the nodal forces balance `loads` wherever nothing is prescribed. Node
+/// sets that float turn by their angle, as plates have their displacement.
 ///
 /// @param loads  forces from outside, layout of Assembly::displacement [N]; none if null
 /// @throws std::invalid_argument  if a number is not finite, an index names no component of a grain

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Linear stiffness of a bonded assembly: all contact points intact with full stiffness, small
-/// displacements from the bonded state, paper Sec. 2.5 (Eqs. 9-10, 18-19). SI units.
+/// @file  Linear stiffness of a bonded assembly: all contact points intact with full stiffness,
+/// small displacements from the bonded state, paper Sec. 2.5 (Eqs. 9-10, 18-19). SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

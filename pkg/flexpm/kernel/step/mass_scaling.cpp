@@ -48,8 +48,8 @@ void add_elements(const Grains& grains, int grain, Array<double>& bound)
     }
 }
 
-/// What one spring does to the degrees of freedom of a side: the forces on them per unit of its force,
-/// rotations counted as the grain's radius times the angle.
+/// What one spring does to the degrees of freedom of a side: the forces on them per unit of its
+/// force, rotations counted as the grain's radius times the angle.
 struct SpringSide {
     bool rigid = false;
     int grain = 0;
@@ -122,8 +122,8 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
     return own;
 }
 
-/// A rigid grain that nothing touches, or that no force turns, gets what one contact of half its size
-/// would ask for, so that its masses are finite.
+/// A rigid grain that nothing touches, or that no force turns, gets what one contact of half its
+/// size would ask for, so that its masses are finite.
 void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
 {
     if (!a.grains.is_rigid(grain) || a.grains.erased[grain]) return;

@@ -12,10 +12,10 @@ namespace flexpm {
 /// Margin s: at 1, nodes that no contact touches sit on the limit and grow.
 constexpr double mass_margin = 1.1;
 
-/// Upper bounds K_t of the stiffness: contacts by Eq. 21 with their full stiffness, so that breaking
-/// never lowers it, and elements by the row sums of the norms of the 2x2 blocks of the grain's
-/// stiffness. Rigid grains: row sums at the centre, rotations taken as the disc's radius times the
-/// angle, with the coupling of translation and rotation.
+/// Upper bounds K_t of the stiffness: contacts by Eq. 21 with their full stiffness, so that
+/// breaking never lowers it, and elements by the row sums of the norms of the 2x2 blocks of the
+/// grain's stiffness. Rigid grains: row sums at the centre, rotations taken as the disc's radius
+/// times the angle, with the coupling of translation and rotation.
 struct StiffnessBound {
     Array<double> node;      ///< [block][node][lane] [N/m]; of a rigid grain at the centre
     Array<double> rotation;  ///< [block][lane] of rigid grains [N m]
@@ -36,7 +36,7 @@ void scale_masses(Assembly& a, double damping, double dt = 1.0);
 /// Time step that keeps the present masses stable with the present contacts and plates [s].
 double stable_step(const Assembly& a, double damping);
 
-/// Of a grain as a whole: its cell, turning about the centroid.
+/// Mass of a grain as a whole: its cell, turning about the centroid.
 struct GrainMass {
     double mass = 0.0;     ///< [kg]
     double inertia = 0.0;  ///< [kg m^2]
@@ -46,8 +46,8 @@ GrainMass real_mass(const Assembly& a, int grain);
 /// Radius of a sphere that has the volume of a grain [m].
 double equal_sphere(const Assembly& a, int grain);
 
-/// Real masses: a third of each triangle's to its nodes; of a rigid grain those of the lamina of its
-/// cell, as if its mass centre were the disc's. Plates' are scaled. Returns stable_step().
+/// Real masses: a third of each triangle's to its nodes; of a rigid grain those of the lamina of
+/// its cell, as if its mass centre were the disc's. Plates' are scaled. Returns stable_step().
 double set_real_masses(Assembly& a, double damping);
 
 }  // namespace flexpm

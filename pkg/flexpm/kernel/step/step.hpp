@@ -3,7 +3,8 @@
 ///
 /// A step moves the nodes by their velocities, updates contacts, boundary pressure and elements at
 /// the new positions, and then integrates the velocities: positions and forces belong to step n,
-/// velocities to n + 1/2. Velocities set between two steps (prescribed nodes) therefore act at once.
+/// velocities to n + 1/2. Velocities set between two steps (prescribed nodes) therefore act at
+/// once.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -17,7 +18,8 @@ struct StepOptions {
     bool measure = false;  ///< also sum kinetic energy and largest unbalanced force
 };
 
-/// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been called
+/// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been
+///         called
 void step(Assembly& a, const StepOptions& options);
 
 /// Fill `shown_position` and keep it up to date from now on.

@@ -13,7 +13,8 @@ namespace flexpm {
 
 namespace {
 
-/// Whether the points of a contact lie at the ends and in the middle of an edge that both grains share as a whole.
+/// Whether the points of a contact lie at the ends and in the middle of an edge that both grains
+/// share as a whole.
 bool is_between_whole_edges(const Contacts& contacts, int contact)
 {
     for (int p = 0; p < 3; ++p) {

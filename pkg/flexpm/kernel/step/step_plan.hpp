@@ -6,9 +6,9 @@
 
 namespace flexpm {
 
-/// Build all of Assembly::plan but the positions that scripts are shown. Whoever makes or loads an assembly, or
-/// changes its contacts or edges, calls it before the next step; what elements add to the stiffness bound is kept if
-/// it is known.
+/// Build all of Assembly::plan but the positions that scripts are shown. Whoever makes or loads an
+/// assembly, or changes its contacts or edges, calls it before the next step; what elements add to
+/// the stiffness bound is kept if it is known.
 void prepare_step(Assembly& a);
 
 }  // namespace flexpm

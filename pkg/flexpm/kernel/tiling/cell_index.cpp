@@ -11,7 +11,8 @@ namespace flexpm {
 
 namespace {
 
-/// Side of a square over that of one which has the area of the box for each cell, and the most squares in a row.
+/// Side of a square over that of one which has the area of the box for each cell, and the most
+/// squares in a row.
 constexpr double square_share = 0.25;
 constexpr int most_squares = 4096;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Cells that are being cut, with what is found quickly: cells near a line, around a vertex, beside an edge.
+/// @file  Cells that are being cut, with what is found quickly: cells near a line, around a vertex,
+/// beside an edge.
 #pragma once
 
 #include <flexpm/kernel/tiling/planar_cells.hpp>
@@ -10,7 +11,8 @@
 
 namespace flexpm {
 
-/// Cells and their index. Loops and places change by its functions only, so that the index stays true.
+/// Cells and their index. Loops and places change by its functions only, so that the index stays
+/// true.
 class CellIndex {
 public:
     /// @param c  cells, none of which is empty; they must outlive the index
@@ -24,7 +26,8 @@ public:
     double longest_edge();                            ///< [m]
     double largest_cell() const { return diagonal; }  ///< upper bound of the diameter of a cell [m]
 
-    /// All cells that come within a distance of a straight segment, and some others; in their order.
+    /// All cells that come within a distance of a straight segment, and some others; in their
+    /// order.
     std::vector<int> near(Point a, Point b, double within) const;
     bool is_in_a_cell(Point p) const;
 

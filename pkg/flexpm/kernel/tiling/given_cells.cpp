@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Deviation D34: how near corners become one. What covers a place twice or not at all shows in the boundary: cells
-/// run counter-clockwise, so a boundary of one ring, with rings inside it for holes, encloses each place once.
+/// @file  Deviation D34: how near corners become one. What covers a place twice or not at all shows
+/// in the boundary: cells run counter-clockwise, so a boundary of one ring, with rings inside it
+/// for holes, encloses each place once.
 #include <flexpm/kernel/tiling/given_cells.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -63,7 +64,8 @@ void check_edges(const PlanarCells& cells)
     }
 }
 
-/// Cells from polygons with common vertices, divided where a corner of another cell lies on an edge.
+/// Cells from polygons with common vertices, divided where a corner of another cell lies on an
+/// edge.
 class Joiner {
 public:
     Joiner(const std::vector<Ring>& given, double tolerance_) : tolerance(tolerance_)

@@ -15,14 +15,16 @@ struct GivenCells {
         rings;  ///< corners of the outline, counter-clockwise, and of holes, clockwise [m]
 };
 
-/// Cells from polygons, corners in any sense. Corners closer than 1e-6 of the mean diameter become one vertex, a corner
-/// as close to an edge divides it (Deviation D34). A polygon whose edges are not all seen from one point is split.
-/// Polygons that lie inside of another one are grains within it: it goes around them in parts (Deviation D62).
+/// Cells from polygons, corners in any sense. Corners closer than 1e-6 of the mean diameter become
+/// one vertex, a corner as close to an edge divides it (Deviation D34). A polygon whose edges are
+/// not all seen from one point is split. Polygons that lie inside of another one are grains within
+/// it: it goes around them in parts (Deviation D62).
 ///
 /// The outline's sides begin at its lowest corner, of these the one furthest left.
 ///
 /// @param with_holes  whether the tiling may have holes
-/// @throws std::invalid_argument  for a polygon that crosses itself, polygons that overlap, or a gap between them
+/// @throws std::invalid_argument  for a polygon that crosses itself, polygons that overlap, or a
+///         gap between them
 GivenCells cells_of_polygons(const std::vector<std::vector<Point>>& polygons, bool with_holes);
 
 /// Cells as a file holds them.

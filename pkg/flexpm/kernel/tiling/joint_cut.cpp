@@ -17,7 +17,8 @@ namespace flexpm {
 
 namespace {
 
-/// Take out vertices on a straight edge between two cells that have the same joint on both sides of the vertex.
+/// Take out vertices on a straight edge between two cells that have the same joint on both sides of
+/// the vertex.
 void remove_idle_vertices(CellIndex& index, std::size_t first)
 {
     PlanarCells& cells = index.cells;

@@ -128,7 +128,8 @@ void add_crossing(const PlanarCells& cells, VertexPair edge, const LongLine& lin
     const Point u = cells.vertices[edge.first], e = cells.vertices[edge.second] - u;
     const Point a = line.from(k), b = line.from(k + 1), w = b - a;
     const double of_u = cross(w, u - a), of_v = cross(w, u + e - a);
-    // the first end of a segment belongs to it, the last to the next, which must have the same numbers
+    // the first end of a segment belongs to it, the last to the next, which must have the same
+    // numbers
     const double of_a = cross(e, a - u), of_b = cross(e, b - u);
     if (!((of_u > 0.0) != (of_v > 0.0) && (of_a >= 0.0) != (of_b >= 0.0))) return;
     const double share = of_u / (of_u - of_v);
@@ -215,7 +216,8 @@ private:
     double mean_area;
     const std::set<VertexPair>& own;
 
-    /// A vertex on a side or on a straight joint goes to where the line crosses it; a corner has no such place.
+    /// A vertex on a side or on a straight joint goes to where the line crosses it; a corner has no
+    /// such place.
     bool stays_on_rail(int vertex, Point way, Point& target) const
     {
         std::vector<VertexPair> on_side;
@@ -267,8 +269,8 @@ private:
     }
 };
 
-/// Make vertices of the crossings among the nodes that are needed. Several may lie on one edge; closer together than
-/// `least` they are one vertex, as where a line turns back onto itself.
+/// Make vertices of the crossings among the nodes that are needed. Several may lie on one edge;
+/// closer together than `least` they are one vertex, as where a line turns back onto itself.
 void insert_crossings(
     CellIndex& index, std::vector<Node>& nodes, const std::vector<bool>& needed, double least)
 {

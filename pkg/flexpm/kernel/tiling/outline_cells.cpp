@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Deviation D31: a packing of the box around the outline is clipped; grains on it are cut, as by a saw.
+/// @file  Deviation D31: a packing of the box around the outline is clipped; grains on it are cut,
+/// as by a saw.
 #include <flexpm/kernel/tiling/outline_cells.hpp>
 
 #include <flexpm/kernel/core/require.hpp>

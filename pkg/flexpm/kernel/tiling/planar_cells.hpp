@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Cells as loops over common vertices, while they are clipped, merged, split and cut. SI units.
+/// @file  Cells as loops over common vertices, while they are clipped, merged, split and cut. SI
+/// units.
 #pragma once
 
 #include <flexpm/kernel/geometry/cells.hpp>
@@ -22,8 +23,8 @@ inline VertexPair undirected(int u, int v)
     return u < v ? VertexPair { u, v } : VertexPair { v, u };
 }
 
-/// Parts of the area and of the diameter of a mean cell below which a piece is a sliver, and the smallest angle that a
-/// cut leaves [rad]: 5 degrees. Deviations D33 and D35.
+/// Parts of the area and of the diameter of a mean cell below which a piece is a sliver, and the
+/// smallest angle that a cut leaves [rad]: 5 degrees. Deviations D33 and D35.
 constexpr double least_piece = 0.02;
 constexpr double least_width = 0.15;
 constexpr double least_angle = 0.087266462599716474;
@@ -70,8 +71,8 @@ std::vector<Point> polygon_of(const PlanarCells& cells, const Loop& loop);
 
 PlanarCells planar_cells(const Tessellation& tessellation);
 
-/// Numbered cells, vertices in the order of their use. A cell that is whole keeps the disc of its grain; others take
-/// their reference point and the radius of a disc of their area.
+/// Numbered cells, vertices in the order of their use. A cell that is whole keeps the disc of its
+/// grain; others take their reference point and the radius of a disc of their area.
 Tiling make_tiling(const PlanarCells& cells, const std::vector<Disc>& discs);
 
 /// The area that the outline of all cells encloses [m^2].

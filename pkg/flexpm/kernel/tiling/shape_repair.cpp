@@ -99,7 +99,8 @@ int reflex_corners(const std::vector<Point>& p)
     return count;
 }
 
-/// How well a part is seen: its clearance in radii of equal area, or below zero the corners that hide.
+/// How well a part is seen: its clearance in radii of equal area, or below zero the corners that
+/// hide.
 double visibility(const std::vector<Point>& part)
 {
     const Disc disc = disc_of_area(part);

@@ -8,9 +8,8 @@
 
 namespace flexpm {
 
-/// Pairs of grains that are there, whose discs are less than `margin` apart and that no contact holds,
-/// ascending. They follow
-/// from the positions alone, so a loaded state finds the same pairs.
+/// Pairs of grains that are there, whose discs are less than `margin` apart and that no contact
+/// holds, ascending. They follow from the positions alone, so a loaded state finds the same pairs.
 std::vector<GrainPair> near_pairs(const Assembly& a, double margin);
 
 /// The same pairs again and again while grains move little: pairs of a wider margin are kept and

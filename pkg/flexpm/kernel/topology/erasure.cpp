@@ -62,8 +62,8 @@ double power_of(const Assembly& a, int contact)
     return power;
 }
 
-/// Power of the forces of loaded plates on these [W]. Plates whose velocity is given count the work of a
-/// step in that step.
+/// Power of the forces of loaded plates on these [W]. Plates whose velocity is given count the work
+/// of a step in that step.
 double power_on_plates(const Assembly& a)
 {
     double power = 0.0;

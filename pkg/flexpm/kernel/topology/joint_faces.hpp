@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Faces of joints that slide: which part of a face lies opposite to which now. SI units.
 ///
-/// The cut of a joint gives each grain beside it edges that are faces of the joint. A contact begins between the two faces
-/// that came from one edge. As the sides slide, contacts that have cracked get the parts of faces that lie opposite to each
-/// other now, with their area, and take over tractions and slip from those that were there.
-/// Deviation D54: the opening is that between the faces as they lie; what this changes in stored energy is friction.
+/// The cut of a joint gives each grain beside it edges that are faces of the joint. A contact
+/// begins between the two faces that came from one edge. As the sides slide, contacts that have
+/// cracked get the parts of faces that lie opposite to each other now, with their area, and take
+/// over tractions and slip from those that were there.
+/// Deviation D54: the opening is that between the faces as they lie; what this changes in stored
+/// energy is friction.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -41,8 +43,8 @@ struct FacePairing {
     bool empty() const { return contacts.empty() && ended.empty(); }
 };
 
-/// Pairs of all faces on the joints where an end of a contact has come to lie elsewhere by more than a small part of a
-/// face. Faces of contacts that have not cracked keep their partners.
+/// Pairs of all faces on the joints where an end of a contact has come to lie elsewhere by more
+/// than a small part of a face. Faces of contacts that have not cracked keep their partners.
 FacePairing pair_faces(const Assembly& a);
 
 }  // namespace flexpm

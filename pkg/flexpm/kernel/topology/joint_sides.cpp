@@ -34,8 +34,8 @@ Sides sides_by_edges(const Contacts& contacts, int joint)
     return outward;
 }
 
-/// Sides of the grains that have no more than a corner on a joint. They are those of the neighbours with which they share
-/// an edge from there. What lies before the end of a joint is on no side.
+/// Sides of the grains that have no more than a corner on a joint. They are those of the neighbours
+/// with which they share an edge from there. What lies before the end of a joint is on no side.
 Sides sides_by_corners(
     const Contacts& contacts, const Tessellation& t, int joint, const Sides& by_edges)
 {
@@ -63,8 +63,8 @@ Sides sides_by_corners(
     return outward;
 }
 
-/// Where a grain lies that has no part in a joint: the distance of its centre from the joint's nearest edge and the unit normal of
-/// that, away from the grain.
+/// Where a grain lies that has no part in a joint: the distance of its centre from the joint's
+/// nearest edge and the unit normal of that, away from the grain.
 struct Behind {
     double distance = -1.0;  ///< [m]; below 0: before the ends of the joint
     Point outward;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Grains that have come loose from a specimen, deviation D57: what presses on its sides presses on them no more.
+/// @file  Grains that have come loose from a specimen, deviation D57: what presses on its sides
+/// presses on them no more.
 ///
-/// A pressure follows the edges that it acts on. On a grain that has lost its contacts it would go on to act, also once the grain
-/// has turned round, and drive it away as a rocket; the skin of a specimen in a cell does nothing of the kind.
+/// A pressure follows the edges that it acts on. On a grain that has lost its contacts it would go
+/// on to act, also once the grain has turned round, and drive it away as a rocket; the skin of a
+/// specimen in a cell does nothing of the kind.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 
 namespace flexpm {
 
-/// Find the grains that no chain of contacts, bonded or touching, joins to what is held: nodes whose velocity is given, and grains
-/// that touch a plate which moves at a given velocity. Where nothing is held, to the largest group of grains. Without any pressure
-/// none is loose.
+/// Find the grains that no chain of contacts, bonded or touching, joins to what is held: nodes
+/// whose velocity is given, and grains that touch a plate which moves at a given velocity. Where
+/// nothing is held, to the largest group of grains. Without any pressure none is loose.
 void find_loose(Assembly& a);
 
 }  // namespace flexpm

@@ -18,7 +18,8 @@ struct PlateContact {
 /// Lay plates on a straight side of the outline, side by side and of equal width: one for a platen,
 /// several for a membrane. An edge belongs to the plate that its middle lies on.
 /// Returns the numbers of the new plates. Masses must be scaled again afterwards.
-/// @throws std::invalid_argument  if the side has no edges, a plate or held nodes lie there, or a value is out of range
+/// @throws std::invalid_argument  if the side has no edges, a plate or held nodes lie there, or a
+///         value is out of range
 std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateContact& contact);
 
 /// Lay a plate against the specimen from outside, `normal` pointing inwards: it touches the
@@ -32,21 +33,23 @@ struct Patch {
     Point normal;         ///< into the specimen; zero: that of the nearest edge
 };
 
-/// Lay a plate against a part of the outline: a support, a roller, a platen that is narrower than the side. It touches
-/// the outermost point of the part. An edge that lies on the part in part has that part of its area, divided between
-/// its ends so that an even pressure acts at the middle of the part. Returns its number; masses must be scaled again.
-/// @throws std::invalid_argument  if no edge of the outline faces the part, the place is off it, the plate is longer than
-///                                its side, a plate or held nodes lie there, or a value is out of range
+/// Lay a plate against a part of the outline: a support, a roller, a platen that is narrower than
+/// the side. It touches the outermost point of the part. An edge that lies on the part in part has
+/// that part of its area, divided between its ends so that an even pressure acts at the middle of
+/// the part. Returns its number; masses must be scaled again.
+/// @throws std::invalid_argument  if no edge of the outline faces the part, the place is off it,
+///                                the plate is longer than its side, a plate or held nodes lie
+///                                there, or a value is out of range
 int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact);
 
-/// Number of the plate that these would lay, if it has been laid before; -1 if not. A stiffness of its own is not looked
-/// at.
+/// Number of the plate that these would lay, if it has been laid before; -1 if not. A stiffness of
+/// its own is not looked at.
 /// @throws std::invalid_argument  as they do
 int find_side_plate(const Assembly& a, int side, const PlateContact& contact);
 int find_patch_plate(const Assembly& a, const Patch& patch, const PlateContact& contact);
 
-/// Keep the first point that the plate touches from sliding along it: the node of a deformable grain, or
-/// the centre of a rigid one. A disc that stands on single points would roll.
+/// Keep the first point that the plate touches from sliding along it: the node of a deformable
+/// grain, or the centre of a rigid one. A disc that stands on single points would roll.
 void fix_tangential(Assembly& a, int plate);
 
 /// Lay a plate through `position`, apart from the specimen, that any grain may come to touch: its

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Where the discs of two grains touch, and on which edges of their cells a contact acts there, paper Sec. 2.3
-/// and Eqs. 5-8. SI units.
+/// @file  Where the discs of two grains touch, and on which edges of their cells a contact acts
+/// there, paper Sec. 2.3 and Eqs. 5-8. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/contacts.hpp>

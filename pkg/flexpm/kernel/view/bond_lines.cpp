@@ -10,7 +10,8 @@ namespace flexpm {
 
 namespace {
 
-/// Where the parts of one, two and three points end along the edge: Lobatto's weights, Table 2 of Sec. 2.4.
+/// Where the parts of one, two and three points end along the edge: Lobatto's weights, Table 2 of
+/// Sec. 2.4.
 constexpr double parts[3][4] = { { 0.0, 1.0, 1.0, 1.0 }, { 0.0, 0.5, 1.0, 1.0 },
     { 0.0, 1.0 / 6.0, 5.0 / 6.0, 1.0 } };
 

@@ -11,7 +11,8 @@ struct Line {
     Point to;    ///< [m]
 };
 
-/// Part of a contact's edge that a point stands for, where displacements are drawn `factor` times larger.
+/// Part of a contact's edge that a point stands for, where displacements are drawn `factor` times
+/// larger.
 Line point_line(const Assembly& a, int contact, int point, double factor);
 
 /// Between the centres of both grains, likewise.

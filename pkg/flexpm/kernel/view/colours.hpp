@@ -22,11 +22,12 @@ struct ValueRange {
 /// Range of all finite values; 0 to 0 without any.
 ValueRange range_of(const std::vector<double>& values);
 
-/// Colour of a value: viridis from the low end to the high one; what lies beyond has the colour of the end. Grey
-/// for nan.
+/// Colour of a value: viridis from the low end to the high one; what lies beyond has the colour of
+/// the end. Grey for nan.
 Colour colour_of(double value, ValueRange range);
 
-/// Colour of a kind, by its number: pale for 0, then one of seven that stay apart for colour-blind eyes.
+/// Colour of a kind, by its number: pale for 0, then one of seven that stay apart for colour-blind
+/// eyes.
 Colour colour_of_kind(int number);
 
 }  // namespace flexpm

@@ -45,7 +45,7 @@ double area_of(const Grains& grains, int grain)
     return polygon_shape(corners).area;
 }
 
-/// Of a grain in balance: the sum of place times force, over its volume.
+/// Mean stress of a grain in balance: the sum of place times force, over its volume.
 Tensor stress_by_forces(const Assembly& a, int grain)
 {
     const Point centre = a.grains.position(a.grains.centre(grain));

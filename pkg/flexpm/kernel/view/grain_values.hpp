@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One value of each grain, by which a window colours it. Stresses are positive in tension, SI units.
+/// @file  One value of each grain, by which a window colours it. Stresses are positive in tension,
+/// SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

@@ -49,7 +49,7 @@ namespace {
 			}
 		}
 
-		/// Of a rigid grain, which has no triangles: about its centre, which sees all corners.
+		/// Triangles of a rigid grain, which has none of its own: about its centre, which sees all corners.
 		void fan() const
 		{
 			glBegin(GL_TRIANGLE_FAN);

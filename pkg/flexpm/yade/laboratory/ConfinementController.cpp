@@ -14,8 +14,10 @@ ConfinementController::~ConfinementController() = default;
 void ConfinementController::action()
 {
 	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
+	if (rampBegin < 0) rampBegin = assembly.step;
+	const Real now = flexpm::ramped(startPressure, pressure, assembly.step - rampBegin, rampSteps);
 	for (int side : sides)
-		flexpm::set_pressure(assembly, side, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
+		flexpm::set_pressure(assembly, side, now);
 }
 
 } // namespace yade

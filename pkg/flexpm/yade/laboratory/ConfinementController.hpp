@@ -17,7 +17,9 @@ public:
 		"Presses on sides of the specimen; the pressure follows the deforming edges. Place it before :yref:`GrainSolver`.",
 		((Real, pressure, 0.,, "Pressure, compressive positive [Pa]."))
 		((vector<int>, sides, (vector<int> { 1, 3 }),, "Sides of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left [-]."))
-		((int, rampSteps, 0,, "Steps over which the pressure rises to its value, gently at both ends [-]."))
+		((int, rampSteps, 0,, "Steps over which the pressure goes to its value, gently at both ends [-]."))
+		((Real, startPressure, 0.,, "Pressure from which it does [Pa]."))
+		((long, rampBegin, -1,, "Step from which they count; below 0: the next one [-] |yupdate|."))
 	);
 	// clang-format on
 };

@@ -32,7 +32,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Gauge, Serializable,
 		"Reads how far two nodes of grains move apart, as an opening or a strain, how far a plate moves, or the mean way of nodes; :yref:`AxialRecorder` records it under its name. GrainSolver.gaugePoints and GrainSolver.sectionNodes find the nodes.",
-		((string, name,,, "Of the column."))
+		((string, name,,, "Name of the column."))
 		((int, first, -1,, "Node at the first place, as GrainSolver.gaugePoints gives it [-]."))
 		((int, second, -1,, "Node at the second place [-]."))
 		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))

@@ -17,9 +17,10 @@ void PlateController::action()
 {
 	const Real ratio    = follow(velocity, seenVelocity, drivenAt);
 	auto&      assembly = GrainSolver::ofScene(*scene)->assembly;
+	if (rampBegin < 0) rampBegin = assembly.step;
 	for (int plate : plates) {
 		if (loaded)
-			flexpm::press(assembly, plate, pressure * flexpm::ramp_factor(assembly.step, rampSteps));
+			flexpm::press(assembly, plate, flexpm::ramped(startPressure, pressure, assembly.step - rampBegin, rampSteps));
 		else
 			flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
 	}
