@@ -96,7 +96,8 @@ bool is_inside(const PlaneFace& face, Point p)
 }
 
 /// Equal points on sqrt(2) times the ellipse of inertia: exact to degree 2 for three and more, wherever the first of
-/// them is. The ellipse is inside of convex faces; on others the points are turned until they are inside.
+/// them is. The ellipse is inside of convex faces; on others the points are turned until they are inside,
+/// and there are none if they never are.
 std::vector<PlanePoint> equal_points(const PlaneFace& face, int count)
 {
     constexpr int turns = 16;
@@ -111,9 +112,9 @@ std::vector<PlanePoint> equal_points(const PlaneFace& face, int count)
             points[k] = { { xx * c, xy * c + yy * s }, 1.0 / count };
             inside = inside && is_inside(face, points[k].place);
         }
-        if (inside) break;
+        if (inside) return points;
     }
-    return points;
+    return {};
 }
 
 /// Shares of the corners in a place: those of least deviation from equal ones, with the sum 1 and the
@@ -263,16 +264,22 @@ FacePoints face_points(const std::vector<Vector>& corners, FacePointRule rule)
         places = corners_and_inner(face);
         break;
     }
+    const bool equal = rule == FacePointRule::three || rule == FacePointRule::four;
     FacePoints result { face.area, face.normal, places.empty(), {} };
-    if (result.fallback) places = equal_points(face, n + 1);
+    if (result.fallback) places = equal ? corners_and_inner(face) : equal_points(face, n + 1);
+    if (places.empty()) {
+        refuse("face_points: corners", static_cast<double>(n), "",
+            "must bound a face with room for its points; move the spheres beside it");
+    }
     for (std::size_t k = 0; k < places.size(); ++k) {
+        const Point at = places[k].place;
         std::vector<double> shares(n, 0.0);
-        const bool is_corner = k < corners.size() && !result.fallback
-            && (rule == FacePointRule::corners || rule == FacePointRule::corners_and_inner);
+        const bool is_corner =
+            k < corners.size() && at.x == face.corners[k].x && at.y == face.corners[k].y;
         if (is_corner)
             shares[k] = 1.0;
         else
-            shares = shares_of(face, places[k].place);
+            shares = shares_of(face, at);
         result.points.push_back({ places[k].weight * face.area, std::move(shares) });
     }
     return result;

@@ -28,8 +28,8 @@ struct FacePoint {
 struct FacePoints {
     double area;    ///< of the face, projected [m^2]
     Vector normal;  ///< of the plane on which it is projected, of length 1
-    bool
-        fallback;  ///< the rule has no solution with points inside: corners + 1 equal points as for `three`
+    /// Whether the rule has no points inside: corners + 1 equal ones, or corners and an inner one instead.
+    bool fallback;
     std::vector<FacePoint> points;
 };
 

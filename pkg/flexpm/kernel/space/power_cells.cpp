@@ -183,7 +183,8 @@ private:
         std::array<Triangulation::Vertex_handle, 4> corners {};
         for (int k = 0; k < 4; ++k)
             corners[k] = cell->vertex(k);
-        std::sort(corners.begin(), corners.end(), [](auto a, auto b) { return a->info() > b->info(); });
+        std::sort(
+            corners.begin(), corners.end(), [](auto a, auto b) { return a->info() > b->info(); });
         const std::array<WeightedPoint, 4> p = { corners[0]->point(), corners[1]->point(),
             corners[2]->point(), corners[3]->point() };
         const Edges<double> edges(p);

@@ -14,6 +14,8 @@
 namespace flexpm {
 namespace {
 
+/// Share of the threshold below which edges are collapsed first.
+constexpr double noise = 1e-3;
 /// Smallest angle between sides of a tetrahedron that a collapse may make, as its cosine: 2 degrees.
 constexpr double cosine_limit = 0.99939082701909573;
 
@@ -36,17 +38,11 @@ public:
 
     int run()
     {
-        // what is refused at first may go once others have gone
-        do {
-            any = false;
-            for (const CellFace& face : complex.faces)
-                offer_edges(face.corners);
-            while (!queue.empty()) {
-                const auto [length_then, u, v] = *queue.begin();
-                queue.erase(queue.begin());
-                if (is_edge(u, v) && length(u, v) == length_then) collapse(u, v);
-            }
-        } while (any);
+        // corners that many cells share, but for the noise of their spheres
+        limit = noise * threshold;
+        collapse_all();
+        limit = threshold;
+        collapse_all();
         auto& faces = complex.faces;
         faces.erase(std::remove_if(faces.begin(), faces.end(),
                         [](const CellFace& face) { return face.corners.empty(); }),
@@ -65,10 +61,26 @@ private:
     CellComplex& complex;
     const std::vector<Vector>& centres;
     double threshold;
+    double limit = 0.0;                      ///< of the edges that are collapsed now
     bool any = false;                        ///< whether an edge has been collapsed in this round
     std::vector<std::vector<int>> faces_at;  ///< faces that meet in a vertex, in order
     std::vector<int> faces_of;               ///< number of faces of each cell
     std::set<std::tuple<double, int, int>> queue;  ///< (length, smaller vertex, larger vertex)
+
+    void collapse_all()
+    {
+        // what is refused at first may go once others have gone
+        do {
+            any = false;
+            for (const CellFace& face : complex.faces)
+                offer_edges(face.corners);
+            while (!queue.empty()) {
+                const auto [length_then, u, v] = *queue.begin();
+                queue.erase(queue.begin());
+                if (is_edge(u, v) && length(u, v) == length_then) collapse(u, v);
+            }
+        } while (any);
+    }
 
     double length(int u, int v) const { return norm(complex.vertices[v] - complex.vertices[u]); }
 
@@ -83,7 +95,7 @@ private:
         for (std::size_t k = 0; k < corners.size(); ++k) {
             const int a = corners[k], b = corners[(k + 1) % corners.size()];
             const double l = length(a, b);
-            if (l < threshold) queue.emplace(l, std::min(a, b), std::max(a, b));
+            if (l < limit) queue.emplace(l, std::min(a, b), std::max(a, b));
         }
     }
 
@@ -162,6 +174,10 @@ private:
     /// Whether no tetrahedron becomes too sharp: then `kept` is moved to the target.
     bool keeps_shape(const Collapse& c, Vector target)
     {
+        if (limit < threshold) {  // by less than noise, the shape does not change
+            complex.vertices[c.kept] = target;
+            return true;
+        }
         double before = cosine_limit, after = -1.0;
         for (int f : c.touched)
             before = std::max(before, sharpest(complex.faces[f], complex.faces[f].corners));
@@ -182,8 +198,7 @@ private:
             double worst = sharpest_cosine(centres[face.first], p, q, r);
             if (face.second >= 0)
                 worst = std::max(worst, sharpest_cosine(centres[face.second], p, r, q));
-            const bool is_short =
-                std::min({ length(a, b), length(b, c), length(c, a) }) < threshold;
+            const bool is_short = std::min({ length(a, b), length(b, c), length(c, a) }) < limit;
             if (!is_short || worst > 1.0) result = std::max(result, worst);
         }
         return result;
