@@ -20,11 +20,13 @@ from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
 from ..specimens import joint_lines, specimen_file
+from ..specimens.space.spec import SolidSpec
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..specimens.space.specimen import SolidSpecimen
     from ..specimens.specimen import Specimen
 
 
@@ -127,6 +129,15 @@ def specimen_spec(kind: str, options: Table) -> SpecimenSpec:
     """The specimen that the options describe, which are all for its shape."""
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     return SpecimenSpec(kind, **{name: options[name] for name in names})
+
+
+def solid(kind: str, options: Table, progress: terminal.Progress) -> SolidSpecimen:
+    """Pack the solid that the options describe, which are all for its shape."""
+    spec = SolidSpec(kind, **options)
+    load_yade()
+    from ..specimens.space.specimen import SolidSpecimen
+
+    return SolidSpecimen.pack(spec, progress)
 
 
 def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Specimen:

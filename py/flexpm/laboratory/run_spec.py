@@ -35,6 +35,7 @@ from ..require import (
     require_one_of,
 )
 from ..results.toughness import require_half_disc, require_span
+from ..specimens.space.spec import refuse_solid
 from ..specimens.spec import SIZES, SpecimenSpec
 from .loading_rate import (
     LARGEST_STOP_RATIO,
@@ -251,6 +252,7 @@ class RunSpec:
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, (*TESTS, ELASTIC))
+        refuse_solid("run", self.specimen)
         self._check_unused()
         self._check_wave()
         self._check_numbers()

@@ -34,6 +34,7 @@ from . import strengths as contact_strengths
 from .checks import SHORT_EDGE, require_diameters, require_length, require_short_edge
 from .kernel_input import Circle, call, cells_checksum, checksum, columns, disc_rows, ring
 from .outlines import half_disc_corners, kind_of, polygon_outline
+from .space.makers import SolidShapes
 from .spec import SpecimenSpec
 
 #: Below this share of the mean diameter a distance is round-off [-].
@@ -41,8 +42,8 @@ _STRAIGHT = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Specimen(Shown):
-    """Bonded grains that fill an outline.
+class Specimen(SolidShapes, Shown):
+    """Bonded grains that fill an outline; ``box`` and ``cylinder`` make a ``SolidSpecimen``.
 
     Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
     ``from_polygons`` or ``load``.
