@@ -194,7 +194,7 @@ TEST_CASE("uniform strain leaves no force on the inner node of a grain", "[tetra
         }
         largest = std::max(largest, norm(at_centre));
     }
-    // of forces of 1e-3 E d^2
+    // beside forces of 1e-3 E d^2
     CHECK(largest < 1e-10 * 1e-3 * 25.8e9 * 9e-6);
 }
 

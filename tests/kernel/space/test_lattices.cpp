@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Cells of lattices, where five and more cells meet in a point: cut out along any direction, and with noise.
+/// @file  Cells of lattices, where five and more cells meet in a point: cut out along any
+/// direction, and with noise.
 #include "support/sphere_samples.hpp"
 
 using namespace flexpm_test;

@@ -27,7 +27,8 @@ inline std::vector<Vector> projected(std::vector<Vector> corners)
     return corners;
 }
 
-/// Distance of a point from a plane polygon, 0 inside. A bent face may be concave when it is projected.
+/// Distance of a point from a plane polygon, 0 inside. A bent face may be concave when it is
+/// projected.
 inline double distance_outside(const std::vector<Vector>& corners, Vector normal, Vector p)
 {
     double nearest = 1e300, turns = 0.0;
@@ -40,8 +41,9 @@ inline double distance_outside(const std::vector<Vector>& corners, Vector normal
     return turns > 0.5 ? 0.0 : nearest;
 }
 
-/// Weights are positive and points inside the projected face; they have its moments up to a degree: 1e-12 of area
-/// times powers of its extent, about its first corner. Thin faces lose as many digits as they are thin.
+/// Weights are positive and points inside the projected face; they have its moments up to a degree:
+/// 1e-12 of area times powers of its extent, about its first corner. Thin faces lose as many digits
+/// as they are thin.
 inline void require_exact(const std::vector<Vector>& bent, const FacePoints& found, int degree)
 {
     const auto corners = projected(bent);

@@ -56,7 +56,8 @@ inline Vector turned(const Rotation& r, Vector p)
     return { dot(r[0], p), dot(r[1], p), dot(r[2], p) };
 }
 
-/// Spheres of a packing: inserted at half their radius, then pushed apart until they overlap little.
+/// Spheres of a packing: inserted at half their radius, then pushed apart until they overlap
+/// little.
 inline std::vector<Sphere> packed_spheres(const Solid& solid, int count, std::uint64_t seed)
 {
     Random random(seed);
@@ -108,8 +109,9 @@ inline Vector area_of(const std::vector<Vector>& corners)
     return sum;
 }
 
-/// Cells fill the solid and fit together: each edge of a cell is in two of its faces, once each way; all of the
-/// surface lies on the walls; no volume is missing. One check each, as there are many.
+/// Cells fill the solid and fit together: each edge of a cell is in two of its faces, once each
+/// way; all of the surface lies on the walls; no volume is missing. One check each, as there are
+/// many.
 inline void require_filled(const Polyhedra& cells, const Solid& solid)
 {
     const double sum = std::accumulate(cells.volumes.begin(), cells.volumes.end(), 0.0);

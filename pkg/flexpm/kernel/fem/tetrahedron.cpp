@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Set-up, true stress and linear stiffness of a tetrahedron; what a step needs is in the header.
+/// @file  Set-up, true stress and linear stiffness of a tetrahedron; what a step needs is in the
+/// header.
 #include <flexpm/kernel/fem/tetrahedron.hpp>
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Constant-strain tetrahedron, total Lagrangian: exact under large rotation, the twin in space of
-/// triangle.hpp. Tension positive.
+/// @file  Constant-strain tetrahedron, total Lagrangian: exact under large rotation, the twin in
+/// space of triangle.hpp. Tension positive.
 #pragma once
 
 #include <flexpm/kernel/core/compiler.hpp>
@@ -23,8 +23,8 @@ struct SpaceGradient {
     Vector x, y, z;
 };
 
-/// Displacement gradient from the displacements of the four nodes [m], not from their positions: small
-/// strains keep all their digits.
+/// Displacement gradient from the displacements of the four nodes [m], not from their positions:
+/// small strains keep all their digits.
 FLEXPM_INLINE SpaceGradient displacement_gradient(
     const TetrahedronShape& s, Vector u0, Vector u1, Vector u2, Vector u3)
 {
@@ -84,8 +84,8 @@ FLEXPM_INLINE double tetrahedron_energy(
 SpaceTensor cauchy_stress(
     const TetrahedronShape& s, const PlaneStiffness& c, Vector u0, Vector u1, Vector u2, Vector u3);
 
-/// 3x3 block of the linear stiffness between nodes a and b (0..3) at the reference shape [N/m], by rows: the
-/// force of the element on node a is minus the block times the displacement of node b.
+/// 3x3 block of the linear stiffness between nodes a and b (0..3) at the reference shape [N/m], by
+/// rows: the force of the element on node a is minus the block times the displacement of node b.
 SpaceGradient stiffness_block(const TetrahedronShape& s, const PlaneStiffness& c, int a, int b);
 
 }  // namespace flexpm

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Two discs or spheres of a packing that push each other apart in proportion to their overlap, paper
-/// Sec. 3.1. Lengths in mean diameters, stiffness and mass without units.
+/// @file  Two discs or spheres of a packing that push each other apart in proportion to their
+/// overlap, paper Sec. 3.1. Lengths in mean diameters, stiffness and mass without units.
 #pragma once
 
 #include <flexpm/kernel/core/space_vector.hpp>

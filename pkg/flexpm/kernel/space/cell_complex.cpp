@@ -88,7 +88,8 @@ private:
         complex.faces.erase(gone, complex.faces.end());
     }
 
-    /// Merge the ends of the shortest edge of each narrow face: other corners lie on a line between them.
+    /// Merge the ends of the shortest edge of each narrow face: other corners lie on a line between
+    /// them.
     bool cut_narrow_faces()
     {
         bool any = false;

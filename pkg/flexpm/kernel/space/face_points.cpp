@@ -95,9 +95,9 @@ bool is_inside(const PlaneFace& face, Point p)
     return left_of_all || inside;
 }
 
-/// Equal points on sqrt(2) times the ellipse of inertia: exact to degree 2 for three and more, wherever the first of
-/// them is. The ellipse is inside of convex faces; on others the points are turned until they are inside,
-/// and there are none if they never are.
+/// Equal points on sqrt(2) times the ellipse of inertia: exact to degree 2 for three and more,
+/// wherever the first of them is. The ellipse is inside of convex faces; on others the points are
+/// turned until they are inside, and there are none if they never are.
 std::vector<PlanePoint> equal_points(const PlaneFace& face, int count)
 {
     constexpr int turns = 16;
@@ -117,8 +117,8 @@ std::vector<PlanePoint> equal_points(const PlaneFace& face, int count)
     return {};
 }
 
-/// Shares of the corners in a place: those of least deviation from equal ones, with the sum 1 and the
-/// place as their mean.
+/// Shares of the corners in a place: those of least deviation from equal ones, with the sum 1 and
+/// the place as their mean.
 std::vector<double> shares_of(const PlaneFace& face, Point p)
 {
     const double equal = 1.0 / static_cast<double>(face.corners.size());
@@ -138,8 +138,8 @@ std::vector<double> shares_of(const PlaneFace& face, Point p)
     return shares;
 }
 
-/// Weights of the corners alone: a third of each of the triangles to the centroid, and what the centroid
-/// would have shared among them.
+/// Weights of the corners alone: a third of each of the triangles to the centroid, and what the
+/// centroid would have shared among them.
 std::vector<PlanePoint> corner_points(const PlaneFace& face)
 {
     const std::vector<double> shares = shares_of(face, {});
@@ -192,8 +192,8 @@ PlanePoint inner_point(const std::vector<PlanePoint>& corners)
     return { (1.0 / weight) * moment, weight };
 }
 
-/// Corners and one inner point, exact to degree 2: Gauss-Newton from weights that suit regular polygons, with the
-/// least change of them; empty if there is no such rule inside the face.
+/// Corners and one inner point, exact to degree 2: Gauss-Newton from weights that suit regular
+/// polygons, with the least change of them; empty if there is no such rule inside the face.
 std::vector<PlanePoint> corners_and_inner(const PlaneFace& face)
 {
     const std::size_t n = face.corners.size();

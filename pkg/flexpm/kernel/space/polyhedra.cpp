@@ -88,7 +88,8 @@ std::vector<double> depths(const CellComplex& complex, const std::vector<Sphere>
     return result;
 }
 
-/// Numbering of the cells without the hidden ones, and of vertices in the order in which faces use them.
+/// Numbering of the cells without the hidden ones, and of vertices in the order in which faces use
+/// them.
 void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>& centres)
 {
     std::vector<int> cell_of_sphere(complex.cells, -1), new_index(complex.vertices.size(), -1);

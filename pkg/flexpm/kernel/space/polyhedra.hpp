@@ -46,9 +46,9 @@ struct PolyhedraOptions {
 
 /// Cells of the spheres inside the solid, in the order of the spheres, short edges collapsed.
 ///
-/// @throws std::invalid_argument  for no sphere, a number that is not finite, a radius <= 0, a centre outside
-///                                or in the place of another; for short_edge < 0; for a hidden
-///                                sphere unless allowed; for a cell without volume
+/// @throws std::invalid_argument  for no sphere, a number that is not finite, a radius <= 0, a
+///                                centre outside or in the place of another; for short_edge < 0;
+///                                for a hidden sphere unless allowed; for a cell without volume
 Polyhedra polyhedra(
     const std::vector<Sphere>& spheres, const Solid& solid, const PolyhedraOptions& options);
 

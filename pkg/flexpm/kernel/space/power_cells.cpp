@@ -30,8 +30,8 @@ template <class Number> using Triple = std::array<Number, 3>;
 
 /// Distance of the far points, in sizes of the solid.
 constexpr double far = 20.0;
-/// Volume over that of a box of the same edges below which a tetrahedron's centre is found exactly: with more,
-/// doubles keep twelve digits.
+/// Volume over that of a box of the same edges below which a tetrahedron's centre is found exactly:
+/// with more, doubles keep twelve digits.
 constexpr double flat = 1e-2;
 
 template <class Number> Triple<Number> crossed(const Triple<Number>& a, const Triple<Number>& b)

@@ -9,9 +9,9 @@
 
 namespace flexpm {
 
-/// Laguerre cells of spheres, closed by far points around the solid: outside it they are not to be used. Where
-/// five or more cells meet in one point, or four along a line, edges and faces as small as round-off
-/// remain; see merge_close_vertices().
+/// Laguerre cells of spheres, closed by far points around the solid: outside it they are not to be
+/// used. Where five or more cells meet in one point, or four along a line, edges and faces as small
+/// as round-off remain; see merge_close_vertices().
 ///
 /// Vertices are right to 1e-12 of the spacing also where the spheres stand in a lattice: centres of
 /// flat tetrahedra are found in exact numbers.

@@ -16,7 +16,8 @@ namespace {
 
 /// Share of the threshold below which edges are collapsed first.
 constexpr double noise = 1e-3;
-/// Smallest angle between sides of a tetrahedron that a collapse may make, as its cosine: 2 degrees.
+/// Smallest angle between sides of a tetrahedron that a collapse may make, as its cosine: 2
+/// degrees.
 constexpr double cosine_limit = 0.99939082701909573;
 
 class Collapser {

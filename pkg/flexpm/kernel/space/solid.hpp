@@ -27,8 +27,8 @@ struct Solid {
     /// Box from the origin: width along x, depth along y, height along z, the axis of tests.
     /// @throws std::invalid_argument  unless all are finite and above 0
     static Solid box(double width, double depth, double height);
-    /// Upright cylinder about the z axis from z = 0, as a prism of the same section: a facet for each
-    /// grain of the given size around it, and at least 16 (deviation D63).
+    /// Upright cylinder about the z axis from z = 0, as a prism of the same section: a facet for
+    /// each grain of the given size around it, and at least 16 (deviation D63).
     /// @throws std::invalid_argument  unless all are finite and above 0
     static Solid cylinder(double diameter, double height, double grain);
 };

@@ -23,7 +23,8 @@ void require_sound(const Sphere& sphere, const Solid& solid, const std::string& 
         refuse(name + ": radius", sphere.radius, "m",
             "must be finite and > 0; remove or correct the sphere");
     }
-    // the square of a larger radius leaves no digits for places inside, a smaller one none between centres
+    // the square of a larger radius leaves no digits for places inside, a smaller one none between
+    // centres
     const double size = 0.5 * norm(solid.high - solid.low);
     if (sphere.radius > 1e3 * size || sphere.radius < 1e-6 * size) {
         refuse(name + ": radius", sphere.radius, "m",

@@ -11,9 +11,10 @@ namespace flexpm {
 /// Mean diameter [m].
 double mean_diameter(const std::vector<Sphere>& spheres);
 
-/// Check that all spheres are sound, inside the solid, and no two in one place: to 1e-6 of the mean diameter.
-/// @throws std::invalid_argument  for no sphere, a number that is not finite, a radius <= 0, a centre
-///                                outside or in the place of another
+/// Check that all spheres are sound, inside the solid, and no two in one place: to 1e-6 of the mean
+/// diameter.
+/// @throws std::invalid_argument  for no sphere, a number that is not finite, a radius <= 0, a
+///                                centre outside or in the place of another
 void require_spheres_inside(const std::vector<Sphere>& spheres, const Solid& solid);
 
 /// Refuse spheres that others hide.

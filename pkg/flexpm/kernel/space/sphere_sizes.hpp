@@ -4,8 +4,9 @@
 
 namespace flexpm {
 
-/// Number of spheres N = V (1 - n) / (4/3 pi <R^3>), rounded to the nearest integer. The mean of the
-/// cubes, and not the cube of the mean as in the plane (D64): large spheres take more than their share.
+/// Number of spheres N = V (1 - n) / (4/3 pi <R^3>), rounded to the nearest integer. The mean of
+/// the cubes, and not the cube of the mean as in the plane (D64): large spheres take more than
+/// their share.
 ///
 /// @param volume     of the specimen [m^3], > 0
 /// @param d_min      smallest diameter [m], > 0

@@ -7,9 +7,9 @@
 
 namespace flexpm {
 
-/// Cut away what lies outside the solid, wall by wall: it is decided once for each vertex on which side it lies,
-/// and an edge that crosses has one new vertex, so that neighbours cannot disagree. Cells get a
-/// face on each wall that cuts them; cells outside lose all faces.
+/// Cut away what lies outside the solid, wall by wall: it is decided once for each vertex on which
+/// side it lies, and an edge that crosses has one new vertex, so that neighbours cannot disagree.
+/// Cells get a face on each wall that cuts them; cells outside lose all faces.
 ///
 /// @param close  vertices no further outside than this count as inside [length]
 /// @throws std::runtime_error  if a cell is not convex

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Unpack
 
 import numpy.typing as npt
 
-from ...progress import Progress
+from ...files import Table
+from ..plane import Packing, packing_of
 from .spec import SHORT_EDGE, SolidSpec
 from .specimen import SolidSpecimen
 
@@ -16,87 +18,35 @@ class SolidShapes:
     """Makers of solid specimens. Solids are not tested yet; see doc/solids."""
 
     @staticmethod
-    def box(
-        width: float,
-        depth: float,
-        height: float,
-        diameters: tuple[float, float] = (2e-3, 4e-3),
-        porosity: float = 0.10,
-        seed: int = 1,
-        *,
-        short_edge: float = SHORT_EDGE,
-        progress: Progress | None = None,
-    ) -> SolidSpecimen:
+    def box(width: float, depth: float, height: float, **packing: Unpack[Packing]) -> SolidSpecimen:
         """Pack a box with a corner at the origin; z is the axial direction.
 
         Args:
             width: Along x [m].
             depth: Along y [m].
             height: Along z [m].
-            diameters: Smallest and largest diameter of the spheres [m].
-            porosity: Sets the number of spheres only [-]; the cells leave no pores.
-            seed: Any integer from 0 to 2**64 - 1; the same seed gives the same specimen.
-            short_edge: Collapse edges of cells below this share of the mean diameter [-].
-            progress: Called with (steps done, steps expected, text).
-
-        Returns:
-            The specimen.
+            packing: ``diameters``, ``porosity``, ``seed``, ``short_edge`` (0.10 if left out) and
+                ``progress`` as for ``rectangle``, of spheres.
 
         Raises:
             InputError: for a value out of range, spheres that do not fit, or more grains than the
                 machine has memory for.
         """
-        spec = SolidSpec(
-            "box",
-            width=width,
-            depth=depth,
-            height=height,
-            diameters=diameters,
-            porosity=porosity,
-            seed=seed,
-            short_edge=short_edge,
-        )
-        return SolidSpecimen.pack(spec, progress)
+        return _packed("box", {"width": width, "depth": depth, "height": height}, packing)
 
     @staticmethod
-    def cylinder(
-        diameter: float,
-        height: float,
-        diameters: tuple[float, float] = (2e-3, 4e-3),
-        porosity: float = 0.10,
-        seed: int = 1,
-        *,
-        short_edge: float = SHORT_EDGE,
-        progress: Progress | None = None,
-    ) -> SolidSpecimen:
+    def cylinder(diameter: float, height: float, **packing: Unpack[Packing]) -> SolidSpecimen:
         """Pack an upright cylinder about the z axis, from z = 0: a prism of its section (D63).
 
         Args:
-            diameter: Of the specimen [m].
+            diameter: Diameter of the specimen [m].
             height: Along z, the axial direction [m].
-            diameters: Smallest and largest diameter of the spheres [m].
-            porosity: Sets the number of spheres only [-]; the cells leave no pores.
-            seed: Any integer from 0 to 2**64 - 1; the same seed gives the same specimen.
-            short_edge: Collapse edges of cells below this share of the mean diameter [-].
-            progress: Called with (steps done, steps expected, text).
-
-        Returns:
-            The specimen.
+            packing: As for ``box``.
 
         Raises:
-            InputError: for a value out of range, spheres that do not fit, or more grains than the
-                machine has memory for.
+            InputError: as for ``box``.
         """
-        spec = SolidSpec(
-            "cylinder",
-            diameter=diameter,
-            height=height,
-            diameters=diameters,
-            porosity=porosity,
-            seed=seed,
-            short_edge=short_edge,
-        )
-        return SolidSpecimen.pack(spec, progress)
+        return _packed("cylinder", {"diameter": diameter, "height": height}, packing)
 
     @staticmethod
     def from_spheres(
@@ -115,9 +65,9 @@ class SolidShapes:
             spheres: Rows x, y, z, radius [m], centres inside the outline, or a text file of such
                 rows, between blanks or commas.
             height: Along z, from 0 [m].
-            width: Of a box along x, from 0 [m].
-            depth: Of a box along y, from 0 [m].
-            diameter: Of a cylinder about the z axis [m].
+            width: Width of a box, along x from 0 [m].
+            depth: Depth of a box, along y from 0 [m].
+            diameter: Diameter of a cylinder about the z axis [m].
             short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
             drop_hidden: Leave out spheres that others hide, and count them in ``removed_spheres``.
 
@@ -141,3 +91,9 @@ class SolidShapes:
             InputError: if the file cannot be read, is no solid specimen, or was changed.
         """
         return SolidSpecimen.load(path)
+
+
+def _packed(kind: str, sizes: dict[str, float], packing: Packing) -> SolidSpecimen:
+    fields: Table = {**sizes, **packing_of(kind, (), packing)}
+    progress = fields.pop("progress", None)
+    return SolidSpecimen.pack(SolidSpec(kind, **fields), progress)

@@ -27,7 +27,7 @@ SIZES: dict[str, dict[str, float]] = {
 #: Edges of cells below this share of the mean diameter are collapsed.
 SHORT_EDGE = 0.10
 _ALL_SIZES = ("width", "depth", "height", "diameter")
-#: Memory of packing and cells, with their file and picture [bytes a grain], measured on 11 250 grains.
+#: Memory of packing, cells, file and picture [bytes a grain], measured on 11 250 grains.
 _MEMORY = 30_000
 
 
@@ -37,13 +37,13 @@ class SolidSpec:
 
     Attributes:
         kind: ``box`` or ``cylinder``.
-        width: Of a box, along x [m]; if None its default, and None for another shape.
-        depth: Of a box, along y [m]; None as for `width`.
+        width: Width of a box, along x [m]; if None its default, and None for another shape.
+        depth: Depth of a box, along y [m]; None as for `width`.
         height: Along z, the axis of tests [m]; None as for `width`.
-        diameter: Of a cylinder [m]; None as for `width`.
+        diameter: Diameter of a cylinder [m]; None as for `width`.
         diameters: Smallest and largest diameter of the packed spheres [m]; None for given ones.
         porosity: Sets the number of packed spheres [-]; None for given ones.
-        seed: Of the packing; None for given spheres.
+        seed: Seed of the packing; None for given spheres.
         short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
         spheres: Checksum of given spheres; None for a packing.
     """
@@ -85,7 +85,7 @@ class SolidSpec:
 
     @property
     def volume(self) -> float:
-        """Of the outline [m3]."""
+        """Volume of the outline [m3]."""
         sizes = self.sizes
         if self.kind == "cylinder":
             return 0.25 * math.pi * sizes["diameter"] ** 2 * sizes["height"]
