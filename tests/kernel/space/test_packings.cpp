@@ -149,3 +149,15 @@ TEST_CASE("a sphere outside its own cell has its grain's centre at the centroid"
     CHECK(cells.volumes[1] == Approx(0.15));
     CHECK(fan_meshes(cells).volumes.size() == 24);
 }
+
+TEST_CASE("a short edge across an edge of the outline stays", "[space]")
+{
+    const Solid box = Solid::box(1.0, 1.0, 1.0);
+    // the radical plane x + y = 0.05 leaves a prism with two edges of 0.07, each between two walls
+    const std::vector<Sphere> spheres = { { { 0.01, 0.01, 0.5 }, 0.01 },
+        { { 0.5, 0.5, 0.5 }, std::sqrt(0.4509) } };
+    const Polyhedra cells = polyhedra(spheres, box, { 0.1, false });
+    require_filled(cells, box);
+    CHECK(cells.short_edges >= 2);
+    CHECK(cells.volumes[0] == Approx(0.5 * 0.05 * 0.05));
+}
