@@ -300,11 +300,13 @@ def check_tests(rooms: Rooms) -> Iterator[str]:
         if first not in TEST_FOLDERS and f"kernel.{first}" not in rooms.rooms:
             yield f"{path}:1: stands in {first}; the folders are the kernel's and {TEST_FOLDERS}"
         for number, name in includes(path):
-            # Eigen: an independent reference for eigenvalues and linear systems
-            known = name.startswith(("flexpm/kernel/", "catch2/", "Eigen/", "benchmark/"))
+            # independent references: Eigen for eigenvalues and linear systems, voro++ for cells
+            known = name.startswith(
+                ("flexpm/kernel/", "catch2/", "Eigen/", "voro++/", "benchmark/")
+            )
             local = (folder / name).exists() or (path.parent / name).exists()
             if not (known or local or "/" not in name):
-                yield f"{path}:{number}: includes {name}; kernel, Catch2 and Eigen are allowed"
+                yield f"{path}:{number}: includes {name}; kernel, Catch2, Eigen, voro++ are allowed"
     yield from check_size(paths)
 
 

@@ -21,11 +21,13 @@ from ..results import doubts
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
 from ..specimens.files import specimen_file
+from ..specimens.space.spec import SolidSpec
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..results.result import Result
+    from ..specimens.space.specimen import SolidSpecimen
     from ..specimens.specimen import Specimen
 
 
@@ -128,6 +130,15 @@ def specimen_spec(kind: str, options: Table) -> SpecimenSpec:
     """The specimen that the options describe, which are all for its shape."""
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     return SpecimenSpec(kind, **{name: options[name] for name in names})
+
+
+def solid(kind: str, options: Table, progress: terminal.Progress) -> SolidSpecimen:
+    """Pack the solid that the options describe, which are all for its shape."""
+    spec = SolidSpec(kind, **options)
+    load_yade()
+    from ..specimens.space.specimen import SolidSpecimen
+
+    return SolidSpecimen.pack(spec, progress)
 
 
 def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Specimen:

@@ -29,6 +29,7 @@ from ..require import (
 from ..runs.loading_rate import LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import STARTS, RunSpec
+from ..specimens.space.spec import SIZES as SOLID_SIZES
 from ..specimens.spec import SIZES, SpecimenSpec
 
 #: Adds an option to the function of a command.
@@ -287,8 +288,7 @@ threads_option = click.option(
     show_default=True,
     help="Threads of the simulation.",
 )
-packing_options = combined(
-    _length("--thickness", SpecimenSpec.thickness, "Thickness out of plane", sizes=False),
+grain_options = combined(
     click.option(
         "--diameters",
         type=Range(),
@@ -305,6 +305,19 @@ packing_options = combined(
         help="Sets the number of grains [-].",
     ),
     seed_option,
+)
+packing_options = combined(
+    _length("--thickness", SpecimenSpec.thickness, "Thickness out of plane", sizes=False),
+    grain_options,
+)
+box_options = combined(
+    _length("--width", SOLID_SIZES["box"]["width"], "Width, along x"),
+    _length("--depth", SOLID_SIZES["box"]["depth"], "Depth, along y"),
+    _length("--height", SOLID_SIZES["box"]["height"], "Height, along z"),
+)
+cylinder_options = combined(
+    _length("--diameter", SOLID_SIZES["cylinder"]["diameter"], "Diameter"),
+    _length("--height", SOLID_SIZES["cylinder"]["height"], "Height, along z"),
 )
 specimen_option = click.option(
     "--specimen",

@@ -26,6 +26,7 @@ from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import quoted, require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..specimens import inner_particles, mineral_map
+from ..specimens.space.spec import refuse_solid
 from ..specimens.specimen import Specimen
 from ..threads import limited
 from . import spheres
@@ -234,6 +235,7 @@ def build(
     points = int(points)  # numpy's integers are no integers for the kernel
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
+    refuse_solid("build", specimen)
     if not isinstance(specimen, Specimen):
         raise InputError(f"build: specimen = {quoted(specimen)}, must be a Specimen")
     if model in SPHERE_MODELS:
@@ -289,6 +291,7 @@ def elastic(
         InputError: for an argument out of range or a specimen that is no rectangle.
     """
     require_one_of("build: model", model, GRAIN_MODELS)
+    refuse_solid("elastic", specimen)
     grains = _grains(specimen, model, points, mesh)
     chosen = _fitted(specimen, grains, load_material(material, model), model)
     solver = _assembled(grains, chosen)

@@ -34,9 +34,18 @@ _FIGURES = {
     "fan_smallest_angle": ("smallest angle, fan", 1.0, "degrees"),
     "flipped_meshes": ("refined meshes with an edge turned for a better angle", 1.0, ""),
     "fan_fallbacks": ("grains with a fan in place of a refined mesh", 1.0, ""),
-    "moved_centres": ("grains with a centre node moved off the disc's centre", 1.0, ""),
+    "moved_centres": ("grains with a centre node moved off the disc's or sphere's centre", 1.0, ""),
     "removed_discs": ("discs removed, hidden by others", 1.0, ""),
-    "mean_diameter": ("mean diameter of the discs", 1e3, "mm"),
+    "mean_diameter": ("mean diameter of discs or spheres", 1e3, "mm"),
+    "boundary_faces": ("faces on the outline", 1.0, ""),
+    "contact_corners": ("corners of all contacts", 1.0, ""),
+    "contact_points": ("points of all contacts", 1.0, ""),
+    "contacts_of_equal_points": ("contacts with equal points instead", 1.0, ""),
+    "cell_volume": ("volume of all grains", 1e9, "mm3"),
+    "smallest_cell_volume": ("volume of the smallest grain", 1e9, "mm3"),
+    "smallest_tetrahedron_volume": ("volume of the smallest tetrahedron", 1e9, "mm3"),
+    "short_edges_left": ("short edges that had to stay", 1.0, ""),
+    "removed_spheres": ("spheres removed, hidden by others", 1.0, ""),
 }
 
 

@@ -89,13 +89,13 @@ def write_vtu(
     # as text: raw data are no XML, and VTK up to 9.2 reads none with expat 2.6 or its backports
     writer.SetDataModeToBinary()
     writer.SetCompressorTypeToLZ4()
-    content = _written(writer)
+    content = written(writer)
     with whole_file(path) as temporary:
         temporary.write_bytes(content)
 
 
-def _written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
-    """What VTK writes, as a text: of a file it does not tell that a part of it was refused."""
+def written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
+    """Return what VTK writes, as a text: of a file it does not tell that a part was refused."""
     writer.SetWriteToOutputString(True)
     with silence():
         done = writer.Write()

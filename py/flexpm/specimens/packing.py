@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dense packings of discs by YADE's engines, paper Sec. 3.1.
+"""Dense packings of discs, or of spheres, by YADE's engines, paper Sec. 3.1.
 
 Discs are inserted at random with half their radius; then they take their radius and a cohesionless,
-frictionless relaxation inside the outline shares the overlap out. Lengths are scaled by the mean
-diameter, stiffness and mass are 1: a packing depends on shapes only, not on the unit of length.
-YADE's collider finds pairs and its integrator moves discs; the forces come from ``DiscLoop``, which
-gives the bits of YADE's interaction loop in a fraction of its time.
+frictionless relaxation inside the outline shares the overlap out. Spheres do the same in space.
+Lengths are scaled by the mean diameter, stiffness and mass are 1: a packing depends on shapes only,
+not on the unit of length. YADE's collider finds pairs and its integrator moves discs; the forces
+come from ``DiscLoop``, which gives the bits of YADE's interaction loop in a fraction of its time.
 
 The relaxation has a scene of its own. YADE cannot delete a scene, so one (empty) scene is kept for
 the next packing; bodies, engines, time and materials of the caller's ``O`` are not touched.
@@ -17,6 +17,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 import numpy as np
 from yade import log, utils, wrapper
@@ -41,6 +42,24 @@ _STRIP = 2.5  # height of the strips of the disc order, in mean diameters
 _SCENE_TAG = "flexpm-packing"
 
 _scene: int | None = None
+
+F = TypeVar("F", bound="Container")
+
+
+class Container(Protocol):
+    """What is filled. Places are rows x, y of discs, or x, y, z of spheres."""
+
+    def scaled(self: F, factor: float) -> F:
+        """Return the same with all lengths multiplied by ``factor``."""
+
+    def insert(self, radii: FloatArray, shrink: float, seed: int) -> FloatArray:
+        """Return random places at which shrunken discs or spheres do not overlap."""
+
+    def walls(self, material: wrapper.Material) -> list[wrapper.Body]:
+        """Make the bodies that hold discs or spheres inside."""
+
+    def has_inside(self, place: FloatArray) -> bool:
+        """Whether a place is inside."""
 
 
 @dataclass(frozen=True)
@@ -73,15 +92,32 @@ class Frame:
         w, h = self.width, self.height
         return Outline.polygon(np.array([[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]))
 
+    def insert(self, radii: FloatArray, shrink: float, seed: int) -> FloatArray:
+        """Return random places at which shrunken discs do not overlap, (n, 2) [m]."""
+        return insert_discs(radii, self.kernel_outline(), shrink, seed)
+
+    def walls(self, material: wrapper.Material) -> list[wrapper.Body]:
+        """Make the bodies that hold discs inside."""
+        if self.radius > 0.0:
+            return _ring(self.radius, material)
+        places = ((0.0, 0, 1), (self.width, 0, -1), (0.0, 1, 1), (self.height, 1, -1))
+        return [
+            utils.wall(place, axis, sense=sense, material=material) for place, axis, sense in places
+        ]
+
+    def has_inside(self, place: FloatArray) -> bool:
+        """Whether a place x, y is inside."""
+        return self.kernel_outline().contains(float(place[0]), float(place[1]))
+
 
 def pack(
-    frame: Frame,
+    frame: Container,
     radii: FloatArray,
     mean_diameter: float,
     seed: int,
     progress: Progress | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Pack discs into a frame; the same arguments give the same bits.
+    """Pack discs or spheres into a frame; the same arguments give the same bits.
 
     Args:
         frame: Outline to fill.
@@ -91,8 +127,8 @@ def pack(
         progress: Called with (steps done, steps expected, text).
 
     Returns:
-        Centres, (n, 2), and radii, (n,), of the discs [m], in an order in which neighbours in index
-        are neighbours in space.
+        Centres, (n, 2) or (n, 3), and radii, (n,) [m], in an order in which neighbours in index are
+        neighbours in space.
 
     Raises:
         InputError: if the discs do not fit at half radius.
@@ -100,7 +136,7 @@ def pack(
     """
     unit_frame = frame.scaled(1.0 / mean_diameter)
     unit_radii = radii / mean_diameter
-    centres = insert_discs(unit_radii, unit_frame.kernel_outline(), _SHRINK, seed)
+    centres = unit_frame.insert(unit_radii, _SHRINK, seed)
     order = spatial_order(centres, _STRIP)
     centres = _relax(unit_frame, centres[order], unit_radii[order], progress)
     radii = radii[order]
@@ -111,21 +147,26 @@ def pack(
 def spatial_order(centres: FloatArray, strip: float) -> IntArray:
     """Order points in horizontal strips, walked to the right and to the left in turn.
 
+    In space, in horizontal layers of such strips.
+
     Args:
-        centres: Points, (n, 2) [m].
-        strip: Height of a strip [m].
+        centres: Points, (n, 2) or (n, 3) [m].
+        strip: Height of a strip, and of a layer [m].
 
     Returns:
         Indices that sort the points.
     """
     row = np.floor((centres[:, 1] - centres[:, 1].min()) / strip).astype(int)
     along = np.where(row % 2 == 0, centres[:, 0], -centres[:, 0])
-    order: IntArray = np.lexsort((centres[:, 1], along, row))
+    keys = [centres[:, 1], along, row]
+    if centres.shape[1] == 3:
+        keys.append(np.floor((centres[:, 2] - centres[:, 2].min()) / strip).astype(int))
+    order: IntArray = np.lexsort(keys)
     return order
 
 
 def _relax(
-    frame: Frame, centres: FloatArray, radii: FloatArray, progress: Progress | None
+    frame: Container, centres: FloatArray, radii: FloatArray, progress: Progress | None
 ) -> FloatArray:
     scene = wrapper.Omega()
     # with more threads contacts come in another order, and sums with them
@@ -146,7 +187,7 @@ def _relax(
                     f"packing: steps = {scene.iter}, must come to rest within {_MAX_STEPS}; "
                     "change the seed or raise the porosity"
                 )
-        relaxed = _positions(scene, len(radii))
+        relaxed = _positions(scene, len(radii))[:, : centres.shape[1]]
     _require_inside(frame, relaxed)
     return relaxed
 
@@ -194,19 +235,22 @@ def _switch_quietly(scene: wrapper.Omega, number: int) -> None:
 
 
 def _fill_scene(
-    scene: wrapper.Omega, frame: Frame, centres: FloatArray, radii: FloatArray
+    scene: wrapper.Omega, frame: Container, centres: FloatArray, radii: FloatArray
 ) -> wrapper.DiscLoop:
     """Make bodies and engines for discs of unit mass; return the interaction loop."""
     grain, wall = (
         wrapper.FrictMat(young=1.0, poisson=0.3, frictionAngle=0.0, density=1.0) for _ in range(2)
     )
     grain_id, wall_id = scene.materials.append(grain), scene.materials.append(wall)
-    for (x, y), radius in zip(centres, radii, strict=True):
-        body = utils.sphere((x, y, 0.0), radius, material=grain)
-        body.state.blockedDOFs = "zXYZ"
+    places, fixed = centres, "XYZ"
+    if centres.shape[1] == 2:
+        places, fixed = np.column_stack((centres, np.zeros(len(centres)))), "zXYZ"
+    for place, radius in zip(places, radii, strict=True):
+        body = utils.sphere(tuple(place), radius, material=grain)
+        body.state.blockedDOFs = fixed
         body.state.mass = 1.0
         scene.bodies.append(body)
-    scene.bodies.append(_walls(frame, wall))
+    scene.bodies.append(frame.walls(wall))
     law = wrapper.Law2_ScGeom_FrictPhys_CundallStrack()
     bounds = [wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_Wall_Aabb(), wrapper.Bo1_Facet_Aabb()]
     geometries = [
@@ -229,15 +273,6 @@ def _fill_scene(
         ]
     )
     return loop
-
-
-def _walls(frame: Frame, material: wrapper.Material) -> list[wrapper.Body]:
-    if frame.radius > 0.0:
-        return _ring(frame.radius, material)
-    places = ((0.0, 0, 1), (frame.width, 0, -1), (0.0, 1, 1), (frame.height, 1, -1))
-    return [
-        utils.wall(place, axis, sense=sense, material=material) for place, axis, sense in places
-    ]
 
 
 def _ring(radius: float, material: wrapper.Material) -> list[wrapper.Body]:
@@ -276,14 +311,14 @@ def _is_at_rest(scene: wrapper.Omega) -> bool:
 
 def _positions(scene: wrapper.Omega, discs: int) -> FloatArray:
     places = (scene.bodies[k].state.pos for k in range(discs))
-    return np.array([(place[0], place[1]) for place in places])
+    return np.array([(place[0], place[1], place[2]) for place in places])
 
 
-def _require_inside(frame: Frame, centres: FloatArray) -> None:
-    outline = frame.kernel_outline()
-    for x, y in centres:
-        if not outline.contains(float(x), float(y)):
+def _require_inside(frame: Container, centres: FloatArray) -> None:
+    for place in centres:
+        if not frame.has_inside(place):
+            told = ", ".join(f"{value:.6g}" for value in place)
             raise SimulationError(
-                f"packing: disc centre = ({x:.6g}, {y:.6g}) mean diameters, must stay inside the "
-                "outline; change the seed or raise the porosity"
+                f"packing: disc centre = ({told}) mean diameters, must stay inside the outline; "
+                "change the seed or raise the porosity"
             )

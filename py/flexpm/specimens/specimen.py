@@ -29,6 +29,7 @@ from .joint_cutting import cut_cells
 from .kernel_input import Circle, call, checksum, columns, mineral_indices
 from .plane import Filling
 from .shapes import PlaneShapes
+from .space.makers import SolidShapes
 from .spec import SpecimenSpec
 
 #: Below this share of the mean diameter a distance is round-off [-].
@@ -36,7 +37,7 @@ _STRAIGHT = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Specimen(PlaneShapes, Shown):
+class Specimen(PlaneShapes, SolidShapes, Shown):
     """Bonded grains that fill an outline.
 
     Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,

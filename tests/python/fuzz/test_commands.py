@@ -38,7 +38,7 @@ COMMANDS = st.sampled_from(
     [
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
         *(("run", test) for test in ("bending", "scb", "shear", "sonic")),
-        *(("specimen", shape) for shape in ("rectangle", "disc")),
+        *(("specimen", shape) for shape in ("rectangle", "disc", "box")),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
     ]
@@ -56,6 +56,7 @@ SIZES = {
     "run": [*RECTANGLE, *FEW],
     "elastic": RECTANGLE,
     "specimen": ["--out", "made"],
+    "specimen box": [*RECTANGLE, "--depth", "0.012", "--out", "made"],
     "compare bending": [*BEAM, *FEW],
     "compare": [*RECTANGLE, *FEW],
     "bench": [*RECTANGLE, "--steps", "2"],

@@ -11,6 +11,7 @@ import pytest
 from flexpm import _flexpm
 from flexpm.errors import InputError, SimulationError
 from flexpm.specimens import packing
+from flexpm.specimens.space.frame import SolidFrame
 
 UNIT = 3e-3
 
@@ -90,6 +91,26 @@ def test_disc_loop_gives_the_bits_of_yades_loop(frame, monkeypatch):
     area = np.pi * frame.radius**2 if frame.radius else frame.width * frame.height
     count = _flexpm.disc_count(area, 2e-3, 4e-3, 0.10)
     ours = packing.pack(frame, radii_of(count), UNIT, seed=3)
+    monkeypatch.setattr(wrapper, "DiscLoop", YadesLoop)
+    theirs = packing.pack(frame, radii_of(count), UNIT, seed=3)
+    assert np.array_equal(ours[0], theirs[0])
+    assert np.array_equal(ours[1], theirs[1])
+
+
+@pytest.mark.parametrize(
+    ("kind", "sizes"), [("box", (0.012, 0.01, 0.015)), ("cylinder", (0.014, 0.012))]
+)
+def test_disc_loop_gives_the_bits_of_yades_loop_in_space(kind, sizes, monkeypatch):
+    from yade import wrapper
+
+    class YadesLoop(wrapper.InteractionLoop):
+        mirror = True
+
+    frame = SolidFrame(kind, sizes, UNIT)
+    count = _flexpm.sphere_count(frame.solid().volume, 2e-3, 4e-3, 0.10)
+    ours = packing.pack(frame, radii_of(count), UNIT, seed=3)
+    assert ours[0].shape == (count, 3)
+    assert all(frame.has_inside(place) for place in ours[0])
     monkeypatch.setattr(wrapper, "DiscLoop", YadesLoop)
     theirs = packing.pack(frame, radii_of(count), UNIT, seed=3)
     assert np.array_equal(ours[0], theirs[0])

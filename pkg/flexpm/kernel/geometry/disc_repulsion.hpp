@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Two discs of a packing that push each other apart in proportion to their overlap, paper
-/// Sec. 3.1. Lengths in mean diameters, stiffness and mass without units.
+/// @file  Two discs or spheres of a packing that push each other apart in proportion to their
+/// overlap, paper Sec. 3.1. Lengths in mean diameters, stiffness and mass without units.
 #pragma once
 
-#include <flexpm/kernel/core/vector.hpp>
+#include <flexpm/kernel/core/space_vector.hpp>
 
 #include <cmath>
 
@@ -19,15 +19,15 @@ struct DiscPair {
 /// Result of a pair in a step.
 struct PairPush {
     bool changes = false;  ///< the pair begins or ceases to touch: the push is not given
-    Point push;            ///< force on the second disc, the first takes the opposite; 0 if apart
+    Vector push;           ///< force on the second disc, the first takes the opposite; 0 if apart
 };
 
 /// Push between the discs at `first` and `second`. The order of operations is that of YADE's
 /// spheres, to the last bit, so that a packing does not depend on which of the two computed it.
-inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
+inline PairPush push_apart(const DiscPair& pair, Vector first, Vector second)
 {
-    const Point apart = second - first;
-    const double square = dot(apart, apart);
+    const Vector apart = second - first;
+    const double square = apart.x * apart.x + (apart.y * apart.y + apart.z * apart.z);
     if (!pair.touching) {
         // pairs within rounding of touching are left to the code that decides
         constexpr double rounding = 1e-12;
@@ -37,7 +37,9 @@ inline PairPush push_apart(const DiscPair& pair, Point first, Point second)
     const double overlap = pair.radius_sum - distance;
     if (overlap < 0.0) return { true, {} };
     const double force = pair.stiffness * overlap;
-    return { false, { force * (apart.x / distance), force * (apart.y / distance) } };
+    return { false,
+        { force * (apart.x / distance), force * (apart.y / distance),
+            force * (apart.z / distance) } };
 }
 
 }  // namespace flexpm

@@ -16,6 +16,9 @@ void register_instruction_set_bindings();
 /// StrainGauge; scales, stresses and end of a test.
 void register_laboratory_bindings();
 
+/// Solid, Polyhedra, FanMeshes; sphere_count, insert_spheres, polyhedra, fan_meshes, face_point_counts.
+void register_space_bindings();
+
 /// PolygonOutline, Tiling; cells_in_outline, cells_of_polygons, cells_of_file, cut_by_joints.
 void register_tiling_bindings();
 

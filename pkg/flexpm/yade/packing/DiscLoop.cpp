@@ -37,7 +37,7 @@ void DiscLoop::readPlaces()
 	const auto& bodies = scene->bodies->body;
 	places.resize(bodies.size());
 	for (std::size_t k = 0; k < bodies.size(); ++k) {
-		if (bodies[k]) places[k] = { bodies[k]->state->pos[0], bodies[k]->state->pos[1] };
+		if (bodies[k]) places[k] = { bodies[k]->state->pos[0], bodies[k]->state->pos[1], bodies[k]->state->pos[2] };
 	}
 }
 
@@ -79,7 +79,7 @@ bool DiscLoop::push(const Row& row)
 	if (mirror && row.pair.touching && !row.interaction->isReal()) return false; // a script has reset it
 	const flexpm::PairPush step = flexpm::push_apart(row.pair, places[row.first], places[row.second]);
 	if (step.changes || !row.pair.touching) return !step.changes;
-	const Vector3r force(step.push.x, step.push.y, 0);
+	const Vector3r force(step.push.x, step.push.y, step.push.z);
 	scene->forces.addForce(row.first, -force);
 	scene->forces.addForce(row.second, force);
 	if (mirror) static_cast<NormPhys&>(*row.interaction->phys).normalForce = force;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The interaction loop of a packing of discs, paper Sec. 3.1.
+/// @file  The interaction loop of a packing of discs or spheres, paper Sec. 3.1.
 #pragma once
 
 #include <flexpm/kernel/geometry/disc_repulsion.hpp>
@@ -22,8 +22,8 @@ private:
 		flexpm::DiscPair        pair;
 	};
 
-	std::vector<Row>           rows;   // as the scene's interactions
-	std::vector<flexpm::Point> places; // of all bodies
+	std::vector<Row>            rows;   // as the scene's interactions
+	std::vector<flexpm::Vector> places; // of all bodies
 
 	void updateScene();
 	void readPlaces();
@@ -36,7 +36,7 @@ private:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(DiscLoop, InteractionLoop,
-		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` that do not turn, in a plane z = const, without friction, under "
+		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` that do not turn, in a plane or in space, without friction, under "
 		":yref:`Law2_ScGeom_FrictPhys_CundallStrack`: the same forces to the last bit, from packed arrays. Pairs that begin or cease to touch, walls, "
 		"and contacts with a shear stiffness go through the functors. Radii and stiffnesses must not change while a pair stays as it is; one thread, "
 		":yref:`InsertionSortCollider`; no periodic cell, detection factor, sorting, energy tracking or :yref:`callbacks<InteractionLoop.callbacks>`.",

@@ -15,6 +15,7 @@ from ...errors import InputError
 from ...files import Table, load_json, write_text
 from ...joints.cuts import Cut
 from ...joints.lines import checked
+from ..space.file import FORMAT as SOLID
 from .file_checks import require_sense, require_types
 from .file_checks import spec_of as spec_of
 
@@ -75,6 +76,11 @@ def read(path: Path) -> Table:
     """
     name = f"specimen = {str(path)!r}"
     content = load_json(path, "specimen")
+    if content.get("format") == SOLID:
+        raise InputError(
+            f"{name}, is a solid, must be plane: solids can be packed, measured, saved and drawn "
+            "so far (Specimen.load_solid), not tested"
+        )
     if content.get("format") != _FORMAT:
         raise InputError(f"{name}, is no specimen of this flexpm; give a file of Specimen.save")
     found = content.pop("checksum", None)

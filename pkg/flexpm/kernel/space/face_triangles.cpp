@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Each corner of a polygon is tried.
+#include <flexpm/kernel/space/face_triangles.hpp>
+
+#include <algorithm>
+
+namespace flexpm {
+namespace {
+
+/// Square of the height over the longest edge.
+double triangle_quality(Vector a, Vector b, Vector c)
+{
+    const Vector ab = b - a, ac = c - a, bc = c - b;
+    const Vector twice_area = cross(ab, ac);
+    const double longest = std::max({ dot(ab, ab), dot(ac, ac), dot(bc, bc) });
+    return longest > 0.0 ? dot(twice_area, twice_area) / (longest * longest) : 0.0;
+}
+
+}  // namespace
+
+std::vector<FaceTriangle> face_triangles(
+    const std::vector<Vector>& vertices, const std::vector<int>& corners)
+{
+    const std::size_t n = corners.size();
+    const auto at = [&](std::size_t k) { return corners[k % n]; };
+    std::size_t best = 0;
+    double best_quality = -1.0;
+    for (std::size_t from = 0; n > 3 && from < n; ++from) {
+        double worst = 1e300;
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            worst = std::min(worst,
+                triangle_quality(
+                    vertices[at(from)], vertices[at(from + k)], vertices[at(from + k + 1)]));
+        }
+        if (worst <= best_quality) continue;
+        best_quality = worst;
+        best = from;
+    }
+    std::vector<FaceTriangle> triangles;
+    for (std::size_t k = 1; k + 1 < n; ++k)
+        triangles.push_back({ at(best), at(best + k), at(best + k + 1) });
+    return triangles;
+}
+
+double sharpest_cosine(Vector centre, Vector a, Vector b, Vector c)
+{
+    if (!(six_volumes(centre, a, b, c) > 0.0)) return 2.0;
+    // outward normals of the four sides
+    std::array<Vector, 4> normals = { cross(b - a, c - a), cross(b - centre, a - centre),
+        cross(c - centre, b - centre), cross(a - centre, c - centre) };
+    for (Vector& n : normals)
+        n = (1.0 / norm(n)) * n;
+    double sharpest = -1.0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+            sharpest = std::max(sharpest, -dot(normals[i], normals[j]));
+    return sharpest;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The way from spheres to numbered cells.
+#include <flexpm/kernel/space/polyhedra.hpp>
+
+#include <flexpm/kernel/space/face_triangles.hpp>
+#include <flexpm/kernel/space/power_cells.hpp>
+#include <flexpm/kernel/space/short_edges.hpp>
+#include <flexpm/kernel/space/sphere_checks.hpp>
+#include <flexpm/kernel/space/wall_cuts.hpp>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+namespace flexpm {
+namespace {
+
+/// Length over the mean diameter below which vertices are one.
+constexpr double zero_edge = 1e-9;
+/// Volume over that of a mean cube below which a cell has none.
+constexpr double zero_volume = 1e-12;
+/// Distance of a centre from the faces of its cell over the cell's size below which it is moved.
+constexpr double well_inside = 0.02;
+
+/// Numbers of the spheres without a cell.
+std::vector<int> find_hidden(const CellComplex& complex, const std::vector<double>& volumes)
+{
+    std::vector<bool> has_face(complex.cells, false);
+    for (const CellFace& face : complex.faces) {
+        has_face[face.first] = true;
+        if (face.second >= 0) has_face[face.second] = true;
+    }
+    std::vector<int> hidden;
+    for (int c = 0; c < complex.cells; ++c)
+        if (!has_face[c] || volumes[c] == 0.0) hidden.push_back(c);
+    return hidden;
+}
+
+void require_volumes(const std::vector<Sphere>& spheres, const std::vector<int>& hidden,
+    const std::vector<double>& volumes, double least)
+{
+    for (std::size_t c = 0; c < volumes.size(); ++c) {
+        if (volumes[c] > least || std::binary_search(hidden.begin(), hidden.end(), c)) continue;
+        refuse("polyhedra: sphere " + std::to_string(c) + ": volume of its cell", volumes[c], "m^3",
+            "must be above 0, at " + place(spheres[c].centre) + "; remove or move the sphere");
+    }
+}
+
+/// Centroid of each cell.
+std::vector<Vector> centroids(const CellComplex& complex, const std::vector<Sphere>& spheres,
+    const std::vector<double>& volumes)
+{
+    std::vector<Vector> moments(complex.cells);
+    const auto add = [&](int cell, const CellFace& face, double sign) {
+        const Vector origin = spheres[cell].centre;
+        const Vector a = complex.vertices[face.corners[0]] - origin;
+        for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
+            const Vector b = complex.vertices[face.corners[k]] - origin;
+            const Vector c = complex.vertices[face.corners[k + 1]] - origin;
+            moments[cell] = moments[cell] + (sign / 24.0 * triple(a, b, c)) * (a + b + c);
+        }
+    };
+    for (const CellFace& face : complex.faces) {
+        add(face.first, face, 1.0);
+        if (face.second >= 0) add(face.second, face, -1.0);
+    }
+    for (int c = 0; c < complex.cells; ++c)
+        moments[c] = spheres[c].centre + (volumes[c] > 0.0 ? 1.0 / volumes[c] : 0.0) * moments[c];
+    return moments;
+}
+
+/// Smallest distance of each sphere's centre from the planes of its cell's faces.
+std::vector<double> depths(const CellComplex& complex, const std::vector<Sphere>& spheres)
+{
+    std::vector<double> result(complex.cells, 1e300);
+    for (const CellFace& face : complex.faces) {
+        const Vector area = area_vector(complex, face.corners),
+                     at = complex.vertices[face.corners[0]];
+        const double size = norm(area);
+        if (!(size > 0.0)) continue;
+        const auto lower = [&](int cell, double sign) {
+            const double depth = sign * dot(area, at - spheres[cell].centre) / size;
+            result[cell] = std::min(result[cell], depth);
+        };
+        lower(face.first, 1.0);
+        if (face.second >= 0) lower(face.second, -1.0);
+    }
+    return result;
+}
+
+/// Numbering of the cells without the hidden ones, and of vertices in the order in which faces use
+/// them.
+void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>& centres)
+{
+    std::vector<int> cell_of_sphere(complex.cells, -1), new_index(complex.vertices.size(), -1);
+    for (int s = 0; s < complex.cells; ++s) {
+        if (std::binary_search(p.hidden_spheres.begin(), p.hidden_spheres.end(), s)) continue;
+        cell_of_sphere[s] = p.cells();
+        p.sphere_of_cell.push_back(s);
+        p.centres.push_back(centres[s]);
+    }
+    std::sort(complex.faces.begin(), complex.faces.end(), [](const CellFace& a, const CellFace& b) {
+        return std::tuple(a.second < 0, a.first, a.second, a.wall)
+            < std::tuple(b.second < 0, b.first, b.second, b.wall);
+    });
+    p.face_offsets.push_back(0);
+    for (const CellFace& face : complex.faces) {
+        const int second = face.second < 0 ? -1 : cell_of_sphere[face.second];
+        p.faces.push_back({ cell_of_sphere[face.first], second, face.wall });
+        for (int old : face.corners) {
+            int& v = new_index[old];
+            if (v < 0) {
+                v = static_cast<int>(p.vertices.size());
+                p.vertices.push_back(complex.vertices[old]);
+            }
+            p.face_vertices.push_back(v);
+        }
+        p.face_offsets.push_back(static_cast<int>(p.face_vertices.size()));
+    }
+}
+
+/// Volumes between the triangles of the faces, which a collapse has bent.
+void add_volumes(Polyhedra& p)
+{
+    p.volumes.assign(p.cells(), 0.0);
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        const auto& [cell_a, cell_b, wall] = p.faces[f];
+        for (const auto& t : face_triangles(p.vertices, p.corners(static_cast<int>(f)))) {
+            const Vector a = p.vertices[t[0]], b = p.vertices[t[1]], c = p.vertices[t[2]];
+            p.volumes[cell_a] += six_volumes(p.centres[cell_a], a, b, c) / 6.0;
+            if (cell_b >= 0) p.volumes[cell_b] += six_volumes(p.centres[cell_b], a, c, b) / 6.0;
+        }
+    }
+}
+
+}  // namespace
+
+Polyhedra polyhedra(
+    const std::vector<Sphere>& spheres, const Solid& solid, const PolyhedraOptions& options)
+{
+    require_spheres_inside(spheres, solid);
+    if (!(std::isfinite(options.short_edge) && options.short_edge >= 0.0)) {
+        refuse("polyhedra: short_edge", options.short_edge, "m",
+            "must be finite and >= 0; use 0 to keep every edge");
+    }
+    const double diameter = mean_diameter(spheres);
+    CellComplex complex = power_cells(spheres, solid);
+    cut_by_walls(complex, solid, zero_edge * diameter);
+    merge_close_vertices(complex, zero_edge * diameter);
+
+    Polyhedra p;
+    const auto volumes = cell_volumes(complex);
+    p.hidden_spheres = find_hidden(complex, volumes);
+    if (!options.allow_hidden) refuse_hidden(spheres, p.hidden_spheres);
+    const double mean_volume = solid.volume / static_cast<double>(spheres.size());
+    require_volumes(spheres, p.hidden_spheres, volumes, zero_volume * mean_volume);
+
+    std::vector<Vector> centres = centroids(complex, spheres, volumes);
+    const auto depth = depths(complex, spheres);
+    std::vector<bool> moved(spheres.size());
+    for (std::size_t s = 0; s < spheres.size(); ++s) {
+        moved[s] = depth[s] < well_inside * std::cbrt(volumes[s]);
+        if (!moved[s]) centres[s] = spheres[s].centre;
+    }
+    p.uncollapsed_contacts = count_contacts(complex);
+    p.short_edges = collapse_short_edges(complex, centres, options.short_edge);
+    p.contacts = count_contacts(complex);
+    number_cells(p, complex, centres);
+    add_volumes(p);
+    for (int c = 0; c < p.cells(); ++c)
+        if (moved[p.sphere_of_cell[c]]) p.moved_centres.push_back(c);
+    return p;
+}
+
+}  // namespace flexpm

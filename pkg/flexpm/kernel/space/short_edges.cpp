@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Queue of edges by length; each collapse is tried on copies of the faces that it touches.
+#include <flexpm/kernel/space/short_edges.hpp>
+
+#include <flexpm/kernel/space/face_triangles.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace flexpm {
+namespace {
+
+/// Share of the threshold below which edges are collapsed first.
+constexpr double noise = 1e-3;
+/// Smallest angle between sides of a tetrahedron that a collapse may make, as its cosine: 2
+/// degrees.
+constexpr double cosine_limit = 0.99939082701909573;
+
+class Collapser {
+public:
+    Collapser(CellComplex& c, const std::vector<Vector>& centres_, double threshold_) :
+        complex(c),
+        centres(centres_),
+        threshold(threshold_),
+        faces_at(c.vertices.size()),
+        faces_of(c.cells, 0)
+    {
+        for (std::size_t f = 0; f < c.faces.size(); ++f) {
+            const CellFace& face = c.faces[f];
+            for (int v : face.corners)
+                faces_at[v].push_back(static_cast<int>(f));
+            count(face, 1);
+        }
+    }
+
+    int run()
+    {
+        // corners that many cells share, but for the noise of their spheres
+        limit = noise * threshold;
+        collapse_all();
+        limit = threshold;
+        collapse_all();
+        auto& faces = complex.faces;
+        faces.erase(std::remove_if(faces.begin(), faces.end(),
+                        [](const CellFace& face) { return face.corners.empty(); }),
+            faces.end());
+        return count_short_edges();
+    }
+
+private:
+    /// The collapse of one edge.
+    struct Collapse {
+        int kept, lost;
+        std::vector<int> touched;               ///< faces with one of the two vertices
+        std::vector<std::vector<int>> corners;  ///< of each of them, empty if it goes
+    };
+
+    CellComplex& complex;
+    const std::vector<Vector>& centres;
+    double threshold;
+    double limit = 0.0;                      ///< of the edges that are collapsed now
+    bool any = false;                        ///< whether an edge has been collapsed in this round
+    std::vector<std::vector<int>> faces_at;  ///< faces that meet in a vertex, in order
+    std::vector<int> faces_of;               ///< number of faces of each cell
+    std::set<std::tuple<double, int, int>> queue;  ///< (length, smaller vertex, larger vertex)
+
+    void collapse_all()
+    {
+        // what is refused at first may go once others have gone
+        do {
+            any = false;
+            for (const CellFace& face : complex.faces)
+                offer_edges(face.corners);
+            while (!queue.empty()) {
+                const auto [length_then, u, v] = *queue.begin();
+                queue.erase(queue.begin());
+                if (is_edge(u, v) && length(u, v) == length_then) collapse(u, v);
+            }
+        } while (any);
+    }
+
+    double length(int u, int v) const { return norm(complex.vertices[v] - complex.vertices[u]); }
+
+    void count(const CellFace& face, int change)
+    {
+        faces_of[face.first] += change;
+        if (face.second >= 0) faces_of[face.second] += change;
+    }
+
+    void offer_edges(const std::vector<int>& corners)
+    {
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const int a = corners[k], b = corners[(k + 1) % corners.size()];
+            const double l = length(a, b);
+            if (l < limit) queue.emplace(l, std::min(a, b), std::max(a, b));
+        }
+    }
+
+    bool is_edge(int u, int v) const
+    {
+        for (int f : faces_at[u]) {
+            const auto& corners = complex.faces[f].corners;
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const int a = corners[k], b = corners[(k + 1) % corners.size()];
+                if ((a == u && b == v) || (a == v && b == u)) return true;
+            }
+        }
+        return false;
+    }
+
+    void collapse(int u, int v)
+    {
+        const auto &of_u = complex.walls[u], &of_v = complex.walls[v];
+        const bool u_fits = is_subset(of_u, of_v), v_fits = is_subset(of_v, of_u);
+        if (!u_fits && !v_fits) return;
+        Collapse c;
+        c.kept = u_fits ? v : u;
+        c.lost = c.kept == u ? v : u;
+        std::set_union(faces_at[u].begin(), faces_at[u].end(), faces_at[v].begin(),
+            faces_at[v].end(), std::back_inserter(c.touched));
+        for (int f : c.touched)
+            c.corners.push_back(merged(complex.faces[f].corners, c.kept, c.lost));
+        if (!keeps_cells(c)) return;
+        const Vector at_u = complex.vertices[u], at_v = complex.vertices[v];
+        std::vector<Vector> targets { complex.vertices[c.kept] };
+        if (u_fits && v_fits) targets = { 0.5 * (at_u + at_v), at_u, at_v };
+        for (Vector target : targets) {
+            if (!keeps_shape(c, target)) continue;
+            apply(c);
+            break;
+        }
+    }
+
+    /// The corners with `lost` replaced by `kept`, empty if fewer than three are left.
+    static std::vector<int> merged(const std::vector<int>& corners, int kept, int lost)
+    {
+        std::vector<int> result;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const int a = corners[k], b = corners[(k + 1) % corners.size()];
+            if ((a == kept && b == lost) || (a == lost && b == kept)) continue;
+            result.push_back(a == lost ? kept : a);
+        }
+        return result.size() < 3 ? std::vector<int> {} : result;
+    }
+
+    /// Whether polygons stay simple, cells keep four faces, and edges two faces of each cell.
+    bool keeps_cells(const Collapse& c) const
+    {
+        std::map<int, int> left;                 // faces of each cell
+        std::vector<std::pair<int, int>> edges;  // cell, vertex to which an edge leads from `kept`
+        for (std::size_t k = 0; k < c.touched.size(); ++k) {
+            const CellFace& face = complex.faces[c.touched[k]];
+            const auto& corners = c.corners[k];
+            for (int cell : { face.first, face.second })
+                if (cell >= 0)
+                    left.try_emplace(cell, faces_of[cell]).first->second -= corners.empty();
+            const std::size_t n = corners.size();
+            if (std::count(corners.begin(), corners.end(), c.kept) > 1) return false;
+            for (std::size_t i = 0; i < n; ++i) {
+                if (corners[i] != c.kept) continue;
+                edges.emplace_back(face.first, corners[(i + 1) % n]);
+                if (face.second >= 0) edges.emplace_back(face.second, corners[(i + n - 1) % n]);
+            }
+        }
+        for (const auto& [cell, faces] : left)
+            if (faces < 4) return false;
+        std::sort(edges.begin(), edges.end());
+        return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+    }
+
+    /// Whether no tetrahedron becomes too sharp: then `kept` is moved to the target.
+    bool keeps_shape(const Collapse& c, Vector target)
+    {
+        if (limit < threshold) {  // by less than noise, the shape does not change
+            complex.vertices[c.kept] = target;
+            return true;
+        }
+        double before = cosine_limit, after = -1.0;
+        for (int f : c.touched)
+            before = std::max(before, sharpest(complex.faces[f], complex.faces[f].corners));
+        const Vector at = std::exchange(complex.vertices[c.kept], target);
+        for (std::size_t k = 0; k < c.touched.size(); ++k)
+            after = std::max(after, sharpest(complex.faces[c.touched[k]], c.corners[k]));
+        if (after > before) complex.vertices[c.kept] = at;
+        return after <= before;
+    }
+
+    /// Cosine of the smallest angle of the tetrahedra on a face.
+    double sharpest(const CellFace& face, const std::vector<int>& corners) const
+    {
+        double result = -1.0;
+        if (corners.empty()) return result;
+        for (const auto& [a, b, c] : face_triangles(complex.vertices, corners)) {
+            const Vector p = complex.vertices[a], q = complex.vertices[b], r = complex.vertices[c];
+            double worst = sharpest_cosine(centres[face.first], p, q, r);
+            if (face.second >= 0)
+                worst = std::max(worst, sharpest_cosine(centres[face.second], p, r, q));
+            const bool is_short = std::min({ length(a, b), length(b, c), length(c, a) }) < limit;
+            if (!is_short || worst > 1.0) result = std::max(result, worst);
+        }
+        return result;
+    }
+
+    void apply(const Collapse& c)
+    {
+        any = true;
+        std::vector<int> left;
+        for (std::size_t k = 0; k < c.touched.size(); ++k) {
+            const int f = c.touched[k];
+            auto& corners = complex.faces[f].corners;
+            if (c.corners[k].empty()) {
+                count(complex.faces[f], -1);
+                for (int v : corners)
+                    if (v != c.kept && v != c.lost) erase_value(faces_at[v], f);
+            } else {
+                left.push_back(f);
+            }
+            corners = c.corners[k];
+        }
+        faces_at[c.kept] = std::move(left);
+        faces_at[c.lost].clear();
+        for (int f : faces_at[c.kept])
+            offer_edges_at(c.kept, complex.faces[f].corners);
+    }
+
+    static void erase_value(std::vector<int>& values, int value)
+    {
+        values.erase(std::find(values.begin(), values.end(), value));
+    }
+
+    void offer_edges_at(int vertex, const std::vector<int>& corners)
+    {
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const int a = corners[k], b = corners[(k + 1) % corners.size()];
+            if (a == vertex || b == vertex) offer_edges({ a, b });
+        }
+    }
+
+    int count_short_edges() const
+    {
+        std::set<std::pair<int, int>> edges;
+        for (const CellFace& face : complex.faces)
+            for (std::size_t k = 0; k < face.corners.size(); ++k) {
+                const int a = face.corners[k], b = face.corners[(k + 1) % face.corners.size()];
+                if (length(a, b) < threshold) edges.emplace(std::min(a, b), std::max(a, b));
+            }
+        return static_cast<int>(edges.size());
+    }
+};
+
+}  // namespace
+
+int collapse_short_edges(CellComplex& complex, const std::vector<Vector>& centres, double threshold)
+{
+    return Collapser(complex, centres, threshold).run();
+}
+
+}  // namespace flexpm

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Python access to the geometry of solids: insertion of spheres, polyhedral cells, their tetrahedra.
+#include <flexpm/yade/bindings/array_view.hpp>
+#include <flexpm/yade/bindings/bindings.hpp>
+
+#include <flexpm/kernel/space/face_points.hpp>
+#include <flexpm/kernel/space/fan_meshes.hpp>
+#include <flexpm/kernel/space/sphere_insertion.hpp>
+#include <flexpm/kernel/space/sphere_sizes.hpp>
+
+#include <array>
+#include <memory>
+
+namespace py = boost::python;
+
+namespace flexpm_bindings {
+namespace {
+
+	using flexpm::FanMeshes;
+	using flexpm::Polyhedra;
+	using flexpm::Solid;
+
+	static_assert(sizeof(flexpm::Vector) == 3 * sizeof(double), "vectors are viewed as rows of three doubles");
+	static_assert(sizeof(flexpm::PolyhedronFace) == 3 * sizeof(int), "faces are viewed as rows of three integers");
+
+	/// View of a member vector as rows of scalars; the owner is the Python object that holds the C++ one.
+	template <class T, class Class, class Item, std::vector<Item> Class::*member> py::object rows(py::object self)
+	{
+		const auto&   items   = py::extract<const Class&>(self)().*member;
+		constexpr int columns = sizeof(Item) == sizeof(T) ? 0 : static_cast<int>(sizeof(Item) / sizeof(T));
+		return dense_view(reinterpret_cast<const T*>(items.data()), items.size(), columns, self, Access::readOnly);
+	}
+	template <class Item, std::vector<Item> Polyhedra::*member> constexpr auto integers = rows<int, Polyhedra, Item, member>;
+	template <std::vector<flexpm::Vector> Polyhedra::*member> constexpr auto   vectors  = rows<double, Polyhedra, flexpm::Vector, member>;
+
+	std::vector<flexpm::Sphere> spheres(const py::object& array)
+	{
+		const InputArray<double> input(array, 2, "spheres");
+		if (input.size(1) != 4)
+			throw std::invalid_argument("spheres = rows of " + std::to_string(input.size(1)) + ", must be rows of 4; give x, y, z and radius");
+		std::vector<flexpm::Sphere> result;
+		for (std::size_t i = 0; i < input.size(0); ++i) {
+			const double* row = input.data() + 4 * i;
+			result.push_back({ { row[0], row[1], row[2] }, row[3] });
+		}
+		return result;
+	}
+
+	py::object walls(const Solid& solid)
+	{
+		std::vector<double> values;
+		for (const auto& wall : solid.walls)
+			for (double value : { wall.normal.x, wall.normal.y, wall.normal.z, wall.offset })
+				values.push_back(value);
+		return copied(values, 4, Access::readOnly);
+	}
+
+	py::object sides(const Solid& solid)
+	{
+		std::vector<int> values;
+		for (const auto& wall : solid.walls)
+			values.push_back(static_cast<int>(wall.side));
+		return copied(values, 0, Access::readOnly);
+	}
+
+	py::object insertSpheres(py::object radii, const Solid& solid, double shrink, std::uint64_t seed)
+	{
+		const InputArray<double> input(radii, 1, "radii");
+		const auto               centres = flexpm::insert_spheres({ input.data(), input.data() + input.size(0) }, solid, shrink, seed);
+		return dense_view(reinterpret_cast<const double*>(centres.data()), centres.size(), 3, py::object(), Access::readOnly).attr("copy")();
+	}
+
+	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden)
+	{
+		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, { shortEdge, allowHidden }));
+	}
+
+	std::shared_ptr<FanMeshes> fanMeshes(const Polyhedra& cells) { return std::make_shared<FanMeshes>(flexpm::fan_meshes(cells)); }
+
+	/// Offsets and elements as numpy knows them.
+	template <std::vector<std::int64_t> FanMeshes::*member> py::object offsets(const FanMeshes& meshes)
+	{
+		const auto& values = meshes.*member;
+		return copied(std::vector<double>(values.begin(), values.end()), 0).attr("astype")("int64");
+	}
+
+	/// Points of all contacts by the rule of the model, and how many contacts could not have it.
+	py::tuple facePointCounts(const Polyhedra& cells)
+	{
+		int points = 0, fallbacks = 0;
+		for (int face = 0; face < cells.contacts; ++face) {
+			std::vector<flexpm::Vector> corners;
+			for (int vertex : cells.corners(face))
+				corners.push_back(cells.vertices[vertex]);
+			const auto found = flexpm::face_points(corners, flexpm::FacePointRule::corners_and_inner);
+			points += static_cast<int>(found.points.size());
+			fallbacks += found.fallback;
+		}
+		return py::make_tuple(points, fallbacks);
+	}
+
+	void registerPolyhedra()
+	{
+		using P = Polyhedra;
+		py::class_<P, std::shared_ptr<P>>("Polyhedra", "Polyhedral cells over common vertices. Arrays are read-only views.", py::no_init)
+		        .add_property("cells", &P::cells, "Number of cells.")
+		        .add_property("vertices", vectors<&P::vertices>, "Vertices, (n, 3) [m].")
+		        .add_property("centres", vectors<&P::centres>, "Common corner of the tetrahedra of each cell, (n, 3) [m].")
+		        .add_property("volumes", rows<double, P, double, &P::volumes>, "Volume of each cell [m^3].")
+		        .add_property(
+		                "faces",
+		                integers<flexpm::PolyhedronFace, &P::faces>,
+		                "Rows cell_a < cell_b, -1; on a wall cell, -1, wall. Contacts come first.")
+		        .add_property("face_offsets", integers<int, &P::face_offsets>, "Face i owns face_vertices[face_offsets[i]:face_offsets[i + 1]].")
+		        .add_property(
+		                "face_vertices", integers<int, &P::face_vertices>, "Vertex indices, counter-clockwise from outside cell_a, face after face.")
+		        .add_property("sphere_of_cell", integers<int, &P::sphere_of_cell>, "Sphere of each cell.")
+		        .add_property("hidden_spheres", integers<int, &P::hidden_spheres>, "Spheres without a cell.")
+		        .add_property("moved_centres", integers<int, &P::moved_centres>, "Cells whose centre is their centroid.")
+		        .def_readonly("contacts", &P::contacts, "Number of faces between cells.")
+		        .def_readonly("uncollapsed_contacts", &P::uncollapsed_contacts, "Contacts before short edges were collapsed.")
+		        .def_readonly("short_edges", &P::short_edges, "Edges below the limit that had to stay.");
+	}
+
+} // namespace
+
+void register_space_bindings()
+{
+	py::class_<Solid>("Solid", "Convex outline in space.", py::no_init)
+	        .def("box", Solid::box, (py::arg("width"), py::arg("depth"), py::arg("height")), "Box from the origin.")
+	        .staticmethod("box")
+	        .def("cylinder", Solid::cylinder, (py::arg("diameter"), py::arg("height"), py::arg("grain")), "Upright prism about the z axis, from z = 0.")
+	        .staticmethod("cylinder")
+	        .add_property("walls", walls, "Rows nx, ny, nz, offset: outside where n . p > offset.")
+	        .add_property("sides", sides, "Side of each wall: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back.")
+	        .def_readonly("volume", &Solid::volume, "[m^3]");
+	registerPolyhedra();
+	using M = FanMeshes;
+	py::class_<M, std::shared_ptr<M>>("FanMeshes", "Tetrahedra of all grains, end to end.", py::no_init)
+	        .add_property("node_offsets", offsets<&M::node_offsets>, "Grain i owns nodes node_offsets[i]:node_offsets[i + 1] (a copy).")
+	        .add_property("node_vertices", rows<int, M, int, &M::node_vertices>, "Vertex of the cells at each node, -1: centre of the grain.")
+	        .add_property("element_offsets", offsets<&M::element_offsets>, "Grain i owns elements element_offsets[i]:element_offsets[i + 1] (a copy).")
+	        .add_property("elements", rows<int, M, std::array<int, 4>, &M::elements>, "Nodes of each tetrahedron, from 0 in its grain.")
+	        .add_property("volumes", rows<double, M, double, &M::volumes>, "Volume of each tetrahedron [m^3].");
+	py::def("sphere_count",
+	        flexpm::sphere_count,
+	        (py::arg("volume"), py::arg("d_min"), py::arg("d_max"), py::arg("porosity")),
+	        "Number of spheres from their mean volume.");
+	py::def("insert_spheres",
+	        insertSpheres,
+	        (py::arg("radii"), py::arg("solid"), py::arg("shrink"), py::arg("seed")),
+	        "Random centres without overlap, (n, 3) [m].");
+	py::def("polyhedra",
+	        polyhedra,
+	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden")),
+	        "Laguerre cells of rows x, y, z, radius.");
+	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
+	py::def("face_point_counts", facePointCounts, py::arg("cells"), "Points of all contacts, and contacts with equal points instead of the rule's.");
+}
+
+} // namespace flexpm_bindings

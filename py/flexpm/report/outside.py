@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The outside of a solid, seen from the front, the right and above. Lengths in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+from ..arrays import FloatArray, IntArray
+from ..text import label_of
+from .style import STYLE, save
+
+#: Where the eye is, far away, in space.
+_EYE = np.array([0.42, -0.80, 0.43])
+#: Where the light comes from.
+_LIGHT = np.array([0.15, -0.75, 0.65])
+#: Darkest share of a colour, on faces that the light does not reach.
+_SHADE = 0.55
+#: Colours of grains, drawn by their numbers.
+_GRAINS = np.array(
+    [
+        (0.85, 0.80, 0.72),
+        (0.76, 0.70, 0.62),
+        (0.90, 0.87, 0.82),
+        (0.70, 0.67, 0.66),
+        (0.82, 0.72, 0.66),
+        (0.64, 0.62, 0.58),
+        (0.88, 0.80, 0.76),
+    ]
+)
+_EDGE = (0.25, 0.23, 0.22)
+
+
+def outside_picture(
+    path: Path | str,
+    vertices: FloatArray,
+    faces: Sequence[IntArray],
+    grains: IntArray,
+    caption: str = "",
+) -> None:
+    """Draw the faces of a convex solid that can be seen, each grain in a colour of its own.
+
+    Faces that are turned to the eye hide each other nowhere, since the solid is convex.
+
+    Args:
+        path: Picture to write.
+        vertices: Places (n, 3) [m].
+        faces: Vertices of each face on the outside, counter-clockwise as seen from there.
+        grains: Grain of each of these faces.
+        caption: Line above the picture.
+    """
+    eye = _EYE / np.linalg.norm(_EYE)
+    right = np.cross([0.0, 0.0, 1.0], eye)
+    right /= np.linalg.norm(right)
+    axes_of_picture = np.column_stack((right, np.cross(eye, right)))
+    light = _LIGHT / np.linalg.norm(_LIGHT)
+    seen, colours = [], []
+    for face, grain in zip(faces, grains, strict=True):
+        corners = vertices[face]
+        normal = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
+        length = np.linalg.norm(normal)
+        if not normal @ eye > 0.0:
+            continue
+        lit = max(float(normal @ light) / float(length), 0.0)
+        # neighbours in number are neighbours in space: steps by 3 of 7 colours tell them apart
+        colours.append((_SHADE + (1.0 - _SHADE) * lit) * _GRAINS[3 * int(grain) % len(_GRAINS)])
+        seen.append(1e3 * corners @ axes_of_picture)
+    places = np.vstack(seen)
+    low, high = places.min(axis=0), places.max(axis=0)
+    width, height = high - low
+    with rc_context(STYLE):
+        tall = 5.6
+        figure = Figure(figsize=(max(2.6, tall * width / height + 0.4), tall), layout="constrained")
+        axes = figure.add_subplot()
+        axes.add_collection(
+            PolyCollection(seen, facecolors=colours, edgecolors=_EDGE, linewidths=0.3)
+        )
+        margin = 0.02 * height
+        axes.set_xlim(low[0] - margin, high[0] + margin)
+        axes.set_ylim(low[1] - margin, high[1] + margin)
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+        axes.set_title(label_of(caption), fontsize=9.5, loc="left")
+        save(figure, path)

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Packed and given spheres, their cells, and figures of them. SI units."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..._flexpm import (
+    FanMeshes,
+    Polyhedra,
+    disc_radii,
+    face_point_counts,
+    polyhedra,
+    sphere_count,
+)
+from ...arrays import FloatArray, IntArray
+from ...errors import InputError
+from ...files import Table
+from ...progress import Progress
+from .. import packing
+from ..kernel_input import call
+from .frame import SolidFrame
+from .spec import SolidSpec
+
+_FEWEST_SPHERES = 8
+#: Shares of the edges that are shorter than the lengths given [-].
+_SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
+
+
+def packed_spheres(where: str, spec: SolidSpec, progress: Progress | None) -> FloatArray:
+    """Rows x, y, z, radius [m] of spheres packed into the outline of a specimen."""
+    assert spec.diameters is not None and spec.porosity is not None and spec.seed is not None
+    smallest, largest = spec.diameters
+    count = call(sphere_count, spec.volume, smallest, largest, spec.porosity)
+    if count < _FEWEST_SPHERES:
+        raise InputError(
+            f"{where}: spheres = {count}, must be >= {_FEWEST_SPHERES} to fill the specimen; "
+            "choose smaller diameters"
+        )
+    mean = 0.5 * (smallest + largest)
+    radii = call(disc_radii, count, smallest, largest, spec.seed)
+    frame = SolidFrame.of(spec, mean)
+    centres, radii = call(packing.pack, frame, radii, mean, spec.seed, progress)
+    return np.column_stack((centres, radii))
+
+
+def cells_of(
+    spheres: FloatArray, spec: SolidSpec, *, drop_hidden: bool
+) -> tuple[FloatArray, Polyhedra]:
+    """Spheres and their cells; hidden spheres, which have no cell, are dropped or refused."""
+    while True:
+        mean = 2.0 * float(np.mean(spheres[:, 3])) if len(spheres) else 0.0
+        grain = 0.5 * sum(spec.diameters) if spec.diameters is not None else mean
+        solid = (
+            SolidFrame.of(spec, grain).solid() if mean > 0.0 else SolidFrame.of(spec, 1.0).solid()
+        )
+        cells = call(polyhedra, spheres, solid, spec.short_edge * mean, drop_hidden)
+        if len(cells.hidden_spheres) == 0:
+            break
+        spheres = np.ascontiguousarray(np.delete(spheres, cells.hidden_spheres, axis=0))
+    spheres.setflags(write=False)
+    return spheres, cells
+
+
+def sphere_rows(given: npt.ArrayLike | Path | str) -> FloatArray:
+    """Rows x, y, z, radius [m] from an array, or from a text file of such rows.
+
+    Raises:
+        InputError: if it is no table of four numbers a row, or the file cannot be read.
+    """
+    name = "Specimen.from_spheres: spheres"
+    values: npt.ArrayLike
+    if isinstance(given, Path | str):
+        name = f"{name} = {str(given)!r}"
+        try:
+            text = Path(given).read_text(encoding="utf-8")
+        except (OSError, ValueError):
+            raise InputError(f"{name}, cannot be read; give a text file of rows") from None
+        lines = (line.partition("#")[0].replace(",", " ").split() for line in text.splitlines())
+        values = [line for line in lines if line]
+    else:
+        values = given
+    try:
+        found = np.array(values, dtype=float, order="C")
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: not numbers, must be rows x, y, z, radius [m]") from None
+    if found.ndim != 2 or found.shape[1] != 4:
+        raise InputError(
+            f"{name}: array of shape {found.shape}, must be rows x, y, z, radius [m]; correct it"
+        )
+    return found
+
+
+def polygons(cells: Polyhedra, first: int, last: int) -> list[IntArray]:
+    """Vertices of each face from number `first` to before `last`."""
+    ends = cells.face_offsets
+    return [cells.face_vertices[ends[k] : ends[k + 1]] for k in range(first, last)]
+
+
+def figures(cells: Polyhedra, meshes: FanMeshes) -> Table:
+    """Count and measure grains, contacts, edges and tetrahedra: volumes [m3], lengths [m]."""
+    faces = polygons(cells, 0, cells.contacts or len(cells.faces))
+    starts = np.concatenate(faces)
+    ends = np.concatenate([np.roll(face, -1) for face in faces])
+    places = cells.vertices
+    lengths = np.sqrt(np.sum((places[ends] - places[starts]) ** 2, axis=1))
+    corners = np.diff(cells.face_offsets[: cells.contacts + 1])
+    points, equal = face_point_counts(cells)
+    return {
+        "grains": cells.cells,
+        "contacts": cells.contacts,
+        "uncollapsed_contacts": cells.uncollapsed_contacts,
+        "boundary_faces": len(cells.faces) - cells.contacts,
+        "contact_corners": int(corners.sum()),
+        "contact_points": points,
+        "contacts_of_equal_points": equal,
+        "cell_volume": math.fsum(cells.volumes),
+        "smallest_cell_volume": float(cells.volumes.min()),
+        "edge_length": {f"{p:.2f}": float(np.quantile(lengths, p)) for p in _SHARES},
+        "short_edges_left": cells.short_edges,
+        "coordination": 2.0 * cells.contacts / cells.cells,
+        "nodes": len(meshes.node_vertices),
+        "tetrahedra": len(meshes.elements),
+        "smallest_tetrahedron_volume": float(meshes.volumes.min()),
+        "moved_centres": len(cells.moved_centres),
+    }

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What spheres are packed into. Lengths in metres."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from yade import utils, wrapper
+
+from ..._flexpm import Solid, insert_spheres
+from ...arrays import FloatArray
+from .spec import SolidSpec
+
+#: Length of facets beyond top and bottom, in largest sizes of the frame.
+_BEYOND = 0.05
+
+
+@dataclass(frozen=True)
+class SolidFrame:
+    """Box from the origin, or upright cylinder about the z axis from z = 0.
+
+    Attributes:
+        kind: ``box`` or ``cylinder``.
+        sizes: Width, depth and height, or diameter and height [m].
+        grain: Mean diameter of the spheres, which the facets of a cylinder follow [m].
+    """
+
+    kind: str
+    sizes: tuple[float, ...]
+    grain: float
+
+    @classmethod
+    def of(cls, spec: SolidSpec, grain: float) -> SolidFrame:
+        """The frame of a specimen of grains of a mean diameter [m]."""
+        return cls(spec.kind, tuple(spec.sizes.values()), grain)
+
+    def scaled(self, factor: float) -> SolidFrame:
+        """Return the frame with all lengths multiplied by ``factor``."""
+        sizes = tuple(size * factor for size in self.sizes)
+        return SolidFrame(self.kind, sizes, self.grain * factor)
+
+    def solid(self) -> Solid:
+        """Return the outline as the kernel's object."""
+        if self.kind == "cylinder":
+            diameter, height = self.sizes
+            return Solid.cylinder(diameter, height, self.grain)
+        return Solid.box(*self.sizes)
+
+    def insert(self, radii: FloatArray, shrink: float, seed: int) -> FloatArray:
+        """Return random places at which shrunken spheres do not overlap, (n, 3) [m]."""
+        return insert_spheres(radii, self.solid(), shrink, seed)
+
+    def walls(self, material: wrapper.Material) -> list[wrapper.Body]:
+        """Make the bodies that hold spheres inside: planes, and two facets for each of a mantle."""
+        bodies = []
+        for *normal, offset in self.solid().walls:
+            axis = int(np.argmax(np.abs(normal)))
+            if normal[axis] in (-1.0, 1.0):
+                side = int(normal[axis])
+                wall = utils.wall(side * offset, axis, sense=-side, material=material)
+                bodies.append(wall)
+        return bodies + (self._mantle(material) if self.kind == "cylinder" else [])
+
+    def has_inside(self, place: FloatArray) -> bool:
+        """Whether a place x, y, z is inside."""
+        walls = self.solid().walls
+        return bool(np.all(walls[:, :3] @ place < walls[:, 3]))
+
+    def _mantle(self, material: wrapper.Material) -> list[wrapper.Body]:
+        walls = self.solid().walls
+        apothem = walls[-1, 3]
+        count = len(walls) - 2
+        corner = apothem / math.cos(math.pi / count)
+        low = -_BEYOND * max(self.sizes)
+        high = self.sizes[1] - low
+        # numpy has cosines of its own on some processors: spheres would differ between machines
+        angles = [2.0 * math.pi * k / count for k in range(count + 1)]
+        rim = [(corner * math.cos(angle), corner * math.sin(angle)) for angle in angles]
+        facets = []
+        for a, b in itertools.pairwise(rim):
+            for corners in (
+                [(*a, low), (*b, low), (*a, high)],
+                [(*b, low), (*b, high), (*a, high)],
+            ):
+                facets.append(utils.facet(corners, material=material))
+        return facets

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ways to make a solid specimen, which ``Specimen`` has beside those of plane ones. SI units."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Unpack
+
+import numpy.typing as npt
+
+from ...files import Table
+from ..plane import Packing, packing_of
+from .spec import SHORT_EDGE, SolidSpec
+from .specimen import SolidSpecimen
+
+
+class SolidShapes:
+    """Makers of solid specimens. Solids are not tested yet; see doc/solids."""
+
+    @staticmethod
+    def box(width: float, depth: float, height: float, **packing: Unpack[Packing]) -> SolidSpecimen:
+        """Pack a box with a corner at the origin; z is the axial direction.
+
+        Args:
+            width: Along x [m].
+            depth: Along y [m].
+            height: Along z [m].
+            packing: ``diameters``, ``porosity``, ``seed``, ``short_edge`` (0.10 if left out) and
+                ``progress`` as for ``rectangle``, of spheres.
+
+        Raises:
+            InputError: for a value out of range, spheres that do not fit, or more grains than the
+                machine has memory for.
+        """
+        return _packed("box", {"width": width, "depth": depth, "height": height}, packing)
+
+    @staticmethod
+    def cylinder(diameter: float, height: float, **packing: Unpack[Packing]) -> SolidSpecimen:
+        """Pack an upright cylinder about the z axis, from z = 0: a prism of its section (D63).
+
+        Args:
+            diameter: Diameter of the specimen [m].
+            height: Along z, the axial direction [m].
+            packing: As for ``box``.
+
+        Raises:
+            InputError: as for ``box``.
+        """
+        return _packed("cylinder", {"diameter": diameter, "height": height}, packing)
+
+    @staticmethod
+    def from_spheres(
+        spheres: npt.ArrayLike | Path | str,
+        *,
+        height: float,
+        width: float | None = None,
+        depth: float | None = None,
+        diameter: float | None = None,
+        short_edge: float = SHORT_EDGE,
+        drop_hidden: bool = False,
+    ) -> SolidSpecimen:
+        """Make a solid of given spheres: a box, or with `diameter` a cylinder.
+
+        Args:
+            spheres: Rows x, y, z, radius [m], centres inside the outline, or a text file of such
+                rows, between blanks or commas.
+            height: Along z, from 0 [m].
+            width: Width of a box, along x from 0 [m].
+            depth: Depth of a box, along y from 0 [m].
+            diameter: Diameter of a cylinder about the z axis [m].
+            short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
+            drop_hidden: Leave out spheres that others hide, and count them in ``removed_spheres``.
+
+        Returns:
+            The specimen, grains in the order of the spheres.
+
+        Raises:
+            InputError: for a value out of range, a sphere outside, in the place of another or
+                hidden by others, by its number.
+        """
+        sizes = {"height": height, "width": width, "depth": depth, "diameter": diameter}
+        return SolidSpecimen.of_spheres(
+            spheres, sizes, short_edge=short_edge, drop_hidden=drop_hidden
+        )
+
+    @staticmethod
+    def load_solid(path: Path | str) -> SolidSpecimen:
+        """Read a solid that its ``save`` has written: the same grains to the bit.
+
+        Raises:
+            InputError: if the file cannot be read, is no solid specimen, or was changed.
+        """
+        return SolidSpecimen.load(path)
+
+
+def _packed(kind: str, sizes: dict[str, float], packing: Packing) -> SolidSpecimen:
+    fields: Table = {**sizes, **packing_of(kind, (), packing)}
+    progress = fields.pop("progress", None)
+    return SolidSpecimen.pack(SolidSpec(kind, **fields), progress)

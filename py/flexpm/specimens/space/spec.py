@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a solid specimen is made from, as plain values that files can hold. SI units.
+
+Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+
+from ...errors import InputError
+from ..checks import (
+    require_diameters,
+    require_length,
+    require_porosity,
+    require_seed,
+    require_short_edge,
+)
+
+#: Sizes of each shape and their defaults [m].
+SIZES: dict[str, dict[str, float]] = {
+    "box": {"width": 0.025, "depth": 0.025, "height": 0.05},
+    "cylinder": {"diameter": 0.05, "height": 0.1},
+}
+#: Edges of cells below this share of the mean diameter are collapsed.
+SHORT_EDGE = 0.10
+_ALL_SIZES = ("width", "depth", "height", "diameter")
+#: Memory of packing, cells, file and picture [bytes a grain], measured on 11 250 grains.
+_MEMORY = 30_000
+
+
+@dataclass(frozen=True)
+class SolidSpec:
+    """Shape, size and packing of a solid, or a checksum of what was given instead of a packing.
+
+    Attributes:
+        kind: ``box`` or ``cylinder``.
+        width: Width of a box, along x [m]; if None its default, and None for another shape.
+        depth: Depth of a box, along y [m]; None as for `width`.
+        height: Along z, the axis of tests [m]; None as for `width`.
+        diameter: Diameter of a cylinder [m]; None as for `width`.
+        diameters: Smallest and largest diameter of the packed spheres [m]; None for given ones.
+        porosity: Sets the number of packed spheres [-]; None for given ones.
+        seed: Seed of the packing; None for given spheres.
+        short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
+        spheres: Checksum of given spheres; None for a packing.
+    """
+
+    kind: str = "box"
+    width: float | None = None
+    depth: float | None = None
+    height: float | None = None
+    diameter: float | None = None
+    diameters: tuple[float, float] | None = (2e-3, 4e-3)
+    porosity: float | None = 0.10
+    seed: int | None = 1
+    short_edge: float = SHORT_EDGE
+    spheres: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind not in SIZES:
+            raise InputError(f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}")
+        where = f"Specimen.{self.kind}"
+        for name in _ALL_SIZES:
+            self._set(name, self._size(where, name))
+        self._set("short_edge", require_short_edge(self.short_edge))
+        if self.spheres is None:
+            room = min(self.sizes.values())
+            self._set("diameters", require_diameters(where, self.diameters, room))
+            self._set("porosity", require_porosity(where, self.porosity))
+            self._set("seed", require_seed(where, self.seed))
+            self._require_memory(where)
+        elif not (self.diameters is None and self.porosity is None and self.seed is None):
+            raise InputError(
+                f"{where}: spheres = {self.spheres}, must not be given with diameters, porosity or "
+                "a seed, which make a packing; leave these out"
+            )
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """``width``, ``depth`` and ``height``, or ``diameter`` and ``height`` [m]."""
+        return {name: getattr(self, name) for name in SIZES[self.kind]}
+
+    @property
+    def volume(self) -> float:
+        """Volume of the outline [m3]."""
+        sizes = self.sizes
+        if self.kind == "cylinder":
+            return 0.25 * math.pi * sizes["diameter"] ** 2 * sizes["height"]
+        return math.prod(sizes.values())
+
+    def _require_memory(self, where: str) -> None:
+        """Refuse a packing that the machine has no memory for, before it is begun."""
+        assert self.diameters is not None and self.porosity is not None
+        low, high = self.diameters
+        mean_cube = 0.25 * (low + high) * (low * low + high * high)
+        grains = self.volume * (1.0 - self.porosity) / (math.pi / 6.0 * mean_cube)
+        needed, there = _MEMORY * grains, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        if needed > there:
+            raise InputError(
+                f"{where}: grains = {grains:.4g}, need {needed / 1e9:.3g} GB of memory, must be at "
+                f"most {there / 1e9:.3g} GB; choose larger diameters or a smaller specimen"
+            )
+
+    def _size(self, where: str, name: str) -> float | None:
+        """A size that the shape has, or None."""
+        value = getattr(self, name)
+        if name not in SIZES[self.kind]:
+            if value is not None:
+                raise InputError(
+                    f"{name} = {value} m, must not be given for a {self.kind}; leave it out"
+                )
+            return None
+        if value is None:
+            value = SIZES[self.kind][name]
+        return require_length(where, name, value)
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
+
+
+def refuse_solid(where: str, specimen: object) -> None:
+    """Refuse a solid, or what it is made from, where plane specimens are tested."""
+    found = getattr(specimen, "spec", specimen)
+    if isinstance(found, SolidSpec):
+        raise InputError(
+            f"{where}: specimen = {found.kind}, must be plane: solids can be packed, measured, "
+            "saved and drawn so far (flexpm specimen box, cylinder), not tested"
+        )

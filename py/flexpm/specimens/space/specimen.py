@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solid specimens of bonded polyhedral grains: spheres, Laguerre cells, and figures of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from ..._flexpm import FanMeshes, Polyhedra, fan_meshes
+from ...arrays import FloatArray, IntArray
+from ...errors import InputError
+from ...files import Table
+from ...progress import Progress
+from ...require import require_flag
+from ..kernel_input import call, checksum
+from . import cells as of_spheres
+from . import file
+from .spec import SHORT_EDGE, SolidSpec
+
+
+@dataclass(frozen=True, eq=False)
+class SolidSpecimen:
+    """Bonded polyhedral grains that fill a box or a cylinder.
+
+    Make it by ``Specimen.box``, ``cylinder``, ``from_spheres`` or ``load_solid``.
+
+    Attributes:
+        spheres: Rows x, y, z, radius [m], one per grain.
+        cells: Cells of the grains; cell i belongs to sphere i.
+        spec: What it was made from.
+        removed_spheres: Spheres that had no cell and were left out.
+    """
+
+    spheres: FloatArray
+    cells: Polyhedra
+    spec: SolidSpec
+    removed_spheres: int = 0
+
+    @classmethod
+    def pack(cls, spec: SolidSpec, progress: Progress | None = None) -> SolidSpecimen:
+        """Pack the specimen that `spec` describes.
+
+        Raises:
+            InputError: for spheres that do not fit, or that were given instead of packed.
+        """
+        where = f"Specimen.{spec.kind}"
+        if spec.spheres is not None:
+            raise InputError(
+                f"{where}: spheres = {spec.spheres}, were given and cannot be packed again; load "
+                "the saved specimen"
+            )
+        given = of_spheres.packed_spheres(where, spec, progress)
+        spheres, cells = of_spheres.cells_of(given, spec, drop_hidden=True)
+        return cls(spheres, cells, spec, len(given) - len(spheres))
+
+    @classmethod
+    def of_spheres(
+        cls,
+        spheres: npt.ArrayLike | Path | str,
+        sizes: dict[str, float | None],
+        *,
+        short_edge: float = SHORT_EDGE,
+        drop_hidden: bool = False,
+    ) -> SolidSpecimen:
+        """Make a specimen of given spheres; see ``Specimen.from_spheres``."""
+        require_flag("Specimen.from_spheres: drop_hidden", drop_hidden)
+        kind = "box" if sizes.get("diameter") is None else "cylinder"
+        given = of_spheres.sphere_rows(spheres)
+        spec = SolidSpec(
+            kind,
+            **sizes,
+            diameters=None,
+            porosity=None,
+            seed=None,
+            short_edge=short_edge,
+            spheres=checksum(given),
+        )
+        kept, cells = of_spheres.cells_of(given, spec, drop_hidden=drop_hidden)
+        spec = dataclasses.replace(spec, spheres=checksum(kept))
+        return cls(kept, cells, spec, len(given) - len(kept))
+
+    @classmethod
+    def load(cls, path: Path | str) -> SolidSpecimen:
+        """Read a specimen that ``save`` has written: the same grains to the bit.
+
+        Raises:
+            InputError: if the file cannot be read, is no solid specimen, or was changed.
+        """
+        content = file.read(Path(path))
+        spec = SolidSpec(**content["spec"])
+        spheres = np.array(content["spheres"], dtype=float)
+        kept, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False)
+        return cls(kept, cells, spec, content["removed_spheres"])
+
+    def save(self, path: Path | str) -> None:
+        """Write the specimen as JSON: what it was made from, and its spheres.
+
+        Args:
+            path: The file.
+        """
+        file.write(
+            Path(path),
+            {
+                "spec": dataclasses.asdict(self.spec),
+                "removed_spheres": self.removed_spheres,
+                "spheres": self.spheres.tolist(),
+            },
+        )
+
+    @property
+    def kind(self) -> str:
+        """``box`` or ``cylinder``."""
+        return self.spec.kind
+
+    @property
+    def dimensions(self) -> dict[str, float]:
+        """``width``, ``depth`` and ``height``, or ``diameter`` and ``height`` [m]."""
+        return self.spec.sizes
+
+    @property
+    def centres(self) -> FloatArray:
+        """Centres of the spheres, (n, 3) [m]."""
+        return self.spheres[:, :3]
+
+    @property
+    def radii(self) -> FloatArray:
+        """Radii of the spheres [m]."""
+        return self.spheres[:, 3]
+
+    @property
+    def mean_diameter(self) -> float:
+        """Mean diameter of the spheres [m]."""
+        return 2.0 * float(np.mean(self.spheres[:, 3]))
+
+    def meshes(self) -> FanMeshes:
+        """Mesh the grains: tetrahedra between the triangles of each face and the grain's centre.
+
+        Raises:
+            InputError: if a tetrahedron has no volume.
+        """
+        return call(fan_meshes, self.cells)
+
+    def tetrahedra(self) -> tuple[FloatArray, IntArray, IntArray]:
+        """Nodes (n, 3) [m] and tetrahedra (m, 4) of all grains, and the grain of each (m,)."""
+        meshes, cells = self.meshes(), self.cells
+        firsts, ends = meshes.node_offsets, meshes.element_offsets
+        nodes = cells.vertices[meshes.node_vertices]  # the last one of each grain is its centre
+        nodes[firsts[1:] - 1] = cells.centres
+        grains = np.repeat(np.arange(cells.cells), np.diff(ends))
+        return nodes, meshes.elements + firsts[grains][:, None], grains
+
+    def contact_polygons(self) -> list[IntArray]:
+        """Vertices of each contact, in the order of ``cells.faces``."""
+        return of_spheres.polygons(self.cells, 0, self.cells.contacts)
+
+    def outer_polygons(self) -> list[IntArray]:
+        """Vertices of each face on the outside, counter-clockwise as seen from there."""
+        return of_spheres.polygons(self.cells, self.cells.contacts, len(self.cells.faces))
+
+    def statistics(self) -> Table:
+        """Count and measure grains, contacts, cells and tetrahedra.
+
+        Returns:
+            Counts, volumes [m3], lengths [m]; see the keys.
+        """
+        return {
+            **of_spheres.figures(self.cells, self.meshes()),
+            "removed_spheres": self.removed_spheres,
+            "mean_diameter": self.mean_diameter,
+        }
