@@ -17,9 +17,9 @@ from ..files import load_csv, read_text
 from ..laboratory.asked import told, write_report
 from ..laboratory.output import KINDS, kind_of
 from ..laboratory.run_spec import RunSpec
-from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
-from ..report.page import write as write_page
-from ..report.page_run import STATUS, cite, inputs_table, maps_of, versions
+from ..report.pages.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
+from ..report.pages.page import write as write_page
+from ..report.pages.page_run import STATUS, cite, inputs_table, maps_of, versions
 from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_test
