@@ -15,8 +15,7 @@ import pandas
 
 from ..errors import InputError
 from ..files import Table, output_folder, read_json
-from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec
+from ..kinds.registry import kind_of
 from ..materials.references import reference_of
 from ..progress import Progress
 from ..report.comparison import envelope_picture
@@ -24,6 +23,8 @@ from ..report.packings import Group, packings_picture
 from ..report.tables import columns, envelope_table, scaled
 from ..report.words import Words, words_of_test
 from ..results.strength import Envelope
+from ..runs.output import Output
+from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import jobs
 from .jobs import Job
@@ -209,7 +210,7 @@ def _cells(row: pandas.Series, ending: str) -> list[str]:
 
 
 def _label(row: pandas.Series) -> str:
-    pressure = f" {1e-6 * row['confinement']:g} MPa" if row["test"] == "biaxial" else ""
+    pressure = f" {1e-6 * row['confinement']:g} MPa" if kind_of(row["test"]).confined else ""
     return f"{row['model']}{pressure}"
 
 
