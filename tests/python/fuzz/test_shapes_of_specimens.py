@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import pytest
@@ -67,7 +68,7 @@ def tilings(draw):
         places = [0.0, *(column + shift for column in range(1, across)), float(across)]
         rings += [
             [[x, row], [y, row], [y, row + 1.0], [x, row + 1.0]]
-            for x, y in zip(places, places[1:], strict=False)
+            for x, y in itertools.pairwise(places)
         ]
     for _ in range(draw(st.integers(0, 5))):
         corners = draw(st.integers(3, 7))
