@@ -7,6 +7,7 @@ example does is plain data, so that it can be kept as a test.
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 import os
@@ -363,6 +364,8 @@ class Discs:
 
         yade.O.reset()
         outline = example["outline"]
+        if isinstance(outline, list) and outline and example["closed"]:
+            outline = [*outline, outline[0]]
         try:
             specimen = flexpm.Specimen.from_discs(
                 example["centres"],
@@ -370,6 +373,7 @@ class Discs:
                 outline if isinstance(outline, list) else Circle(*outline.values()),
                 example["thickness"],
                 short_edge=example["short_edge"],
+                drop_hidden=example["drop_hidden"],
             )
             built = flexpm.build(specimen, None, example["model"])
             built.run(20)
@@ -377,6 +381,45 @@ class Discs:
         except Exception as raised:
             return f"{type(raised).__name__}: {raised}"
         return "done"
+
+
+class Cells:
+    """Specimens of any cells, with grains within grains, built, saved, loaded and stepped."""
+
+    def __call__(self, example: dict[str, Any]) -> str:
+        """The error of an example, or what became of it."""
+        import numpy as np
+
+        import flexpm  # first: it knows where YADE is
+        import yade  # isort: skip
+
+        yade.O.reset()
+        rings = example["rings"][:: -1 if example["order"] else 1]
+        rings = [1e-3 * np.array(ring, dtype=float) for ring in rings]
+        try:
+            specimen = flexpm.Specimen.from_polygons(rings, 0.01, holes=example["holes"])
+        except flexpm.InputError as raised:
+            return f"InputError: {raised}"
+        areas = specimen.tessellation.cell_areas
+        whole = [self._area(ring) for ring in (specimen.outline, *specimen.holes)]
+        if not (np.all(areas > 0.0) and abs(areas.sum() / sum(whole) - 1.0) < 1e-9):
+            return f"areas = {areas.tolist()}, outline and holes = {whole}"
+        with tempfile.TemporaryDirectory() as folder:
+            specimen.save(f"{folder}/it.json")
+            again = flexpm.Specimen.load(f"{folder}/it.json")
+        if not np.array_equal(again.tessellation.cell_areas, areas):
+            return "another specimen in its file"
+        if len(areas) > 1:
+            built = flexpm.build(specimen, None, example["model"])
+            built.run(20)
+            if not np.all(np.isfinite(built.snapshot().positions)):
+                return "places that are none"
+        return "done"
+
+    @staticmethod
+    def _area(ring: Any) -> float:
+        following = ring[[*range(1, len(ring)), 0]]
+        return float(0.5 * (ring[:, 0] @ following[:, 1] - ring[:, 1] @ following[:, 0]))
 
 
 class Physics:
@@ -401,7 +444,11 @@ class Physics:
         sizes["diameters"] = tuple(sizes["diameters"])
         model = example["model"]
         try:
-            rock = flexpm.materials.load(None, model).with_set(example["material"], model)
+            rock = flexpm.materials.load(None, model)
+            if example["minerals"]:
+                kinds = [{"name": name, "fraction": 0.5} for name in ("hard", "soft")]
+                rock = dataclasses.replace(rock, minerals=kinds)
+            rock = rock.with_set(example["material"], model)
             specimen = flexpm.Specimen.pack(SpecimenSpec(**sizes))
             if example["joints"]:
                 specimen = specimen.with_joints(example["joints"])
@@ -469,6 +516,7 @@ def serve(kind: str, out: Any) -> None:
     kinds: dict[str, Callable[[], Callable[[Any], Any]]] = {
         "script": Script,
         "discs": Discs,
+        "cells": Cells,
         "command": Command,
         "physics": Physics,
     }

@@ -42,6 +42,10 @@ MATERIAL = {
         {"name": "hard", "fraction": 0.5},
         {"name": "soft", "fraction": 0.5, "elastic": {"flexible": {"young": 1e10}}},
     ],
+    "interface": [
+        {"pair": ["hard", "soft"], "cohesion": 2e7, "factor": {"tensile_strength": 0.5}},
+        {"pair": ["soft", "soft"], "friction": 0.2},
+    ],
 }
 STUDY = {
     "study": {"name": "a study"},

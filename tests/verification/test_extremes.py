@@ -94,9 +94,23 @@ def case(seed: int) -> dict:
         across = specimen.get("width", specimen.get("diameter"))
         joints["cut"] = [[-across, power(-2.0, 0.0) * side], [2.0 * across, 0.5 * side]]
         material |= {f"joint.cut.{key}": value for key, value in _joint(draw, power).items()}
+    # drawn last: what is above stays what it was of a seed
+    if test != "sonic" and draw.random() < 0.2:
+        options["damping"] = draw.choice([0.0, 0.2, 0.99])
+    if model in ("jcfpm", "cohfrict") and draw.random() < 0.5:
+        options["interaction_range"] = draw.choice([1.0, 1.3, 2.0])
+    minerals = draw.random() < 0.2
+    if minerals:
+        pair = draw.choice(["hard/soft", "soft/soft"])
+        for key in ("tensile_strength", "cohesion"):
+            material[f"interface.{pair}.{draw.choice(['', 'factor.'])}{key}"] = 1.0
+        for key in [one for one in material if one.startswith("interface.")]:
+            usual = 1.0 if "factor" in key else material[key.rpartition(".")[2]]
+            material[key] = usual * power(-2.0, 1.0)
     return {"test": test, "model": model, "specimen": specimen, "material": material} | {
         "options": options,
         "joints": joints,
+        "minerals": minerals,
     }
 
 

@@ -32,9 +32,10 @@ LARGEST_MISMATCH = 0.05
 #: Growth of the load while a wave crosses the specimen before the peak, over it, that is none [-]:
 #: one and a half times that of a loading that comes to a plane of weak points (D58).
 LARGEST_GROWTH = 0.015
-#: The same of runs with joints, which come slowly through the peak, too [-]: between the 0.5 % of
-#: the rate in use and the 0.7 % and more of four times that rate where it erred by 2 %.
-LARGEST_GROWTH_OF_JOINTS = 0.006
+#: The same of runs with joints, by model, which come slowly through the peak, too [-]: above what
+#: the rate in use gives where it errs by less than 2 %, below what faster ones give where they err
+#: by more: 0.010 and 0.016, and 0.0064 and 0.0066.
+LARGEST_GROWTH_OF_JOINTS = {"flexible": 0.012, "rigid": 0.0065}
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
 #: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].

@@ -174,7 +174,8 @@ class Result(Shown):
         unknown = ratio is None and math.isfinite(max_unbalanced)
         fast = unknown or (ratio is not None and ratio > max_unbalanced)
         growth = None if crossing is None else measures.growth_before_peak(record, crossing)
-        fast = fast or (growth is not None and growth > doubts.LARGEST_GROWTH_OF_JOINTS)
+        largest = doubts.LARGEST_GROWTH_OF_JOINTS.get(self.model, math.inf)
+        fast = fast or (growth is not None and growth > largest)
         self.status = self._status(diverged, peak, fast)
 
     def measure_wave(self, wave: str, distance: float) -> None:

@@ -18,7 +18,8 @@ WORDS = st.sampled_from(
 )
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
 KEYS = st.sampled_from(
-    "young cohesion friction softening normal_stiffness quartz.x joint.j.friction".split()
+    """young cohesion friction softening normal_stiffness quartz.x joint.j.friction interface.a.b
+    interface.quartz/biotite.cohesion interface.a/b.factor.friction""".split()
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
     --thickness --diameters --points --gravity --diameter --length --span --notch --normal-stress

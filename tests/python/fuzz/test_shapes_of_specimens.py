@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import pytest
@@ -46,8 +47,49 @@ def specimens(draw):
         "radii": radii,
         "outline": draw(POLYGONS | POLYGONS | CIRCLES),
         "thickness": draw(st.sampled_from([0.01, 0.01, 0.01, 1e-9, 1e6]) | ODD),
+        "drop_hidden": draw(st.booleans()),
+        "closed": draw(st.booleans()),
         "short_edge": draw(st.sampled_from([0.0, 0.1, 0.2]) | ODD),
         "model": draw(st.sampled_from(["flexible", "rigid", "inner-un"])),
+    }
+
+
+@st.composite
+def tilings(draw):
+    """Rows of bricks, grains within them, rings that are closed, and now and then what is wrong.
+
+    Grains lie anywhere: within a brick or another grain, over its edges, on a corner, at a place
+    that another one has already.
+    """
+    across, up = draw(st.integers(1, 3)), draw(st.integers(1, 3))
+    shifts = [draw(st.sampled_from([0.0, 0.25, 0.4])) if across > 1 else 0.0 for _ in range(up)]
+    rings = []
+    for row, shift in enumerate(shifts):
+        places = [0.0, *(column + shift for column in range(1, across)), float(across)]
+        rings += [
+            [[x, row], [y, row], [y, row + 1.0], [x, row + 1.0]]
+            for x, y in itertools.pairwise(places)
+        ]
+    for _ in range(draw(st.integers(0, 5))):
+        corners = draw(st.integers(3, 7))
+        x, y = draw(st.floats(0.0, across)), draw(st.floats(0.0, up))
+        if draw(st.integers(0, 5)) == 0:
+            x, y = draw(st.sampled_from([ring[0] for ring in rings]))
+        radius = draw(st.sampled_from([0.05, 0.1, 0.2, 0.3, 1e-3, 1.0]))
+        turn = draw(st.floats(0.0, 6.0))
+        angles = [turn + 2.0 * math.pi * corner / corners for corner in range(corners)]
+        rings.append([[x + radius * math.cos(a), y + radius * math.sin(a)] for a in angles])
+    if draw(st.integers(0, 5)) == 0:
+        del rings[draw(st.integers(0, len(rings) - 1))]
+    if rings and draw(st.integers(0, 9)) == 0:
+        ring = rings[draw(st.integers(0, len(rings) - 1))]
+        ring[draw(st.integers(0, len(ring) - 1))][draw(st.integers(0, 1))] = draw(ODD)
+    closed = draw(st.booleans())
+    return {
+        "rings": [[*ring, list(ring[0])] if closed else ring for ring in rings],
+        "order": draw(st.booleans()),
+        "holes": draw(st.booleans()),
+        "model": draw(st.sampled_from(["flexible", "rigid"])),
     }
 
 
@@ -58,9 +100,24 @@ def child():
     one.close()
 
 
+@pytest.fixture(scope="module")
+def cells():
+    one = Child("cells")
+    yield one
+    one.close()
+
+
 @given(specimens())
 @settings(max_examples=examples(200), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_discs_in_any_outline_step_or_are_refused(child, specimen):
     said = child.run(specimen)
     assert said == "done" or said.startswith(("InputError: ", "RuntimeError: ")), said
+    assert "\n" not in said
+
+
+@given(tilings())
+@settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
+def test_any_cells_with_grains_within_them_step_or_are_refused(cells, tiling):
+    said = cells.run(tiling)
+    assert said.startswith(("done", "InputError: ")), said
     assert "\n" not in said

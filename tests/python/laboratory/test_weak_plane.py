@@ -159,6 +159,39 @@ def test_a_run_that_is_too_fast_for_its_plane_says_so():
     assert result.status == "not_quasistatic"
 
 
+@pytest.mark.parametrize(
+    ("lines", "model", "law", "rates"),
+    [
+        # growth of the load before the peak 0.6 and 2.5 %
+        (None, "flexible", {"cohesion": 8e6, "tensile_strength": 1e6}, (1.0, 4.0)),
+        # growth 0.3 and 0.7 %
+        (
+            {"j": [[(-0.001, 0.012), (0.021, 0.03)]]},
+            *("rigid", {"cohesion": 30e6, "tensile_strength": 8e6}, (1.0, 2.0)),
+        ),
+    ],
+)
+def test_a_rate_that_errs_by_two_per_cent_is_told_and_the_one_in_use_is_not(
+    lines, model, law, rates
+):
+    """In version 0.2 none was; a limit for all joints told the first one at the rate in use."""
+    options = {"stop_ratio": 0.9} if lines is None else {}
+    specimen = dipping(55.0) if lines is None else grains(2 if model == "rigid" else 1)
+    specimen = specimen if lines is None else specimen.with_joints(lines)
+    test = "biaxial" if lines is None else "uniaxial"
+    peaks = {}
+    for rate in (0.25, *rates):
+        confinement = 4e6 if lines is None else 0.0
+        result = flexpm.run(
+            *(test, specimen, jointed(model, **law), model),
+            **{"rate": rate, "confinement": confinement, **options},
+        )
+        peaks[rate] = result.peak_stress - confinement
+        assert (result.status == "ok") == (rate != rates[-1])
+    usual, fast = (peaks[rate] / peaks[0.25] - 1.0 for rate in rates)
+    assert usual < 0.02 < fast
+
+
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 @pytest.mark.parametrize(("cohesion", "pressure"), [(0.0, 2e6), (2e6, 1e6)])
 def test_a_plane_that_is_sheared_bears_cohesion_and_friction(model, cohesion, pressure):

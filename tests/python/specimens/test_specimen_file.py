@@ -40,10 +40,19 @@ def made(kind):
         "half-disc": lambda: new.half_disc(0.024, 0.01),
         "hole": lambda: new.polygon(FRAME, 0.01, holes=[HOLE]),
         "own": lambda: new.from_polygons(SQUARES, 0.01),
+        "within": lambda: new.from_polygons([FRAME, HOLE], 0.01),
+        "hidden": lambda: new.from_discs(
+            np.vstack((packed.centres, packed.centres[:2] + 1e-6)),
+            np.append(packed.radii, (1e-4, 1e-4)),
+            packed.outline,
+            0.01,
+            drop_hidden=True,
+        ),
     }[kind]()
 
 
-KINDS = ("packed", "disc", "half-disc", "hole", "own", "given", "minerals", "cut")
+KINDS = ("packed", "disc", "half-disc", "hole", "own", "within", "hidden", "given", "minerals")
+KINDS += ("cut",)
 
 
 @pytest.fixture(scope="module")
