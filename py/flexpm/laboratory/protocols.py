@@ -374,7 +374,7 @@ def _press(rig: TestRig, spec: RunSpec) -> None:
     pressure = spec.pressure
     if pressure > 0.0:
         rig.confine(pressure)
-        rig.built.damping = spec.local_damping
+    rig.built.damping = spec.local_damping
 
 
 def _slide(rig: TestRig, spec: RunSpec) -> None:
