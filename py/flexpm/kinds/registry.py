@@ -15,7 +15,7 @@ from .test_kind import Rig, TestKind
 def _found() -> Iterator[TestKind]:
     for module in pkgutil.iter_modules(tests.__path__):
         kind = vars(importlib.import_module(f"{tests.__name__}.{module.name}"))["KIND"]
-        assert isinstance(kind, TestKind) and kind.name.replace("-", "_") == module.name
+        assert isinstance(kind, TestKind) and kind.name == module.name
         yield kind
 
 

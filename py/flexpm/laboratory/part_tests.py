@@ -126,10 +126,12 @@ def _frame(spec: RunSpec, specimen: Specimen, material: Material) -> Frame:
         *(left, bottom, right, top),
         thickness=specimen.thickness,
         grain=specimen.mean_diameter,
-        values=spec.options,
+        values={"confinement": spec.confinement, **spec.options},
         notch=_notch(specimen),
         tensile_strength=_mean(material, spec.model, lambda law: law["tensile_strength"]),
-        shear_strength=lambda pressure: _shear_strength(specimen, material, spec.model, pressure),
+        shear_strength=lambda pressure: _shear_strength(
+            specimen, material, spec.model, pressure, () if spec.kind.cut is None else (_NOTCH,)
+        ),
     )
 
 
@@ -164,11 +166,13 @@ def _require_notch(spec: RunSpec, specimen: Specimen, material: Material, cuts: 
     )
 
 
-def _shear_strength(specimen: Specimen, material: Material, model: str, pressure: float) -> float:
-    """The least c + mu sigma_n [Pa] of the rock and of the specimen's joints."""
+def _shear_strength(
+    specimen: Specimen, material: Material, model: str, pressure: float, notches: tuple[str, ...]
+) -> float:
+    """The least c + mu sigma_n [Pa] of the rock and of the specimen's joints but its notches."""
     rock = _mean(material, model, lambda law: law["cohesion"] + law["friction"] * pressure)
     joints = zip(specimen.spec.joint_names or (), specimen.joint_lines(), strict=True)
-    there = [name for name, contacts in joints if len(contacts)]
+    there = [name for name, contacts in joints if len(contacts) and name not in notches]
     laws = material.joint_laws(model)
     weak = [law["cohesion"] + law["friction"] * pressure for law in laws if law["name"] in there]
     return float(min([rock, *weak]))

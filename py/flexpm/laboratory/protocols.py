@@ -14,7 +14,7 @@ from yade import wrapper
 from .._version import __version__
 from ..errors import InputError
 from ..files import Table, output_folder, refuse_folders
-from ..kinds.option import Asked
+from ..kinds.option import Asked, Value
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Rig, Stage
 from ..materials.material import Material
@@ -102,6 +102,7 @@ def run(
     report: bool = True,
     frames: int = 0,
     film: str | None = None,
+    **own: Value,
 ) -> Result:
     """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
 
@@ -117,14 +118,14 @@ def run(
             the middle; ``scb``: half a disc with a notch on two supports, pressed on top;
             ``shear``: the lower half of a rectangle is pushed along below the upper;
             ``sonic``: a plane pulse through a rectangle, with real masses and without damping, for
-            the speed of its `wave`.
+            the speed of its `wave`. ``flexpm run --help`` tells all of them.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
-        confinement: Lateral pressure [Pa], for ``biaxial`` only.
+        confinement: Lateral pressure [Pa], for ``biaxial`` and others that take one.
         points: Contact points per contact, 1, 2 or 3.
         mesh: ``refined`` or ``fan``.
         rate: Factor on the default loading rate [-], > 0.
@@ -167,6 +168,8 @@ def run(
         frames: Write the state at even strains, this many up to the strain of the reference
             strength, and around the peak; fewer if the test ends before or has fewer rows. 0: none.
         film: ``gif`` or ``mp4``: write a film of the frames, too.
+        own: Other options of the test, by the names that ``flexpm run --help`` lists with ``_`` for
+            ``-``; SI units.
 
     Returns:
         The measures, the record and the cracks.
@@ -199,6 +202,7 @@ def run(
         control=control,
         damping=damping,
         interaction_range=interaction_range,
+        own=own,
     )
     plan = plan_run(spec, specimen, chosen, out, checkpoint_interval, output)
     return carry_out(plan, threads=threads, progress=progress)
@@ -374,7 +378,7 @@ def _press(rig: TestRig, spec: RunSpec) -> None:
     pressure = spec.pressure
     if pressure > 0.0:
         rig.confine(pressure)
-        rig.built.damping = spec.local_damping
+    rig.built.damping = spec.local_damping
 
 
 def _slide(rig: TestRig, spec: RunSpec) -> None:

@@ -27,7 +27,7 @@ from ..results.result import Result
 from ..results.strength import Envelope
 from ..runs.checkpoint import INTERVAL
 from ..runs.output import Output
-from ..runs.run_spec import RunSpec, described, ranges
+from ..runs.run_spec import RunSpec, described, ranges, split
 from ..specimens.specimen import Specimen
 from ..text import name_of
 from .jobs import place_of
@@ -152,7 +152,7 @@ def compare(
                 model,
                 confinement=confinement,
                 interaction_range=farthest[model],
-                **shared,
+                **split(shared),
             ),
             chosen,
         )

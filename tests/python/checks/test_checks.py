@@ -66,7 +66,7 @@ def tree(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("check", ["layering.py", "functions.py"])
+@pytest.mark.parametrize("check", ["layering.py", "functions.py", "kinds.py"])
 def test_this_tree_passes(check: str) -> None:
     code, text = run(check, ROOT)
     assert code == 0, text
@@ -229,3 +229,24 @@ def test_number_of_parameters_in_python(tree: Path, count: int, code: int) -> No
     write(tree / "py/flexpm/low/c.py", f"class C:\n    def f(self, *, {names}):\n        ...\n")
     found, output = run("functions.py", tree)
     assert found == code and ("f takes 8 parameters" in output) == bool(code)
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("def f(test):\n    return test == 'slump'\n", "low/b.py:2: names the test slump"),
+        ("RATES = {'slump': 1.0}\n", "names the test slump"),
+        ("from ..kinds.tests import slump\n", "imports a test's file (slump)"),
+        ("def f():\n    'slump'\n", ""),
+        ("X = 'a slump of a heap'\n", ""),
+    ],
+)
+def test_the_name_of_a_test_outside_of_its_file_is_found(tree, text, complaint):
+    kinds = tree / "py/flexpm/kinds/tests"
+    kinds.mkdir(parents=True)
+    write(kinds / "slump.py", "KIND = 'slump'\n")
+    write(tree / "py/flexpm/low/b.py", text)
+    _, output = run("kinds.py", tree)
+    found = [line for line in output.splitlines() if "low/b.py" in line]
+    assert bool(found) == bool(complaint)
+    assert all(complaint in line for line in found)
