@@ -24,7 +24,6 @@ MOST_LINES = 25
 MANY_KEYWORDS = {
     "flexpm/laboratory/protocols.py": {"run"},
     "flexpm/models/grains.py": {"build"},
-    "flexpm/specimens/specimen.py": {"rectangle", "disc", "polygon", "from_discs"},
 }
 _BODY = re.compile(r"\b(?:go|action)\s*\([^;{}]*\)\s*(?:const\s*)?(?:override\s*)?\{")
 # A name, parameters without a call in them, what may follow them, and the body or the end.

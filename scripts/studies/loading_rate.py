@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Halve the loading rate of tests until their peaks stand still: the study behind RATE_CONSTANT.
+"""Halve the loading rate of tests until their peaks stand still: the study behind kinds' rates.
 
 Runs each test on packings of the paper's size at falling constants k of the
 loading rate and adds one CSV row a run. SI units; the confinement counts for biaxial tests only.
@@ -44,7 +44,7 @@ def specimen_for(test: str, scale: float, seed: int) -> flexpm.Specimen:
 
 def run_at(k: float, specimen: flexpm.Specimen, test: str, model: str, confinement: float) -> Any:
     """Run a test with the constant `k` of its loading rate [-] until its peak is well passed."""
-    factor = k / rates.rate_constant(test, model)
+    factor = k / rates.rates_of(test, model).constant
     pressure = confinement if test == "biaxial" else 0.0
     return flexpm.run(
         test, specimen, model=model, rate=factor, confinement=pressure, stop_ratio=0.8

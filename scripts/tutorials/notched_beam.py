@@ -9,7 +9,7 @@ middle until the load has fallen to a fifth of its peak; a gauge reads how far t
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
 
-from flexpm.results.toughness import bending_toughness
+from flexpm.kinds.toughness import bending_toughness
 
 width, height, span, notch, thickness = 0.112, 0.024, 0.096, 0.010, 0.08
 specimen = flexpm.Specimen.rectangle(width, height, thickness, seed=3)

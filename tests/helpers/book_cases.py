@@ -19,11 +19,12 @@ import yade
 from strip_case import open_strip
 
 from flexpm.arrays import FloatArray
+from flexpm.kinds import toughness
 from flexpm.laboratory.loading_rate import Loading
 from flexpm.laboratory.part_rig import PartRig
 from flexpm.laboratory.part_tests import notch_depth
 from flexpm.laboratory.rig import BOTTOM, TOP
-from flexpm.results import toughness, waves
+from flexpm.results import waves
 from flexpm.results.cracks import TENSILE
 from flexpm.results.record import Curve
 from flexpm.results.snapshot import POINT_SHARES, Snapshot

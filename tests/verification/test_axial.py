@@ -107,7 +107,7 @@ def test_waiting_loading_gives_the_strength_of_a_slow_one_in_fewer_steps(test, m
     assert waiting.steps < 0.3 * slow.steps
     assert (slow.status, waiting.status) == ("ok", "ok")
     factor = waiting.curve["velocity_factor"]
-    fastest = rates.WAITING_CONSTANT / rates.rate_constant(test, model)
+    fastest = rates.rates_of(test, model).waiting_constant / rates.rates_of(test, model).constant
     assert factor[0] == pytest.approx(fastest)
     assert 0.01 * fastest <= np.min(factor) < 0.2 * fastest
 
@@ -198,7 +198,7 @@ def test_elastic_constants_of_a_run_are_those_of_the_solve(test, model, stiffnes
 
 
 def test_adaptive_loading_keeps_to_the_fastest_rate_at_any_factor():
-    k = rates.rate_constant("uniaxial", "flexible")
+    k = rates.rates_of("uniaxial", "flexible").constant
     for factor in (0.1, 1.0, 2.0, 1e3):
         fastest = rates.fastest_factor("uniaxial", "flexible", factor)
         assert fastest >= 1.0
@@ -224,6 +224,6 @@ def test_an_unknown_loading_is_refused(specimen):
 def test_the_rate_scales_with_its_factor_and_the_wave():
     scales = Scales(crossing_steps=500.0, modulus=2e10, strength=1e8, height=0.1, width=0.05)
     one, two = (schedule("uniaxial", "flexible", Loading(rate), scales) for rate in (1.0, 2.0))
-    k = rates.rate_constant("uniaxial", "flexible")
+    k = rates.rates_of("uniaxial", "flexible").constant
     assert one.velocity == pytest.approx(k * (1e8 / 2e10) * 0.1 / 500.0)
     assert two.velocity == pytest.approx(2.0 * one.velocity)

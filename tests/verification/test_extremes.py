@@ -15,8 +15,9 @@ from collections.abc import Callable
 import pytest
 from fuzz_child import Child
 
-from flexpm.laboratory.loading_rate import RATE_CONSTANT
-from flexpm.laboratory.run_spec import CONTROLS, PART_MODELS, TESTS, WAVES
+from flexpm.kinds.model_names import BLOCK_MODELS
+from flexpm.kinds.pulse import WAVES
+from flexpm.kinds.registry import TESTS, kind_of
 
 CASES = 300 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 10
 STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged")
@@ -33,7 +34,7 @@ def case(seed: int) -> dict:
 
     scale = draw.choice([1.0, 1.0, 1.0, 1e-4, 1e3, power(-3.0, 2.0)])
     test = draw.choice(TESTS)
-    others = ["inner-un", "jcfpm", "cohfrict"] if test in RATE_CONSTANT["jcfpm"] else []
+    others = ["inner-un", "jcfpm", "cohfrict"] if "jcfpm" in kind_of(test).rates else []
     model = draw.choice(["flexible"] * 5 + ["rigid"] * 4 + others)
     smallest = 1e-3 * draw.choice([1.0, 2.0])
     specimen = {
@@ -79,8 +80,8 @@ def case(seed: int) -> dict:
         options["confinement"] = draw.choice([0.0, power(4.0, 9.0)])
     if test == "bending":
         options["notch"] = specimen["height"] * draw.choice([0.0, 0.3, 0.8])
-    if model in PART_MODELS and test in CONTROLS:
-        options["control"] = draw.choice(CONTROLS[test])
+    if model in BLOCK_MODELS and kind_of(test).controls:
+        options["control"] = draw.choice(tuple(kind_of(test).controls))
     if test == "shear":
         del options["stop_ratio"]
         options["normal_stress"] = draw.choice([1e6, power(3.0, 10.0)])

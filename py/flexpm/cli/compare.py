@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError, SimulationError
-from ..laboratory.run_spec import PRESSED, TESTS, ranges
+from ..kinds.registry import TESTS, kind_of, names
+from ..laboratory.run_spec import OWN_OPTIONS, ranges
 from ..materials.keys import is_used
 from ..materials.material import COMPARED
 from ..models.options import MODELS
@@ -25,8 +26,7 @@ from .options import Each, Name, Quantity
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (
     *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start"),
-    *("loading", "span", "notch", "normal_stress", "max_displacement", "wave", "control"),
-    "interaction_range",
+    *("loading", *OWN_OPTIONS, "interaction_range"),
 )
 
 if TYPE_CHECKING:
@@ -49,12 +49,13 @@ if TYPE_CHECKING:
     default="0",
     metavar="PA,...",
     show_default=True,
-    help="Lateral pressures [Pa], for biaxial; two or more give c, phi, sigma_ci and m_i.",
+    help=f"Lateral pressures [Pa], for {' and '.join(names(lambda kind: kind.confined))}; two or "
+    "more give c, phi, sigma_ci and m_i.",
 )
 @cli_options.material_options
 @cli_options.rectangle_options
 @cli_options.disc_options
-@cli_options.part_options
+@cli_options.own_options
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option
@@ -80,9 +81,10 @@ def compare(
     run has a folder of its own below the output folder; what is finished there is not run again.
     """
     require_known("test", test, TESTS)
-    if test != "biaxial" and any(confinements):
+    kind = kind_of(test)
+    if not kind.confined and any(confinements):
         raise InputError(
-            f"confinements = {max(confinements):g} Pa, must be 0 for {test}{PRESSED.get(test, '')}"
+            f"confinements = {max(confinements):g} Pa, must be 0 for {test}{kind.confine_hint}"
         )
     options["material"] = options["material"] or COMPARED
     _require_use(options["assignments"], models)

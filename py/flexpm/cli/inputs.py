@@ -13,13 +13,14 @@ import click
 from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
+from ..joints import lines as joint_lines
 from ..laboratory.output import refuse_other_kind
-from ..laboratory.run_spec import PACKING, UNUSED, RunSpec, shape_of, with_unit
+from ..laboratory.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
 from ..materials.keys import is_used
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
-from ..specimens import joint_lines, specimen_file
+from ..specimens.files import specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
@@ -155,7 +156,7 @@ def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Spe
 def refuse_packing() -> None:
     """Refuse options of a packing beside a specimen that is read from a file."""
     context = click.get_current_context()
-    for name in (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, "seeds"):
+    for name in (*SIZE_NAMES, *PACKING, "seeds"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             raise InputError(
                 f"{name} = {context.params.get(name)}, must not be given with specimen, which has "

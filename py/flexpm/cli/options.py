@@ -13,9 +13,12 @@ from typing import Any
 import click
 
 from ..errors import InputError
+from ..kinds.option import Option
+from ..kinds.registry import KINDS, names, options
+from ..kinds.test_kind import TestKind
 from ..laboratory.loading_rate import LOADINGS
 from ..laboratory.output import FILMS, MOST_FRAMES
-from ..laboratory.run_spec import CONTROLS, STARTS, WAVES, RunSpec
+from ..laboratory.run_spec import STARTS, RunSpec
 from ..models.options import MESHES, MODELS, POINTS, RANGE
 from ..require import (
     ANY,
@@ -198,59 +201,61 @@ def _length(name: str, default: float, help_text: str, *, sizes: bool = True) ->
     )
 
 
+def _by_test(value: Callable[[TestKind], float], option: str) -> str:
+    """A default and the tests that have another one."""
+    found: dict[float, list[str]] = {}
+    for name, kind in KINDS.items():
+        if option not in kind.without:
+            found.setdefault(value(kind), []).append(name)
+    usual, *others = found.items()
+    return "; ".join(
+        [f"{usual[0]:g}", *(f"{', '.join(tests)}: {number:g}" for number, tests in others)]
+    )
+
+
 rectangle_options = combined(
     _length("--width", SIZES["rectangle"]["width"], "Width"),
     _length("--height", SIZES["rectangle"]["height"], "Height"),
 )
-part_options = combined(
-    click.option(
-        "--length",
-        type=Quantity("m", POSITIVE),
-        metavar="M",
-        help="Length of a beam, whose default height is 0.04, for bending [m].  [default: 0.18]",
-    ),
-    click.option(
-        "--span",
-        type=Quantity("m", POSITIVE),
-        metavar="M",
-        help="Distance of the supports, for bending and scb [m].  [default: 4 times the height, or "
-        "8/9 of the length; scb: 0.6 of the diameter]",
-    ),
-    click.option(
-        "--notch",
-        type=Quantity("m", NOT_NEGATIVE),
-        metavar="M",
-        help="Depth of a notch in the middle, for bending and scb [m].  [default: none; scb: half "
-        "of the radius]",
-    ),
-    click.option(
-        "--normal-stress",
-        type=Quantity("Pa", POSITIVE),
-        metavar="PA",
-        help="On the upper half, for shear [Pa].  [default: 1e6]",
-    ),
-    click.option(
-        "--max-displacement",
-        type=Quantity("m", POSITIVE),
-        metavar="M",
-        help="Displacement at which a shear test ends [m].  [default: 8 times that of the "
-        "reference strength]",
-    ),
-    click.option(
-        "--wave",
-        type=Name(*WAVES),
-        metavar="p|s",
-        help="Pressure or shear wave, for sonic.  [default: p]",
-    ),
-    click.option(
-        "--control",
-        type=Name(*dict.fromkeys(name for names in CONTROLS.values() for name in names)),
-        metavar="NAME",
-        help="What grows at the loading rate: in uniaxial axial or lateral, the strain; in bending "
-        "and scb displacement or cmod, the opening of the notch. The ends go back where the "
-        "specimen snaps back.  [default: axial, displacement]",
-    ),
-)
+
+
+def _own_option(name: str, tests: dict[str, Option]) -> Decorator:
+    """An option of some tests; where they differ the help tells of each."""
+    first = next(iter(tests.values()))
+    words = tuple(dict.fromkeys(word for one in tests.values() for word in one.choices))
+    kind = Name(*words) if words else Quantity(first.unit, first.bounds)
+    plain = "|".join(words) if words and len(tests) == 1 else "NAME" if words else ""
+    return click.option(
+        f"--{name.replace('_', '-')}",
+        type=kind,
+        metavar=plain or (first.unit or "x").upper(),
+        help=_own_help(tests),
+    )
+
+
+def _own_help(tests: dict[str, Option]) -> str:
+    """What an option is, for which tests, its unit, and what stands for it."""
+    first = next(iter(tests.values()))
+    unit = f" [{first.unit}]" if first.unit else ""
+    what = _each({test: one.help for test, one in tests.items()})
+    those = f", for {' and '.join(tests)}" if what == first.help else ""
+    words = {test: ", ".join(one.choices) for test, one in tests.items()}
+    choices = f": {_each(words)}" if first.choices and len(tests) > 1 else ""
+    default = _each({test: one.default for test, one in tests.items()})
+    return f"{what}{those}{choices}{unit}.  [default: {default}]"
+
+
+def _each(texts: dict[str, str]) -> str:
+    """A text of several tests, once if all have the same one."""
+    found: dict[str, list[str]] = {}
+    for test, text in texts.items():
+        found.setdefault(text, []).append(test)
+    if len(found) == 1:
+        return next(iter(found))
+    return "; ".join(f"{', '.join(tests)}: {text}" for text, tests in found.items())
+
+
+own_options = combined(*(_own_option(name, tests) for name, tests in options().items()))
 seed_option = click.option(
     "--seed",
     type=Count(0),
@@ -380,15 +385,15 @@ loading_options = combined(
         "--max-strain",
         type=Quantity("", POSITIVE),
         metavar="E",
-        help="Axial strain at which the test ends [-]; 8 times that of the reference strength, 16 "
-        "times in the Brazilian test, if not given.",
+        help="Axial strain at which the test ends [-].  [default: by the reference strength, times "
+        f"{_by_test(lambda kind: kind.largest_strain, 'max_strain')}]",
     ),
     click.option(
         "--stop-ratio",
         type=Quantity("", POSITIVE),
         metavar="F",
         help="The test ends once the stress has fallen to this part of its peak [-].  "
-        "[default: 0.5; bending, scb: 0.1]",
+        f"[default: {_by_test(lambda kind: kind.stop_ratio, 'stop_ratio')}]",
     ),
     click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
     click.option(
@@ -411,7 +416,8 @@ loading_options = combined(
         type=Name(*STARTS),
         metavar="rest|static",
         help="static: from the elastic solution below the first crack, for the flexible model in "
-        "uniaxial and tension; it is the default of tension.",
+        f"{' and '.join(names(lambda kind: bool(kind.static_models)))}; it is the default of "
+        f"{' and '.join(names(lambda kind: kind.static_first))}.",
     ),
     click.option(
         "--loading",

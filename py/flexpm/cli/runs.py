@@ -12,9 +12,10 @@ import click
 from .._version import __version__
 from ..errors import SimulationError
 from ..files import Table, json_text, load_json, write_text
+from ..kinds.registry import ELASTIC, KINDS, TESTS, names
 from ..laboratory.asked import differences, read_inputs
 from ..laboratory.output import Output, refuse_other_result
-from ..laboratory.run_spec import ELASTIC, TESTS, RunSpec
+from ..laboratory.run_spec import RunSpec
 from ..materials.material import Material
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
@@ -34,12 +35,15 @@ _discard_option = click.option(
 )
 
 
-@click.command()
+@click.command(
+    help="Run a laboratory test and write its files.\n\nTEST is one of:\n\n"
+    + "\n\n".join(f"{name}: {KINDS[name].about}." for name in TESTS)
+)
 @click.argument("test", metavar="TEST")
 @cli_options.model_options
 @cli_options.rectangle_options
 @cli_options.disc_options
-@cli_options.part_options
+@cli_options.own_options
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option
@@ -50,7 +54,7 @@ _discard_option = click.option(
     default=RunSpec.confinement,
     metavar="PA",
     show_default=True,
-    help="Lateral pressure [Pa].",
+    help=f"Lateral pressure, for {' and '.join(names(lambda kind: kind.confined))} [Pa].",
 )
 @cli_options.loading_options
 @cli_options.range_option
@@ -61,16 +65,7 @@ _discard_option = click.option(
 @cli_options.frames_options
 @cli_options.quiet_option
 def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
-    """Run a laboratory test and write its files.
-
-    TEST is uniaxial, tension or biaxial, along the height of a rectangular specimen, or brazilian:
-    compression of a disc of the given diameter, whose axial stress is 2 P / (pi D t) under the
-    force P. bending presses on the middle of a beam that lies on two supports, scb on the top of
-    half a disc that has a notch.
-    shear pushes the lower half of a rectangle along below the upper one, to the largest
-    displacement.
-    sonic sends a pulse through a rectangle, from its bottom to its top, and measures its speed.
-    """
+    """Run a laboratory test and write its files."""
     require_known("test", test, TESTS)
     chosen = inputs.material(options)
     spec = inputs.run_spec(test, options, chosen)
@@ -113,12 +108,12 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 
     def specimen(shown: terminal.Progress) -> Specimen:
         inputs.load_yade()
-        from ..specimens import given
+        from ..specimens.files import given
 
         return given.load(spec.specimen, file.parent, shown)
 
     try:
-        if spec.test == ELASTIC:
+        if spec.kind.is_solve:
             _solve(spec, chosen, specimen, folder, options["quiet"])
         else:
             _simulate(spec, chosen, specimen, folder, options)
@@ -220,7 +215,7 @@ def _solve(
         refuse_other_result(folder, spec)
     inputs.load_yade()
     from ..models import grains
-    from ..specimens import given
+    from ..specimens.files import given
 
     with terminal.Progress(quiet) as progress:
         specimen = make(progress)

@@ -16,22 +16,23 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import InputError
 from ..files import Table, load_json
+from ..kinds.registry import options
 from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
 from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
-from .run_spec import ELASTIC, INPUT_UNITS, UNUSED, RunSpec, described
+from .run_spec import INPUT_UNITS, UNUSED, RunSpec, described
 
 if TYPE_CHECKING:
     from ..results.result import Result
 
 #: Inputs that follow from test, model and material unless they are given.
 _FOLLOWING = ("start", "loading", "damping")
-_NESTED = ("specimen", "material")
+_NESTED = ("specimen", "material", "own")
 #: What stands for None: an input that the loading finds, and the first kind of control.
 _OPEN = {
-    **dict.fromkeys(("max_strain", "max_displacement"), "by the reference strength"),
-    "control": "displacement of the ends",
+    "max_strain": "by the reference strength",
+    **{name: one.open for name, of in options().items() for one in of.values() if one.open},
 }
 #: Entries of result.json that depend on the machine or the version.
 _SURROUNDINGS = ("flexpm", "yade", "step_time", "warnings", "inputs")
@@ -125,10 +126,12 @@ def command(spec: RunSpec) -> str:
     preset = spec.material.get("name")
     if preset not in preset_names() or {"minerals", "joints"} & spec.material.keys():
         return ""
-    words = ["flexpm", spec.test] if spec.test == ELASTIC else ["flexpm", "run", spec.test]
+    words = ["flexpm", spec.test] if spec.kind.is_solve else ["flexpm", "run", spec.test]
     changes = [one for one in _changes(spec) if not _follows(spec, one[0])]
     if spec.specimen.is_packed:
-        changes = [*_changes(spec.specimen), *changes]
+        renamed = {one.size: one.name for one in spec.kind.options if one.size}
+        sizes = [(renamed.get(name, name), value) for name, value in _changes(spec.specimen)]
+        changes = [*sizes, *changes]
     else:
         words += ["--specimen", GRAINS_FILE]
     for name, value in changes:
@@ -203,6 +206,8 @@ def _of_test(spec: RunSpec) -> Iterator[Input]:
             value = spec.local_damping
         shown = _OPEN.get(field.name, "-") if value is None else value
         yield Input(field.name, shown, INPUT_UNITS.get(field.name, ""), source)
+    for name, own in spec.own.items():
+        yield Input(name, own, INPUT_UNITS.get(name, ""), "given")
 
 
 def _follows(spec: RunSpec, name: str) -> bool:
@@ -220,6 +225,8 @@ def _changes(spec: RunSpec | SpecimenSpec) -> Iterator[tuple[str, object]]:
         default = sizes.get(field.name, field.default)
         if field.name not in (*_NESTED, "test", "kind") and value not in (None, default):
             yield field.name, value
+    if isinstance(spec, RunSpec):
+        yield from spec.own.items()
 
 
 def _text(value: object) -> str:

@@ -17,6 +17,7 @@ from yade import EnumClass_TestState as TestState
 from yade import wrapper
 
 from ..errors import InputError
+from ..kinds.registry import kind_of
 from ..models.grains import Model
 from ..require import nearest, quoted
 from ..results import doubts, measures
@@ -34,10 +35,6 @@ _LONGEST_PERIOD = 100
 _LOOKS_A_CROSSING = 100
 #: Share of the elastic limit up to which a preload goes [-].
 _PRELOAD_SHARE = 0.9
-#: Tests whose descent from the peak is free of damping, deviation D55, unless they have joints. The
-#: halves of a beam would fly apart, blocks would slide on past their balance, and a test under
-#: control of a measure comes down at its rate.
-_DESCENTS = ("uniaxial", "tension", "biaxial", "brazilian")
 #: With less damping than this waves do not end within the crossings that balance may take [-].
 _SETTLING_DAMPING = 0.2
 #: Plates of the membrane on each side, paper Sec. 4.1.
@@ -247,16 +244,20 @@ class GrainRig(TestRig):
             runningShare=before,
             shareAfterPeak=after,
             crossingSteps=crossing,
-            ofFriction=self.kind != "shear",
+            ofFriction=not kind_of(self.kind).slides,
             undampedDescent=self._is_free_to_fall(plan),
             fastestDescent=plan.fastest_descent,
             softeningGrowth=plan.softening_growth,
         )
 
     def _is_free_to_fall(self, plan: Schedule) -> bool:
-        """Whether damping leaves alone what moves steadily after the peak."""
+        """Whether damping leaves alone what moves steadily after the peak. Deviation D55.
+
+        The halves of a beam would fly apart, blocks would slide on past their balance, and a test
+        under control of a measure comes down at its rate.
+        """
         joints = self.built.specimen.edge_joints
-        return self.kind in _DESCENTS and joints is None and not plan.control
+        return kind_of(self.kind).falls_freely and joints is None and not plan.control
 
     def _loaded_area(self) -> float:
         """Force over the record's stress [m2]."""

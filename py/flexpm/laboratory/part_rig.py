@@ -16,6 +16,7 @@ import numpy as np
 from yade import wrapper
 
 from ..errors import InputError
+from ..kinds.registry import OWN, kind_of
 from ..models.grains import Model
 from ..require import NOT_NEGATIVE, POSITIVE, require_flag, require_known, require_number
 from ..results import doubts, measures
@@ -32,7 +33,7 @@ from ..rigs.parts import (
 )
 from ..rigs.places import Place, require_column, require_direction, require_vector
 from .grain_rig import GrainRig
-from .loading_rate import Scales, Schedule, rate_constant
+from .loading_rate import Scales, Schedule, rates_of
 from .runner import Runner
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
@@ -47,7 +48,7 @@ class PartRig(GrainRig, PartLayout):
     taken up from a checkpoint the same calls find what they have laid before.
     """
 
-    def __init__(self, built: Model, *, kind: str = "own", runner: Runner | None = None) -> None:
+    def __init__(self, built: Model, *, kind: str = OWN.name, runner: Runner | None = None) -> None:
         """Take grains that have just been built, or whose scene has been loaded.
 
         Args:
@@ -59,7 +60,7 @@ class PartRig(GrainRig, PartLayout):
             InputError: for a test that is not one of the model's; ``"own"`` is one of deformable
                 and of rigid grains.
         """
-        rate_constant(kind, built.name)
+        rates_of(kind, built.name)
         super().__init__(built, runner=runner)
         self.disc = False
         self._kind = kind
@@ -285,7 +286,7 @@ class PartRig(GrainRig, PartLayout):
     @property
     def may_fail_at_once(self) -> bool:
         """A test of one's own may have few contacts across; a notch alone is no weak plane."""
-        if self.kind == "own":
+        if self.kind == OWN.name:
             return True
         there = self.built.specimen.spec.joint_names or ()
         return any(not one.open for one in self.built.material.joints if one.name in there)
@@ -485,7 +486,7 @@ class PartRig(GrainRig, PartLayout):
             elasticStart=True,
             ofParts=True,
         )
-        if self.kind == "shear":  # what slides lets go within the time of a wave
+        if kind_of(self.kind).slides:  # what slides lets go within the time of a wave
             loading.renewPeriod = math.ceil(self.scales().crossing_steps)
         self.built.add_engines(before=(loading,))
         return loading

@@ -14,6 +14,9 @@ from yade import wrapper
 from .._version import __version__
 from ..errors import InputError
 from ..files import Table, output_folder, refuse_folders
+from ..kinds.option import Asked
+from ..kinds.registry import kind_of
+from ..kinds.test_kind import Rig, Stage
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import is_brittle
@@ -31,18 +34,18 @@ from ..results.cracks import count_by_pair, cracks_from_snapshot
 from ..results.emission import EventRule, event_rule
 from ..results.result import Result
 from ..results.vtu import read_vtu, write_vtu
-from ..specimens import given
+from ..specimens.files import given
 from ..specimens.specimen import Specimen
 from .asked import write_report
 from .checkpoint import INTERVAL, Checkpoint
 from .frames import COLLECTION, STATE, TABLE, FrameWriter
-from .loading_rate import Loading, default_stop_ratio, quasistatic_ratio
+from .loading_rate import Loading, quasistatic_ratio
 from .output import Output, refuse_other_result
 from .part_rig import PartRig
 from .part_tests import grains_across, measure, part_rig, prepared
 from .rig import TestRig
 from .rigs import rig as rig_of
-from .run_spec import MEASURES, PART_TESTS, SONIC, RunSpec, described, require_pulse
+from .run_spec import TESTS, RunSpec, described
 from .runner import Foresee, Runner
 from .wave_rig import WaveRig
 
@@ -183,7 +186,7 @@ def run(
         confinement=confinement,
         rate=rate,
         max_strain=max_strain,
-        stop_ratio=default_stop_ratio(test) if stop_ratio is None else stop_ratio,
+        stop_ratio=kind_of(test).stop_ratio if stop_ratio is None else stop_ratio,
         dynamic=dynamic,
         gravity=gravity,
         start=start or "",
@@ -226,12 +229,14 @@ def plan_run(
     output = output or Output()
     if out is None and output.frames:
         raise InputError(f"run: frames = {output.frames}, must be 0 without out; give a folder")
-    if output.frames and spec.test == SONIC:
-        raise InputError(f"run: frames = {output.frames}, must be 0 for {SONIC}; leave them out")
-    require_known("run: test", spec.test, list(TESTS))
+    if output.frames and spec.kind.rig is Rig.WAVE:
+        raise InputError(
+            f"run: frames = {output.frames}, must be 0 for {spec.test}; leave them out"
+        )
+    require_known("run: test", spec.test, TESTS)
     _require_contacts(spec, specimen)
-    if spec.test == SONIC:
-        require_pulse(specimen.dimensions["height"], specimen.mean_diameter)
+    # grains that were given, too, have a mean diameter by now
+    spec.kind.settle(Asked(spec.test, specimen.dimensions, spec.options, specimen.mean_diameter))
     folder = None if out is None else output_folder(out)
     if folder is not None:
         refuse_folders(folder, FILES)
@@ -307,8 +312,8 @@ def carry_out(
     if folder is not None and output.frames:
         resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
         rig.watch = FrameWriter(folder, output.frames, _about(spec.to_json()), resumed_at)
-    for stage in TESTS[spec.test]:
-        stage(rig, spec)
+    for stage in spec.kind.stages:
+        _STAGES[stage](rig, spec)
     rig.finish()
     result = _result(rig, spec)
     result.step_time = runner.step_time
@@ -320,11 +325,11 @@ def carry_out(
 
 
 def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRig:
-    if spec.test in PART_TESTS and isinstance(built, Model):
+    if spec.kind.rig is Rig.PARTS and isinstance(built, Model):
         return part_rig(built, spec, runner)
-    if spec.test == SONIC and isinstance(built, Model):
+    if spec.kind.rig is Rig.WAVE and isinstance(built, Model):
         return WaveRig(built, spec.wave or "", runner=runner)
-    return rig_of(built, tension=spec.test == "tension", runner=runner)
+    return rig_of(built, tension=spec.kind.pulls, runner=runner)
 
 
 def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) -> None:
@@ -361,14 +366,15 @@ def _confine(rig: TestRig, spec: RunSpec) -> None:
 
 def _load(rig: TestRig, spec: RunSpec) -> None:
     static = spec.start == "static"
-    control = MEASURES[spec.control] if spec.control else ""
+    control = spec.kind.controls[spec.control] if spec.control else ""
     rig.load(Loading(spec.rate, spec.loading, static, spec.max_strain, spec.stop_ratio, control))
 
 
 def _press(rig: TestRig, spec: RunSpec) -> None:
-    assert spec.normal_stress is not None
-    rig.confine(spec.normal_stress)
-    rig.built.damping = spec.local_damping
+    pressure = spec.pressure
+    if pressure > 0.0:
+        rig.confine(pressure)
+        rig.built.damping = spec.local_damping
 
 
 def _slide(rig: TestRig, spec: RunSpec) -> None:
@@ -383,16 +389,12 @@ def _send(rig: TestRig, _: RunSpec) -> None:
     rig.send()
 
 
-#: Stages of each test, the same for all models.
-TESTS: dict[str, tuple[Callable[[TestRig, RunSpec], None], ...]] = {
-    "uniaxial": (_load,),
-    "tension": (_load,),
-    "biaxial": (_confine, _load),
-    "brazilian": (_load,),
-    "bending": (_load,),
-    "scb": (_load,),
-    "shear": (_press, _slide),
-    SONIC: (_send,),
+_STAGES: dict[Stage, Callable[[TestRig, RunSpec], None]] = {
+    Stage.CONFINE: _confine,
+    Stage.PRESS: _press,
+    Stage.LOAD: _load,
+    Stage.SLIDE: _slide,
+    Stage.SEND: _send,
 }
 
 
@@ -412,7 +414,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         particles=counts.get("particles"),
         inner_contacts=counts.get("inner_contacts"),
     )
-    if spec.test != SONIC:
+    if spec.kind.quasi_static:
         result.grains_across = grains_across(rig.built.specimen)
     result.inputs = spec.to_json()
     result.curve = rig.record
@@ -430,8 +432,8 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         measure(result, rig, spec)
     if isinstance(rig, WaveRig):
         result.measure_wave(spec.wave or "", rig.distance)
-    if rig.disc:  # the slopes of the plates' closure are no constants of the rock
-        result.youngs_modulus = result.poissons_ratio = result.elastic_poissons_ratio = None
+    for name in spec.kind.no_constants:
+        setattr(result, name, None)
     if spec.model not in SPHERE_MODELS:  # whose bonds tell no energy
         result.measure_emission(_event_rule(rig.built.specimen))
     result.contact_width = rig.contact_width
@@ -446,7 +448,7 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
 
 def _largest_unbalanced(spec: RunSpec) -> float:
     """Largest unbalanced-force ratio of a test that is to be quasi-static [-]."""
-    if spec.test == SONIC:
+    if not spec.kind.quasi_static:
         return math.inf
     waiting, brittle = spec.loading == "waiting", is_brittle(spec.material)
     return quasistatic_ratio(spec.test, spec.model, waiting=waiting, brittle=brittle)
@@ -462,7 +464,7 @@ def _event_rule(specimen: Specimen) -> EventRule:
 def write_files(folder: Path, result: Result) -> None:
     """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
     result.write(folder)
-    draw = wave_picture if result.test == SONIC else curve_picture
+    draw = wave_picture if kind_of(result.test).rig is Rig.WAVE else curve_picture
     draw(folder / "curve.png", result)
     if result.snapshot is not None:
         write_vtu(folder / "final.vtu", result.snapshot, _about(result.inputs))

@@ -19,13 +19,14 @@ import yade
 from yade import EnumClass_TestState as TestState
 
 from ..errors import InputError, SimulationError
+from ..kinds.registry import of_ends
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..require import require_number
 from ..results import doubts, measures
 from ..results.record import Curve
 from ..threads import limited
-from .loading_rate import RUNNING_SHARE, Loading, Scales, Schedule, schedule
+from .loading_rate import WAITING_MODELS, Loading, Scales, Schedule, schedule
 from .runner import Runner, Span
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
@@ -213,11 +214,8 @@ class TestRig(ABC):
     @property
     def kind(self) -> str:
         """Name of the test that has the same ends, whose loading rate is taken."""
-        if self.disc:
-            return "brazilian"
-        if self.tension:
-            return "tension"
-        return "uniaxial" if self.confinement is None else "biaxial"
+        shape, confined = self.built.specimen.kind, self.confinement is not None
+        return of_ends(shape, pulls=self.tension, confined=confined)
 
     @property
     def reference_strain(self) -> float:
@@ -402,7 +400,7 @@ class TestRig(ABC):
         return Span(_PATIENCE * plan.steps + _LATEST_LOOK, plan.steps)
 
     def _begin_stress(self, stress: float, rate: float) -> Span:
-        kind = "waiting" if self.built.name in RUNNING_SHARE else "constant"
+        kind = "waiting" if self.built.name in WAITING_MODELS else "constant"
         plan, sense = self._schedule(Loading(rate, kind)), self._sense_to(stress, yade.O.iter)
         # a stress that falls as it is to fall is no failure
         peak = plan.least_peak if sense > 0.0 else 1e300

@@ -6,14 +6,19 @@ Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, asdict, dataclass, fields, replace
 from numbers import Number
+from typing import NoReturn
 
 from ..errors import InputError
 from ..files import Table
+from ..kinds.option import Asked, Value
+from ..kinds.registry import ELASTIC, KINDS, TESTS, kind_of, names, options
+from ..kinds.test_kind import STOP_RATIO, TestKind
 from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
@@ -21,7 +26,6 @@ from ..models.options import (
     DAMPING,
     GRAIN_MODELS,
     INNER_MODELS,
-    MODELS,
     SPHERE_MODELS,
     check_options,
     local_damping,
@@ -34,153 +38,61 @@ from ..require import (
     require_number,
     require_one_of,
 )
-from ..results.toughness import require_half_disc, require_span
 from ..specimens.spec import SIZES, SpecimenSpec
-from .loading_rate import (
-    LARGEST_STOP_RATIO,
-    LOADINGS,
-    RATE,
-    RUNNING_SHARE,
-    STOP_RATIO,
-    default_stop_ratio,
-)
+from .loading_rate import LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
+
+__all__ = ["ELASTIC", "TESTS", "RunSpec"]
 
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
 SCHEMA = 1
-#: Tests that are simulated.
-_ENDS_TESTS = ("uniaxial", "tension", "biaxial", "brazilian")
-#: Of these the ones held and loaded by parts: supports, boxes. They are for ``PART_MODELS``.
-PART_TESTS = ("bending", "scb", "shear")
-#: A pulse through a rectangle, with real masses and without damping; for ``PART_MODELS``.
-SONIC = "sonic"
-TESTS = (*_ENDS_TESTS, *PART_TESTS, SONIC)
-#: Waves of ``sonic``: along the height, and across it.
-WAVES = ("p", "s")
-#: What may grow at the loading rate by test, the way of the ends first; the others make the ends go
-#: as they must, and are for ``PART_MODELS`` with scaled masses.
-CONTROLS = {
-    "uniaxial": ("axial", "lateral"),
-    "bending": ("displacement", "cmod"),
-    "scb": ("displacement", "cmod"),
-}
-#: Column of the record that each of the others is.
-MEASURES = {"lateral": "lateral_strain", "cmod": "cmod"}
-#: Of these the ones between supports, with a notch.
-_NOTCHED = ("bending", "scb")
-#: Models that parts hold.
-PART_MODELS = ("flexible", "rigid")
-#: Numbers of the results by test and model; 1 for those that have never changed. A commit that
-#: changes a hash of a reference command (scripts/checks/reference.py) raises the number of its test
-#: and model; runs of these that were finished before get other keys and are done again.
-RESULTS: dict[tuple[str, str], int] = {
-    **{(test, model): 2 for test in _ENDS_TESTS for model in SPHERE_MODELS},
-    # discs of other places, the same on all machines
-    **{("brazilian", model): 2 for model in GRAIN_MODELS},
-    **{("brazilian", model): 3 for model in SPHERE_MODELS},
-    # 3: contacts keep their numbers, other ones in cracks.csv once discs have come to touch
-    **{("biaxial", model): 3 for model in GRAIN_MODELS},
-    ("uniaxial", "inner"): 2,
-    # after the peak damping leaves alone what moves steadily
-    **{(test, model): 3 for test in ("uniaxial", "tension") for model in ("flexible", "rigid")},
-    ("uniaxial", "rigid"): 4,
-    **{("biaxial", model): 5 for model in ("flexible", "rigid")},
-    **{("brazilian", model): 3 for model in ("flexible", "rigid")},
-    # cosines that are the same on all machines: of half a disc's arc, and of a pulse
-    **{(test, model): 2 for test in ("scb", SONIC) for model in ("flexible", "rigid")},
-    ("scb", "flexible"): 3,  # half the rate
-    # a pressure is balanced once reactions and mean stress are; grains that come loose bear none
-    **{("biaxial", model): 4 for model in INNER_MODELS},
-    **{("biaxial", model): 3 for model in SPHERE_MODELS},
-    **{("biaxial", model): 6 for model in ("flexible", "rigid")},
-    **{("shear", model): 2 for model in ("flexible", "rigid")},
-    # the free descent has a bound, damping's work has two columns, the elastic start is work
-    **{(test, model): 4 for test in ("tension", "brazilian") for model in ("flexible", "rigid")},
-    **{("uniaxial", "flexible"): 4, ("uniaxial", "rigid"): 5},
-    **{("scb", "flexible"): 4, ("scb", "rigid"): 3},
-    **{("bending", model): 2 for model in ("flexible", "rigid")},
-    **{("tension", model): 2 for model in INNER_MODELS},
-    **{("brazilian", model): 3 for model in INNER_MODELS},
-    **{("uniaxial", "inner"): 3, ("uniaxial", "inner-un"): 2},
-}
-
-#: The direct solve of a rectangle, which is no simulation.
-ELASTIC = "elastic"
 #: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
 #: where the first contact point is about to leave its elastic branch.
 STARTS = ("rest", "static")
 
-#: Options that only some tests have, which need no default in others.
-_OWN = {
-    "length": ("bending",),
-    **dict.fromkeys(("span", "notch"), _NOTCHED),
-    **dict.fromkeys(("normal_stress", "max_displacement"), ("shear",)),
-    "wave": (SONIC,),
-    "control": tuple(CONTROLS),
-}
-_UNUSED: dict[str, tuple[str, ...]] = {
-    "uniaxial": ("diameter", "confinement"),
-    "tension": ("diameter", "confinement"),
-    "biaxial": ("diameter", "start"),
-    "brazilian": ("width", "height", "confinement", "start"),
-    "bending": ("width", "diameter", "confinement", "start"),
-    "shear": ("diameter", "confinement", "start", "stop_ratio", "max_strain"),
-    "scb": ("width", "height", "confinement", "start"),
-    **dict.fromkeys(
-        (SONIC, ELASTIC),
-        (
-            *("diameter", "confinement", "rate", "max_strain", "stop_ratio"),
-            *("dynamic", "gravity", "damping", "start", "loading"),
-        ),
-    ),
-}
+#: Sizes of all shapes.
+_SIZES = tuple(dict.fromkeys(name for sizes in SIZES.values() for name in sizes))
+
+
+def _unused(kind: TestKind) -> tuple[str, ...]:
+    """Options that a test has no use for."""
+    others = [name for name in options() if not kind.has(name)]
+    renamed = [one.size for one in kind.options if one.size]
+    sizes = [name for name in _SIZES if name not in SIZES[kind.shape] or name in renamed]
+    pressure = () if kind.confined else ("confinement",)
+    start = () if kind.static_models else ("start",)
+    return tuple(dict.fromkeys((*sizes, *pressure, *start, *kind.without, *others)))
+
+
 #: Options that a test has no use for.
-UNUSED: dict[str, tuple[str, ...]] = {
-    test: (*unused, *(name for name, tests in _OWN.items() if test not in tests))
-    for test, unused in _UNUSED.items()
-}
-#: What serves a user who wants a confinement of other tests than biaxial.
-PRESSED = {
-    **dict.fromkeys(("uniaxial", "tension"), "; use biaxial"),
-    "shear": "; give normal_stress, a run for each",
-}
+UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
 #: Units of inputs that have one.
 INPUT_UNITS = {
-    **dict.fromkeys(("width", "height", "length", "diameter", "thickness", "diameters"), "m"),
-    **dict.fromkeys(("span", "notch", "max_displacement"), "m"),
-    **dict.fromkeys(("confinement", "normal_stress"), "Pa"),
+    **dict.fromkeys((*_SIZES, "thickness", "diameters"), "m"),
+    **{name: one.unit for name, of in options().items() for one in of.values() if one.unit},
+    "confinement": "Pa",
     "gravity": "m/s2",
 }
 #: Inputs that tests have all the same, or that have rules of their own.
 _ALWAYS = ("start", "loading", "confinement")
-#: Sizes of a test's specimen that are others than those of its shape [m].
-_OTHER_SIZES: dict[str, dict[str, float]] = {
-    "bending": {"width": 0.18, "height": 0.04},
-    "shear": {"width": 0.08, "height": 0.04},
-}
-#: Span of a beam over its height, and at most over its length, unless it is given [-].
-_SPAN, _LARGEST_SPAN = 4.0, 8.0 / 9.0
-#: The same of half a disc over its diameter, and its notch over its radius [-].
-_SCB_SPAN, _SCB_NOTCH = 0.6, 0.5
-#: On the upper half in direct shear, unless it is given [Pa].
-NORMAL_STRESS = 1e6
-#: Length of a pulse over the height that it goes through [-], deviation D48.
-PULSE = 0.4
-#: Least length of a pulse in mean diameters of the grains [-].
-_FEWEST_GRAINS = 20.0
 #: Ranges beyond which sums are no numbers, or no test has a sense.
 _STRAIN = Bounds(above=0.0, at_least=1e-12, at_most=1e6)
 _PRESSURE = Bounds(at_least=0.0, at_most=1e15)
 _GRAVITY = Bounds(at_least=0.0, at_most=1e12)
 PACKING = ("thickness", "diameters", "porosity", "seed")
+#: Options of a run that not all tests have, and those that are other names of sizes.
+OWN_OPTIONS = tuple(name for name, of in options().items() if not any(o.size for o in of.values()))
+_OTHER_NAMES = tuple(name for name in options() if name not in OWN_OPTIONS)
 _SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
-    *("dynamic", "gravity", "damping", "start", "loading", "span", "notch"),
-    *("normal_stress", "max_displacement"),
-    *("wave", "control", "interaction_range"),
+    *("dynamic", "gravity", "damping", "start", "loading"),
+    *OWN_OPTIONS,
+    "interaction_range",
 )
-#: Fields that options of the command set, by their names.
-OPTIONS = (*SIZES["rectangle"], "length", *SIZES["disc"], *PACKING, *_SIMULATION)
+#: Options that are sizes of the specimen.
+SIZE_NAMES = (*_SIZES, *_OTHER_NAMES)
+#: Options of the command by their names.
+OPTIONS = (*SIZE_NAMES, *PACKING, *_SIMULATION)
 
 
 @dataclass(frozen=True)
@@ -209,21 +121,20 @@ class RunSpec:
         loading: How the loading goes on, one of ``LOADINGS``; empty: ``waiting`` for flexible and
             rigid grains with scaled masses, ``adaptive`` for inner particles unless contacts are
             brittle, else ``constant``.
-        span: Distance of the supports [m] of ``bending``; None: four times the height, or
-            8/9 of the length if that is less; and of ``scb``; None: 0.6 of the diameter. None for
+        span: As this and the next ones are of the tests that have them, see ``kinds``; None for
             other tests.
-        notch: Depth of the notch in the middle [m] of a beam; 0: none; and of ``scb``; None: half
-            of the radius. None for other tests.
-        normal_stress: On the upper half of a ``shear`` test [Pa]; None: 1 MPa, and none for others.
-        max_displacement: Of the lower half of a ``shear`` test, at which it ends [m]; None for a
-            multiple of that at its reference strength, and for other tests.
-        wave: Of ``sonic``, one of ``WAVES``; empty: ``p``. None for other tests.
-        control: What grows at the rate, one of ``CONTROLS``; None: the way of the ends.
+        notch: Depth [m].
+        normal_stress: On the specimen [Pa].
+        max_displacement: At which the test ends [m]; None for a multiple of that at its reference
+            strength.
+        wave: Name of the wave.
+        control: What grows at the rate; None: the way of the ends.
         damping: Local damping alpha [-] of the loading; None: 0.7, as always before it could be
             chosen. With real masses it is 0 unless it is given; a specimen is settled under its
-            confinement with 0.7 at least. None for ``sonic``, which has none, and ``elastic``.
+            confinement with 0.7 at least. None for tests that have none.
         interaction_range: Of YADE's spheres, up to which multiple of the sum of their radii they
             are bonded [-]; None: only neighbours, and for other models.
+        own: Options of the test that are no fields, by their names.
     """
 
     test: str
@@ -248,11 +159,13 @@ class RunSpec:
     control: str | None = None
     damping: float | None = None
     interaction_range: float | None = None
+    own: Mapping[str, Value] = dataclasses.field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        require_one_of("run: test", self.test, (*TESTS, ELASTIC))
+        require_one_of("run: test", self.test, tuple(KINDS))
         self._check_unused()
-        self._check_wave()
+        if self.kind.dynamic:
+            self._set("dynamic", True)
         self._check_numbers()
         check_options(
             self.model,
@@ -265,8 +178,7 @@ class RunSpec:
         self._check_start()
         self._check_loading()
         self._check_test()
-        self._check_beam()
-        self._check_shear()
+        self._settle_own()
         self._check_control()
         self._check_damping()
         self._set("points", int(self.points))
@@ -295,19 +207,20 @@ class RunSpec:
         given = {name: value for name, value in options.items() if value is not None}
         specimen = cls.packed(test, given) if specimen is None else specimen
         others = {name: given[name] for name in _SIMULATION if name in given}
-        others.setdefault("stop_ratio", default_stop_ratio(test))
+        others.setdefault("stop_ratio", kind_of(test).stop_ratio)
         model = others.get("model", cls.model)
-        return cls(test, specimen, described(material, model), **others)
+        return cls(test, specimen, described(material, model), **split(others))
 
     @staticmethod
     def packed(test: str, options: Table) -> SpecimenSpec:
         """The packed specimen that options of the command describe for a test."""
-        shape = shape_of(test)
-        given = {name: options.get(name) for name in (*SIZES[shape], *PACKING)}
-        if test == "bending" and options.get("length") is not None:
-            given["width"] = options["length"]
+        kind = kind_of(test)
+        given = {name: options.get(name) for name in (*SIZES[kind.shape], *PACKING)}
+        given |= {
+            one.size: options.get(one.name) or given[one.size] for one in kind.options if one.size
+        }
         named = {name: value for name, value in given.items() if value is not None}
-        return SpecimenSpec(shape, **_OTHER_SIZES.get(test, {}) | named)
+        return SpecimenSpec(kind.shape, **{**kind.sizes, **named})
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:
@@ -319,15 +232,42 @@ class RunSpec:
         for name in ("test", "specimen", "material"):
             if name not in content:
                 raise InputError(f"inputs {name} is missing; give that of the run")
-        plain = _known(cls, content)
-        if plain.get("dynamic") and plain.get("test") != SONIC:
+        plain = _known([*_FIELDS, *OWN_OPTIONS], content)
+        test = plain["test"]
+        dynamic = isinstance(test, str) and kind_of(test).dynamic
+        if plain.get("dynamic") and not dynamic:
             plain.setdefault("damping", DAMPING)  # of a run before it could be chosen
-        return cls(**plain | {"specimen": SpecimenSpec(**_known(SpecimenSpec, plain["specimen"]))})
+        parts = [field.name for field in fields(SpecimenSpec)]
+        plain["specimen"] = SpecimenSpec(**_known(parts, plain["specimen"]))
+        return cls(**split(plain))
 
     def to_json(self) -> Table:
-        """All fields as JSON has them: no tuples, finite numbers."""
-        content: Table = json.loads(json.dumps(asdict(self), allow_nan=False))
+        """All fields as JSON has them, the test's own options beside them: no tuples."""
+        plain = asdict(self)
+        own = plain.pop("own")
+        content: Table = json.loads(json.dumps({**plain, **own}, allow_nan=False))
         return content
+
+    @property
+    def kind(self) -> TestKind:
+        """The test."""
+        return kind_of(self.test)
+
+    @property
+    def options(self) -> dict[str, Value]:
+        """Options that not all tests have, by name; None for what is not given."""
+        return {
+            one.name: self.own.get(one.name, getattr(self, one.name, None))
+            for one in self.kind.options
+            if not one.size
+        }
+
+    @property
+    def pressure(self) -> float:
+        """What a stage that presses puts on [Pa]."""
+        options = {"confinement": self.confinement, **self.options}
+        value = options[self.kind.pressure]
+        return float(value) if isinstance(value, float | int) else 0.0
 
     @property
     def results(self) -> int:
@@ -337,13 +277,12 @@ class RunSpec:
     @property
     def local_damping(self) -> float:
         """Local damping of the loading [-]."""
-        return local_damping(self.damping, dynamic=self.test == SONIC)
+        return local_damping(self.damping, dynamic=self.kind.dynamic)
 
     @property
     def settling_damping(self) -> float:
         """Local damping under which the specimen comes to rest before it is loaded [-]."""
-        settles = self.test in ("biaxial", "shear")
-        return max(self.local_damping, DAMPING if settles else 0.0)
+        return max(self.local_damping, DAMPING if self.kind.settles else 0.0)
 
     def key(self, results: int | None = None) -> str:
         """Name of the run: a short hash of what differs from the defaults.
@@ -385,13 +324,13 @@ class RunSpec:
     @property
     def _adapts(self) -> bool:
         """Whether the loading can be another than constant."""
-        return self.model in GRAIN_MODELS and not self.dynamic and self.test != ELASTIC
+        return self.model in GRAIN_MODELS and not self.dynamic and not self.kind.is_solve
 
     @property
     def _default_loading(self) -> str:
         if not self._adapts:
             return "constant"
-        if self.model in RUNNING_SHARE:
+        if self.model in WAITING_MODELS:
             return "waiting"
         # brittle contacts crack before damage takes work: an adaptive rate would fall too late
         return "constant" if is_brittle(self.material) else "adaptive"
@@ -403,10 +342,15 @@ class RunSpec:
             if name in _ALWAYS or name not in UNUSED[self.test]:
                 continue
             usual = value is None or (isinstance(value, Number | str) and value == field.default)
-            if not usual and (name, self.test) != ("dynamic", SONIC):
-                raise InputError(
-                    f"run: {with_unit(name, value)}, must not be given for {self.test}"
-                )
+            if not usual and not (name == "dynamic" and self.kind.dynamic):
+                self._refuse(name, value)
+        for name, value in self.own.items():
+            require_known("run: option", name, OWN_OPTIONS)
+            if value is not None and not self.kind.has(name):
+                self._refuse(name, value)
+
+    def _refuse(self, name: str, value: object) -> NoReturn:
+        raise InputError(f"run: {with_unit(name, value)}, must not be given for {self.test}")
 
     def _check_numbers(self) -> None:
         self._set("rate", require_number("run: rate", self.rate, RATE))
@@ -423,15 +367,15 @@ class RunSpec:
 
     def _check_start(self) -> None:
         if not self.start:
-            tension = (self.test, self.model, self.dynamic) == ("tension", "flexible", False)
-            static = tension and self.specimen.joints is None
+            first = self.kind.static_first and self.model in self.kind.static_models
+            static = first and not self.dynamic and self.specimen.joints is None
             self._set("start", "static" if static else "rest")
         require_one_of("run: start", self.start, STARTS)
-        possible = self.model == "flexible" and self.test in ("uniaxial", "tension")
-        if self.start == "static" and not possible:
+        if self.start == "static" and self.model not in self.kind.static_models:
+            tests = names(lambda kind: bool(kind.static_models))
             raise InputError(
                 f"run: start = static, must be rest for {self.test} of model {self.model}; static "
-                "needs the flexible model and uniaxial or tension"
+                f"needs the flexible model and {' or '.join(tests)}"
             )
         if self.start == "static" and self.specimen.joints is not None:
             raise InputError(
@@ -453,86 +397,53 @@ class RunSpec:
             self._check_waiting()
 
     def _check_waiting(self) -> None:
-        if self.model not in RUNNING_SHARE:
+        if self.model not in WAITING_MODELS:
             raise InputError(
                 f"run: loading = waiting, must be adaptive or constant for model {self.model}; "
-                f"waiting is for {' and '.join(RUNNING_SHARE)} grains"
+                f"waiting is for {' and '.join(WAITING_MODELS)} grains"
             )
 
     def _check_test(self) -> None:
-        if self.test == ELASTIC:
-            require_one_of("run: model", self.model, GRAIN_MODELS)
-        if self.test in (*PART_TESTS, SONIC):
-            require_one_of(f"run: model of {self.test}", self.model, models_of(self.test))
+        label = "run: model" if self.kind.is_solve else f"run: model of {self.test}"
+        require_one_of(label, self.model, self.kind.models)
         if self.model in SPHERE_MODELS:
             self.specimen.require_discs(self.model)
         if self.model in INNER_MODELS:
             self.specimen.require_alike(self.model)
         laws = [joint["name"] for joint in self.material.get("joints", ())]
         require_joints(self.specimen.joint_names or (), laws)
-        shape = shape_of(self.test)
+        shape = self.kind.shape
         if self.specimen.kind != shape:
             raise InputError(
                 f"run: specimen = {self.specimen.kind}, must be a {shape} for {self.test}"
             )
-        if self.test != "biaxial" and self.confinement != 0.0:
+        if not self.kind.confined and self.confinement != 0.0:
             raise InputError(
                 f"run: confinement = {self.confinement} Pa, must be 0 for {self.test}"
-                f"{PRESSED.get(self.test, '')}"
+                f"{self.kind.confine_hint}"
             )
 
-    def _check_beam(self) -> None:
-        if self.test == "scb":
-            self._check_half_disc()
-        if self.test != "bending":
+    def _settle_own(self) -> None:
+        """Check and complete the options that not all tests have."""
+        if not self.kind.options:
             return
-        width, height = self.specimen.width or 0.0, self.specimen.height or 0.0
-        usual = min(_SPAN * height, _LARGEST_SPAN * width)
-        span = usual if self.span is None else self.span
-        bounds = Bounds(above=0.0, below=width)
-        self._set("span", require_number("run: span", span, bounds, "m"))
-        bounds = Bounds(at_least=0.0, below=height)
-        self._set("notch", require_number("run: notch", self.notch or 0.0, bounds, "m"))
-        require_span(self.span or 0.0, height, self.notch or 0.0)
-
-    def _check_half_disc(self) -> None:
-        diameter = self.specimen.diameter or 0.0
-        span = _SCB_SPAN * diameter if self.span is None else self.span
-        bounds = Bounds(above=0.0, below=diameter)
-        self._set("span", require_number("run: span", span, bounds, "m"))
-        notch = 0.5 * _SCB_NOTCH * diameter if self.notch is None else self.notch
-        bounds = Bounds(at_least=0.0, below=0.5 * diameter)
-        self._set("notch", require_number("run: notch", notch, bounds, "m"))
-        require_half_disc(self.span or 0.0, 0.5 * diameter, self.notch or 0.0)
-
-    def _check_shear(self) -> None:
-        if self.test != "shear":
-            return
-        stress = NORMAL_STRESS if self.normal_stress is None else self.normal_stress
-        bounds = Bounds(above=0.0, at_most=1e15)
-        self._set("normal_stress", require_number("run: normal_stress", stress, bounds, "Pa"))
-        if self.max_displacement is not None:
-            bounds = Bounds(above=0.0, below=self.specimen.width)
-            largest = require_number("run: max_displacement", self.max_displacement, bounds, "m")
-            self._set("max_displacement", largest)
-
-    def _check_wave(self) -> None:
-        if self.test != SONIC:
-            return
-        self._set("wave", self.wave or WAVES[0])
-        require_one_of("run: wave", self.wave, WAVES)
-        self._set("dynamic", True)  # a wave in scaled masses has another speed
-        if self.specimen.diameters is not None:
-            require_pulse(self.specimen.height or 0.0, float(sum(self.specimen.diameters)) / 2.0)
+        sizes, packed = self.specimen.sizes, self.specimen.diameters
+        diameter = None if packed is None else float(sum(packed)) / 2.0
+        given = self.options
+        found = {**given, **self.kind.settle(Asked(self.test, sizes, given, diameter))}
+        for name in given.keys() & _FIELDS:
+            self._set(name, found.pop(name))
+        self._set("own", {name: value for name, value in found.items() if value is not None})
 
     def _check_control(self) -> None:
         if self.control is None:
             return
-        require_one_of("run: control", self.control, CONTROLS[self.test])
-        first = CONTROLS[self.test][0]
+        controls = tuple(self.kind.controls)
+        require_one_of("run: control", self.control, controls)
+        first = controls[0]
         if self.control == first:
             self._set("control", None)
-        elif self.model not in PART_MODELS or self.dynamic:
+        elif self.model not in WAITING_MODELS or self.dynamic:
             raise InputError(
                 f"run: control = {self.control}, must be {first} for model {self.model}"
                 f"{' with real masses' if self.dynamic else ''}; it needs flexible or rigid grains "
@@ -553,22 +464,6 @@ class RunSpec:
         object.__setattr__(self, name, value)
 
 
-def require_pulse(height: float, diameter: float) -> None:
-    """Refuse a specimen in which the pulse of ``sonic`` would be shorter than 20 grains.
-
-    Args:
-        height: Of the specimen [m].
-        diameter: Mean of the grains [m].
-    """
-    grains = PULSE * height / diameter
-    if not grains >= _FEWEST_GRAINS:
-        raise InputError(
-            f"run: wavelength = {grains:.3g} mean diameters of the grains, must be >= "
-            f"{_FEWEST_GRAINS:g}: it is {PULSE:g} heights; take a height of "
-            f"{_FEWEST_GRAINS / PULSE:g} diameters, or smaller grains"
-        )
-
-
 def with_unit(name: str, value: object) -> str:
     """An input and its value with its unit, for a message."""
     shown = value if isinstance(value, str) and len(value) < 80 else quoted(value)
@@ -577,14 +472,12 @@ def with_unit(name: str, value: object) -> str:
 
 def results_number(test: str, model: str) -> int:
     """Number that tells results of a test and model from those before they changed."""
-    return RESULTS.get((test, model), 1)
+    return kind_of(test).results.get(model, 1)
 
 
 def models_of(test: str) -> tuple[str, ...]:
     """Models that a test is for."""
-    if test == ELASTIC:
-        return GRAIN_MODELS
-    return PART_MODELS if test in (*PART_TESTS, SONIC) else MODELS
+    return kind_of(test).models
 
 
 def takes_range(model: object) -> bool:
@@ -608,7 +501,7 @@ def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, 
 
 def shape_of(test: str) -> str:
     """Shape of the specimen that a test needs."""
-    return {"brazilian": "disc", "scb": "half-disc"}.get(test, "rectangle")
+    return kind_of(test).shape
 
 
 def described(material: Material, model: str) -> Table:
@@ -619,11 +512,15 @@ def described(material: Material, model: str) -> Table:
 def _changes(spec: RunSpec | SpecimenSpec) -> Table:
     """Fields that have another value than their default."""
     values = {field.name: (getattr(spec, field.name), field.default) for field in fields(spec)}
-    nested = ("specimen", "material")
+    nested = ("specimen", "material", "own")
+    own = spec.own if isinstance(spec, RunSpec) else {}
     return {
-        name: value
-        for name, (value, default) in values.items()
-        if name not in nested and value is not None and value != default
+        **own,
+        **{
+            name: value
+            for name, (value, default) in values.items()
+            if name not in nested and value is not None and value != default
+        },
     }
 
 
@@ -639,9 +536,19 @@ def _material_changes(material: Table) -> Table:
     return found
 
 
-def _known(cls: type, content: object) -> Table:
+def _known(names: Sequence[str], content: object) -> Table:
     if not isinstance(content, Mapping):
         raise InputError(f"inputs = {content!r}, must be fields by name")
     for name in content:
-        require_known("inputs", name, [field.name for field in fields(cls)])
+        require_known("inputs", name, names)
     return dict(content)
+
+
+#: Names of the fields of a run, but that of options that are none.
+_FIELDS = tuple(field.name for field in fields(RunSpec) if field.name != "own")
+
+
+def split(values: Table) -> Table:
+    """Arguments of ``RunSpec`` from values by the names of its fields and of tests' options."""
+    own = {name: value for name, value in values.items() if name not in (*_FIELDS, "own")}
+    return {**{name: value for name, value in values.items() if name not in own}, "own": own}

@@ -16,6 +16,9 @@ from yade import wrapper
 
 from ..arrays import FloatArray
 from ..errors import SimulationError
+from ..kinds.pulse import PULSE
+from ..kinds.registry import names
+from ..kinds.test_kind import Rig
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results import waves
@@ -23,7 +26,6 @@ from ..results.record import Curve
 from ..specimens import mineral_map
 from .grain_rig import GrainRig
 from .rig import LEFT, RIGHT
-from .run_spec import PULSE
 from .runner import Runner, Span
 
 if TYPE_CHECKING:
@@ -94,7 +96,7 @@ class WaveRig(GrainRig):
     @property
     def kind(self) -> str:
         """Name of the test."""
-        return "sonic"
+        return names(lambda kind: kind.rig is Rig.WAVE)[0]
 
     @property
     def distance(self) -> float:
@@ -210,7 +212,7 @@ class WaveRig(GrainRig):
         self._refuse("load")
 
     def _refuse(self, stage: str) -> NoReturn:
-        raise SimulationError(f"{stage}: test = sonic, must be one that loads; call send")
+        raise SimulationError(f"{stage}: test = {self.kind}, must be one that loads; call send")
 
     def _shape(self, grain: int) -> wrapper.LaguerreCell:
         shape = yade.O.bodies[self.built.solver.bodyIds[grain]].shape

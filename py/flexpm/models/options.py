@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from ..errors import InputError
+from ..kinds.model_names import GRAIN_MODELS, INNER_MODELS, MODELS, SPHERE_MODELS
 from ..require import (
     NOT_NEGATIVE,
     Bounds,
@@ -13,13 +14,8 @@ from ..require import (
     require_whole,
 )
 
-#: Grains of inner particles: normals between grains from the discs' centres, or of the edge.
-INNER_MODELS = ("inner", "inner-un")
-#: Models of flexpm's own solver.
-GRAIN_MODELS = ("flexible", "rigid", *INNER_MODELS)
-#: YADE's own models on the discs of a specimen.
-SPHERE_MODELS = ("jcfpm", "cohfrict")
-MODELS = (*GRAIN_MODELS, *SPHERE_MODELS)
+__all__ = ["GRAIN_MODELS", "INNER_MODELS", "MODELS", "SPHERE_MODELS"]
+
 #: Triangles in each grain.
 MESHES = ("refined", "fan")
 #: Points in each contact.

@@ -11,6 +11,7 @@ from matplotlib.ticker import EngFormatter
 
 from ..arrays import IntArray
 from ..errors import InputError
+from ..kinds.registry import kind_of
 from ..results import measures
 from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
@@ -133,7 +134,7 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
     names = words_of_test(result.test)
     strain, stress = record[names.x.column], record[names.y.column]
     cracks = record["tensile_cracks"] + record["shear_cracks"]
-    loading = measures.until_regained(record) if result.test == "brazilian" else record
+    loading = measures.until_regained(record) if kind_of(result.test).regains else record
     peak = measures.peak_row(loading) if len(record) else None
     kept = [] if peak is None else [peak]
     rows = rows_to_draw(np.column_stack([strain, stress, cracks]), _POINTS, kept)
@@ -195,7 +196,7 @@ def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:
 
 def _reading(result: Result) -> str:
     """How far numbers of a test are those of the rock."""
-    if result.test == "sonic":
+    if not kind_of(result.test).quasi_static:
         return ""
     lines = ["Fragments are counted as the test ends, in mid-fall: at rest there are fewer."]
     if result.confinement:

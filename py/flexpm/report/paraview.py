@@ -18,6 +18,7 @@ from matplotlib import colormaps, colors
 
 from ..arrays import FloatArray
 from ..files import write_text
+from ..kinds.registry import kind_of
 from ..results.cracks import MODES
 from ..results.result import Result
 from ..results.snapshot import Snapshot
@@ -25,8 +26,6 @@ from ..results.vtu import GRAIN, principal_stresses, read_vtu
 from .style import COLOURS, MODE_NAMES, can_be_drawn
 from .tables import size_text, test_text
 
-#: Tests in which cracks follow the larger principal stress, tension, all over the specimen.
-_PULLED = ("tension", "brazilian", "bending", "scb")
 #: Percentile of the largest stress of all, where the colours end that begin at zero [%].
 _END = 98.0
 #: Stops of the colours, and half the height of the window over the longer side [-].
@@ -153,7 +152,7 @@ def _colours_of(snapshot: Snapshot, test: str) -> _Colours:
     if not np.any(snapshot.triangle_stress):
         end = float(np.percentile(moved, _END)) or 1.0
         return _Colours("displacement", _POINTS, 0.0, end, "displacement [m]")
-    if test in _PULLED:
+    if kind_of(test).pulled:
         end = max(float(np.percentile(larger, _END)), 1.0)
         title = "larger principal stress, tension > 0 [Pa]"
         return _Colours("principal_stress_1", _CELLS, 0.0, end, title)

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ..files import Table
+from ..kinds.registry import kind_of
 from ..materials.references import Reference
 from ..text import name_of, words_of
 from .words import words_of_test
@@ -81,15 +82,14 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
         ("status", result.status),
     ]
-    if result.test == "sonic":
-        kept = ("grains, contacts", "energy error", "steps", "status")
+    if kept := kind_of(result.test).rows:
         rows = [row for row in rows if row[0] in kept]
-        speeds = {"pressure": result.vp, "shear": result.vs}
-        rows[1:1] = [
-            (f"speed of the {name} wave", scaled(value, 1.0, "m/s", 5))
-            for name, value in speeds.items()
-            if value is not None
-        ]
+    speeds = (("pressure", result.vp), ("shear", result.vs))
+    rows[1:1] = [
+        (f"speed of the {name} wave", scaled(value, 1.0, "m/s", 5))
+        for name, value in speeds
+        if value is not None
+    ]
     if result.peak_load is not None:
         rows[5:5] = [
             ("peak load", scaled(result.peak_load, 1e-3, "kN")),

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from ..files import Table, json_text, load_json, output_folder, write_text
+from ..kinds.registry import kind_of
+from ..kinds.test_kind import Rig
 from ..notebook import Shown
 from . import doubts, measures, waves
 from .cracks import MODES, Crack, cracks_csv, read_cracks
@@ -21,8 +23,6 @@ from .snapshot import Snapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
-#: Tests that end by their nature, whether or not they have passed a peak.
-_WITHOUT_PEAK = ("shear", "sonic")
 #: Models whose damage energy is that of the contacts between grains alone, and exactly 0 before.
 _SOFTENING = ("flexible", "rigid")
 
@@ -104,18 +104,18 @@ class Result(Shown):
     @property
     def failed(self) -> bool:
         """Whether the simulation failed: it diverged or passed no peak."""
-        if self.test in _WITHOUT_PEAK:
+        if not kind_of(self.test).needs_peak:
             return self.status == "diverged"
         return self.status in FAILED or (self.status != "ok" and self.peak_stress is None)
 
     @property
     def warnings(self) -> list[str]:
         """What makes the numbers doubtful, one line each; see ``doubts``."""
-        record = measures.until_regained(self.curve) if self.test == "brazilian" else self.curve
+        record = measures.until_regained(self.curve) if kind_of(self.test).regains else self.curve
         mismatch = measures.median_end_mismatch(record)
         rate = None if self.inputs is None else self.inputs["rate"]
         found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
-        if self.test == "sonic" and self.vp is None and self.vs is None:
+        if kind_of(self.test).rig is Rig.WAVE and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)
         if self.joint_bend:
             found.append(doubts.of_bend(self.joint_bend))
@@ -123,7 +123,7 @@ class Result(Shown):
         found += doubts.of_grains(self.grains_across)
         found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
-        if self.test != "sonic":
+        if kind_of(self.test).quasi_static:
             found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
         return found
 
@@ -148,7 +148,7 @@ class Result(Shown):
             diverged: The simulation met a number that is not finite.
         """
         whole = self.curve
-        record = measures.until_regained(whole) if self.test == "brazilian" else whole
+        record = measures.until_regained(whole) if kind_of(self.test).regains else whole
         self.youngs_modulus = measures.youngs_modulus(record)
         self.poissons_ratio = measures.poissons_ratio(record)
         self.unbalanced_ratio = measures.unbalanced_ratio(record)
@@ -176,25 +176,6 @@ class Result(Shown):
         growth = None if crossing is None else measures.growth_before_peak(record, crossing)
         fast = fast or (growth is not None and growth > doubts.LARGEST_GROWTH_OF_JOINTS)
         self.status = self._status(diverged, peak, fast)
-
-    def measure_fracture(self, ligament: float) -> None:
-        """Fill what a specimen that is broken through measures.
-
-        Args:
-            ligament: Area that is to break [m2].
-        """
-        load, way = self.curve["load"], self.curve["displacement"]
-        if self.peak_stress is None:
-            return
-        self.peak_load = float(np.max(load))
-        means = 0.5 * (load[1:] + load[:-1])  # numpy has renamed its own function
-        self.fracture_energy = float(means @ np.diff(way)) / ligament
-
-    def measure_residual(self) -> None:
-        """Fill what is left of the strength: the mean over the last tenth of the displacement."""
-        way, stress = self.curve["displacement"], self.curve["axial_stress"]
-        if len(way) and np.isfinite(stress[-1]):
-            self.residual_strength = float(np.mean(stress[way >= 0.9 * way[-1]]))
 
     def measure_wave(self, wave: str, distance: float) -> None:
         """Fill the speed of a pulse.
@@ -234,7 +215,7 @@ class Result(Shown):
             return "diverged"
         if self.energy_error is not None and self.energy_error > doubts.LARGEST_ENERGY_ERROR:
             return "not_quasistatic"
-        if peak is None and self.test not in _WITHOUT_PEAK:
+        if peak is None and kind_of(self.test).needs_peak:
             return "no_peak"
         return "not_quasistatic" if fast else "ok"
 

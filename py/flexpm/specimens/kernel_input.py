@@ -97,3 +97,16 @@ def ring(name: str, values: npt.ArrayLike) -> FloatArray:
     """Corners x, y of a polygon; the first one again at the end, as in GeoJSON, is left out."""
     found = rows(name, values)
     return found[:-1] if len(found) > 1 and np.array_equal(found[0], found[-1]) else found
+
+
+def mineral_indices(minerals: npt.ArrayLike, grains: int) -> IntArray:
+    """Indices of the grains' minerals, one for each of their number."""
+    given = np.asarray(minerals)
+    if given.shape != (grains,) or given.dtype.kind not in "iu" or given.min() < 0:
+        raise InputError(
+            f"Specimen.with_minerals: minerals = {given.dtype} array of shape {given.shape}, "
+            f"must be {grains} indices from 0, one for each grain"
+        )
+    given = given.astype(np.int32)
+    given.setflags(write=False)
+    return given

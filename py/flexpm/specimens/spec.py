@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ..errors import InputError
+from ..joints.lines import Lines, checksum
 from .checks import (
     SHORT_EDGE,
     require_diameters,
@@ -18,7 +19,6 @@ from .checks import (
     require_seed,
     require_short_edge,
 )
-from .joint_lines import Lines, checksum
 
 #: Sizes of each shape and their defaults [m]: the paper's specimens, Sec. 4.1.
 SIZES: dict[str, dict[str, float]] = {

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..files import Table, load_toml
+from ..kinds.registry import ELASTIC, KINDS, TESTS, names
 from ..laboratory import run_spec
 from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
 from ..require import (
@@ -36,24 +37,23 @@ from .study import MOST_RUNS, flat
 
 #: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each
 #: confinement.
+ELASTIC_MEASURES = tuple(KINDS[ELASTIC].calibrates)
+#: Measures that one test tells: the test, and its key of result.json.
+_TOLD = {
+    name: (test, key) for test in (ELASTIC, *TESTS) for name, key in KINDS[test].calibrates.items()
+}
+#: Quotients of two of them.
+_QUOTIENTS = {"direct_indirect_ratio": ("direct_tensile_strength", "indirect_tensile_strength")}
 MEASURES: dict[str, tuple[str, ...]] = {
-    "youngs_modulus": ("elastic",),
-    "poissons_ratio": ("elastic",),
-    "compressive_strength": ("uniaxial",),
-    "direct_tensile_strength": ("tension",),
-    "indirect_tensile_strength": ("brazilian",),
-    "direct_indirect_ratio": ("tension", "brazilian"),
+    **{name: (test,) for name, (test, _) in _TOLD.items()},
+    **{name: tuple(_TOLD[one][0] for one in both) for name, both in _QUOTIENTS.items()},
     "cohesion": ("envelope",),
     "friction_angle": ("envelope",),
     "hoek_brown_strength": ("envelope",),
     "hoek_brown_m": ("envelope",),
 }
-ELASTIC_MEASURES = ("youngs_modulus", "poissons_ratio")
-_PEAKS = {
-    "compressive_strength": "uniaxial",
-    "direct_tensile_strength": "tension",
-    "indirect_tensile_strength": "brazilian",
-}
+#: Test of an envelope without and with a confinement.
+_OF_ENVELOPE = {KINDS[test].confined: test for test in names(lambda kind: kind.envelope)}
 _TABLES = ("calibration", "common", "screen", "verify", "target", "free", "ratio")
 _ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "confinements")
 _DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
@@ -99,7 +99,9 @@ class Runs:
 
     def seeds_of(self, target: Target) -> Sequence[int]:
         """Seeds of the packings that tell a measure."""
-        return self.disc_seeds if MEASURES[target.name] == ("brazilian",) else self.seeds
+        tests = MEASURES[target.name]
+        discs = all(test in KINDS and KINDS[test].shape == "disc" for test in tests)
+        return self.disc_seeds if discs else self.seeds
 
 
 @dataclass(frozen=True)
@@ -136,17 +138,15 @@ class Calibration:
         """Tests with their confinements [Pa] that a measure needs."""
         tests = MEASURES[target.name]
         if tests == ("envelope",):
-            return [("biaxial" if c else "uniaxial", c) for c in self.confinements]
+            return [(_OF_ENVELOPE[bool(c)], c) for c in self.confinements]
         return [(test, 0.0) for test in tests]
 
     def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:
         """A measure of one packing, from its results by (test, confinement); None if missing."""
-        if target.name in ELASTIC_MEASURES:
-            return found[("elastic", 0.0)].get(target.name)
-        if target.name in _PEAKS:
-            return found[(_PEAKS[target.name], 0.0)].get("peak_stress")
-        if target.name == "direct_indirect_ratio":
-            both = [found[(test, 0.0)].get("peak_stress") for test in ("tension", "brazilian")]
+        if target.name in _TOLD:
+            return _told(target.name, found)
+        if target.name in _QUOTIENTS:
+            both = [_told(name, found) for name in _QUOTIENTS[target.name]]
             return strength.tensile_ratio(*both)
         peaks = [found[test].get("peak_stress") for test in self.tests(target)]
         known = [peak for peak in peaks if peak is not None]
@@ -156,6 +156,11 @@ class Calibration:
             return _of_envelope(target.name, self.confinements, known)
         except InputError:  # the peaks follow no criterion
             return None
+
+
+def _told(name: str, found: Mapping[tuple[str, float], Table]) -> float | None:
+    test, key = _TOLD[name]
+    return found[(test, 0.0)].get(key)
 
 
 def _of_envelope(name: str, confinements: Sequence[float], peaks: Sequence[float]) -> float:

@@ -14,9 +14,9 @@ from typing import Any, TypeVar
 
 from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
+from ..kinds.registry import kind_of
 from ..laboratory import protocols
 from ..laboratory.checkpoint import INTERVAL
-from ..laboratory.loading_rate import default_stop_ratio
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec, described, ranges
 from ..materials.material import COMPARED, Material
@@ -62,7 +62,7 @@ class Case:
     @property
     def name(self) -> str:
         """Model, and the confinement of a biaxial test."""
-        pressure = f" {1e-6 * self.confinement:g} MPa" if self.spec.test == "biaxial" else ""
+        pressure = f" {1e-6 * self.confinement:g} MPa" if self.spec.kind.confined else ""
         return f"{self.model}{pressure}"
 
     @property
@@ -141,7 +141,7 @@ def compare(
     report = options.pop("report", True)
     output = Output(False, options.pop("frames", 0), options.pop("film", None))
     shared = {name: value for name, value in options.items() if value is not None}
-    shared.setdefault("stop_ratio", default_stop_ratio(test))
+    shared.setdefault("stop_ratio", kind_of(test).stop_ratio)
     farthest = ranges(models, shared.pop("interaction_range", None))
     cases = [
         Case(

@@ -16,6 +16,8 @@ from subprocess import CompletedProcess
 
 from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
+from ..joints import lines as joint_lines
+from ..kinds.registry import KINDS, kind_of
 from ..laboratory import run_spec
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
@@ -23,11 +25,11 @@ from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
 from ..require import require_known, require_text
-from ..specimens import joint_lines, specimen_file
-from ..specimens.spec import SIZES, SpecimenSpec
+from ..specimens.files import specimen_file
+from ..specimens.spec import SpecimenSpec
 
 #: Tests of a study; `elastic` is the direct solve.
-_TESTS = (*run_spec.TESTS, run_spec.ELASTIC)
+_TESTS = tuple(KINDS)
 #: Keys that change the material.
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Keys that name files: a saved specimen, and lines of joints.
@@ -35,7 +37,7 @@ _FILES = ("specimen", "joints")
 #: Keys of what a run writes beside its results; they are no inputs of it.
 _OUTPUTS = ("frames", "film")
 #: Keys of a packing.
-_PACKED = (*SIZES["rectangle"], *SIZES["disc"], *run_spec.PACKING)
+_PACKED = (*run_spec.SIZE_NAMES, *run_spec.PACKING)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
 NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
 #: Exit codes of a job that would end the same way again.
@@ -122,7 +124,7 @@ def make(inputs: Table, base: Path) -> Job:
     assigned = [f"{name}={used[key]}" for name, key in changes.items()]
     material = load_material(used.get("material"), model).with_set(assigned, model)
     spec = RunSpec.from_options(test, used, material, _specimen(test, used))
-    if test == run_spec.ELASTIC:
+    if kind_of(test).is_solve:
         output = Output(report=False)  # nothing moves
     return Job({"test": test, **used}, tuple(arguments(test, used)), spec, output=output)
 
@@ -263,7 +265,7 @@ def arguments(test: str, used: Table) -> Iterator[str]:
     """The command for a test with its options, which are named as in a study."""
     # a checkpoint that cannot be used is no fault of the run
     run = ("run", test, "--discard-checkpoint", "--no-report")
-    yield from (test,) if test == run_spec.ELASTIC else run
+    yield from (test,) if kind_of(test).is_solve else run
     for key, value in used.items():
         if key.startswith("set."):
             yield from ("--set", f"{key.removeprefix('set.')}={_text(value)}")

@@ -15,6 +15,7 @@ import pandas
 
 from ..errors import InputError
 from ..files import Table, output_folder, read_json
+from ..kinds.registry import kind_of
 from ..laboratory.output import Output
 from ..laboratory.run_spec import RunSpec
 from ..materials.references import reference_of
@@ -209,7 +210,7 @@ def _cells(row: pandas.Series, ending: str) -> list[str]:
 
 
 def _label(row: pandas.Series) -> str:
-    pressure = f" {1e-6 * row['confinement']:g} MPa" if row["test"] == "biaxial" else ""
+    pressure = f" {1e-6 * row['confinement']:g} MPa" if kind_of(row["test"]).confined else ""
     return f"{row['model']}{pressure}"
 
 

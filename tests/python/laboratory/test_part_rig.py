@@ -14,13 +14,13 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
 from flexpm.errors import InputError
+from flexpm.kinds import toughness
 from flexpm.laboratory import protocols
 from flexpm.laboratory.checkpoint import Checkpoint
 from flexpm.laboratory.part_rig import Part, PartRig
 from flexpm.laboratory.part_tests import notch_depth, prepared
 from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.report import tables
-from flexpm.results import toughness
 
 HEIGHT = 0.012
 SPAN = 0.048

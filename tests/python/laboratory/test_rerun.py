@@ -17,7 +17,7 @@ from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials.material import load, preset_names
 from flexpm.materials.mixing import from_description
 from flexpm.models.options import MODELS
-from flexpm.specimens import given
+from flexpm.specimens.files import given
 from flexpm.specimens.spec import SpecimenSpec
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 import flexpm
 from flexpm import materials
 from flexpm.errors import InputError
+from flexpm.kinds.registry import kind_of
 from flexpm.laboratory import run_spec
 from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO, LOADINGS
 from flexpm.laboratory.run_spec import (
     ELASTIC,
-    SONIC,
     TESTS,
     UNUSED,
     RunSpec,
@@ -61,7 +61,7 @@ def specs(draw) -> RunSpec:
     test = draw(st.sampled_from((*TESTS, ELASTIC)))
     model = draw(st.sampled_from(models_of(test)))
     grains = model in GRAIN_MODELS
-    loaded = test != SONIC
+    loaded = test != "sonic"
     unused = UNUSED[test]
     dynamic = not loaded or ("dynamic" not in unused and draw(st.booleans()))
     cohesion = draw(st.floats(1e7, 3e7))
@@ -73,7 +73,7 @@ def specs(draw) -> RunSpec:
     waits = adapts and not model.startswith("inner") and not is_brittle(described(material, model))
     loadings = [name for name in LOADINGS if waits or name != "waiting"] if adapts else ["constant"]
     specimen = draw(specimens(shape_of(test)))
-    if test == SONIC:  # of 50 grains at least
+    if test == "sonic":  # of 50 grains at least
         specimen = dataclasses.replace(specimen, height=draw(st.floats(0.2, 1.0)))
     spheres = st.none() | st.floats(1.0, 2.0) if model in SPHERE_MODELS else st.none()
     return RunSpec(
@@ -156,9 +156,9 @@ def test_other_results_or_another_schema_change_keys(monkeypatch):
     spec = plain()
     before = spec.key()
     other = (spec.test, "rigid")
-    monkeypatch.setitem(run_spec.RESULTS, other, run_spec.results_number(*other) + 1)
+    monkeypatch.setitem(kind_of(other[0]).results, other[1], run_spec.results_number(*other) + 1)
     assert spec.key() == before
-    monkeypatch.setitem(run_spec.RESULTS, (spec.test, spec.model), spec.results + 1)
+    monkeypatch.setitem(spec.kind.results, spec.model, spec.results + 1)
     assert spec.key() != before
     assert spec.older_keys()[-1] == before
     monkeypatch.undo()

@@ -19,11 +19,12 @@ import yade
 
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.joints import bend as joint_bend
+from flexpm.joints import lines as joint_lines
 from flexpm.materials.material import load
 from flexpm.materials.mixing import description, from_description
 from flexpm.report.maps import cell_polygons
 from flexpm.results import doubts
-from flexpm.specimens import joint_bend, joint_lines
 from flexpm.specimens.specimen import Specimen
 
 WIDTH, HEIGHT = 0.02, 0.04

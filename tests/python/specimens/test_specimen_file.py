@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.specimens import specimen_file
+from flexpm.specimens.files import specimen_file
 
 SQUARES = [[[x, 0.0], [x + 0.01, 0.0], [x + 0.01, 0.01], [x, 0.01]] for x in (0.0, 0.01)]
 FRAME = [[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]]

@@ -23,8 +23,9 @@ import flexpm
 from flexpm import materials
 from flexpm.cli import inputs, main
 from flexpm.errors import InputError
+from flexpm.joints import lines as joint_lines
+from flexpm.kinds.registry import kind_of
 from flexpm.laboratory import run_spec
-from flexpm.specimens import joint_lines
 from flexpm.studies import figures, jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -227,7 +228,7 @@ def test_results_of_an_older_number_are_named_once_and_run_again(tmp_path, monke
     kept.run(wanted)
     assert ran.pop() == wanted[2:] and caplog.messages == []
     number = run_spec.results_number("uniaxial", "flexible")
-    monkeypatch.setitem(run_spec.RESULTS, ("uniaxial", "flexible"), number + 1)
+    monkeypatch.setitem(kind_of("uniaxial").results, "flexible", number + 1)
     for _ in range(2):
         kept.run(wanted)
         assert ran.pop() == wanted

@@ -3,15 +3,18 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
+import itertools
 import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
-from ..files import Table, load_json, write_text
-from . import joint_lines
+from ...errors import InputError
+from ...files import Table, load_json, write_text
+from ...joints.cuts import Cut
+from ...joints.lines import checked
 from .file_checks import require_sense, require_types
 from .file_checks import spec_of as spec_of
 
@@ -23,12 +26,44 @@ def write(path: Path, fields: Table) -> None:
 
     Args:
         path: The file.
-        fields: Its keys as doc/files has them, but format and checksum.
+        fields: Its keys as doc/files has them, but format and checksum, as of ``fields_of``.
     """
     content = {"format": _FORMAT, **fields}
     content["checksum"] = _checksum(content)
     lines = [f"{json.dumps(key)}: {_text(value)}" for key, value in content.items()]
     write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
+
+
+def fields_of(specimen: Mapping[str, Any]) -> Table:
+    """Keys of a file but format and checksum, from fields of Specimen, which ``parts`` gives."""
+    import numpy as np
+
+    cells, outline = specimen["tessellation"], specimen["outline"]
+    corners, ends = cells.cell_vertices.tolist(), cells.cell_offsets.tolist()
+    edges, found = cells.shared_edges, specimen["edge_joints"]
+    joints = [] if found is None else np.column_stack((edges[:, 2:], found))[found >= 0].tolist()
+    return {
+        "spec": dataclasses.asdict(specimen["spec"]),
+        "outline": (
+            outline.tolist() if hasattr(outline, "tolist") else dataclasses.asdict(outline)
+        ),
+        "holes": [hole.tolist() for hole in specimen["holes"]],
+        "removed_discs": specimen["removed_discs"],
+        "minerals": _list(specimen["minerals"]),
+        "vertices": cells.vertices.tolist(),
+        "cells": [corners[start:end] for start, end in itertools.pairwise(ends)],
+        "discs": specimen["discs"].tolist(),
+        "sides": cells.boundary_edges[:, 1:].tolist(),
+        "joints": joints,
+        "lines": specimen["joints"],
+        "cuts": {name: cut.to_json() for name, cut in specimen["joint_cuts"].items()},
+        "strengths": _list(specimen["strengths"]),
+        "grains": _list(specimen["grains"]),
+    }
+
+
+def _list(array: Any) -> list[Any] | None:
+    return None if array is None else array.tolist()
 
 
 def read(path: Path) -> Table:
@@ -59,8 +94,8 @@ def parts(content: Table) -> Table:
     """
     import numpy as np
 
-    from .._flexpm import cells_of_file
-    from .kernel_input import Circle, call
+    from ..._flexpm import cells_of_file
+    from ..kernel_input import Circle, call
 
     def integers(key: str, columns: int) -> Any:
         return np.array(content[key], dtype=np.int32).reshape(-1, columns)
@@ -86,10 +121,8 @@ def parts(content: Table) -> Table:
         "spec": spec_of(content),
         "removed_discs": content["removed_discs"],
         "holes": tuple(np.array(hole, dtype=float) for hole in content["holes"]),
-        "joints": joint_lines.checked(content["lines"]) if content.get("lines") else {},
-        "joint_cuts": {
-            name: joint_lines.Cut.from_json(cut) for name, cut in content.get("cuts", {}).items()
-        },
+        "joints": checked(content["lines"]) if content.get("lines") else {},
+        "joint_cuts": {name: Cut.from_json(cut) for name, cut in content.get("cuts", {}).items()},
     }
     found |= {key: np.array(values, dtype=np.int32) for key, values in given.items()}
     if content["strengths"] is not None:

@@ -11,15 +11,16 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, TypeGuard
 
-from ..errors import InputError
-from ..files import Table
-from ..require import quoted
-from . import joint_lines
-from .spec import SpecimenSpec
+from ...errors import InputError
+from ...files import Table
+from ...joints.lines import Lines
+from ...joints.lines import checksum as lines_checksum
+from ...require import quoted
+from ..spec import SpecimenSpec
 
 if TYPE_CHECKING:
-    from .._flexpm import Tiling
-    from ..arrays import FloatArray, IntArray
+    from ..._flexpm import Tiling
+    from ...arrays import FloatArray, IntArray
 
 #: Distances below this share of the mean diameter are round-off, and that of areas [-].
 _ROUND_OFF, _AREA = 1e-5, 1e-9
@@ -193,8 +194,8 @@ def _require_outline(found: Table) -> None:
     """Shape, sizes and holes are those that the spec names."""
     import numpy as np
 
-    from . import outlines, packed
-    from .kernel_input import Circle, checksum
+    from .. import outlines, packed
+    from ..kernel_input import Circle, checksum
 
     spec, outline, holes = found["spec"], found["outline"], found["holes"]
     rings = outline if isinstance(outline, Circle) else np.vstack((outline, *holes))
@@ -218,7 +219,7 @@ def _require_sides(found: Table, sides: IntArray) -> None:
     """Edges on the outline are those of one cell alone, each on the side whose number it has."""
     import numpy as np
 
-    from .kernel_input import Circle
+    from ..kernel_input import Circle
 
     cells, outline = found["tessellation"], found["outline"]
     rim = np.sort(cells.boundary_edges[:, 1:3], axis=1)
@@ -273,8 +274,8 @@ def _require_cells(found: Table) -> None:
     """Cells are those of their discs, or those whose checksum the spec has."""
     import numpy as np
 
-    from . import packed
-    from .kernel_input import cells_checksum, checksum
+    from .. import packed
+    from ..kernel_input import cells_checksum, checksum
 
     spec, cells, discs = found["spec"], found["tessellation"], found["discs"]
     cut = spec.joints is not None
@@ -318,7 +319,7 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     """So many joints are those of the spec, on edges between cells, near their lines."""
     import numpy as np
 
-    from .joint_bend import largest_bend
+    from ...joints.bend import largest_bend
 
     spec, lines, grains = found["spec"], found["joints"], found.get("grains")
     names = spec.joint_names or ()
@@ -351,13 +352,13 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
         raise refuse("lines = others, must be those that spec names")
 
 
-def _checksums(lines: joint_lines.Lines) -> Iterable[str]:
+def _checksums(lines: Lines) -> Iterable[str]:
     """Checksums of joints that may have been cut one after the other, or some at a time."""
     names = [*lines]
     reached: dict[int, set[str | None]] = {0: {None}}
     for end in range(1, len(names) + 1):
         reached[end] = {
-            joint_lines.checksum({name: lines[name] for name in names[first:end]}, before)
+            lines_checksum({name: lines[name] for name in names[first:end]}, before)
             for first in range(end)
             for before in reached[first]
         }
@@ -366,8 +367,8 @@ def _checksums(lines: joint_lines.Lines) -> Iterable[str]:
 
 def _require_factors(found: Table) -> None:
     """Strengths and minerals are those that the spec names."""
-    from . import strengths as contact_strengths
-    from .kernel_input import checksum
+    from .. import strengths as contact_strengths
+    from ..kernel_input import checksum
 
     spec, strengths, minerals = found["spec"], found.get("strengths"), found.get("minerals")
     if (spec.strengths is None) is not (strengths is None):

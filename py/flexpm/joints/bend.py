@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import FloatArray
-from .joint_lines import Line
+from .lines import Line
 
 
 def largest_bend(lines: Sequence[Line], contacts: FloatArray) -> float:

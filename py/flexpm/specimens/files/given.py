@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..errors import InputError
-from ..progress import Progress
-from .spec import GRAINS_FILE, SpecimenSpec
-from .specimen import Specimen
+from ...errors import InputError
+from ...progress import Progress
+from ..spec import GRAINS_FILE, SpecimenSpec
+from ..specimen import Specimen
 
 #: Name of the file.
 FILE = GRAINS_FILE

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a beam and half a disc on two supports have in common. Deviations D39 and D50."""
+
+from __future__ import annotations
+
+from .layout import Frame, Layout, Lines, Opening, Plate
+from .option import control_of
+from .words import CRACKS, Words, strain, stress
+
+CONTROLS = {"displacement": "", "cmod": "cmod"}
+CONTROL = control_of(*CONTROLS)
+WORDS = Words(
+    strain("strain of the outer fibre"),
+    stress("bending stress"),
+    "peak bending stress",
+    (
+        *("peak_load", "fracture_toughness", "fracture_energy"),
+        *("peak_stress", "peak_strain"),
+        *CRACKS,
+    ),
+)
+
+
+def notch(frame: Frame) -> Lines:
+    """A line up from the middle of the bottom, unless the notch has no depth."""
+    depth = frame.number("notch")
+    if not depth:
+        return []
+    return [[[frame.middle, frame.bottom], [frame.middle, frame.bottom + depth]]]
+
+
+def on_rollers(frame: Frame) -> Layout:
+    """Two rollers below, a head pressed on the middle."""
+    span, middle = frame.number("span"), frame.middle
+    ligament = frame.height - frame.notch_depth
+    rollers = {
+        name: Plate((middle + side * 0.5 * span, frame.bottom), (0.0, 1.0))
+        for name, side in (("left", -1.0), ("right", 1.0))
+    }
+    head = Plate((middle, frame.top), (0.0, -1.0), pinned=True)
+    mouth = Opening((middle - frame.grain, frame.bottom), (middle + frame.grain, frame.bottom))
+    return Layout(
+        plates={**rollers, "head": head},
+        driven=("head",),
+        direction=(0.0, -1.0),
+        against=tuple(rollers),
+        area=2.0 * frame.thickness * ligament**2 / (3.0 * span),
+        length=span**2 / (6.0 * frame.height),
+        strength=frame.tensile_strength,
+        openings={"cmod": mouth},
+    )

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options that only some tests have: of the command, of studies, of result.json. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from ..require import ANY, POSITIVE, Bounds, require_number, require_one_of
+
+#: A value of an option; None: not given.
+Value = float | str | None
+#: Pressures that a test may put on a specimen [Pa].
+PRESSURE = Bounds(above=0.0, at_most=1e15)
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option of a test.
+
+    Several tests may have one of the same name: it is one option of the command, whose help tells
+    the default of each.
+    """
+
+    name: str
+    help: str  #: a phrase, without unit and default
+    unit: str = ""  #: empty for a number without one, and for a word
+    bounds: Bounds = POSITIVE  #: what the command takes; the test may be stricter
+    choices: tuple[str, ...] = ()  #: of a word
+    default: str = ""  #: what stands for it if it is not given, for the help
+    open: str = ""  #: what a page says if the run itself finds the value; empty: none has to
+    size: str = ""  #: size of the specimen that it is another name of
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a test's own options are settled by."""
+
+    test: str
+    sizes: Mapping[str, float]  #: of the specimen [m]
+    values: Mapping[str, Value]  #: of the options, by name
+    diameter: float | None  #: mean of the grains [m]; None for grains that were given
+
+    def number(self, name: str, usual: float, bounds: Bounds = ANY, unit: str = "m") -> float:
+        """A number, or what is usual, within its bounds.
+
+        Raises:
+            InputError: for one out of range.
+        """
+        value = self.values.get(name)
+        return require_number(f"run: {name}", usual if value is None else value, bounds, unit)
+
+    def word(self, name: str, choices: tuple[str, ...]) -> str:
+        """One of a few words, the first if none is given.
+
+        Raises:
+            InputError: for another one.
+        """
+        value = self.values.get(name) or choices[0]
+        require_one_of(f"run: {name}", value, choices)
+        return str(value)
+
+
+def control_of(*measures: str) -> Option:
+    """The option of tests in which one of several measures can grow at the rate, first the ends."""
+    return Option(
+        "control",
+        "What grows at the loading rate; the ends go back where the specimen snaps back",
+        choices=measures,
+        default=measures[0],
+        open="displacement of the ends",
+    )
+
+
+#: Checks and completes the values of a test's own options.
+Settle = Callable[[Asked], Mapping[str, Value]]

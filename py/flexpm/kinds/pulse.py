@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Length of the pulse of a sonic test, and what it is too short for. SI units."""
+
+from __future__ import annotations
+
+from ..errors import InputError
+
+#: Waves: along the height, and across it.
+WAVES = ("p", "s")
+#: Length of a pulse over the height that it goes through [-], deviation D48.
+PULSE = 0.4
+#: Least length of a pulse in mean diameters of the grains [-].
+_FEWEST_GRAINS = 20.0
+
+
+def require_pulse(height: float, diameter: float) -> None:
+    """Refuse a specimen in which the pulse would be shorter than 20 grains.
+
+    Args:
+        height: Of the specimen [m].
+        diameter: Mean of the grains [m].
+    """
+    grains = PULSE * height / diameter
+    if not grains >= _FEWEST_GRAINS:
+        raise InputError(
+            f"run: wavelength = {grains:.3g} mean diameters of the grains, must be >= "
+            f"{_FEWEST_GRAINS:g}: it is {PULSE:g} heights; take a height of "
+            f"{_FEWEST_GRAINS / PULSE:g} diameters, or smaller grains"
+        )

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How fast a test is driven on a model, and by which ratios it counts as quasi-static.
+
+The rates (paper Sec. 4.1, D5) come from halving them on three packings until the mean peak stood
+still: of the paper's size for flexible and rigid grains. The tables and the command are in the
+documentation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: The rate of a loading that waits for cracks is up to this k [-].
+WAITING_CONSTANT = 0.16
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Rates of a test on a model; None for what it is not loaded by."""
+
+    #: k of the loading rate [-]: the mean strain grows by k times the reference strain while a wave
+    #: crosses the specimen once. Halving it moved the mean peak by less than 2 %.
+    constant: float
+    #: A test whose median unbalanced-force ratio up to its peak exceeds this is not quasi-static
+    #: [-]: about what the fastest rate gives at which halving still moves the mean peak by less
+    #: than 2 %, or the fastest that was tried.
+    quasistatic: float | None = None
+    #: The same of a loading that waits for cracks, for the ratio that a fifth of the loading
+    #: exceeds (``measures.unbalanced_under_way``) [-], with softening and with brittle contacts:
+    #: between what the rate in use and four times that rate give.
+    waiting_ratios: tuple[float, float] | None = None
+    #: Cracks run where damage and friction take more than this share of what a waiting loading
+    #: would supply at its fastest [-].
+    running_share: float | None = None
+    #: The fastest k of a loading that waits for cracks [-].
+    waiting_constant: float = WAITING_CONSTANT
+    #: Wave crossings that a test with a loading that waits takes, about, between half the paper's
+    #: size and the whole of it [-]; None: it goes all its way.
+    likely_crossings: float | None = None

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a test is: shape, options, models, stages, parts, measures, words and rates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+from .layout import Frame, Layout, Lines
+from .model_names import MODELS
+from .option import Asked, Option, Settle, Value
+from .rates import Rates
+from .words import Columns, Words
+
+#: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
+STOP_RATIO = 0.5
+
+
+class Rig(Enum):
+    """What holds and loads a specimen."""
+
+    ENDS = "ends"  #: its lower and upper end, or two plates on a disc
+    PARTS = "parts"  #: what a layout says
+    WAVE = "wave"  #: nothing: a pulse goes through it
+    NONE = "none"  #: it is solved, not stepped
+
+
+class Stage(Enum):
+    """What a run does, one after the other."""
+
+    CONFINE = "confine"  #: presses on all sides with the confinement
+    PRESS = "press"  #: presses on the layout's pressed part
+    LOAD = "load"  #: drives until the stress has fallen from its peak
+    SLIDE = "slide"  #: drives all the way, whatever the stress does
+    SEND = "send"  #: lets a pulse go
+
+
+def _as_given(asked: Asked) -> Mapping[str, Value]:
+    return asked.values
+
+
+def _above_the_notch(frame: Frame) -> float:
+    return frame.height - frame.notch_depth
+
+
+@dataclass(frozen=True)
+class TestKind:
+    """One test. What is left out is that of compression between the ends of a rectangle."""
+
+    __test__ = False  # no test of pytest
+
+    name: str
+    order: int  #: its place in lists of all tests
+    about: str  #: a sentence or two for the help and the manual
+
+    # What is tested
+    shape: str = "rectangle"  #: a kind of specimen
+    sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
+    models: tuple[str, ...] = MODELS
+    #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
+    #: command (scripts/checks/reference.py) raises the number of its test and model; runs of these
+    #: that were finished before get other keys and are done again.
+    results: Mapping[str, int] = field(default_factory=dict)
+
+    # What can be asked for
+    options: tuple[Option, ...] = ()  #: that not all tests have
+    without: tuple[str, ...] = ()  #: options of all tests that this one has no use for
+    settle: Settle = _as_given  #: checks and completes its own options
+    confined: bool = False  #: it takes a confinement
+    confine_hint: str = ""  #: what serves a user who wants one, if it does not
+    static_models: tuple[str, ...] = ()  #: that may start at the elastic solution
+    static_first: bool = False  #: they do, unless told otherwise
+    dynamic: bool = False  #: it has real masses and no damping, always
+    #: What may grow at the loading rate and its column of the record, the way of what is driven
+    #: first, which needs none.
+    controls: Mapping[str, str] = field(default_factory=dict)
+
+    # What happens
+    rig: Rig = Rig.ENDS
+    pulls: bool = False
+    stages: tuple[Stage, ...] = (Stage.LOAD,)
+    pressure: str = "confinement"  #: option with the pressure of a stage that presses
+    cut: Callable[[Frame], Lines] | None = None  #: lines of the notches that it cuts
+    notch_law: Mapping[str, object] = field(default_factory=lambda: {"open": True})
+    takes_notch: bool = False  #: a specimen may bring its notch: open, up from the bottom's middle
+    ligament: Callable[[Frame], float] = _above_the_notch  #: what notches leave of it [m]
+    layout: Callable[[Frame], Layout] | None = None
+    rates: Mapping[str, Rates] = field(default_factory=dict)  #: by model
+    stop_ratio: float = STOP_RATIO
+    #: It ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
+    #: slowly, and the interlocking edges of inner particles, carry more than the reference.
+    largest_strain: float = 8.0
+    #: Its steps fall with this power of the rate [-]: twice the rate saves a third of them,
+    #: roughly, as cracks take their time.
+    likely_power: float = 0.5
+    #: Its descent from the peak is free of damping, deviation D55, unless there are joints.
+    falls_freely: bool = False
+    slides: bool = False  #: friction is what it measures; what slides lets go in a wave's time
+
+    # What it tells
+    needs_peak: bool = True  #: one without a peak has failed
+    quasi_static: bool = True
+    regains: bool = False  #: stress that comes back once a specimen is broken does not count
+    pulled: bool = False  #: cracks follow the tension all over the specimen
+    no_constants: tuple[str, ...] = ()  #: slopes of its record that are none of the rock
+    #: What it measures beside its peak: keys of result.json, from the record and the peak stress.
+    measure: Callable[[Frame, Columns, float | None], Mapping[str, float | None]] | None = None
+    words: Words = field(default_factory=Words)
+    rows: tuple[str, ...] = ()  #: of the common rows of a table of its outcome; none: all
+    #: What a calibration can meet, by its own names: keys of result.json.
+    calibrates: Mapping[str, str] = field(default_factory=dict)
+    envelope: bool = False  #: its peaks make a strength envelope
+
+    def has(self, option: str) -> bool:
+        """Whether an option that not all tests have is one of this test."""
+        return any(one.name == option for one in self.options)
+
+    @property
+    def is_solve(self) -> bool:
+        """Whether it is a direct solve, without steps."""
+        return self.rig is Rig.NONE
+
+    @property
+    def settles(self) -> bool:
+        """Whether the specimen comes to rest under a pressure before it is loaded."""
+        return not {Stage.CONFINE, Stage.PRESS}.isdisjoint(self.stages)

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compression under a lateral pressure, which acts on all sides first. Paper Sec. 4.1."""
+
+from ..rates import Rates
+from ..test_kind import Stage, TestKind
+
+_INNER = Rates(0.01, 0.005)
+_SPHERES = Rates(0.0025, 0.02)
+
+KIND = TestKind(
+    name="biaxial",
+    order=3,
+    about="compression under the confinement, which acts on all sides first",
+    # the last: a pressure is balanced once reactions and mean stress are; loose grains bear none
+    results={
+        **dict.fromkeys(("flexible", "rigid"), 6),
+        **dict.fromkeys(("inner", "inner-un"), 4),
+        **dict.fromkeys(("jcfpm", "cohfrict"), 3),
+    },
+    confined=True,
+    stages=(Stage.CONFINE, Stage.LOAD),
+    rates={
+        "flexible": Rates(0.0025, 0.001, (0.0017, 0.045), 0.003, likely_crossings=125),
+        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=130),
+        **dict.fromkeys(("inner", "inner-un"), _INNER),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+    },
+    falls_freely=True,
+    envelope=True,
+)

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A test of a script's own, between parts that it lays itself."""
+
+from ..model_names import BLOCK_MODELS
+from ..rates import Rates
+from ..test_kind import Rig, TestKind
+
+_RATES = Rates(0.01, running_share=0.01, likely_crossings=60)
+
+KIND = TestKind(
+    name="own",
+    order=0,
+    about="a test of a script's own",
+    models=BLOCK_MODELS,
+    rig=Rig.PARTS,
+    stages=(),
+    rates=dict.fromkeys(BLOCK_MODELS, _RATES),
+)

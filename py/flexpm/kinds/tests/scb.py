@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Half a disc with a notch on two supports, pressed on top. Deviation D50."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...require import NOT_NEGATIVE, Bounds
+from .. import bent
+from ..layout import Frame
+from ..model_names import BLOCK_MODELS
+from ..option import Asked, Option, Value
+from ..part_measures import work
+from ..rates import Rates
+from ..test_kind import Rig, TestKind
+from ..toughness import half_disc_toughness, require_half_disc
+from ..words import Columns
+
+#: Span over the diameter, notch over the radius, unless they are given [-].
+_SPAN, _NOTCH = 0.6, 0.5
+
+
+def _settle(asked: Asked) -> Mapping[str, Value]:
+    diameter = asked.sizes["diameter"]
+    span = asked.number("span", _SPAN * diameter, Bounds(above=0.0, below=diameter))
+    bounds = Bounds(at_least=0.0, below=0.5 * diameter)
+    notch = asked.number("notch", 0.5 * _NOTCH * diameter, bounds)
+    require_half_disc(span, 0.5 * diameter, notch)
+    return {"span": span, "notch": notch}
+
+
+def _measure(frame: Frame, record: Columns, peak: float | None) -> Mapping[str, float | None]:
+    notch = frame.notch_depth
+    found: dict[str, float | None] = {"notch_depth": notch}
+    if peak is None:
+        return found
+    load = float(record["load"].max())
+    found |= {
+        "peak_load": load,
+        "fracture_energy": work(record) / (frame.thickness * (frame.height - notch)),
+    }
+    if notch > 0.0:
+        found["fracture_toughness"] = half_disc_toughness(
+            load,
+            span=frame.number("span"),
+            radius=0.5 * frame.width,
+            thickness=frame.thickness,
+            notch=notch,
+        )
+    return found
+
+
+KIND = TestKind(
+    name="scb",
+    order=6,
+    about="half a disc with a notch on two supports, pressed on top",
+    shape="half-disc",
+    models=BLOCK_MODELS,
+    results={"flexible": 4, "rigid": 3},
+    options=(
+        Option("span", "Distance of the supports", "m", default="0.6 of the diameter"),
+        Option(
+            "notch", "Depth of a notch in the middle", "m", NOT_NEGATIVE, default="half the radius"
+        ),
+        bent.CONTROL,
+    ),
+    settle=_settle,
+    controls=bent.CONTROLS,
+    rig=Rig.PARTS,
+    cut=bent.notch,
+    takes_notch=True,
+    layout=bent.on_rollers,
+    rates={
+        "flexible": Rates(
+            0.01, 0.006, (0.0055, 0.012), 0.01, waiting_constant=0.08, likely_crossings=400
+        ),
+        "rigid": Rates(0.01, 0.003, (0.006, 0.02), 0.01, likely_crossings=180),
+    },
+    stop_ratio=0.1,
+    largest_strain=20.0,
+    likely_power=0.85,
+    pulled=True,
+    no_constants=("youngs_modulus",),
+    measure=_measure,
+    words=bent.WORDS,
+)

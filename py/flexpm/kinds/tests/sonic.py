@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A plane pulse through a rectangle, from its bottom to its top. Deviations D48 and D49."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..model_names import BLOCK_MODELS
+from ..option import Asked, Option, Value
+from ..pulse import WAVES, require_pulse
+from ..test_kind import Rig, Stage, TestKind
+from ..words import Drawn, Words
+
+
+def _settle(asked: Asked) -> Mapping[str, Value]:
+    if asked.diameter is not None:
+        require_pulse(asked.sizes["height"], asked.diameter)
+    return {"wave": asked.word("wave", WAVES)}
+
+
+KIND = TestKind(
+    name="sonic",
+    order=9,
+    about="a plane pulse through a rectangle, from its bottom to its top, with real masses and "
+    "without damping, for the speed of its wave",
+    models=BLOCK_MODELS,
+    results=dict.fromkeys(BLOCK_MODELS, 2),  # a cosine that is the same on all machines
+    options=(Option("wave", "Pressure or shear wave", choices=WAVES, default=WAVES[0]),),
+    without=(
+        *("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start", "loading"),
+    ),
+    settle=_settle,
+    dynamic=True,  # a wave in scaled masses has another speed
+    rig=Rig.WAVE,
+    stages=(Stage.SEND,),
+    needs_peak=False,
+    quasi_static=False,
+    words=Words(
+        Drawn("time", "time", 1e6, "µs"),
+        Drawn("far_displacement", "displacement of the upper section", 1e9, "nm"),
+        measures=("vp", "vs"),
+    ),
+    rows=("grains, contacts", "energy error", "steps", "status"),
+)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Direct tension of the ends of a rectangle. Paper Sec. 4.1."""
+
+from ..rates import Rates
+from ..test_kind import Rig, TestKind
+
+_INNER = Rates(0.01, 0.005)
+_SPHERES = Rates(0.01, 0.02)
+
+KIND = TestKind(
+    name="tension",
+    order=2,
+    about="direct tension of the same ends",
+    results={
+        **dict.fromkeys(("flexible", "rigid"), 4),
+        **dict.fromkeys(("inner", "inner-un", "jcfpm", "cohfrict"), 2),
+    },
+    confine_hint="; use biaxial",
+    static_models=("flexible",),
+    static_first=True,
+    rig=Rig.ENDS,
+    pulls=True,
+    rates={
+        "flexible": Rates(0.01, 0.0045, (0.005, 0.6), 0.01, likely_crossings=19),
+        "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=58),
+        **dict.fromkeys(("inner", "inner-un"), _INNER),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+    },
+    falls_freely=True,
+    pulled=True,
+    calibrates={"direct_tensile_strength": "peak_stress"},
+)

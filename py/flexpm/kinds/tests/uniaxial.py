@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compression between frictionless ends. Paper Sec. 4.1."""
+
+from ..option import control_of
+from ..rates import Rates
+from ..test_kind import TestKind
+
+_CONTROLS = {"axial": "", "lateral": "lateral_strain"}
+_INNER = Rates(0.01, 0.005)
+_SPHERES = Rates(0.0025, 0.02)
+
+KIND = TestKind(
+    name="uniaxial",
+    order=1,
+    about="compression of a rectangle between frictionless ends, along its height",
+    results={
+        **{"flexible": 4, "rigid": 5, "inner": 3, "inner-un": 2},
+        **dict.fromkeys(("jcfpm", "cohfrict"), 2),
+    },
+    options=(control_of(*_CONTROLS),),
+    confine_hint="; use biaxial",
+    static_models=("flexible",),
+    controls=_CONTROLS,
+    rates={
+        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=60),
+        "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
+        **dict.fromkeys(("inner", "inner-un"), _INNER),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+    },
+    falls_freely=True,
+    calibrates={"compressive_strength": "peak_stress"},
+    envelope=True,
+)

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plane specimens: outlines filled with grains, packed or given, paper Sec. 3.1. Lengths in metres.
+
+Grains are the Laguerre cells of packed discs, cells sawn out of a packing, or cells of any shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypedDict, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from .._flexpm import PolygonOutline, Tessellation, Tiling, cells_in_outline, cells_of_polygons
+from ..arrays import FloatArray
+from ..errors import InputError
+from ..files import Table
+from ..progress import Progress
+from ..require import require_flag
+from . import packed, packing
+from .checks import require_diameters, require_length, require_short_edge
+from .kernel_input import Circle, call, cells_checksum, checksum, columns, disc_rows, ring
+from .outlines import half_disc_corners, kind_of, polygon_outline
+from .spec import SpecimenSpec
+
+#: Corners of a polygon, rows x, y [m].
+Corners = Sequence[Sequence[float]] | FloatArray
+
+
+class Packing(TypedDict, total=False):
+    """How an outline is filled with grains: what all shapes that are packed take.
+
+    The first three may also follow the thickness without their names, in this order.
+
+    Attributes:
+        diameters: Smallest and largest disc diameter [m]; 2 mm and 4 mm if left out.
+        porosity: Sets the number of discs only [-]; the cells leave no pores. 0.10 if left out.
+        seed: Any integer from 0 to 2**64 - 1; the same seed gives the same specimen. 1 if left out.
+        short_edge: Edges of cells below this share of the mean diameter are collapsed [-];
+            0.35 mm for the usual diameters if left out.
+        progress: Called with (steps done, steps expected, text).
+    """
+
+    diameters: tuple[float, float]
+    porosity: float
+    seed: int
+    short_edge: float
+    progress: Progress | None
+
+
+#: Arguments of a packing that need no names.
+_IN_ORDER = ("diameters", "porosity", "seed")
+
+
+@dataclass(frozen=True)
+class Filling:
+    """Grains that fill an outline, as `Specimen` has them."""
+
+    discs: FloatArray
+    outline: FloatArray | Circle
+    tessellation: Tessellation
+    spec: SpecimenSpec
+    removed_discs: int = 0
+    holes: tuple[FloatArray, ...] = ()
+
+
+def packing_of(name: str, in_order: Sequence[object], named: Packing) -> Packing:
+    """Arguments of a packing, with names or without.
+
+    Raises:
+        TypeError: for one that is unknown or there twice, and for too many, as Python does.
+    """
+    if len(in_order) > len(_IN_ORDER):
+        raise TypeError(f"{name}() takes {', '.join(_IN_ORDER)} in order, the rest by keyword")
+    found = dict(zip(_IN_ORDER, in_order, strict=False))
+    for key in named:
+        if key in found:
+            raise TypeError(f"{name}() got multiple values for argument {key!r}")
+        if key not in Packing.__annotations__:
+            raise TypeError(f"{name}() got an unexpected keyword argument {key!r}")
+    return cast("Packing", found | named)
+
+
+def packed_spec(
+    kind: str,
+    sizes: dict[str, float],
+    thickness: float,
+    how: Packing,
+    outline: str | None = None,
+) -> SpecimenSpec:
+    """What a specimen of a shape is packed from; `outline` is the checksum of one that is sawn."""
+    fields: Table = {**sizes, **how, "thickness": thickness, "outline": outline}
+    fields.pop("progress", None)
+    return SpecimenSpec(kind, **fields)
+
+
+def pack(spec: SpecimenSpec, progress: Progress | None) -> Filling:
+    """Pack a rectangle or disc, or saw half a disc out of a packed block.
+
+    Raises:
+        InputError: for discs that do not fit, or that were given instead of packed.
+    """
+    where = f"Specimen.{spec.kind}"
+    if not spec.is_packed:
+        what = spec.discs or spec.outline or spec.minerals or spec.joints or spec.strengths
+        raise InputError(
+            f"{where}: discs, outline, minerals, joints or strengths = {what}, were given and "
+            "cannot be packed again; load the saved specimen"
+        )
+    if spec.kind == "half-disc":
+        assert spec.diameters is not None
+        corners = half_disc_corners(spec.sizes["diameter"], 0.5 * sum(spec.diameters))
+        return _sawn(where, spec, polygon_outline(where, corners), progress)
+    frame, outline = packed.frame_of(spec), packed.outline_of(spec)
+    given = packed.packed_discs(where, spec, frame, frame.area, progress)
+    discs, cells = packed.tessellated(given, outline, spec.short_edge, drop_hidden=True)
+    return Filling(discs, outline, cells, spec, len(given) - len(discs))
+
+
+def polygon(
+    corners: Corners, thickness: float, holes: Sequence[npt.ArrayLike], how: Packing
+) -> Filling:
+    """Saw an outline of any shape out of a packed block, see `Specimen.polygon`."""
+    where = "Specimen.polygon"
+    outline = polygon_outline(where, corners, holes)
+    kind, sizes = kind_of(outline.rings[0])
+    spec = packed_spec(kind, sizes, thickness, how, checksum(np.vstack(outline.rings)))
+    return _sawn(where, spec, outline, how.get("progress"))
+
+
+def from_polygons(polygons: Sequence[npt.ArrayLike], thickness: float, holes: bool) -> Filling:
+    """Fill an outline with given cells, see `Specimen.from_polygons`."""
+    where = "Specimen.from_polygons"
+    require_length(where, "thickness", thickness)
+    require_flag(f"{where}: holes", holes)
+    given = [ring(f"{where}: polygon {number}", one) for number, one in enumerate(polygons)]
+    tiling, rings = call(cells_of_polygons, given, holes)
+    checksums = {
+        "discs": checksum(tiling.discs),
+        "outline": checksum(np.vstack(rings)),
+        "cells": cells_checksum(tiling.tessellation),
+    }
+    spec = _given_spec(rings[0], thickness, 0.0, checksums)
+    return _of_tiling(tiling, rings[0], rings[1:], spec)
+
+
+def from_discs(
+    centres: npt.ArrayLike,
+    radii: npt.ArrayLike,
+    outline: Corners | Circle,
+    thickness: float,
+    short_edge: float,
+    drop_hidden: bool,
+) -> Filling:
+    """Fill an outline with the cells of given discs, see `Specimen.from_discs`."""
+    where = "Specimen.from_discs"
+    require_length(where, "thickness", thickness)
+    require_short_edge(short_edge)
+    require_flag(f"{where}: drop_hidden", drop_hidden)
+    given = disc_rows(centres, radii)
+    if not isinstance(outline, Circle):
+        outline = ring(f"{where}: outline", outline)
+    discs, cells = packed.tessellated(given, outline, short_edge, drop_hidden=drop_hidden)
+    checksums = {"discs": checksum(discs), "outline": checksum(outline)}
+    spec = _given_spec(outline, thickness, short_edge, checksums)
+    return Filling(discs, outline, cells, spec, len(given) - len(discs))
+
+
+def _given_spec(
+    outline: FloatArray | Circle, thickness: float, short_edge: float, checksums: dict[str, str]
+) -> SpecimenSpec:
+    """What a specimen is made from that is not packed: its outline, and checksums of the rest."""
+    kind, sizes = kind_of(outline)
+    given: Table = {"diameters": None, "porosity": None, "seed": None, **sizes, **checksums}
+    return SpecimenSpec(kind, thickness=thickness, short_edge=short_edge, **given)
+
+
+def _sawn(
+    where: str, spec: SpecimenSpec, outline: PolygonOutline, progress: Progress | None
+) -> Filling:
+    """Saw an outline out of a packing of the box around it."""
+    outer, *inner = outline.rings
+    width, height = map(float, np.ptp(outer, axis=0))
+    require_diameters(where, spec.diameters, min(width, height))
+    frame = packing.Frame(width=width, height=height)
+    block = packed.packed_discs(where, spec, frame, width * height, progress)
+    length = spec.short_edge * 2.0 * float(np.mean(block[:, 2]))
+    centres, radii = columns(block + np.append(outer.min(axis=0), 0.0))
+    return _of_tiling(call(cells_in_outline, centres, radii, outline, length), outer, inner, spec)
+
+
+def _of_tiling(
+    tiling: Tiling, outline: FloatArray, holes: Sequence[FloatArray], spec: SpecimenSpec
+) -> Filling:
+    discs = tiling.discs
+    for array in (discs, outline, *holes):
+        array.setflags(write=False)
+    return Filling(discs, outline, tiling.tessellation, spec, holes=tuple(holes))
