@@ -7,10 +7,7 @@ matplotlib, which the classes of the plugin and the command's help do without.
 
 from . import materials
 from .errors import InputError, SimulationError
-from .laboratory.loading_rate import Loading
-from .laboratory.part_rig import PartRig
 from .laboratory.protocols import run
-from .laboratory.rigs import rig
 from .materials import Material
 from .models.grains import Model, build, elastic
 from .report import curves as plot
@@ -18,6 +15,9 @@ from .report import notebook as _notebook  # noqa: F401  # what notebooks show i
 from .results import strength
 from .results import vtu as export
 from .results.result import Result
+from .rigs.fitting import rig
+from .rigs.part_rig import PartRig
+from .runs.loading_rate import Loading
 from .specimens.specimen import Specimen
 from .studies.comparison import compare
 

@@ -15,7 +15,7 @@ of this machine, which must give the same hashes.
 
 The check only detects change; that results are right is shown by the other tests. A wanted change
 raises the results number of its test and model, by which finished runs are told from outdated ones
-(flexpm.laboratory.run_spec): --renew refuses other hashes under the same number, and takes new
+(flexpm.runs.run_spec): --renew refuses other hashes under the same number, and takes new
 columns.
 """
 
@@ -162,7 +162,7 @@ def _canonical(cell: str) -> str:
 def _numbers(package: Path | None, names: list[str]) -> dict[str, int]:
     """Results number of each run."""
     kinds = [STUDY_KIND if name.startswith("study") else tuple(name.split()) for name in names]
-    script = "from flexpm.laboratory.run_spec import results_number\n"
+    script = "from flexpm.runs.run_spec import results_number\n"
     script += f"print(*(results_number(*kind) for kind in {kinds}))"
     return dict(zip(names, map(int, _ask(package, script).split()), strict=True))
 
@@ -196,7 +196,7 @@ def _renew(numbers: dict[str, int], found: dict[str, dict[str, str]]) -> int:
         if before["hashes"] != known and numbers[run] <= before["results"]:
             return _fail(
                 f"{run} has results number {numbers[run]}, must be above {before['results']}, "
-                "since its hashes changed; raise it in flexpm.laboratory.run_spec"
+                "since its hashes changed; raise it in flexpm.runs.run_spec"
             )
     content = {run: {"results": numbers[run], "hashes": found[run]} for run in found}
     REFERENCE.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")

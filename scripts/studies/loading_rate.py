@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import flexpm
-from flexpm.laboratory import loading_rate as rates
 from flexpm.results import measures
+from flexpm.runs import loading_rate as rates
 
 FIELDS = (
     "scale",

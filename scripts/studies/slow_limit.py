@@ -28,10 +28,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 import flexpm
-from flexpm.laboratory.loading_rate import LOADINGS
 from flexpm.materials.material import default_name, load
 from flexpm.materials.mixing import description, is_brittle
 from flexpm.results import measures
+from flexpm.runs.loading_rate import LOADINGS
 
 PART_TESTS = ("bending", "scb", "shear")
 TESTS = ("uniaxial", "tension", "biaxial", "brazilian", *PART_TESTS)

@@ -20,8 +20,8 @@ from typing import Any, NamedTuple
 
 import flexpm
 from flexpm.files import csv_text, write_text
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials import load
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
 MODELS = ("flexible", "rigid")

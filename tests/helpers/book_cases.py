@@ -20,14 +20,14 @@ from strip_case import open_strip
 
 from flexpm.arrays import FloatArray
 from flexpm.kinds import toughness
-from flexpm.laboratory.loading_rate import Loading
-from flexpm.laboratory.part_rig import PartRig
 from flexpm.laboratory.part_tests import notch_depth
-from flexpm.laboratory.rig import BOTTOM, TOP
 from flexpm.results import waves
 from flexpm.results.cracks import TENSILE
 from flexpm.results.record import Curve
 from flexpm.results.snapshot import POINT_SHARES, Snapshot
+from flexpm.rigs.part_rig import PartRig
+from flexpm.rigs.rig import BOTTOM, TOP
+from flexpm.runs.loading_rate import Loading
 
 THICKNESS = 0.08
 #: Diameters of the grains over their mean [-], as the paper's.

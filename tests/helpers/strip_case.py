@@ -21,9 +21,9 @@ import yade
 from yade import wrapper
 
 from flexpm.arrays import FloatArray
-from flexpm.laboratory.loading_rate import Loading
-from flexpm.laboratory.part_rig import HeldNodes, PartRig
 from flexpm.results.snapshot import POINT_SHARES, Snapshot
+from flexpm.rigs.part_rig import HeldNodes, PartRig
+from flexpm.runs.loading_rate import Loading
 
 GRAIN, THICKNESS = 3e-3, 0.01  # mean diameter, and out of plane [m]
 _STRENGTH = 5e6  # of the line [Pa]

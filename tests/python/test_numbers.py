@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 import flexpm
 from flexpm import InputError
 from flexpm.cli import main as cli
-from flexpm.laboratory import loading_rate
-from flexpm.laboratory.run_spec import RunSpec
 from flexpm.materials import material as materials
 from flexpm.materials.keys import UNITS
+from flexpm.runs import loading_rate
+from flexpm.runs.run_spec import RunSpec
 from flexpm.specimens.spec import SpecimenSpec
 
 NO_NUMBERS = [None, "1", True, 1j, np.complex128(1.0), np.timedelta64(1), [1.0], 10**400, 10**5000]

@@ -21,10 +21,10 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.files import json_text, load_toml
 from flexpm.joints import lines as joint_lines
-from flexpm.laboratory import asked
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials import material as materials
 from flexpm.materials.mixing import description
+from flexpm.runs import asked
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 from flexpm.studies import calibration_problem, study
 

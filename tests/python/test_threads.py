@@ -15,7 +15,7 @@ import ctypes, json, os, sys
 model, threads = sys.argv[1], int(sys.argv[2])
 import flexpm, yade
 from flexpm.bench import timing
-from flexpm.laboratory import runner
+from flexpm.runs import runner
 most = ctypes.CDLL("libgomp.so.1").omp_get_max_threads
 seen, before, real = set(), most(), runner.Runner._step_on
 def look(self, step, over):

@@ -6,10 +6,10 @@ import pytest
 
 import flexpm
 from flexpm.errors import InputError
-from flexpm.laboratory import loading_rate as rates
-from flexpm.laboratory.loading_rate import Loading, Scales, schedule
 from flexpm.materials.keys import ENERGY_KEYS
 from flexpm.results import measures
+from flexpm.runs import loading_rate as rates
+from flexpm.runs.loading_rate import Loading, Scales, schedule
 
 WIDTH, HEIGHT = 0.02, 0.04  # [m]
 STRENGTH = 8.5e6  # of a contact point in tension, Table 7 [Pa]

@@ -8,8 +8,8 @@ import pytest
 import yade
 
 import flexpm
-from flexpm.laboratory import rig as rigs
-from flexpm.laboratory.part_rig import PartRig
+from flexpm.rigs import rig as rigs
+from flexpm.rigs.part_rig import PartRig
 
 PRESSURE = 10e6
 THICKNESS = 0.01

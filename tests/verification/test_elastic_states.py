@@ -10,8 +10,8 @@ import pytest
 import yade
 
 import flexpm
-from flexpm.laboratory.grain_rig import PlateRig
 from flexpm.models import grains as models
+from flexpm.rigs.grain_rig import PlateRig
 
 THICKNESS = 0.08
 #: Strengths that no load of these tests reaches.

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import flexpm
-from flexpm.laboratory import runner
+from flexpm.runs import runner
 
 # importing flexpm has told Python where YADE is
 wrapper = importlib.import_module("yade.wrapper")

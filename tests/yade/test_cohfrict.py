@@ -7,10 +7,10 @@ import pytest
 import yade
 
 from flexpm.laboratory import protocols
-from flexpm.laboratory.loading_rate import Loading
-from flexpm.laboratory.rigs import rig as rig_of
 from flexpm.models import grains as models
 from flexpm.models import sphere_bonds as yade_bonds
+from flexpm.rigs.fitting import rig as rig_of
+from flexpm.runs.loading_rate import Loading
 from flexpm.specimens.specimen import Specimen
 
 MODEL = "cohfrict"

@@ -14,9 +14,9 @@ from matplotlib.path import Path as Outline
 
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.models.options import MODELS, SPHERE_MODELS
 from flexpm.models.sphere_bonds import Bonds, bonds_of
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.specimen import Specimen
 from flexpm.studies import jobs, study
 

@@ -25,10 +25,10 @@ from flexpm._flexpm import saved_state
 from flexpm.cli import main as cli
 from flexpm.errors import BusyError
 from flexpm.files import FolderLock
-from flexpm.laboratory import checkpoint
-from flexpm.laboratory.checkpoint import Checkpoint
-from flexpm.laboratory.run_spec import RunSpec
 from flexpm.models.options import SPHERE_MODELS
+from flexpm.runs import checkpoint
+from flexpm.runs.checkpoint import Checkpoint
+from flexpm.runs.run_spec import RunSpec
 from flexpm.specimens.spec import SpecimenSpec
 
 PYTHON = "/usr/bin/python3"

@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 import yade
 
-from ..laboratory.loading_rate import Loading
-from ..laboratory.rigs import rig
 from ..models import grains, spheres
 from ..models.options import DAMPING
+from ..rigs.fitting import rig
+from ..runs.loading_rate import Loading
 from ..specimens.specimen import Specimen
 
 #: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.

@@ -12,12 +12,12 @@ import click
 
 from ..errors import InputError, SimulationError
 from ..kinds.registry import TESTS, kind_of, names
-from ..laboratory.run_spec import OWN_OPTIONS, ranges
 from ..materials.keys import is_used
 from ..materials.material import COMPARED
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
+from ..runs.run_spec import OWN_OPTIONS, ranges
 from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options

@@ -14,12 +14,12 @@ from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
 from ..joints import lines as joint_lines
-from ..laboratory.output import refuse_other_kind
-from ..laboratory.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
 from ..materials.keys import is_used
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
+from ..runs.output import refuse_other_kind
+from ..runs.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
 from ..specimens.files import specimen_file
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal

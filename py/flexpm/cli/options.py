@@ -16,9 +16,6 @@ from ..errors import InputError
 from ..kinds.option import Option
 from ..kinds.registry import KINDS, names, options
 from ..kinds.test_kind import TestKind
-from ..laboratory.loading_rate import LOADINGS
-from ..laboratory.output import FILMS, MOST_FRAMES
-from ..laboratory.run_spec import STARTS, RunSpec
 from ..models.options import MESHES, MODELS, POINTS, RANGE
 from ..require import (
     ANY,
@@ -29,6 +26,9 @@ from ..require import (
     require_number,
     require_whole,
 )
+from ..runs.loading_rate import LOADINGS
+from ..runs.output import FILMS, MOST_FRAMES
+from ..runs.run_spec import STARTS, RunSpec
 from ..specimens.spec import SIZES, SpecimenSpec
 
 #: Adds an option to the function of a command.

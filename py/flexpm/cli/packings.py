@@ -10,10 +10,10 @@ import click
 
 from ..errors import InputError, SimulationError
 from ..files import Table, load_json
-from ..laboratory import run_spec
-from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec
 from ..results import doubts
+from ..runs import run_spec
+from ..runs.output import Output
+from ..runs.run_spec import RunSpec
 from . import inputs, terminal
 
 

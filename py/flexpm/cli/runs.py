@@ -13,12 +13,12 @@ from .._version import __version__
 from ..errors import SimulationError
 from ..files import Table, json_text, load_json, write_text
 from ..kinds.registry import ELASTIC, KINDS, TESTS, names
-from ..laboratory.asked import differences, read_inputs
-from ..laboratory.output import Output, refuse_other_result
-from ..laboratory.run_spec import RunSpec
 from ..materials.material import Material
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
+from ..runs.asked import differences, read_inputs
+from ..runs.output import Output, refuse_other_result
+from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
@@ -174,7 +174,9 @@ def _simulate(
     """
     output = Output(options["report"], options["frames"], options["film"])
     inputs.load_yade()
-    from ..laboratory import checkpoint, frames, protocols
+    from ..laboratory import protocols
+    from ..rigs import frames
+    from ..runs import checkpoint
 
     if options["discard_checkpoint"] and (why := checkpoint.discard_unusable(folder, spec)):
         terminal.say(f"starts again: {why}")

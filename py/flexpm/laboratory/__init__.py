@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Laboratory tests: how a model is held, loaded, observed, saved and taken up again."""
+"""Laboratory tests: their stages and results."""

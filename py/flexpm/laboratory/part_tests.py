@@ -17,11 +17,11 @@ from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results.result import Result
+from ..rigs.part_rig import PartRig
 from ..rigs.parts import Part
+from ..runs.run_spec import RunSpec
+from ..runs.runner import Runner
 from ..specimens.specimen import Specimen
-from .part_rig import PartRig
-from .run_spec import RunSpec
-from .runner import Runner
 
 #: Joint that notches are, in these tests.
 _NOTCH = "notch"

@@ -34,20 +34,20 @@ from ..results.cracks import count_by_pair, cracks_from_snapshot
 from ..results.emission import EventRule, event_rule
 from ..results.result import Result
 from ..results.vtu import read_vtu, write_vtu
+from ..rigs.fitting import rig as rig_of
+from ..rigs.frames import COLLECTION, STATE, TABLE, FrameWriter
+from ..rigs.part_rig import PartRig
+from ..rigs.rig import TestRig
+from ..rigs.wave_rig import WaveRig
+from ..runs.asked import write_report
+from ..runs.checkpoint import INTERVAL, Checkpoint
+from ..runs.loading_rate import Loading, quasistatic_ratio
+from ..runs.output import Output, refuse_other_result
+from ..runs.run_spec import TESTS, RunSpec, described
+from ..runs.runner import Foresee, Runner
 from ..specimens.files import given
 from ..specimens.specimen import Specimen
-from .asked import write_report
-from .checkpoint import INTERVAL, Checkpoint
-from .frames import COLLECTION, STATE, TABLE, FrameWriter
-from .loading_rate import Loading, quasistatic_ratio
-from .output import Output, refuse_other_result
-from .part_rig import PartRig
 from .part_tests import grains_across, measure, part_rig, prepared
-from .rig import TestRig
-from .rigs import rig as rig_of
-from .run_spec import TESTS, RunSpec, described
-from .runner import Foresee, Runner
-from .wave_rig import WaveRig
 
 #: Names of the files of a run.
 FILES = (

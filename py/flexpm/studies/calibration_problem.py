@@ -15,7 +15,6 @@ from pathlib import Path
 from ..errors import InputError
 from ..files import Table, load_toml
 from ..kinds.registry import ELASTIC, KINDS, TESTS, names
-from ..laboratory import run_spec
 from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
 from ..require import (
     NOT_NEGATIVE,
@@ -32,6 +31,7 @@ from ..require import (
     require_whole,
 )
 from ..results import strength
+from ..runs import run_spec
 from ..specimens.checks import require_seed
 from .study import MOST_RUNS, flat
 

@@ -16,9 +16,6 @@ from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..kinds.registry import kind_of
 from ..laboratory import protocols
-from ..laboratory.checkpoint import INTERVAL
-from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec, described, ranges
 from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
@@ -28,6 +25,9 @@ from ..report.tables import columns, scaled
 from ..report.words import Shown, words_of_test
 from ..results.result import Result
 from ..results.strength import Envelope
+from ..runs.checkpoint import INTERVAL
+from ..runs.output import Output
+from ..runs.run_spec import RunSpec, described, ranges
 from ..specimens.specimen import Specimen
 from ..text import name_of
 from .jobs import place_of

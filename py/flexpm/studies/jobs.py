@@ -18,13 +18,13 @@ from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
 from ..joints import lines as joint_lines
 from ..kinds.registry import KINDS, kind_of
-from ..laboratory import run_spec
-from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec
 from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
 from ..require import require_known, require_text
+from ..runs import run_spec
+from ..runs.output import Output
+from ..runs.run_spec import RunSpec
 from ..specimens.files import specimen_file
 from ..specimens.spec import SpecimenSpec
 

@@ -16,8 +16,6 @@ import pandas
 from ..errors import InputError
 from ..files import Table, output_folder, read_json
 from ..kinds.registry import kind_of
-from ..laboratory.output import Output
-from ..laboratory.run_spec import RunSpec
 from ..materials.references import reference_of
 from ..progress import Progress
 from ..report.comparison import envelope_picture
@@ -25,6 +23,8 @@ from ..report.packings import Group, packings_picture
 from ..report.tables import columns, envelope_table, scaled
 from ..report.words import Words, words_of_test
 from ..results.strength import Envelope
+from ..runs.output import Output
+from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import jobs
 from .jobs import Job

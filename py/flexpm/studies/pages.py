@@ -14,9 +14,6 @@ import numpy as np
 from .._version import __version__
 from ..errors import InputError
 from ..files import load_csv, read_text
-from ..laboratory.asked import told, write_report
-from ..laboratory.output import KINDS, kind_of
-from ..laboratory.run_spec import RunSpec
 from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
 from ..report.page import write as write_page
 from ..report.page_run import STATUS, cite, inputs_table, maps_of, versions
@@ -24,6 +21,9 @@ from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_test
 from ..results.result import Result
+from ..runs.asked import told, write_report
+from ..runs.output import KINDS, kind_of
+from ..runs.run_spec import RunSpec
 from ..text import name_of, printable, words_of
 from .jobs import place_of
 

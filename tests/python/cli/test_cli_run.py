@@ -11,9 +11,9 @@ from sample_snapshot import read_vtu
 
 import flexpm
 from flexpm.cli import main as cli
-from flexpm.laboratory import frames
 from flexpm.results import measures
 from flexpm.results.record import COLUMNS, Curve
+from flexpm.rigs import frames
 from flexpm.studies import jobs
 
 SMALL = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01", "--quiet"]

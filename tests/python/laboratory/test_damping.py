@@ -12,10 +12,10 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
 from flexpm.errors import InputError, SimulationError
-from flexpm.laboratory.part_rig import PartRig
-from flexpm.laboratory.run_spec import ELASTIC, RunSpec, described
 from flexpm.materials import load
 from flexpm.results import doubts
+from flexpm.rigs.part_rig import PartRig
+from flexpm.runs.run_spec import ELASTIC, RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
 GRAVITY = 9.81

@@ -8,7 +8,7 @@ import json
 import pytest
 
 from flexpm.cli import main as cli
-from flexpm.laboratory.output import KINDS, RESULT
+from flexpm.runs.output import KINDS, RESULT
 
 SIZE = ["--width", "0.012", "--height", "0.016", "--quiet"]
 SOON = ["--max-strain", "1e-6", "--rate", "50"]

@@ -8,9 +8,9 @@ import pytest
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.cli.terminal import duration
-from flexpm.laboratory import runner
 from flexpm.laboratory.protocols import carry_out, plan_run
-from flexpm.laboratory.run_spec import RunSpec, described
+from flexpm.runs import runner
+from flexpm.runs.run_spec import RunSpec, described
 
 FAST = {"rate": 8.0, "stop_ratio": 0.8}
 SIZES = ["--width", "0.012", "--height", "0.024", "--thickness", "0.01"]

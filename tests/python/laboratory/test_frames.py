@@ -17,12 +17,13 @@ import flexpm
 from flexpm import files
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.laboratory import frames, runner
-from flexpm.laboratory.output import FILM_FRAMES, Output
 from flexpm.report import film
 from flexpm.results import measures
 from flexpm.results.result import Result
 from flexpm.results.vtu import cell_arrays, read_vtu
+from flexpm.rigs import frames
+from flexpm.runs import runner
+from flexpm.runs.output import FILM_FRAMES, Output
 
 WANTED = 6
 

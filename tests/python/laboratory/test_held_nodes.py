@@ -10,8 +10,8 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
 from flexpm.errors import InputError
-from flexpm.laboratory.loading_rate import Loading
-from flexpm.laboratory.part_rig import HeldNodes, PartRig
+from flexpm.rigs.part_rig import HeldNodes, PartRig
+from flexpm.runs.loading_rate import Loading
 
 LENGTH, HEIGHT, END = 0.04, 0.012, 0.004
 STRONG = flexpm.materials.load("augig-table7").with_set(

@@ -16,11 +16,11 @@ import yade
 from flexpm.errors import InputError
 from flexpm.kinds import toughness
 from flexpm.laboratory import protocols
-from flexpm.laboratory.checkpoint import Checkpoint
-from flexpm.laboratory.part_rig import Part, PartRig
 from flexpm.laboratory.part_tests import notch_depth, prepared
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.report import tables
+from flexpm.rigs.part_rig import Part, PartRig
+from flexpm.runs.checkpoint import Checkpoint
+from flexpm.runs.run_spec import RunSpec, described
 
 HEIGHT = 0.012
 SPAN = 0.048

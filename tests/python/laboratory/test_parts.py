@@ -10,8 +10,8 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
 from flexpm.errors import InputError, SimulationError
-from flexpm.laboratory.part_rig import PartRig
 from flexpm.results.record import Curve
+from flexpm.rigs.part_rig import PartRig
 from flexpm.specimens.specimen import Specimen
 
 LENGTH, HEIGHT, THICKNESS = 0.03, 0.01, 0.01

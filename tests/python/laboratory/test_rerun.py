@@ -12,11 +12,11 @@ import pytest
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.laboratory.asked import read_inputs
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.materials.material import load, preset_names
 from flexpm.materials.mixing import from_description
 from flexpm.models.options import MODELS
+from flexpm.runs.asked import read_inputs
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.files import given
 from flexpm.specimens.spec import SpecimenSpec
 

@@ -10,11 +10,11 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
 from flexpm.errors import InputError
-from flexpm.laboratory import rig as rigs
-from flexpm.laboratory.grain_rig import NodeRig, PlateRig
-from flexpm.laboratory.rig import TestRig
-from flexpm.laboratory.sphere_rig import SphereRig
 from flexpm.results.measures import energy_error
+from flexpm.rigs import rig as rigs
+from flexpm.rigs.grain_rig import NodeRig, PlateRig
+from flexpm.rigs.rig import TestRig
+from flexpm.rigs.sphere_rig import SphereRig
 
 GRAINS = ("flexible", "rigid", "inner")
 SPHERES = ("jcfpm", "cohfrict")

@@ -15,9 +15,14 @@ import flexpm
 from flexpm import materials
 from flexpm.errors import InputError
 from flexpm.kinds.registry import kind_of
-from flexpm.laboratory import run_spec
-from flexpm.laboratory.loading_rate import LARGEST_STOP_RATIO, LOADINGS
-from flexpm.laboratory.run_spec import (
+from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
+from flexpm.materials.mixing import is_brittle
+from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
+from flexpm.models.sphere_laws import LAWS
+from flexpm.results.measures import PEAK_DROP
+from flexpm.runs import run_spec
+from flexpm.runs.loading_rate import LARGEST_STOP_RATIO, LOADINGS
+from flexpm.runs.run_spec import (
     ELASTIC,
     TESTS,
     UNUSED,
@@ -26,11 +31,6 @@ from flexpm.laboratory.run_spec import (
     models_of,
     shape_of,
 )
-from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
-from flexpm.materials.mixing import is_brittle
-from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_MODELS
-from flexpm.models.sphere_laws import LAWS
-from flexpm.results.measures import PEAK_DROP
 from flexpm.specimens.spec import SIZES, SpecimenSpec
 
 POSITIVE = st.floats(1e-6, 1e6)

@@ -15,8 +15,8 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.kinds import toughness
 from flexpm.laboratory.part_tests import notch_depth, prepared
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.report import tables
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
 RADIUS = 0.02

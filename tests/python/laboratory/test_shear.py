@@ -15,12 +15,12 @@ import yade
 
 from flexpm.cli.main import main
 from flexpm.errors import InputError
-from flexpm.laboratory import runner
-from flexpm.laboratory.checkpoint import Checkpoint
-from flexpm.laboratory.loading_rate import Loading
-from flexpm.laboratory.part_rig import PartRig
-from flexpm.laboratory.run_spec import RunSpec
 from flexpm.report import tables
+from flexpm.rigs.part_rig import PartRig
+from flexpm.runs import runner
+from flexpm.runs.checkpoint import Checkpoint
+from flexpm.runs.loading_rate import Loading
+from flexpm.runs.run_spec import RunSpec
 
 WIDTH, HEIGHT = 0.024, 0.016
 PRESSURE = 2e6

@@ -14,11 +14,11 @@ import yade
 
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.laboratory.checkpoint import Checkpoint
-from flexpm.laboratory.run_spec import RunSpec, described
 from flexpm.report import tables
 from flexpm.results import waves
 from flexpm.results.record import COLUMNS, Curve
+from flexpm.runs.checkpoint import Checkpoint
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
 HEIGHT = 0.04

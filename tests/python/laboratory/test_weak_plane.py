@@ -12,8 +12,8 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 from yade import wrapper
 
-from flexpm.laboratory.loading_rate import Loading
-from flexpm.laboratory.part_rig import PartRig
+from flexpm.rigs.part_rig import PartRig
+from flexpm.runs.loading_rate import Loading
 
 THICKNESS = 0.01
 FRICTION = 0.5

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from flexpm.errors import InputError
-from flexpm.laboratory.run_spec import described
 from flexpm.materials import mixing
 from flexpm.materials.interface import KEYS
 from flexpm.materials.material import Material
+from flexpm.runs.run_spec import described
 from flexpm.studies import jobs
 
 ROCK = {

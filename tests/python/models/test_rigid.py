@@ -12,8 +12,8 @@ flexpm = pytest.importorskip("flexpm")
 import yade  # noqa: E402  (after flexpm, which finds it)
 
 from flexpm.errors import InputError  # noqa: E402
-from flexpm.laboratory.loading_rate import Loading  # noqa: E402
 from flexpm.models import grains as models  # noqa: E402
+from flexpm.runs.loading_rate import Loading  # noqa: E402
 
 SIZE = 4e-3
 STIFFNESS = 1.08e13

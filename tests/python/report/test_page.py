@@ -19,14 +19,14 @@ import flexpm
 from flexpm.cli import inputs, runs
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.laboratory import asked
-from flexpm.laboratory.run_spec import RunSpec
 from flexpm.materials.material import load
 from flexpm.report import page, page_map, page_run
 from flexpm.report.emission import emission_picture
 from flexpm.results.emission import EventRule, find_events
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu
+from flexpm.runs import asked
+from flexpm.runs.run_spec import RunSpec
 from flexpm.studies import pages
 
 SIZE = ["--width", "0.012", "--height", "0.024", "--thickness", "0.01"]

@@ -8,15 +8,15 @@ import json
 import pytest
 
 from flexpm.cli import main as cli
-from flexpm.laboratory.run_spec import (
+from flexpm.materials import material as materials
+from flexpm.results import doubts
+from flexpm.runs.run_spec import (
     TESTS,
     RunSpec,
     described,
     models_of,
     shape_of,
 )
-from flexpm.materials import material as materials
-from flexpm.results import doubts
 from flexpm.specimens.spec import SpecimenSpec
 
 SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"

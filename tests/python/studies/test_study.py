@@ -25,7 +25,7 @@ from flexpm.cli import inputs, main
 from flexpm.errors import InputError
 from flexpm.joints import lines as joint_lines
 from flexpm.kinds.registry import kind_of
-from flexpm.laboratory import run_spec
+from flexpm.runs import run_spec
 from flexpm.studies import figures, jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]

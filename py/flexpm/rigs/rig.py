@@ -25,9 +25,9 @@ from ..models.spheres import SphereModel
 from ..require import require_number
 from ..results import doubts, measures
 from ..results.record import Curve
+from ..runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, schedule
+from ..runs.runner import Runner, Span
 from ..threads import limited
-from .loading_rate import WAITING_MODELS, Loading, Scales, Schedule, schedule
-from .runner import Runner, Span
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
 

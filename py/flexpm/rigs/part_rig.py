@@ -21,8 +21,11 @@ from ..models.grains import Model
 from ..require import NOT_NEGATIVE, POSITIVE, require_flag, require_known, require_number
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
-from ..rigs.layout import PartLayout
-from ..rigs.parts import (
+from ..runs.loading_rate import Scales, Schedule, rates_of
+from ..runs.runner import Runner
+from .grain_rig import GrainRig
+from .layout import PartLayout
+from .parts import (
     HeldNodes,
     Part,
     RigPart,
@@ -31,10 +34,7 @@ from ..rigs.parts import (
     require_part,
     require_parts,
 )
-from ..rigs.places import Place, require_column, require_direction, require_vector
-from .grain_rig import GrainRig
-from .loading_rate import Scales, Schedule, rates_of
-from .runner import Runner
+from .places import Place, require_column, require_direction, require_vector
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9

@@ -33,10 +33,10 @@ from .._flexpm import (
 from ..models.sphere_bonds import in_order, tributary_lengths
 from ..models.spheres import SphereModel
 from ..results.record import Curve
+from ..runs.loading_rate import Scales, Schedule
+from ..runs.runner import Runner
 from . import sphere_ends as ends
-from .loading_rate import Scales, Schedule
 from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
-from .runner import Runner
 
 #: Rows of the record up to the reference strain.
 _ROWS = 200

@@ -6,9 +6,9 @@ from __future__ import annotations
 from ..errors import InputError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
+from ..runs.runner import Runner
 from .grain_rig import NodeRig, PlateRig
 from .rig import TestRig
-from .runner import Runner
 from .sphere_rig import SphereRig
 
 

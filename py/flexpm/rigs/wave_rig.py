@@ -23,10 +23,10 @@ from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results import waves
 from ..results.record import Curve
+from ..runs.runner import Runner, Span
 from ..specimens import mineral_map
 from .grain_rig import GrainRig
 from .rig import LEFT, RIGHT
-from .runner import Runner, Span
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

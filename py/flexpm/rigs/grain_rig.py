@@ -22,9 +22,9 @@ from ..models.grains import Model
 from ..require import nearest, quoted
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
-from .loading_rate import SLOWEST_WAIT, Scales, Schedule
+from ..runs.loading_rate import SLOWEST_WAIT, Scales, Schedule
+from ..runs.runner import Runner
 from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
-from .runner import Runner
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
 #: the rate constant's part of the reference strain meanwhile.
