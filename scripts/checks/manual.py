@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check that the manual stays short: all pages of doc/ but the record and the generated reference.
 
-    scripts/checks/manual.py
+    scripts/checks/manual.py [ROOT]
 
 What is said twice, or tells how a thing was found out, does not belong there (doc/record). Lines
 have at most 120 columns; a row of a table, an address and the text that stands for a picture cannot
@@ -15,16 +15,16 @@ import re
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-MOST_LINES = 2600
+MOST_LINES = 2800
 COLUMNS = 120
 UNBROKEN = re.compile(r"^ +\S.* \| |https?://|^ +:alt: ")
 
 
 def main() -> int:
     """Report lines that are too wide, and a manual that is too long; 1 if there is any."""
+    root = Path(sys.argv[1]) if sys.argv[1:] else Path(__file__).resolve().parents[2]
     lines = wide = 0
-    for page in sorted((ROOT / "doc").glob("*.rst")):
+    for page in sorted((root / "doc").glob("*.rst")):
         for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
             lines += 1
             if len(line) > COLUMNS and not UNBROKEN.search(line):
