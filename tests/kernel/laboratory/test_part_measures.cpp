@@ -175,7 +175,8 @@ TEST_CASE("Gauges read what their nodes and plates move, each on its side of a n
     const GaugePoints notch = gauge_points(a, corner - aside, corner + aside);
     CHECK(grain_node(a.grains, notch.first).grain != grain_node(a.grains, notch.second).grain);
     for_each_component(a.grains, [&](int i) {
-        a.grains.displacement[i] = axis_of(i) == 0 ? 1e-3 * a.grains.reference[i] : 0.0;
+        a.grains.displacement[i] =
+            a.grains.layout.axis_of(i) == 0 ? 1e-3 * a.grains.reference[i] : 0.0;
     });
     const double opening = gauge_opening(a.grains.displacement, gauge, { 1.0, 0.0 });
     CHECK(opening == Approx(1e-3 * gauge_length(a, gauge)).epsilon(0.05));
@@ -200,7 +201,8 @@ TEST_CASE("A section reads the mean way of the nodes in its band")
         CHECK(std::fabs(a.grains.reference[component(n, 1)] - 0.01) <= 0.002);
     // a strain of 1e-3 along y moves the nodes by that of their mean place
     for_each_component(a.grains, [&](int i) {
-        a.grains.displacement[i] = axis_of(i) == 1 ? 1e-3 * a.grains.reference[i] : 0.0;
+        a.grains.displacement[i] =
+            a.grains.layout.axis_of(i) == 1 ? 1e-3 * a.grains.reference[i] : 0.0;
     });
     CHECK(mean_way(a.grains.displacement, found.nodes, up)
         == Approx(1e-3 * found.place).epsilon(1e-12));

@@ -83,7 +83,7 @@ double closed_area(const Assembly& a, int contact)
         const PointState s = a.contacts.point_state(contact, p);
         sum -= a.contacts.area(contact, p) * std::min(law::gap(a.contacts.law_of(contact), s), 0.0);
     }
-    return sum / a.thickness;
+    return a.length_of(sum);
 }
 
 /// What contacts say of an overlap.

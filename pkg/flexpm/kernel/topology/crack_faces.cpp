@@ -196,8 +196,7 @@ void restore(Assembly& a, int contact)
 {
     Contacts& contacts = a.contacts;
     const auto [from, to] = contacts.edge(contact, 0);
-    const double area =
-        a.thickness * norm(vector_at(a.grains.reference, to) - vector_at(a.grains.reference, from));
+    const double area = a.area_of(norm(a.grains.reference_at(to) - a.grains.reference_at(from)));
     const EdgePoints places = edge_points(contacts.points_of(contact));
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         PointState s = contacts.point_state(contact, p);
