@@ -67,9 +67,10 @@ struct ContactPoint {
 
 struct Contact {
     std::array<int, 2> grains;
-    std::array<int, 2> edge[2];           ///< nodes of the edge of a and of b
-    bool across_edges = false;            ///< the normal is that of the edges, not of the centres
-    Point normal;                         ///< unit vector from a to b
+    std::array<int, 2> edge[2];  ///< nodes of the edge of a and of b
+    bool across_edges = false;   ///< the normal is that of the edges, not of the centres
+    Point branch;  ///< what has the direction of the normal before the centres move [m]
+    Point normal;  ///< unit vector from a to b
     double per_length[2] = { 0.0, 0.0 };  ///< 1 / length of each edge along the tangent [1/m]
     flexpm::LawParameters law;
     std::vector<ContactPoint> points;

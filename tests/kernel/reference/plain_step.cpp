@@ -37,7 +37,7 @@ Point normal_of(const Specimen& s, const Contact& c)
     if (!c.across_edges) {
         const Node &a = s.nodes[s.grains[c.grains[0]].centre],
                    &b = s.nodes[s.grains[c.grains[1]].centre];
-        return unit((b.reference - a.reference) + (b.displacement - a.displacement));
+        return unit(c.branch + (b.displacement - a.displacement));
     }
     Point along;
     for (const auto& edge : c.edge) {

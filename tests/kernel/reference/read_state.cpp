@@ -76,6 +76,7 @@ Contact read_contact(const Assembly& a, int c, const Numbers& number)
     }
     const Point branch = contacts.branch(c);
     contact.across_edges = branch.x == 0.0 && branch.y == 0.0;
+    contact.branch = branch;
     contact.normal = contacts.normal(c);
     contact.law = contacts.law_of(c);
     contact.active = flexpm::is_active(contacts, c);

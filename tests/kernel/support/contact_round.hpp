@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
+#include <flexpm/kernel/topology/crack_faces.hpp>
 
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace contact_round {
 inline void update_contacts(flexpm::Assembly& a)
 {
     flexpm::follow_faces(a, 0.0, 1.0);
+    flexpm::follow_cracks(a, 0.0, 1.0);
     flexpm::follow_touches(a, 0.0, 1.0);
     std::vector<int> over;
     for (int c = 0; c < a.contacts.count; ++c) {

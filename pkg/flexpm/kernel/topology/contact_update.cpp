@@ -5,6 +5,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
+#include <flexpm/kernel/topology/crack_faces.hpp>
 #include <flexpm/kernel/topology/joint_faces.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 #include <flexpm/kernel/topology/touch_point.hpp>
@@ -243,11 +244,6 @@ void shift_contact(Assembly& a, const FaceContact& face)
     a.ledger.removed_friction += before.elastic - now.elastic;
 }
 
-Point between_centres(const Grains& grains, GrainPair pair)
-{
-    return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
-}
-
 }  // namespace
 
 bool is_active(const Contacts& contacts, int contact)
@@ -256,6 +252,11 @@ bool is_active(const Contacts& contacts, int contact)
     for (int p = 0; p < contacts.points_of(contact); ++p)
         area += contacts.area(contact, p);
     return area > 0.0;
+}
+
+Point between_centres(const Grains& grains, GrainPair pair)
+{
+    return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
 }
 
 double square_distance(const Grains& grains, GrainPair pair)
@@ -283,6 +284,23 @@ bool is_touching(const Assembly& a, GrainPair pair)
     return centre_distance(a.grains, pair) < touching_distance(a, pair);
 }
 
+bool is_apart(const Assembly& a, int contact)
+{
+    const GrainPair pair = a.contacts.pairs[contact];
+    double limit = touching_distance(a, pair);
+    if (a.contacts.bonded[contact]) {
+        if (presses(a.contacts, contact)) return false;
+        limit = std::max(limit, bonded_distance(a.grains, pair));
+    }
+    return centre_distance(a.grains, pair) > limit;
+}
+
+bool joins(const Assembly& a, int contact)
+{
+    return is_active(a.contacts, contact)
+        && (!is_crack(a.contacts, contact) || !is_apart(a, contact));
+}
+
 bool has_ended(const Assembly& a, int contact)
 {
     const Contacts& contacts = a.contacts;
@@ -291,10 +309,9 @@ bool has_ended(const Assembly& a, int contact)
         if (damage_of(contacts, contact, p) < 1.0) return false;
     }
     if (contacts.joint[contact] >= 0) return false;  // follow_faces() ends it
-    const GrainPair pair = contacts.pairs[contact];
-    double limit = touching_distance(a, pair);
-    if (contacts.bonded[contact]) limit = std::max(limit, norm(contacts.branch(contact)));
-    return centre_distance(a.grains, pair) > limit;
+    if (!is_apart(a, contact)) return false;
+    const bool is_face = contacts.bonded[contact] && is_between_faces(contacts, contact);
+    return !is_face || !is_watched(a, contact);
 }
 
 std::vector<int> ended_contacts(const Assembly& a)
@@ -317,6 +334,13 @@ std::vector<int> ended_contacts(const Assembly& a)
     return ended;
 }
 
+void renew_step(Assembly& a, double damping, double dt)
+{
+    pad_contacts(a.contacts);
+    prepare_step(a);
+    if (dt > 0.0) raise_masses(a, damping, dt);
+}
+
 bool follow_touches(Assembly& a, double damping, double dt)
 {
     Contacts& contacts = a.contacts;
@@ -328,11 +352,8 @@ bool follow_touches(Assembly& a, double damping, double dt)
         attach(contacts, c, touch);
         moved = true;
     }
-    if (!moved) return false;
-    pad_contacts(contacts);
-    prepare_step(a);
-    if (dt > 0.0) raise_masses(a, damping, dt);
-    return true;
+    if (moved) renew_step(a, damping, dt);
+    return moved;
 }
 
 std::vector<GrainPair> follow_faces(Assembly& a, double damping, double dt)

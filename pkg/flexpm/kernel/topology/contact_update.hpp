@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Contacts that come and go while grains move far, paper Sec. 2.3 and Eqs. 5-8.
 ///
-/// A bonded pair keeps its contact until all its points are cracked and its centres are further apart
-/// than when bonded and than the two disc radii. A new contact starts when the discs touch, without
+/// A bonded pair keeps its contact until all its points are cracked, none of them presses and its centres are further apart
+/// than when bonded and than the two disc radii; where its faces still lie as they did it is kept or taken up again, crack_faces.hpp (D59). A new contact starts when the discs touch, without
 /// cohesion, at the nearest edges of the two grains; so no energy appears. Contacts of joints follow their faces.
 /// Deviation D23: all points of a new contact lie in one place, between the two discs: it carries no
 /// moment. The corners of cells may overlap once grains have come loose.
@@ -13,6 +13,9 @@
 #include <vector>
 
 namespace flexpm {
+
+/// From the centre of the first grain of a pair to that of the second, now [m].
+Point between_centres(const Grains& grains, GrainPair pair);
 
 /// Current distance of the centres of two grains [m].
 double centre_distance(const Grains& grains, GrainPair pair);
@@ -30,11 +33,21 @@ double touching_distance(const Assembly& a, GrainPair pair);
 /// Whether the discs of two grains without a contact touch.
 bool is_touching(const Assembly& a, GrainPair pair);
 
+/// Whether neither the points of a cracked contact nor the distance of its centres hold its grains together: none of them
+/// presses, and the centres are further apart than when bonded and than where the discs touch.
+bool is_apart(const Assembly& a, int contact);
+
+/// Whether a contact joins its grains: it is bonded or touches. Faces that are kept because they are near do not (D57).
+bool joins(const Assembly& a, int contact);
+
 /// Whether only a new touch can bring the pair of a contact together again. No contact of a joint ends so: follow_faces() ends it.
 bool has_ended(const Assembly& a, int contact);
 
 /// Contacts that have ended, ascending. A pair that shares several edges keeps all of its contacts until the last has.
 std::vector<int> ended_contacts(const Assembly& a);
+
+/// Prepare the next step after rows of contacts have changed. Masses rise where these need it. Arguments as of change_contacts().
+void renew_step(Assembly& a, double damping, double dt);
 
 /// Let new contacts follow the places where their discs touch now (Eq. 7) as grains roll; traction and
 /// area stay, so no energy appears. Otherwise a grain would turn about a point of its outline into the

@@ -86,7 +86,7 @@ void find_loose(Assembly& a)
     if (!presses_any(a)) return;
     Groups groups(a.grains.count);
     for (int c = 0; c < a.contacts.count; ++c) {
-        if (is_active(a.contacts, c)) groups.join(a.contacts.pairs[c][0], a.contacts.pairs[c][1]);
+        if (joins(a, c)) groups.join(a.contacts.pairs[c][0], a.contacts.pairs[c][1]);
     }
     const std::vector<std::uint8_t> held = held_grains(a);
     std::vector<std::uint8_t> stands(a.grains.count, 0);  // by group

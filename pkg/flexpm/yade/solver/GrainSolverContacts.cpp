@@ -3,6 +3,7 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/topology/crack_faces.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>
@@ -109,10 +110,13 @@ void GrainSolver::followFaces()
 	vector<flexpm::GrainPair> changed;
 	{
 		const std::lock_guard<std::mutex> lock(scene->interactions->drawloopmutex); // a window may be drawing contacts
-		changed = flexpm::follow_faces(assembly, massDamping, scaled ? scene->dt : 0.);
+		const Real                        massesFor = scaled ? scene->dt : 0.;
+		changed                                     = flexpm::follow_faces(assembly, massDamping, massesFor);
+		const auto cracks                           = flexpm::follow_cracks(assembly, massDamping, massesFor);
+		changed.insert(changed.end(), cracks.pairs.begin(), cracks.pairs.end());
+		if (cracks.any || !changed.empty()) limitStep();
 	}
 	if (changed.empty()) return;
-	limitStep();
 	for (const auto& pair : changed)
 		showContactOf(pair);
 	seenDestroyed = destroyedContacts();

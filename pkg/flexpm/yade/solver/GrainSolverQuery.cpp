@@ -8,6 +8,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
+#include <flexpm/kernel/measure/overlaps.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <algorithm>
@@ -70,6 +71,29 @@ py::dict GrainSolver::counts()
 	d["triangles"]      = grains.triangles;
 	d["groups"]         = a.grains.groups.size();
 	d["edges"]          = flexpm::count_edges(a);
+	return d;
+}
+
+py::dict GrainSolver::overlaps(Real smallestPart)
+{
+	std::vector<std::int32_t> grains;
+	std::vector<std::uint8_t> bonded, facing;
+	std::vector<double>       area, part, closed;
+	for (const auto& o : flexpm::find_overlaps(current(), smallestPart)) {
+		grains.insert(grains.end(), o.pair.begin(), o.pair.end());
+		bonded.push_back(o.bonded);
+		facing.push_back(o.facing);
+		area.push_back(o.area);
+		part.push_back(o.part);
+		closed.push_back(o.closed);
+	}
+	py::dict d;
+	d["grains"] = copied(grains, 2);
+	d["area"]   = copied(area, 0);
+	d["part"]   = copied(part, 0);
+	d["bonded"] = copied(bonded, 0);
+	d["facing"] = copied(facing, 0);
+	d["closed"] = copied(closed, 0);
 	return d;
 }
 

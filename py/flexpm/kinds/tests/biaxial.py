@@ -13,8 +13,8 @@ KIND = TestKind(
     about="compression under the confinement, which acts on all sides first",
     # the last: a pressure is balanced once reactions and mean stress are; loose grains bear none
     results={
-        **dict.fromkeys(("flexible", "rigid"), 6),
-        **dict.fromkeys(("inner", "inner-un"), 4),
+        **dict.fromkeys(("flexible", "rigid"), 7),
+        **dict.fromkeys(("inner", "inner-un"), 5),
         **dict.fromkeys(("jcfpm", "cohfrict"), 3),
     },
     confined=True,

@@ -15,8 +15,9 @@ KIND = TestKind(
     "force, D the diameter, t the thickness",
     shape="disc",
     results={
-        **dict.fromkeys(("flexible", "rigid"), 4),
-        **dict.fromkeys(("inner", "inner-un", "jcfpm", "cohfrict"), 3),
+        **dict.fromkeys(("flexible", "rigid"), 5),
+        **dict.fromkeys(("inner", "inner-un"), 4),
+        **dict.fromkeys(("jcfpm", "cohfrict"), 3),
     },
     rates={
         "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=42),

@@ -65,7 +65,7 @@ KIND = TestKind(
     "displacement",
     sizes={"width": 0.08, "height": 0.04},
     models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 2),
+    results=dict.fromkeys(BLOCK_MODELS, 3),
     options=(
         Option("normal_stress", "On the upper half", "Pa", default="1e6"),
         Option(
