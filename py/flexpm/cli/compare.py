@@ -21,7 +21,7 @@ from ..runs.run_spec import OWN_OPTIONS, ranges
 from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options
-from .options import Each, Name, Quantity
+from .parameters import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (

@@ -31,7 +31,7 @@ from ..text import name_of
 from . import compare as cli_compare
 from . import inputs, runs, signals, terminal
 from . import options as cli_options
-from .options import Count
+from .parameters import Count
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen

@@ -3,181 +3,27 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ..errors import InputError
 from ..kinds.option import Option
 from ..kinds.registry import KINDS, names, options
 from ..kinds.test_kind import TestKind
 from ..models.options import MESHES, MODELS, POINTS, RANGE
-from ..require import (
-    ANY,
-    NOT_NEGATIVE,
-    POSITIVE,
-    Bounds,
-    require_known,
-    require_number,
-    require_whole,
-)
+from ..require import NOT_NEGATIVE, POSITIVE, Bounds
 from ..runs.loading_rate import LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import STARTS, RunSpec
 from ..specimens.space.spec import SIZES as SOLID_SIZES
 from ..specimens.spec import SIZES, SpecimenSpec
+from .parameters import Count, Name, Quantity, Range, Seeds
 
 #: Adds an option to the function of a command.
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
-
-
-class Quantity(click.ParamType):
-    """A finite number with a unit and a range."""
-
-    name = "number"
-
-    def __init__(self, unit: str = "", bounds: Bounds = ANY) -> None:
-        self.unit, self.bounds = unit, bounds
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        """Return the number, or raise InputError naming option, value and rule."""
-        number = value
-        with contextlib.suppress(ValueError):
-            number = float(str(value))
-        return require_number(label_of(param), number, self.bounds, self.unit, shown=str(value))
-
-
-class Range(click.ParamType):
-    """Two lengths DMIN,DMAX with 0 < DMIN <= DMAX."""
-
-    name = "range"
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[float, float]:
-        """Return both lengths, or raise InputError."""
-        if isinstance(value, tuple):
-            low, high = value
-            return low, high
-        parts = str(value).split(",")
-        if len(parts) != 2:
-            raise InputError(f"{label_of(param)} = {value} m, must read DMIN,DMAX")
-        length = Quantity("m", POSITIVE)
-        low, high = (length.convert(part.strip(), param, ctx) for part in parts)
-        if low > high:
-            raise InputError(f"{label_of(param)} = {value} m, DMIN must not exceed DMAX")
-        return low, high
-
-
-class Count(click.ParamType):
-    """A whole number of at least `at_least`."""
-
-    name = "integer"
-
-    def __init__(self, at_least: int, at_most: int | None = None) -> None:
-        self.at_least, self.at_most = at_least, at_most
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> int:
-        """Return the number, or raise InputError."""
-        try:
-            number = int(str(value))
-        except ValueError:
-            raise InputError(f"{label_of(param)} = {value}, must be a whole number") from None
-        return require_whole(
-            label_of(param), number, Bounds(at_least=self.at_least, at_most=self.at_most)
-        )
-
-
-class Each(click.ParamType):
-    """Several values between commas, each once."""
-
-    name = "list"
-
-    def __init__(self, kind: click.ParamType) -> None:
-        self._kind = kind
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[object, ...]:
-        """Return the values, or raise InputError."""
-        if isinstance(value, tuple):
-            return value
-        parts = [part.strip() for part in str(value).split(",")]
-        found = tuple(self._kind.convert(part, param, ctx) for part in parts)
-        for one in found:
-            if found.count(one) > 1:
-                raise InputError(f"{label_of(param)} = {value}, must name {one} once")
-        return found
-
-
-class Seeds(click.ParamType):
-    """Seeds of several packings: numbers and ranges between commas, each seed once."""
-
-    name = "seeds"
-    _PART = re.compile(r"([0-9]{1,9})(?:-([0-9]{1,9}))?")
-    #: More are a mistake in a range.
-    _MOST = 1000
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[int, ...]:
-        """Return the seeds in the order given, or raise InputError."""
-        if isinstance(value, tuple):
-            return value
-        told = f"{label_of(param)} = {value}, must"
-        ranges = []
-        for part in str(value).split(","):
-            found = self._PART.fullmatch(part.strip())
-            if found is None:
-                raise InputError(f"{told} be whole numbers and ranges such as 1-5 or 1,3,7-9")
-            first, last = int(found[1]), int(found[2] or found[1])
-            if last < first:
-                raise InputError(f"{told} go upwards; {first}-{last} does not")
-            ranges.append(range(first, last + 1))
-        count = sum(map(len, ranges))
-        if count > self._MOST:
-            raise InputError(f"{told} be at most {self._MOST} packings, not {count}")
-        seeds = tuple(seed for one in ranges for seed in one)
-        for number, seed in enumerate(seeds):
-            if seed in seeds[:number]:
-                raise InputError(f"{told} name {seed} once")
-        return seeds
-
-
-class Name(click.ParamType):
-    """One of a few names; a typo names the nearest."""
-
-    name = "name"
-
-    def __init__(self, *known: str) -> None:
-        self.known = known
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> str:
-        """Return the name, or raise InputError with the nearest known one."""
-        require_known(label_of(param), value, self.known)
-        return str(value)
-
-
-def label_of(param: click.Parameter | None) -> str:
-    """Name of a parameter as the user knows it."""
-    if param is None:
-        return "value"
-    return (
-        param.human_readable_name.lower()
-        if param.param_type_name == "argument"
-        else (param.opts[0].lstrip("-"))
-    )
 
 
 def combined(*options: Decorator) -> Decorator:

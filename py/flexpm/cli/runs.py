@@ -22,7 +22,7 @@ from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
-from .options import Quantity
+from .parameters import Quantity
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen

@@ -22,7 +22,8 @@ KEYS = st.sampled_from(
     interface.quartz/biotite.cohesion interface.a/b.factor.friction""".split()
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
-    --thickness --diameters --points --gravity --diameter --length --span --notch --normal-stress
+    --thickness --diameters --points --gravity --diameter --length --span --notch --distance
+    --normal-stress
     --max-displacement --seeds --frames --workers --damping
     --interaction-range""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
@@ -38,7 +39,7 @@ OPTIONS = st.one_of(
 COMMANDS = st.sampled_from(
     [
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
-        *(("run", test) for test in ("bending", "scb", "shear", "sonic")),
+        *(("run", test) for test in ("bending", "scb", "shear", "punch", "sonic")),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box")),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
@@ -53,6 +54,7 @@ SIZES = {
     "run bending": [*BEAM, *FEW],
     "run scb": ["--diameter", "0.024", *FEW],
     "run shear": [*RECTANGLE, "--max-displacement", "1e-8", "--rate", "50"],
+    "run punch": ["--width", "0.03", "--height", "0.024", "--max-displacement", "1e-8"],
     "run sonic": RECTANGLE,
     "run": [*RECTANGLE, *FEW],
     "elastic": RECTANGLE,

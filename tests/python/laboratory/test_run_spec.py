@@ -75,6 +75,10 @@ def specs(draw) -> RunSpec:
     specimen = draw(specimens(shape_of(test)))
     if test == "sonic":  # of 50 grains at least
         specimen = dataclasses.replace(specimen, height=draw(st.floats(0.2, 1.0)))
+    own = {}
+    if test == "punch":  # of ten grains at least
+        specimen = dataclasses.replace(specimen, width=0.2, height=draw(st.floats(0.1, 1.0)))
+        own = {"distance": draw(st.none() | st.floats(0.04, 0.16))}
     spheres = st.none() | st.floats(1.0, 2.0) if model in SPHERE_MODELS else st.none()
     return RunSpec(
         test,
@@ -83,7 +87,7 @@ def specs(draw) -> RunSpec:
         model,
         points=draw(st.sampled_from(POINTS)) if grains else 3,
         mesh=draw(st.sampled_from(MESHES)) if grains else "refined",
-        confinement=draw(st.floats(0.0, 1e9)) if test == "biaxial" else 0.0,
+        confinement=draw(st.floats(0.0, 1e9)) if kind_of(test).confined else 0.0,
         rate=1.0 if "rate" in unused else draw(POSITIVE),
         max_strain=None if "max_strain" in unused else draw(st.none() | POSITIVE),
         stop_ratio=0.5 if "stop_ratio" in unused else draw(st.floats(0.01, LARGEST_STOP_RATIO)),
@@ -92,6 +96,7 @@ def specs(draw) -> RunSpec:
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
         interaction_range=draw(spheres),
+        own=own,
         damping=None if "damping" in unused else draw(st.none() | st.floats(0.0, 0.99)),
     )
 

@@ -11,7 +11,7 @@ import pytest
 from matplotlib.image import imread
 
 from flexpm.cli import main as cli
-from flexpm.cli.options import Seeds
+from flexpm.cli.parameters import Seeds
 from flexpm.errors import InputError
 from flexpm.report.words import words_of_test
 from flexpm.studies import packings

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Punch-through shear: the middle of a rectangle is pushed out between two bridges. Deviation D65.
+
+After T. Backers, O. Stephansson: ISRM suggested method for the determination of mode II fracture
+toughness. Rock Mechanics and Rock Engineering 45 (2012) 1011-1022, in the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...require import NOT_NEGATIVE, Bounds
+from ..layout import LEFT, RIGHT, Frame, Layout, Lines, Plate
+from ..model_names import BLOCK_MODELS
+from ..option import Asked, Option, Value
+from ..part_measures import residual, work
+from ..rates import Rates
+from ..test_kind import Rig, Stage, TestKind
+from ..words import CRACKS, Columns, Drawn, Words, stress
+
+#: Depth of a notch over the height, distance of the pairs over the width, unless given [-].
+_NOTCH, _DISTANCE = 0.2, 0.4
+#: Fewest grains along a bridge: notches go on to the ends of their last grains (D35).
+_FEWEST_GRAINS = 4.0
+#: Least distance of the pairs from each other and from the sides, in mean diameters [-].
+_LEAST_DISTANCE = 3.0
+#: Notches are slots whose faces do not meet: what presses across goes through the bridges.
+_SLOT = {"open": True, "friction": 0.0, "normal_stiffness": 1e6, "shear_stiffness": 1e6}
+
+
+def _settle(asked: Asked) -> Mapping[str, Value]:
+    width, height = asked.sizes["width"], asked.sizes["height"]
+    grain = asked.diameter or 0.0
+    deepest = 0.5 * (height - _FEWEST_GRAINS * grain)
+    notch = asked.number("notch", _NOTCH * height, Bounds(at_least=0.0, below=deepest))
+    apart = _LEAST_DISTANCE * grain
+    bounds = Bounds(above=apart, below=width - 2.0 * apart)
+    found: dict[str, Value] = {
+        "notch": notch,
+        "distance": asked.number("distance", _DISTANCE * width, bounds),
+    }
+    if asked.values.get("max_displacement") is not None:
+        bounds = Bounds(above=0.0, below=height)
+        found["max_displacement"] = asked.number("max_displacement", 0.0, bounds)
+    return found
+
+
+def _places(frame: Frame) -> tuple[float, float]:
+    """Of the pairs of notches, across [m]."""
+    half = 0.5 * frame.number("distance")
+    return frame.middle - half, frame.middle + half
+
+
+def _cut(frame: Frame) -> Lines:
+    depth = frame.number("notch")
+    if not depth:
+        return []
+    return [
+        [[x, edge], [x, edge + inwards * depth]]
+        for x in _places(frame)
+        for edge, inwards in ((frame.bottom, 1.0), (frame.top, -1.0))
+    ]
+
+
+def _bridges(frame: Frame) -> tuple[float, float]:
+    """Lengths of both bridges as cut [m]."""
+    half = 0.5 * (frame.bottom + frame.top)
+    ends = [(float(x), float(y)) for x, y in frame.notch.reshape(-1, 2)]
+
+    def of(side: float) -> float:
+        heights = [y for x, y in ends if side * (x - frame.middle) > 0.0]
+        low = max((y for y in heights if y < half), default=frame.bottom)
+        high = min((y for y in heights if y > half), default=frame.top)
+        return high - low
+
+    return of(-1.0), of(1.0)
+
+
+def _area(frame: Frame) -> float:
+    return sum(_bridges(frame)) * frame.thickness
+
+
+def _punched(frame: Frame) -> Layout:
+    """A platen above the middle, supports below the rest, walls where there is a pressure."""
+    left, right = _places(frame)
+    pressure = frame.number("confinement")
+    clear = 0.5 * frame.grain  # of a platen from a notch
+    outer = 0.5 * (frame.width - frame.number("distance")) - clear
+    plates = {
+        name: Plate((x, frame.bottom), (0.0, 1.0), outer)
+        for name, x in (("left", frame.left + 0.5 * outer), ("right", frame.right - 0.5 * outer))
+    }
+    # without walls the punch alone keeps all from drifting aside
+    size, pinned = right - left - 2.0 * clear, not pressure > 0.0
+    plates["punch"] = Plate((frame.middle, frame.top), (0.0, -1.0), size, pinned=pinned)
+    if pressure > 0.0:
+        plates |= {"wall": Plate(side=LEFT), "jack": Plate(side=RIGHT)}
+    return Layout(
+        plates=plates,
+        driven=("punch",),
+        direction=(0.0, -1.0),
+        against=("left", "right"),
+        area=_area(frame),
+        length=frame.height,
+        strength=frame.shear_strength(pressure),
+        pressed="jack" if pressure > 0.0 else "",
+        also={"shear_stress": "axial_stress"},
+    )
+
+
+def _measure(frame: Frame, record: Columns, _: float | None) -> Mapping[str, float | None]:
+    load = record["load"]
+    return {
+        "peak_load": float(load.max()) if len(load) else None,
+        "residual_strength": residual(record),
+        "fracture_energy": work(record) / _area(frame) if len(load) else None,
+        "notch_depth": 0.5 * (frame.height - 0.5 * sum(_bridges(frame))),
+    }
+
+
+KIND = TestKind(
+    name="punch",
+    order=8,
+    about="punch-through shear: a platen pushes the part between two pairs of notches out of a "
+    "rectangle, whose outer parts stand on supports; its stress is the load over both bridges",
+    sizes={"width": 0.08, "height": 0.04},
+    models=BLOCK_MODELS,
+    options=(
+        Option(
+            "notch",
+            "Depth of each of four notches, a pair in line from above and below",
+            "m",
+            NOT_NEGATIVE,
+            default="0.2 of the height",
+        ),
+        Option("distance", "Distance of the pairs of notches", "m", default="0.4 of the width"),
+        Option(
+            "max_displacement",
+            "Displacement at which the test ends",
+            "m",
+            default="8 times that of the reference strength",
+            open="by the reference strength",
+        ),
+    ),
+    without=("stop_ratio", "max_strain"),
+    settle=_settle,
+    confined=True,
+    rig=Rig.PARTS,
+    stages=(Stage.PRESS, Stage.SLIDE),
+    cut=_cut,
+    notch_law=_SLOT,
+    ligament=lambda frame: min(_bridges(frame)),
+    layout=_punched,
+    # those of direct shear
+    rates={
+        "flexible": Rates(0.01, 0.01, (0.06, 0.1), 0.04, waiting_constant=0.04),
+        "rigid": Rates(0.01, 0.01, (0.09, 0.1), 0.04, waiting_constant=0.04),
+    },
+    slides=True,
+    needs_peak=False,
+    no_constants=("youngs_modulus",),
+    measure=_measure,
+    words=Words(
+        Drawn("displacement", "displacement", 1e6, "µm"),
+        stress("shear stress of the bridges"),
+        "peak shear stress",
+        ("peak_stress", "residual_strength", "fracture_energy", *CRACKS),
+    ),
+)
