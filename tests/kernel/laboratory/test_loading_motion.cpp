@@ -10,8 +10,8 @@
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
+#include "laboratory/gripped.hpp"
 #include "support/balance.hpp"
-#include "support/gripped.hpp"
 
 #include <cmath>
 

@@ -7,8 +7,8 @@
 #include <flexpm/kernel/laboratory/preload.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
+#include "laboratory/gripped.hpp"
 #include "support/balance.hpp"
-#include "support/gripped.hpp"
 
 #include <algorithm>
 #include <cmath>
