@@ -166,7 +166,7 @@ def _simulate(
         chosen: Its material.
         make: Makes its specimen.
         folder: For its files.
-        options: Of the command.
+        options: Options of the command.
 
     Raises:
         SimulationError: if it found no strength.

@@ -87,7 +87,7 @@ class PartRig(GrainRig, PartLayout):
         """Record how far two points move apart, in a column of this name.
 
         Args:
-            name: Of the column.
+            name: Name of the column.
             first: x and y of a point; the nearest node of the grains on its side is taken [m].
             second: The other one.
             along: x and y of the direction in which the second one moves away from the first one;
@@ -117,7 +117,7 @@ class PartRig(GrainRig, PartLayout):
     def way_of(self, name: str, part: RigPart, direction: Place) -> None:
         """Record how far a part moves along a direction [m], in a column of this name.
 
-        Of held nodes it is the mean.
+        The way of held nodes is their mean.
         """
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, RigPart)
@@ -443,7 +443,7 @@ class PartRig(GrainRig, PartLayout):
         return pressing.pressure * self.pressed.width * self.built.specimen.thickness
 
     def _crossing_steps(self) -> float:
-        """Of a disc of the specimen's area: what is open before it is pressed has no scales."""
+        """Steps of a disc of the specimen's area: what is open before it is pressed has none."""
         of_disc = wrapper.AxialRecorder(diameter=self.built.specimen.equal_diameter)
         return float(of_disc.scales()["crossing_steps"])
 

@@ -100,7 +100,7 @@ class WaveRig(GrainRig):
 
     @property
     def distance(self) -> float:
-        """Of the two sections [m]."""
+        """Distance of the two sections [m]."""
         near, far = (place for _, place in self._sections)
         return far - near
 
@@ -122,7 +122,7 @@ class WaveRig(GrainRig):
         self._stage(self._begin_wave, lambda: self.diverged)
 
     def expected_speed(self) -> float:
-        """Of the wave in a continuum with the elastic constants of the specimen [m/s]."""
+        """Speed of the wave in a continuum with the specimen's elastic constants [m/s]."""
         young, poisson = self.built.solver.elasticConstants()
         modulus = waves.modulus("p" if self._moved == _ALONG else "s", young, poisson)
         return math.sqrt(modulus / self._density())

@@ -79,7 +79,7 @@ def write_page(
     """Write the page of a run.
 
     Args:
-        folder: Of the run, with specimen.vtu.
+        folder: Folder of the run, with specimen.vtu.
         result: The run.
         inputs: What was asked for.
         commands: What repeats it.
