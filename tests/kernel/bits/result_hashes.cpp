@@ -6,7 +6,7 @@
 #include <flexpm/kernel/geometry/insertion.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/preload.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/specimen_strain.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>

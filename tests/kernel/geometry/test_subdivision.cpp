@@ -12,6 +12,7 @@
 
 #include "support/catch.hpp"
 
+#include "support/driven.hpp"
 #include "support/specimens.hpp"
 
 #include <map>
@@ -178,10 +179,10 @@ TEST_CASE("two grains out of line: opening and slip along the chosen normal", "[
     flexpm::scale_masses(a, 0.7);
     a.grains.prescribed[a.grains.centre(0)] =
         a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
-    flexpm::prescribe_spin(a.grains, 0, 0.0, 1.0);
+    driven::prescribe_spin(a.grains, 0, 0.0);
     a.grains.prescribed[a.grains.centre(1)] =
         a.grains.prescribed[component(a.grains.centre(1), 1)] = 1;
-    flexpm::prescribe_spin(a.grains, 1, 0.0, 1.0);
+    driven::prescribe_spin(a.grains, 1, 0.0);
     flexpm::set_motion(a.grains, 1, { way, 0.0 }, 0.0, 1.0);
     flexpm::step(a, flexpm::StepOptions());
 

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/test_frame.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
@@ -22,6 +23,8 @@ py::tuple GrainSolver::elasticConstants()
 	const auto e = flexpm::elastic_constants(current());
 	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
 }
+
+Real GrainSolver::crossingSteps(Real diameter) { return flexpm::disc_scales(assembly, diameter, Omega::instance().getScene()->dt).crossing_steps; }
 
 py::dict GrainSolver::energies()
 {
