@@ -26,7 +26,7 @@ double lateral_pressure(const Assembly& a, double height)
 {
     if (has_plates(a, right_side)) {
         const double squeeze = plate_force(a, left_side).x - plate_force(a, right_side).x;
-        return 0.5 * squeeze / (height * a.thickness);
+        return 0.5 * squeeze / a.area_of(height);
     }
     for (int e = 0; e < a.edges.count; ++e) {
         if (is_on_side(a, e, right_side)) return a.edges.pressure[e];
@@ -57,7 +57,7 @@ TestFrame rectangle_frame(const Assembly& a, Sense sense)
     need_sides(a);
     const double sign = sense == Sense::compression ? -1.0 : 1.0;
     TestFrame frame;
-    frame.area = side_length(a, bottom_side) * a.thickness;
+    frame.area = a.area_of(side_length(a, bottom_side));
     frame.height = side_length(a, left_side);
     frame.sense = sense;
     frame.ends = [](const Assembly& now) {
