@@ -68,7 +68,41 @@ class PresetTable(Directive):
         return found
 
 
+class LoadingRates(Directive):
+    """Rates and limits of all tests, as their descriptions in the package have them."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a table: test and model, rates, limits of the unbalanced-force ratio."""
+        from flexpm.kinds.registry import KINDS
+
+        rows = [["test, model", "k constant", "largest k waiting", "limit constant", "waiting, softening; brittle"]]
+        for name, kind in KINDS.items():
+            for model, one in kind.rates.items():
+                waits = one.running_share is not None
+                limits = one.waiting_ratios or ()
+                rows.append([
+                    f"{name}, {model}",
+                    f"{one.constant:g}",
+                    f"{one.waiting_constant:g}" if waits else "",
+                    "" if one.quasistatic is None else f"{one.quasistatic:g}",
+                    "; ".join(f"{limit:g}" for limit in limits),
+                ])
+        group = nodes.tgroup(cols=5)
+        group += [nodes.colspec(colwidth=width) for width in (28, 14, 18, 16, 24)]
+        head, body = nodes.thead(), nodes.tbody()
+        for number, row in enumerate(rows):
+            line = nodes.row()
+            for text in row:
+                line += nodes.entry("", nodes.paragraph("", text))
+            (body if number else head).append(line)
+        group += [head, body]
+        table = nodes.table()
+        table += group
+        return [table]
+
+
 def setup(app: object) -> None:
     """Register the directives of this documentation."""
     app.add_directive("command-help", CommandHelp)
     app.add_directive("presets", PresetTable)
+    app.add_directive("loading-rates", LoadingRates)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check comments: they begin with their subject, and no line of the kernel passes 100 columns.
 
-    scripts/checks/comments.py [--fix]      --fix: break comments of the kernel that are too wide
+    scripts/checks/comments.py [--fix] [ROOT]      --fix: break comments that are too wide
 
 A comment that begins "Of ..." leaves its subject to the reader. One behind a member on its line may
 begin "of ...": its subject is the name before it. clang-format breaks code at 100 columns; comments
@@ -17,7 +17,6 @@ import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("pkg", "py", "tests", "scripts")
 SUFFIXES = (".cpp", ".hpp", ".py", ".pyi", ".txt", "")
 #: Where lines have 100 columns and no other tool looks: ruff does so for Python.
@@ -97,16 +96,18 @@ def rewrapped(lines: list[str]) -> list[str]:
 def main() -> int:
     """Report what breaks a rule; 1 if anything does."""
     fix = "--fix" in sys.argv[1:]
+    given = [Path(one) for one in sys.argv[1:] if one != "--fix"]
+    root = given[0] if given else Path(__file__).resolve().parents[2]
     faults = 0
     for folder in FOLDERS:
-        for path in sorted((ROOT / folder).rglob("*")):
+        for path in sorted((root / folder).rglob("*")):
             if path.suffix not in SUFFIXES or not path.is_file() or path.is_symlink():
                 continue
             try:
                 text = path.read_text(encoding="utf-8")
             except UnicodeDecodeError:
                 continue
-            name = str(path.relative_to(ROOT))
+            name = str(path.relative_to(root))
             lines = text.split("\n")
             narrow = name.startswith(NARROW) and path.suffix in (".cpp", ".hpp")
             if fix and narrow:

@@ -90,9 +90,13 @@ def compare(
     _require_use(options["assignments"], models)
     chosen = {model: inputs.material(options, model) for model in models}
     farthest = ranges(models, options["interaction_range"])
+    source = inputs.source(test, options)
     specs = [
         inputs.run_spec(
-            test, options | {"model": model, "interaction_range": farthest[model]}, material
+            test,
+            options | {"model": model, "interaction_range": farthest[model]},
+            material,
+            source,
         )
         for model, material in chosen.items()
     ]
@@ -111,7 +115,7 @@ def compare(
     with terminal.Progress(quiet) as progress:
         found = comparison.compare(
             test,
-            inputs.made(specs[0].specimen, options, progress),
+            inputs.made(source, progress),
             models,
             chosen,
             confinements=confinements,

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from .. import _plugin, _vendor
-from ..report.page import CHARTS
+from ..report.pages.page import CHARTS
 
 Check = tuple[str, bool, str]
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,14 +12,13 @@ import click
 from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
-from ..joints import lines as joint_lines
 from ..materials.keys import is_used
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
-from ..specimens.files import specimen_file
+from ..specimens.files.source import SpecimenSource
 from ..specimens.space.spec import SolidSpec
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
@@ -82,31 +80,25 @@ def material(options: Table, model: str | None = None) -> Material:
     return chosen
 
 
-def run_spec(test: str, options: Table, chosen: Material) -> RunSpec:
-    """The run that the options describe."""
-    given = options | {"points": int(options["points"])}
-    if options["specimen_file"] is None:
+def source(test: str, options: Table) -> SpecimenSource:
+    """The specimen that the options describe, with its files, which are read once."""
+    file = options["specimen_file"]
+    if file is None:
         refuse_other_sizes(shape_of(test))
-        specimen = RunSpec.packed(test, given)
     else:
         refuse_packing()
-        specimen = specimen_file.spec_of(specimen_file.read(options["specimen_file"]))
-    if options["joints_file"] is not None:
-        specimen = specimen.with_joints(_joints(options["joints_file"]))
-    spec = RunSpec.from_options(test, given, chosen, specimen)
+    packed = RunSpec.packed(test, options) if file is None else None
+    return SpecimenSource.read(packed, file, options["joints_file"])
+
+
+def run_spec(test: str, options: Table, chosen: Material, specimen: SpecimenSource) -> RunSpec:
+    """The run that the options describe."""
+    given = options | {"points": int(options["points"])}
+    spec = RunSpec.from_options(test, given, chosen, specimen.spec)
     refuse_unused(test)
     for line in doubts.of_inputs(spec.to_json()):
         _warn(line)
     return spec
-
-
-def _joints(path: Path) -> joint_lines.Lines:
-    """Lines of a file of joints, which a command reads once: it may be a pipe."""
-    read: dict[Path, joint_lines.Lines]
-    read = click.get_current_context().find_root().meta.setdefault("flexpm.joints", {})
-    if path not in read:
-        read[path] = joint_lines.read(path)
-    return read[path]
 
 
 def _warn(line: str) -> None:
@@ -126,10 +118,11 @@ def tell_warnings(result: Result, name: str = "") -> None:
             terminal.say(f"warning: {name}{line}")
 
 
-def specimen_spec(kind: str, options: Table) -> SpecimenSpec:
-    """The specimen that the options describe, which are all for its shape."""
+def packed(kind: str, options: Table) -> SpecimenSource:
+    """The packing that the options describe, which are all for its shape, with its joints."""
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
-    return SpecimenSpec(kind, **{name: options[name] for name in names})
+    spec = SpecimenSpec(kind, **{name: options[name] for name in names})
+    return SpecimenSource.read(spec, joints=options["joints_file"])
 
 
 def solid(kind: str, options: Table, progress: terminal.Progress) -> SolidSpecimen:
@@ -141,27 +134,19 @@ def solid(kind: str, options: Table, progress: terminal.Progress) -> SolidSpecim
     return SolidSpecimen.pack(spec, progress)
 
 
-def made(spec: SpecimenSpec, options: Table, progress: terminal.Progress) -> Specimen:
-    """Pack a specimen, or read it from the file of ``--specimen``; cut it by those of ``--joints``.
+def made(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
+    """Pack or load a specimen and cut it by its joints.
 
     Args:
-        spec: The specimen, with or without the joints.
-        options: Options of the command.
+        specimen: Where it comes from.
         progress: Shows how far a packing is.
     """
     load_yade()
-    from ..specimens.specimen import Specimen
-
-    file = options.get("specimen_file")
-    plain = replace(spec, joints=None, joint_names=None)
-    specimen = Specimen.pack(plain, progress) if file is None else Specimen.load(file)
-    cuts = options.get("joints_file")
-    if cuts is None:
-        return specimen
-    cut = specimen.with_joints(_joints(cuts), progress)
-    for line in doubts.of_cuts({name: one.to_json() for name, one in cut.joint_cuts.items()}):
-        _warn(line)
-    return cut
+    found = specimen.make(progress)
+    if specimen.lines is not None:
+        for line in doubts.of_cuts({name: one.to_json() for name, one in found.joint_cuts.items()}):
+            _warn(line)
+    return found
 
 
 def refuse_packing() -> None:

@@ -89,7 +89,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = inputs.made(inputs.specimen_spec("rectangle", options), options, progress)
+        made = inputs.made(inputs.packed("rectangle", options), progress)
     _describe(made, folder, mesh)
 
 
@@ -104,7 +104,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = inputs.made(inputs.specimen_spec("disc", options), options, progress)
+        made = inputs.made(inputs.packed("disc", options), progress)
     _describe(made, folder, mesh)
 
 

@@ -68,16 +68,15 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     """Run a laboratory test and write its files."""
     require_known("test", test, TESTS)
     chosen = inputs.material(options)
-    spec = inputs.run_spec(test, options, chosen)
+    source = inputs.source(test, options)
+    spec = inputs.run_spec(test, options, chosen, source)
     if several := packings.asked(options):
         asked = options | {"discard_checkpoint": discard_checkpoint}
         packings.carry_out({"": spec}, several, asked, out=out, quiet=quiet)
         return
     options |= {"quiet": quiet, "discard_checkpoint": discard_checkpoint}
     folder = inputs.locked_folder(out, "run")
-    _simulate(
-        spec, chosen, lambda shown: inputs.made(spec.specimen, options, shown), folder, options
-    )
+    _simulate(spec, chosen, lambda shown: inputs.made(source, shown), folder, options)
 
 
 @click.command(short_help="A run again from its result.json.")
@@ -137,10 +136,10 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
     chosen = inputs.material(options)
-    spec = inputs.run_spec(ELASTIC, options, chosen)
+    source = inputs.source(ELASTIC, options)
+    spec = inputs.run_spec(ELASTIC, options, chosen, source)
     folder = None if out is None else inputs.locked_folder(out, "run")
-    quiet = options["quiet"]
-    _solve(spec, chosen, lambda shown: inputs.made(spec.specimen, options, shown), folder, quiet)
+    _solve(spec, chosen, lambda shown: inputs.made(source, shown), folder, options["quiet"])
 
 
 def _tell_differences(file: Path, before: Table, folder: Path) -> None:
@@ -167,7 +166,7 @@ def _simulate(
         chosen: Its material.
         make: Makes its specimen.
         folder: For its files.
-        options: Of the command.
+        options: Options of the command.
 
     Raises:
         SimulationError: if it found no strength.

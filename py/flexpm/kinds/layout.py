@@ -38,12 +38,12 @@ class Frame:
 
     @property
     def width(self) -> float:
-        """Of the box [m]."""
+        """Width of the box [m]."""
         return self.right - self.left
 
     @property
     def height(self) -> float:
-        """Of the box [m]."""
+        """Height of the box [m]."""
         return self.top - self.bottom
 
     @property

@@ -17,7 +17,7 @@ def require_pulse(height: float, diameter: float) -> None:
     """Refuse a specimen in which the pulse would be shorter than 20 grains.
 
     Args:
-        height: Of the specimen [m].
+        height: Height of the specimen [m].
         diameter: Mean of the grains [m].
     """
     grains = PULSE * height / diameter

@@ -20,7 +20,7 @@ from ..results.snapshot import Snapshot
 from ..text import label_of
 from .curves import fits_a_picture, places_of
 from .maps import draw_grains
-from .page import Rows
+from .pages.page import Rows
 from .style import COLOURS, STYLE, can_be_drawn, save
 from .tables import scaled
 from .words import words_of_test

@@ -19,8 +19,8 @@ from ..specimens.specimen import Specimen
 from ..text import label_of, name_of, words_of
 from .curves import curve_picture
 from .maps import cell_polygons, specimen_picture
-from .page import rendered
-from .page_run import with_unit
+from .pages.page import rendered
+from .pages.page_run import with_unit
 from .style import CYCLE, drawing
 from .tables import result_rows, size_text, test_text
 

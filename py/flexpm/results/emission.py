@@ -79,8 +79,8 @@ def event_rule(mean_diameter: float, height: float, crossing_steps: float) -> Ev
     """Limits of an event: one mean grain, and the time that a fracture needs to cross it.
 
     Args:
-        mean_diameter: Of the grains [m].
-        height: Of the specimen [m].
+        mean_diameter: Mean diameter of the grains [m].
+        height: Height of the specimen [m].
         crossing_steps: Steps in which a wave crosses the height.
     """
     steps = mean_diameter / height * crossing_steps / _RUPTURE_SPEED

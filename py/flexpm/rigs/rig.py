@@ -58,7 +58,7 @@ class Balance:
 
     reaction: float  #: of a pressing force, in what bears it
     stress: float  #: of the mean stress that the pressing forces would give
-    #: of the stress, as waves swing: the root of the kinetic energy over the elastic one. The mean
+    #: part of the stress, as waves swing: root of the kinetic energy over the elastic one. The mean
     #: stress of a wave passes through its place of rest; its motion is fastest there.
     motion: float
 

@@ -96,7 +96,7 @@ def _differ(first: Mapping[str, object], second: Mapping[str, object], name: str
 
 def write_report(folder: Path, result: Result) -> Path:
     """Write report.html of a run into its folder, from its result and its specimen.vtu."""
-    from ..report.page_run import write_page
+    from ..report.pages.page_run import write_page
 
     with _refusing(folder / "result.json"):
         spec = RunSpec.from_json(result.inputs or {})

@@ -187,7 +187,7 @@ def schedule(
         test: Name of the test, which has a constant of its own.
         model: Name of the model, which has, too.
         loading: Rate and end as asked for.
-        scales: Of the specimen.
+        scales: Scales of the specimen.
         confinement: Lateral pressure [Pa].
         dt: Time step [s], or 1 with scaled masses.
 

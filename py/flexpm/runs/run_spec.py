@@ -133,8 +133,8 @@ class RunSpec:
         damping: Local damping alpha [-] of the loading; None: 0.7, as always before it could be
             chosen. With real masses it is 0 unless it is given; a specimen is settled under its
             confinement with 0.7 at least. None for tests that have none.
-        interaction_range: Of YADE's spheres, up to which multiple of the sum of their radii they
-            are bonded [-]; None: only neighbours, and for other models.
+        interaction_range: Multiple of the sum of both radii up to which YADE's spheres are bonded
+            [-]; None: only neighbours, and for other models.
         own: Options of the test that are no fields, by their names.
     """
 

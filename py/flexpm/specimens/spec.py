@@ -38,13 +38,13 @@ class SpecimenSpec:
 
     Attributes:
         kind: ``rectangle``, ``disc``, ``polygon`` or ``half-disc``.
-        width: Of a rectangle [m]; if None its default, and None for another shape.
-        height: Of a rectangle, along the axis of the test [m]; None as for `width`.
-        diameter: Of a disc or half of one [m]; None as for `width`.
+        width: Width of a rectangle [m]; if None its default, and None for another shape.
+        height: Height of a rectangle, along the axis of the test [m]; None as for `width`.
+        diameter: Diameter of a disc or half of one [m]; None as for `width`.
         thickness: Out of plane [m].
         diameters: Smallest and largest diameter of the packed discs [m]; None for given discs.
         porosity: Sets the number of packed discs [-]; None for given discs.
-        seed: Of the packing; None for given discs.
+        seed: Seed of the packing; None for given discs.
         short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
         discs: Checksum of given discs; None for a packing.
         outline: Checksum of the outline of given discs or cells, or of one that was sawn out of a

@@ -16,7 +16,6 @@ from subprocess import CompletedProcess
 
 from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
-from ..joints import lines as joint_lines
 from ..kinds.registry import KINDS, kind_of
 from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
@@ -25,7 +24,7 @@ from ..require import require_known, require_text
 from ..runs import run_spec
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
-from ..specimens.files import specimen_file
+from ..specimens.files.source import SpecimenSource
 from ..specimens.spec import SpecimenSpec
 
 #: Tests of a study; `elastic` is the direct solve.
@@ -148,10 +147,9 @@ def _specimen(test: str, used: Table) -> SpecimenSpec:
                     f"study {key} = {used[key]}, must not be given with specimen, which has its "
                     "own; leave one out"
                 )
-        found = specimen_file.spec_of(specimen_file.read(Path(used["specimen"])))
-    else:
-        found = RunSpec.packed(test, used)
-    return found.with_joints(joint_lines.read(Path(used["joints"]))) if "joints" in used else found
+    packed = None if "specimen" in used else RunSpec.packed(test, used)
+    file, joints = (Path(used[key]) if key in used else None for key in _FILES)
+    return SpecimenSource.read(packed, file, joints).spec
 
 
 def place_of(model: str, confinement: float, confinements: int) -> str:

@@ -14,9 +14,9 @@ import numpy as np
 from .._version import __version__
 from ..errors import InputError
 from ..files import load_csv, read_text
-from ..report.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
-from ..report.page import write as write_page
-from ..report.page_run import STATUS, cite, inputs_table, maps_of, versions
+from ..report.pages.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
+from ..report.pages.page import write as write_page
+from ..report.pages.page_run import STATUS, cite, inputs_table, maps_of, versions
 from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_test

@@ -26,7 +26,7 @@ HEIGHT = 0.04
 
 @pytest.fixture(scope="module")
 def slab() -> flexpm.Specimen:
-    """Of 27 grains over its width and 53 over its height."""
+    """Slab of 27 grains over its width and 53 over its height."""
     return flexpm.Specimen.rectangle(0.02, HEIGHT, 0.01, diameters=(5e-4, 1e-3), seed=1)
 
 

@@ -20,8 +20,8 @@ from flexpm.cli import inputs, runs
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.material import load
-from flexpm.report import page, page_map, page_run
 from flexpm.report.emission import emission_picture
+from flexpm.report.pages import page, page_map, page_run
 from flexpm.results.emission import EventRule, find_events
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu
@@ -286,7 +286,10 @@ def test_the_command_of_a_page_asks_for_the_same_run(arguments):
 def spec_of(arguments: list[str]) -> RunSpec:
     with runs.run.make_context("run", list(arguments)) as context:
         options = dict(context.params)
-        return inputs.run_spec(options.pop("test"), options, inputs.material(options))
+        test = options.pop("test")
+        return inputs.run_spec(
+            test, options, inputs.material(options), inputs.source(test, options)
+        )
 
 
 def test_a_specimen_with_a_joint_has_its_parts_from_the_start_and_is_run_again(tmp_path):

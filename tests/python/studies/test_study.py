@@ -277,7 +277,8 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
     context = main.command.commands["run"].make_context("run", list(job.arguments[1:]))
     with context:
         material = inputs.material(context.params)
-        assert inputs.run_spec("biaxial", context.params, material) == job.spec
+        source = inputs.source("biaxial", context.params)
+        assert inputs.run_spec("biaxial", context.params, material, source) == job.spec
     names = {option.name for option in main.command.commands["run"].params}
     inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
     inert |= {"seeds", "workers", "report", "specimen_file", "joints_file", "frames", "film"}

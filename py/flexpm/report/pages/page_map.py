@@ -12,15 +12,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
-from ..results.cracks import NAMES, Crack
-from ..results.fragments import Fragments, connected
-from ..results.record import Curve
-from ..results.result import Result
-from ..results.snapshot import POINT_SHARES, Snapshot
-from .maps import MINERALS
+from ...arrays import FloatArray, IntArray
+from ...results.cracks import NAMES, Crack
+from ...results.fragments import Fragments, connected
+from ...results.record import Curve
+from ...results.result import Result
+from ...results.snapshot import POINT_SHARES, Snapshot
+from ..maps import MINERALS
+from ..words import words_of_test
 from .page import Map, rows_to_draw
-from .words import words_of_test
 
 #: Length of the longer side in a map's own units, of 0.02 mm in the paper's specimen.
 _LENGTH = 8000

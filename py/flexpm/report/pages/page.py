@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
-from ..files import write_text
-from ..text import printable
+from ...arrays import FloatArray, IntArray
+from ...files import write_text
+from ...text import printable
 
 #: Where Debian has the library of the curves.
 CHARTS = Path("/usr/share/javascript/chart.js/chart.min.js")

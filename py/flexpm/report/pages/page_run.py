@@ -9,21 +9,21 @@ from pathlib import Path
 import numpy as np
 from matplotlib.ticker import EngFormatter
 
-from ..arrays import IntArray
-from ..errors import InputError
-from ..kinds.registry import kind_of
-from ..results import measures
-from ..results.cracks import SHEAR, TENSILE
-from ..results.result import Result
-from ..results.vtu import read_vtu
-from ..text import words_of
-from .curves import fits_a_picture
-from .emission import emission_table
+from ...arrays import IntArray
+from ...errors import InputError
+from ...kinds.registry import kind_of
+from ...results import measures
+from ...results.cracks import SHEAR, TENSILE
+from ...results.result import Result
+from ...results.vtu import read_vtu
+from ...text import words_of
+from ..curves import fits_a_picture
+from ..emission import emission_table
+from ..style import COLOURS, CYCLE, MODE_NAMES
+from ..tables import result_rows, size_text, test_text
+from ..words import words_of_test
 from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
 from .page_map import crack_map
-from .style import COLOURS, CYCLE, MODE_NAMES
-from .tables import result_rows, size_text, test_text
-from .words import words_of_test
 
 #: Points of a curve.
 _POINTS = 700
@@ -79,7 +79,7 @@ def write_page(
     """Write the page of a run.
 
     Args:
-        folder: Of the run, with specimen.vtu.
+        folder: Folder of the run, with specimen.vtu.
         result: The run.
         inputs: What was asked for.
         commands: What repeats it.
