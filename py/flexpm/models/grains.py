@@ -365,7 +365,7 @@ def _assembled(grains: _Grains, chosen: Material, model: str) -> wrapper.GrainSo
 
 
 def _grain_materials(chosen: Material, model: str) -> list[wrapper.GrainMat]:
-    """Of each mineral, or of all grains."""
+    """Material of each mineral, or of all grains."""
     return [_grain_material(kind, model) for kind in mineral_materials(chosen)]
 
 

@@ -61,7 +61,7 @@ AxialGeometry rectangle_of(const Assembly& a, Sense sense);
 /// Lateral strain of a rectangle where nodes move so, in the layout of Grains::displacement; positive as Poisson's effect [-].
 double lateral_strain(const Assembly& a, Sense sense, const Array<double>& moved);
 
-/// Of the last step, which must have been measured.
+/// Observation of the last step, which must have been measured.
 AxialObservation observe(const Assembly& a, const AxialGeometry& geometry);
 
 /// The same of a disc between a lower and an upper plate, the first two of the assembly: strains are

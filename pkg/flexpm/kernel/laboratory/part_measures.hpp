@@ -34,7 +34,7 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
 /// Way of the driven parts along the loading [m], or their angle [rad].
 double part_displacement(const Assembly& a, const PartGeometry& parts);
 
-/// Of the last step, which must have been measured. There is no lateral strain and no confinement.
+/// Observation of the last step, which must have been measured, without lateral strain and confinement.
 /// @throws std::invalid_argument  if a part is not there or a size is not above zero
 AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts);
 

@@ -65,7 +65,7 @@ double spin_in(const Grains& grains, int grain, const Array<double>& velocity)
     return cross(arm, vector_at(velocity, n) - vector_at(velocity, c)) / dot(arm, arm);
 }
 
-/// Of all that is free to move.
+/// Kinetic energy of all that is free to move.
 double kinetic_energy(const Assembly& a)
 {
     double total = kinetic_of_velocities(a.grains);

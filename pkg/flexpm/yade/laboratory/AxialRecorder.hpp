@@ -34,7 +34,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
 		"as both must look at the same steps) and stops the simulation when the test is over. Place it after the solver.",
-		((Real, diameter, 0.,, "Of a disc between a lower and an upper plate; 0: the specimen is a rectangle [m]."))
+		((Real, diameter, 0.,, "Diameter of a disc between a lower and an upper plate; 0: the specimen is a rectangle [m]."))
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
 		((vector<int>, driven,,, "Plates that load a specimen between parts, as :yref:`GrainSolver` numbers them; empty: it is loaded between its ends [-]."))
 		((vector<int>, holding,,, "Plates that hold it against them [-]."))
