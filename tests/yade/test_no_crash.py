@@ -89,6 +89,7 @@ REFUSED = {
     "b = build(dynamic=True); O.dt *= 2; b.run(1)": "O.dt = ",
     "build().solver.sideNodes(99)": "side = 99",
     "build().solver.clearPressure(99)": "side = 99",
+    "build().solver.holdSide(99, x=True)": "side = 99",
     "build().solver.addSidePlates(99)": "side = 99",
     "b = build(); b.add_engines(before=(wrapper.ConfinementController(sides=[99]),)); "
     "b.run(1)": "side = 99",
@@ -98,9 +99,13 @@ REFUSED = {
     "b.run(100)": "stop ratio = nan",
     "b = build(); b.add_engines(after=(wrapper.AxialRecorder(maxStrain=nan),)); "
     "b.run(100)": "largest strain = nan",
-    "b = build(); b.add_engines(after=(wrapper.AxialRecorder(diameter=nan),)); "
-    "b.run(100)": "diameter = nan m",
-    "build(); wrapper.AxialRecorder(diameter=nan).scales()": "diameter = nan m",
+    "b = build(); disc = wrapper.DiscFrame(diameter=nan); "
+    "b.add_engines(after=(wrapper.AxialRecorder(frame=disc),)); b.run(100)": "diameter = nan m",
+    "build(); wrapper.AxialRecorder(frame=wrapper.TestFrame()).scales()": "frame = TestFrame",
+    "build(); wrapper.AxialRecorder(frame=None).names": "frame = None",
+    "build().solver.crossingSteps(-1.0)": "diameter = -1 m",
+    "build(); disc = wrapper.DiscFrame(diameter=nan); "
+    "wrapper.AxialRecorder(frame=disc).scales()": "diameter = nan m",
     "b = build(); O.bodies[0].material.young = 1.0; b.run(1)": "GrainMat.young = 1 Pa",
     "b = build(); O.bodies[0].material.friction = 1.0; b.run(1)": "GrainMat.friction = 1",
     "b = build(); O.bodies[0].material.planeStrain = True; b.run(1)": "GrainMat.planeStrain = 1",
@@ -112,6 +117,8 @@ REFUSED = {
     "flexpm.build(disc); wrapper.EndDisplacementController().release()": "edges of side 1 = 0",
     "build(); wrapper.EndDisplacementController().preload(nan, 1)": "= nan",
     "b = build(); b.add_engines(before=(wrapper.PlateController(plates=[7]),)); "
+    "b.run(1)": "plate = 7",
+    "b = build(); b.add_engines(before=(wrapper.PressureController(plates=[7]),)); "
     "b.run(1)": "plate = 7",
     "build(); O.bodies[0].shape.setMotion((0, 0, 0), 0)": "grain = 0, is deformable",
     "build(); wrapper.LaguerreCell(grain=37).positions": "grain = 37",
@@ -233,7 +240,7 @@ for name in [n for n in vars(cls) if n[0] != "_" and not callable(present(cls(),
     "kind",
     [
         *("GrainSolver", "AxialRecorder", "ConfinementController", "EndDisplacementController"),
-        *("PlateController", "LoadingRateController"),
+        *("PlateController", "PressureController", "LoadingRateController"),
     ],
 )
 def test_no_value_of_an_attribute_ends_the_process(forks, kind):

@@ -434,11 +434,10 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
         result.measure_wave(spec.wave or "", rig.distance)
     for name in spec.kind.no_constants:
         setattr(result, name, None)
-    if spec.model not in SPHERE_MODELS:  # whose bonds tell no energy
-        result.measure_emission(_event_rule(rig.built.specimen))
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
-    if isinstance(rig.built, Model):
+    if isinstance(rig.built, Model):  # bonds of spheres tell no energy
+        result.measure_emission(_event_rule(rig.built.specimen, rig.built.solver))
         result.joint_bend = rig.built.joint_bend
         cuts = rig.built.specimen.joint_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
@@ -454,11 +453,10 @@ def _largest_unbalanced(spec: RunSpec) -> float:
     return quasistatic_ratio(spec.test, spec.model, waiting=waiting, brittle=brittle)
 
 
-def _event_rule(specimen: Specimen) -> EventRule:
+def _event_rule(specimen: Specimen, solver: wrapper.GrainSolver) -> EventRule:
     """What makes an event, by the speed of a wave through a disc of the specimen's area."""
     diameter = specimen.equal_diameter
-    scales = wrapper.AxialRecorder(diameter=diameter).scales()
-    return event_rule(specimen.mean_diameter, diameter, scales["crossing_steps"])
+    return event_rule(specimen.mean_diameter, diameter, solver.crossingSteps(diameter))
 
 
 def write_files(folder: Path, result: Result) -> None:

@@ -51,9 +51,8 @@ class GrainRig(TestRig):
     ) -> None:
         """Take grains that have just been built, or whose scene has been loaded."""
         super().__init__(built, tension=tension, runner=runner)
-        diameter = built.specimen.dimensions["diameter"] if self.disc else 0.0
         self._recorder = built.engine(wrapper.AxialRecorder) or wrapper.AxialRecorder(
-            diameter=diameter, tension=tension
+            frame=self._new_frame()
         )
 
     @property
@@ -121,6 +120,12 @@ class GrainRig(TestRig):
             raise InputError(
                 f"load: {error}, or lay parts that the loading does not lift"
             ) from None
+
+    def _new_frame(self) -> wrapper.TestFrame:
+        """Where the record's load and strains come from."""
+        if self.disc:
+            return wrapper.DiscFrame(diameter=self.built.specimen.dimensions["diameter"])
+        return wrapper.RectangleFrame(tension=self.tension)
 
     def unbalanced(self) -> float:
         """Largest unbalanced force over the mean contact force [-], at the last measured step."""
@@ -284,9 +289,9 @@ class GrainRig(TestRig):
         self.built.solver.mirrorPeriod = 1  # a script may go on from here
         self.built.solver.mirrorBodies()
 
-    @abstractmethod
-    def _pressing(self) -> wrapper.ConfinementController | wrapper.PlateController | None:
+    def _pressing(self) -> wrapper.PressureController | None:
         """The engine that presses on the sides."""
+        return self.built.engine(wrapper.PressureController)
 
     @abstractmethod
     def _take_hold(self) -> wrapper.LoadingController:
@@ -345,17 +350,11 @@ class NodeRig(GrainRig):
 class PlateRig(GrainRig):
     """Rigid plates: the first is the lower one, the second the upper one."""
 
-    def _pressing(self) -> wrapper.PlateController | None:
-        plates = self.built.engine(wrapper.PlateController)
-        return plates if plates and plates.loaded else None
-
     def _press(self, pressure: float, ramp: int) -> None:
         self._lay_ends()
         pressed = [1, *self._lay_membranes()]
         self.built.set_masses()
-        engine = wrapper.PlateController(
-            plates=pressed, loaded=True, pressure=pressure, rampSteps=ramp
-        )
+        engine = wrapper.PressureController(plates=pressed, pressure=pressure, rampSteps=ramp)
         self.built.add_engines(before=(engine,))
 
     def _take_hold(self) -> wrapper.LoadingController:

@@ -70,6 +70,20 @@ class PartRig(GrainRig, PartLayout):
         self.pressed: Part | None = None
         self._begin_layout()
 
+    def _new_frame(self) -> wrapper.PartFrame:
+        return wrapper.PartFrame()
+
+    @property
+    def _frame(self) -> wrapper.PartFrame:
+        """What tells the record which parts hold and load, and along which direction."""
+        frame = self._recorder.frame
+        if not isinstance(frame, wrapper.PartFrame):
+            raise InputError(
+                f"part rig: frame of the scene's record = {type(frame).__name__}, must be a "
+                "PartFrame; build the specimen anew"
+            )
+        return frame
+
     @property
     def kind(self) -> str:
         """Name of the test."""
@@ -246,11 +260,11 @@ class PartRig(GrainRig, PartLayout):
         Raises:
             InputError: where no part loads, nothing holds the specimen, or nothing resists.
         """
-        recorder = self._recorder
-        if not (recorder.driven or recorder.drivenSets):
+        frame = self._frame
+        if not (frame.driven or frame.drivenSets):
             raise InputError("load: driven parts = none, must be at least 1; call drive or turn")
         if self._scales is None:
-            kept = self._recorder.loadingScales
+            kept = frame.loadingScales
             self._scales = Scales(*kept) if kept else super().scales()
         return self._scales
 
@@ -306,7 +320,7 @@ class PartRig(GrainRig, PartLayout):
             InputError: for what is no plate of this rig, or one that the loading drives already.
         """
         part = require_part("press: part", self, part, Part)
-        if self._recorder.loading is not None and part.number in self._recorder.driven:
+        if self._recorder.loading is not None and part.number in self._frame.driven:
             raise InputError(
                 f"press: part = {part}, is driven, must not be; press it before `load`"
             )
@@ -331,11 +345,11 @@ class PartRig(GrainRig, PartLayout):
         return self.built.engine(wrapper.AxialRecorder) is not None
 
     def _load_by(self, call: str, **asked: object) -> None:
-        """Give the recorder what loads, or compare it with what the record has begun with."""
+        """Give the record's frame what loads, or compare it with what the record has begun with."""
         self._require_scene(call)
-        recorder = self._recorder
+        frame = self._frame
         for name, value in asked.items():
-            now = getattr(recorder, name)
+            now = getattr(frame, name)
             same = [*now] == [*value] if isinstance(value, list | tuple) else now == value
             if self._begun and not same:
                 raise InputError(
@@ -344,7 +358,7 @@ class PartRig(GrainRig, PartLayout):
                 )
         if not self._begun:
             for name, value in asked.items():
-                setattr(recorder, name, value)
+                setattr(frame, name, value)
 
     def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
         """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""
@@ -402,18 +416,13 @@ class PartRig(GrainRig, PartLayout):
         own = [name for name in self._recorder.names if name not in COLUMNS]
         return tuple(name for name in own if name not in ("initial_energy", "displacement"))
 
-    def _pressing(self) -> wrapper.PlateController | None:
-        plates = self.built.engine(wrapper.PlateController)
-        return plates if plates and plates.loaded else None
-
     def _press(self, pressure: float, ramp: int) -> None:
         if self.pressed is None:
             raise InputError("confine: part = None, must be one of the rig; call press")
         self._require_scene("press")
         number = self.pressed.number
-        engine = wrapper.PlateController(
+        engine = wrapper.PressureController(
             plates=[number],
-            loaded=True,
             pressure=pressure,
             startPressure=self._pressure_on(number),
             rampSteps=ramp,
@@ -421,9 +430,8 @@ class PartRig(GrainRig, PartLayout):
         self._let_go([number])
         self.built.add_engines(before=(engine,))
 
-    def _pressing_engines(self) -> list[wrapper.PlateController]:
-        there = [one for one in self.built.engines if isinstance(one, wrapper.PlateController)]
-        return [one for one in there if one.loaded]
+    def _pressing_engines(self) -> list[wrapper.PressureController]:
+        return [one for one in self.built.engines if isinstance(one, wrapper.PressureController)]
 
     def _pressure_on(self, plate: int) -> float:
         """Pressure that a plate has been given [Pa]."""
@@ -444,12 +452,11 @@ class PartRig(GrainRig, PartLayout):
 
     def _crossing_steps(self) -> float:
         """Steps of a disc of the specimen's area: what is open before it is pressed has none."""
-        of_disc = wrapper.AxialRecorder(diameter=self.built.specimen.equal_diameter)
-        return float(of_disc.scales()["crossing_steps"])
+        return self.built.solver.crossingSteps(self.built.specimen.equal_diameter)
 
     def _begin_record(self) -> None:
         super()._begin_record()
-        self._recorder.loadingScales = astuple(self.scales())
+        self._frame.loadingScales = list(astuple(self.scales()))
 
     def _drive(self, plan: Schedule) -> None:
         self._require_scene("load")
@@ -459,30 +466,29 @@ class PartRig(GrainRig, PartLayout):
 
     def _require_push(self, velocity: float) -> None:
         """Refuse plates that all go away from the specimen, which nothing presses on them."""
-        recorder, plates = self._recorder, self.built.solver.plates()
-        if recorder.drivenSets:
+        frame, plates = self._frame, self.built.solver.plates()
+        if frame.drivenSets:
             return
-        way = math.copysign(1.0, velocity) * np.array(
-            [recorder.direction[0], recorder.direction[1]]
-        )
-        for number in recorder.driven:
+        way = math.copysign(1.0, velocity) * np.array([frame.direction[0], frame.direction[1]])
+        for number in frame.driven:
             plate = plates[number]
             if plate["bonded"] or plate["pressed"] or any(plate["force"]):
                 return
             if np.dot(plate["normal"], way) > (-_PUSHES if plate["friction"] else _PUSHES):
                 return
-        part = Part(self, self.built.solver, "plate", recorder.driven[0])
+        part = Part(self, self.built.solver, "plate", frame.driven[0])
         raise InputError(
             f"load: driven part = {part}, pulls without bond, must push; turn the direction, or "
             "lay it with bonded=True"
         )
 
     def _take_hold(self) -> wrapper.LoadingController:
-        self._let_go(self._recorder.driven)
+        frame = self._frame
+        self._let_go(frame.driven)
         loading = wrapper.PlateController(
-            plates=self._recorder.driven,
-            nodeSets=self._recorder.drivenSets,
-            backSets=self._recorder.backSets,
+            plates=frame.driven,
+            nodeSets=frame.drivenSets,
+            backSets=frame.backSets,
             elasticStart=True,
             ofParts=True,
         )
@@ -492,14 +498,14 @@ class PartRig(GrainRig, PartLayout):
         return loading
 
     def _move(self, velocity: float, factor: float) -> None:
-        loading, direction = self._recorder.loading, self._recorder.direction
+        loading, direction = self._recorder.loading, self._frame.direction
         assert isinstance(loading, wrapper.PlateController)
         speed = -velocity  # a rig that presses gives that of its upper end, upwards
         loading.velocity = (speed * direction[0], speed * direction[1], speed * direction[2])
         loading.velocityFactor = factor
 
     def _loaded_area(self) -> float:
-        return float(self._recorder.area)
+        return self._frame.area
 
 
 def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> None:

@@ -7,8 +7,7 @@ Deviations D48 and D49.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 import numpy as np
 import yade
@@ -28,9 +27,6 @@ from ..specimens import mineral_map
 from .grain_rig import GrainRig
 from .rig import LEFT, RIGHT
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 #: Heights of the two sections over that of the specimen [-].
 _SECTIONS = (0.25, 0.75)
 #: Width of the band of nodes that a section is, in mean diameters of the grains [-].
@@ -41,32 +37,6 @@ _STRAIN = 1e-7
 _ROWS = 500
 #: Components of the motion.
 _ACROSS, _ALONG = 0, 1
-
-
-@dataclass(frozen=True)
-class _Edge:
-    """The edge of a rigid grain on a side, which must not move along it.
-
-    Held by its centre alone, a grain would carry the half of its mass that lies outwards without
-    the shear stress that moves it: a shear wave would be slower by a quarter of the grain over the
-    width, 2.4 % at 27 grains.
-    """
-
-    shape: wrapper.LaguerreCell
-    arms: FloatArray  #: of its nodes from the centre, (n, 2) [m]
-    arm: float  #: of the edge from the centre, along x [m]
-    mass: float  #: [kg]
-    inertia: float  #: about the centre [kg m2]
-
-    def hold(self) -> None:
-        """Push on the edge so that it stands still."""
-        velocity = self.shape.velocities
-        x, y = velocity[-1]
-        turned = np.column_stack((-self.arms[:, 1], self.arms[:, 0]))
-        spin = float(np.sum(turned * (velocity - velocity[-1])) / np.sum(self.arms**2))
-        push = -(y + spin * self.arm) / (1.0 / self.mass + self.arm**2 / self.inertia)
-        motion = (float(x), float(y + push / self.mass), 0.0)
-        self.shape.setMotion(motion, spin + self.arm * push / self.inertia)
 
 
 class WaveRig(GrainRig):
@@ -86,7 +56,6 @@ class WaveRig(GrainRig):
         self._height = box["height"]
         low = np.asarray(built.specimen.outline).min(axis=0)
         self._bottom = float(low[1])
-        self._edges = list(self._held_edges())
         width = _BAND * built.specimen.mean_diameter
         self._sections = [
             built.solver.sectionNodes(self._bottom + part * self._height, (0.0, 1.0, 0.0), width)
@@ -129,7 +98,8 @@ class WaveRig(GrainRig):
 
     def _begin_wave(self) -> Span:
         crossing = self._height / self.expected_speed()
-        self._hold_sides()
+        for side in (LEFT, RIGHT):  # across the wave's motion, so that it is plane
+            self.built.solver.holdSide(side, x=self._moved == _ALONG, y=self._moved == _ACROSS)
         self._move_bottom()
         solver = self.built.solver
         solver.resetEnergyBalance()
@@ -144,43 +114,6 @@ class WaveRig(GrainRig):
         self.built.add_engines(after=(recorder,))
         rows = -(-steps // period)
         return Span(rows * period, rows * period)
-
-    def _step(self) -> None:
-        super()._step()
-        for edge in self._edges:
-            edge.hold()
-
-    def _hold_sides(self) -> None:
-        """Keep the sides from moving across the wave's motion, so that the wave is plane."""
-        held = 1 - self._moved
-        for grain, node in self._side_nodes():
-            shape = self._shape(grain)
-            if not shape.rigid:
-                shape.held[node, held] = 1
-            elif held == _ACROSS:
-                shape.held[-1, held] = 1  # nodes of a rigid grain follow its centre, the last
-
-    def _held_edges(self) -> Iterator[_Edge]:
-        """Edges of rigid grains on the sides, where a shear wave is held."""
-        if self._moved == _ALONG:
-            return
-        nodes: dict[int, list[int]] = {}
-        for grain, node in self._side_nodes():
-            nodes.setdefault(grain, []).append(node)
-        for grain, on_side in nodes.items():
-            shape = self._shape(grain)
-            if shape.rigid:
-                state = yade.O.bodies[self.built.solver.bodyIds[grain]].state
-                places = shape.positions - shape.displacements
-                arms = places - places[-1]
-                arm = float(np.mean(arms[on_side, 0]))
-                yield _Edge(shape, arms, arm, state.mass, state.inertia[2])
-
-    def _side_nodes(self) -> Iterator[tuple[int, int]]:
-        """Grain and node of all nodes on both sides."""
-        for side in (LEFT, RIGHT):
-            for grain, node in self.built.solver.sideNodes(side):
-                yield int(grain), int(node)
 
     def _move_bottom(self) -> None:
         """Give the lower end the velocities of a pulse. Deviation D48.
@@ -198,9 +131,6 @@ class WaveRig(GrainRig):
                 shape.setMotion((0.0, speed, 0.0) if self._moved else (speed, 0.0, 0.0), 0.0)
             else:
                 shape.velocities[:, self._moved] = velocity
-
-    def _pressing(self) -> None:
-        return None
 
     def _press(self, pressure: float, ramp: int) -> NoReturn:
         self._refuse("confine")

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  A hash for each of the kernel's results, one a line, on every instruction set: builds of two
 /// compilers must print the same. Geometry first: what follows is made of it.
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/geometry/disc_sizes.hpp>
 #include <flexpm/kernel/geometry/insertion.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/preload.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/specimen_strain.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/sample_runs.hpp"
 

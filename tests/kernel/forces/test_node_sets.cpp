@@ -5,8 +5,9 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
@@ -15,6 +16,7 @@
 #include <flexpm/kernel/topology/removal.hpp>
 
 #include "support/balance.hpp"
+#include "support/driven.hpp"
 #include "support/specimens.hpp"
 
 #include <cmath>
@@ -136,7 +138,7 @@ TEST_CASE("A beam that sets pull has equal forces at both ends, and their work i
     CHECK(part_displacement(a, parts) == driven.displacement.x);
     PartGeometry both = parts;
     both.holding_sets = { left };
-    CHECK(observe_parts(a, both).end_mismatch < 1e-3);
+    CHECK(observe(a, part_frame(a, both)).end_mismatch < 1e-3);
     CHECK(part_scales(a, both, 1.0, 1.0).modulus
         == Approx(driven.force.x / driven.displacement.x).epsilon(1e-3));
     const Array<double> none(a.grains.displacement.size(), 0.0);
@@ -166,7 +168,7 @@ TEST_CASE("Nodes that turn about a point go round it, however far")
     set_motion_of(a, all, {}, 1e-3);
     drive_node_sets(a, 1.0);
     for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.is_rigid(g)) prescribe_spin(a.grains, g, 1e-3, 1.0);
+        if (a.grains.is_rigid(g)) driven::prescribe_spin(a.grains, g, 1e-3);
     }
     run(a, 1571);  // a quarter of a turn
     const double angle = 1.571;
@@ -220,9 +222,9 @@ TEST_CASE("Two ends that turn against each other load by the sum of their moment
     CHECK(a.node_sets[left].angle == Approx(-1e-6));
     CHECK(part_scales(a, parts, 1.0, 1.0).modulus
         == Approx(part_load(a, parts) / part_displacement(a, parts)).epsilon(1e-3));
-    CHECK_THROWS_WITH(
-        observe_parts(a, of_sets({ 7 }, {}, 1.0)), Contains("must be the number of a node set"));
-    CHECK_THROWS_WITH(observe_parts(a, of_sets({ 0 }, {})), Contains("direction"));
+    CHECK_THROWS_WITH(observe(a, part_frame(a, of_sets({ 7 }, {}, 1.0))),
+        Contains("must be the number of a node set"));
+    CHECK_THROWS_WITH(observe(a, part_frame(a, of_sets({ 0 }, {}))), Contains("direction"));
 }
 
 TEST_CASE("A loading that changes its velocity takes one that floats along, and the balance closes")
@@ -233,17 +235,17 @@ TEST_CASE("A loading that changes its velocity takes one that floats along, and 
     start(a, right, {}, 1e-9);
     reset_energy_balance(a);
     run(a, 200);
-    const double before = a.node_sets[right].velocity.y, moment = a.node_sets[right].loading_moment;
+    const double before = a.node_sets[right].velocity.y, moment = a.loading.sets[right].moment;
     set_motion_of(a, right, {}, 2e-9);
     change_loading(a, 2.0);
     drive_node_sets(a, 1.0);
     CHECK(a.node_sets[right].velocity.y == Approx(2.0 * before).epsilon(0.05));
-    CHECK(a.node_sets[right].loading_moment == Approx(2.0 * moment));
+    CHECK(a.loading.sets[right].moment == Approx(2.0 * moment));
     run(a, 200);
     CHECK(renew_loading(a));
-    CHECK(a.node_sets[right].loading_moment == Approx(2.0 * moment));
+    CHECK(a.loading.sets[right].moment == Approx(2.0 * moment));
     CHECK(renew_loading(a, -1.0));
-    CHECK(a.node_sets[right].loading_moment == Approx(2.0 * moment));
+    CHECK(a.loading.sets[right].moment == Approx(2.0 * moment));
     run(a, 200);
     CHECK(miss_of(a) < 1e-9);
 }

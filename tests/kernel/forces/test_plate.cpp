@@ -76,7 +76,7 @@ TEST_CASE("plates are in series with a grid of rigid squares", "[plate]")
     CHECK(flexpm::plate_force(a, flexpm::top_side).y == Approx(-force).epsilon(1e-6));
     CHECK(flexpm::plate_force(a, flexpm::bottom_side).y == Approx(force).epsilon(1e-6));
     if (ny > 2) {
-        const auto o = flexpm::observe(a, flexpm::rectangle_of(a, flexpm::Sense::compression));
+        const auto o = flexpm::observe(a, flexpm::rectangle_frame(a, flexpm::Sense::compression));
         CHECK(o.axial_stress == Approx(stress).epsilon(1e-6));
         CHECK(o.axial_stress / o.axial_strain == Approx(stiffness * size).epsilon(1e-6));
     }
@@ -123,7 +123,7 @@ TEST_CASE("friction of a plate is Coulomb's, and its loss is booked", "[plate]")
     flexpm::scale_masses(a, 0.0);
     a.grains.prescribed[a.grains.centre(0)] =
         a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
-    flexpm::prescribe_spin(a.grains, 0, 0.0, 1.0);
+    driven::prescribe_spin(a.grains, 0, 0.0);
     flexpm::set_velocity(a, upper, { 0.0, -1e-9 });
     run(a, 100, 0.0);
     const double normal = -flexpm::plate_force(a, flexpm::top_side).y;

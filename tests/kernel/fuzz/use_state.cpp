@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz/use_state.hpp"
 
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/contact_round.hpp"
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Inner particles: equal areas, and a conforming tessellation across the edges of grains.
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/geometry/lloyd.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/catch.hpp"
 
+#include "support/driven.hpp"
 #include "support/specimens.hpp"
 
 #include <map>
@@ -177,10 +178,10 @@ TEST_CASE("two grains out of line: opening and slip along the chosen normal", "[
     flexpm::scale_masses(a, 0.7);
     a.grains.prescribed[a.grains.centre(0)] =
         a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
-    flexpm::prescribe_spin(a.grains, 0, 0.0, 1.0);
+    driven::prescribe_spin(a.grains, 0, 0.0);
     a.grains.prescribed[a.grains.centre(1)] =
         a.grains.prescribed[component(a.grains.centre(1), 1)] = 1;
-    flexpm::prescribe_spin(a.grains, 1, 0.0, 1.0);
+    driven::prescribe_spin(a.grains, 1, 0.0);
     flexpm::set_motion(a.grains, 1, { way, 0.0 }, 0.0, 1.0);
     flexpm::step(a, flexpm::StepOptions());
 

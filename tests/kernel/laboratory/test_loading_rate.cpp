@@ -7,8 +7,8 @@
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
@@ -120,7 +120,7 @@ TEST_CASE("A test that starts with the elastic velocities deforms as the elastic
         o.measure = i == 19;
         step(a, o);
     }
-    const AxialObservation now = observe(a, rectangle_of(a, Sense::compression));
+    const AxialObservation now = observe(a, rectangle_frame(a, Sense::compression));
     CHECK(now.lateral_strain / now.axial_strain == Approx(solved.poissons_ratio).epsilon(1e-3));
     CHECK(now.axial_stress / now.axial_strain == Approx(solved.youngs_modulus).epsilon(1e-2));
 }

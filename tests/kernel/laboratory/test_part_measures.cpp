@@ -6,10 +6,12 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
+#include <flexpm/kernel/statics/unilateral_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
@@ -243,7 +245,7 @@ TEST_CASE("Load and reaction of parts agree, and their work is the specimen's en
     options.measure = true;
     for (int i = 0; i < 2000; ++i)
         step(a, options);
-    const AxialObservation now = observe_parts(a, parts);
+    const AxialObservation now = observe(a, part_frame(a, parts));
     CHECK(part_displacement(a, parts) == Approx(2e-6));
     CHECK(now.axial_strain == Approx(2e-6 / height));
     CHECK(now.axial_stress * parts.area == Approx(part_load(a, parts)));
@@ -254,7 +256,7 @@ TEST_CASE("Load and reaction of parts agree, and their work is the specimen's en
     const double work = a.plates[0].boundary_work + a.plates[1].boundary_work;
     CHECK(work == Approx(now.energies.elastic).epsilon(0.02));
     parts.holding.clear();  // the load alone counts
-    CHECK(observe_parts(a, parts).end_mismatch == 0.0);
+    CHECK(observe(a, part_frame(a, parts)).end_mismatch == 0.0);
 }
 
 TEST_CASE("A specimen that is cracked through moves as two halves under an undamped loading")
@@ -267,7 +269,7 @@ TEST_CASE("A specimen that is cracked through moves as two halves under an undam
     start_elastically(a, true, Held::by_parts);
     CHECK(count_softened(a) == 0);
     const auto x = [&](int g) { return a.grains.reference[a.grains.centre(g)]; };
-    const auto along = [&](int g) { return a.grains.loading_velocity[a.grains.centre(g)]; };
+    const auto along = [&](int g) { return a.loading.grains.velocity[a.grains.centre(g)]; };
     for (int g = 0; g < a.grains.count; ++g)
         CHECK(along(g) == Approx(x(g) / width).margin(0.15));
     for (int c = 0; c < a.contacts.count; ++c) {
@@ -357,10 +359,10 @@ TEST_CASE("Where a grain has come loose the motion of the loading stays what it 
     Blocks b = blocks_with_joint({ 0.0, -1.0 });
     start_elastically(b.a, true, Held::by_parts);
     CHECK(renew_loading(b.a));
-    const Array<double> before = b.a.grains.loading_velocity;
+    const Array<double> before = b.a.loading.grains.velocity;
     b.a.plates.pop_back();
     for (int p = 0; p < b.a.contacts.points_of(b.joint); ++p)
         b.a.contacts.area(b.joint, p) = 0.0;  // nothing holds the upper block
     CHECK_FALSE(renew_loading(b.a));
-    CHECK(b.a.grains.loading_velocity == before);
+    CHECK(b.a.loading.grains.velocity == before);
 }

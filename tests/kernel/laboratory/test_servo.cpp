@@ -7,10 +7,9 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
-#include <flexpm/kernel/laboratory/loading_field.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/laboratory/servo.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
@@ -174,7 +173,8 @@ TEST_CASE("What a loading gives to a measure is what the measure then grows by")
         CHECK(grown[i] == Approx(steps * rates[i]).epsilon(0.03));
     CHECK(lateral_strain(a, Sense::tension, moved) == -grown[1]);
     s.a.plates[0].loaded = true;
-    s.a.plates[0].loading_velocity = { 3.0, 0.0 };
+    s.a.loading.plates.resize(1);
+    s.a.loading.plates[0].velocity = { 3.0, 0.0 };
     CHECK(plate_rate(a, 0, across) == 3.0);
 }
 

@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 
 #include "support/specimens.hpp"
@@ -159,4 +160,20 @@ TEST_CASE("A rule of what lies ahead without sense is refused")
         CHECK_THROWS_AS(factor_before_softening(a, v, dt, { bad, 50.0 }), std::invalid_argument);
         CHECK_THROWS_AS(factor_before_softening(a, v, dt, { 0.01, bad }), std::invalid_argument);
     }
+}
+
+TEST_CASE("The elastic limit follows from the strengths of the point that reaches one first")
+{
+    // one bond in pure tension: the top moves until K_n u = sigma_t
+    Assembly a = specimens::assemble(specimens::grid(1, 2, 3e-3), specimens::options());
+    grip_bottom(a);
+    move_top(a, 1e-9);
+    Array<double> v(a.grains.velocity.size(), 0.0);
+    for (int n = 0; n < a.grains.nodes_of(1); ++n)
+        v[component(a.grains.node(1, n), 1)] = 1e-9;  // the upper grain as a whole
+    const LawParameters& law = a.contacts.laws[0];
+    CHECK(elastic_time(a, v) == Approx(law.elastic_opening / 1e-9));
+    for (double& value : v)
+        value = -value;
+    CHECK(std::isinf(elastic_time(a, v)));
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion that damping leaves alone while a specimen comes down from its peak, deviation D55.
+/// @file  Motion that damping leaves alone while a specimen comes down from its peak, deviation
+/// D55.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/laboratory/loading_field.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
@@ -85,30 +85,28 @@ TEST_CASE("Damping leaves alone the mean motion since the last look", "[laborato
     for (bool rigid : { false, true }) {
         CAPTURE(rigid);
         Assembly a = shaken_grains(rigid);
-        const Array<double> of_loading = a.grains.loading_velocity;
+        const Array<double> of_loading = a.loading.grains.velocity;
         const Array<double> before = a.grains.displacement;
         const double angle = rigid ? rotation_of(a.grains, 0) : 0.0;
         follow_steady_motion(a, 1.0, 1.0);
-        CHECK(a.grains.loading_velocity == of_loading);  // nothing is known yet
+        CHECK(a.undamped().velocity == of_loading);  // nothing is known yet
         follow_steady_motion(a, 1.0, 1.0);
-        CHECK(a.grains.loading_velocity == of_loading);  // no step has been done
+        CHECK(a.undamped().velocity == of_loading);  // no step has been done
         StepOptions o;
         o.damping = 0.7;
         for (int i = 0; i < 10; ++i)
             step(a, o);
         follow_steady_motion(a, 1.0, 1.0);
         const int node = rigid ? a.grains.centre(0) : a.grains.node(0, 1);
-        CHECK(
-            a.grains.loading_velocity[node] == (a.grains.displacement[node] - before[node]) / 10.0);
-        CHECK(a.grains.loading_velocity[node] != 0.0);
+        CHECK(a.undamped().velocity[node] == (a.grains.displacement[node] - before[node]) / 10.0);
+        CHECK(a.undamped().velocity[node] != 0.0);
         if (rigid) {
-            CHECK(a.grains.loading_spin[a.grains.slot[0]]
-                == (rotation_of(a.grains, 0) - angle) / 10.0);
+            CHECK(a.undamped().spin[a.grains.slot[0]] == (rotation_of(a.grains, 0) - angle) / 10.0);
         }
-        CHECK(velocity_of_loading(a) == of_loading);
+        CHECK(a.loading.grains.velocity == of_loading);
         check_state(a);
         end_steady_motion(a);
-        CHECK(a.grains.loading_velocity == of_loading);
+        CHECK(a.undamped().velocity == of_loading);
         CHECK(!a.steady.is_followed());
     }
 }
@@ -126,10 +124,10 @@ TEST_CASE("Damping acts on what is faster than a descent may be, and on all that
         const Point way = vector_at(a.grains.displacement, node);
         REQUIRE(norm(way) > fastest);
         follow_steady_motion(a, 1.0, fastest);
-        const Point left = vector_at(a.grains.loading_velocity, node);
+        const Point left = vector_at(a.undamped().velocity, node);
         CHECK(norm(left) == Approx(fastest).epsilon(1e-12));
         CHECK(left.x * way.y == Approx(left.y * way.x).epsilon(1e-12));
-        CHECK(norm(vector_at(a.grains.loading_velocity, a.grains.centre(1))) == 0.0);
+        CHECK(norm(vector_at(a.undamped().velocity, a.grains.centre(1))) == 0.0);
         CHECK_THROWS_AS(follow_steady_motion(a, 1.0, 0.0), std::invalid_argument);
     }
 }
@@ -140,19 +138,19 @@ TEST_CASE("A followed motion is no part of the loading's", "[laboratory]")
         CAPTURE(rigid);
         Assembly a = shaken_grains(rigid);
         const int node = a.grains.centre(1), slot = a.grains.slot[1];
-        a.grains.loading_velocity[node] = 3.0 * speed;
-        a.grains.loading_spin[slot] = rigid ? speed : 0.0;
+        a.loading.grains.velocity[node] = 3.0 * speed;
+        a.loading.grains.spin[slot] = rigid ? speed : 0.0;
         follow_steady_motion(a, 1.0, 1.0);
         step(a, StepOptions {});
         follow_steady_motion(a, 1.0, 1.0);
         CHECK(loading_field(a)[node] == 3.0 * speed);
         const double velocity = a.grains.velocity[node];
-        const double followed = a.grains.loading_velocity[node];
+        const double followed = a.undamped().velocity[node];
         change_loading(a, 2.0);
         CHECK(a.grains.velocity[node] == Approx(velocity + 3.0 * speed).epsilon(1e-12));
-        CHECK(a.grains.loading_velocity[node] == followed);
-        CHECK(velocity_of_loading(a)[node] == 6.0 * speed);
-        CHECK(spin_of_loading(a)[slot] == (rigid ? 2.0 * speed : 0.0));
+        CHECK(a.undamped().velocity[node] == followed);
+        CHECK(a.loading.grains.velocity[node] == 6.0 * speed);
+        CHECK(a.loading.grains.spin[slot] == (rigid ? 2.0 * speed : 0.0));
     }
 }
 

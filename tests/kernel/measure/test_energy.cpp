@@ -312,8 +312,8 @@ TEST_CASE("The power of damping sums to its work, and is none where all move wit
         sum += o.dt * flexpm::damping_power(a, o.damping);
     }
     CHECK(sum / flexpm::energies(a).damping == Approx(1.0).epsilon(0.05));
-    a.grains.loading_velocity = a.grains.velocity;
-    a.grains.loading_spin = a.grains.spin;
+    a.loading.grains.velocity = a.grains.velocity;
+    a.loading.grains.spin = a.grains.spin;
     CHECK(flexpm::damping_power(a, o.damping) == 0.0);
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("What damping does to the motion that it leaves alone has a name of it
     Assembly a = bonded_grid(0.7);
     shake(a, tiny, 5);
     for (std::size_t i = 0; i < a.grains.velocity.size(); ++i)
-        a.grains.loading_velocity[i] = 3.0 * tiny;
+        a.loading.grains.velocity[i] = 3.0 * tiny;
     flexpm::reset_energy_balance(a);
     flexpm::StepOptions o;
     o.damping = 0.7;

@@ -201,7 +201,7 @@ TEST_CASE("contacts of rigid grains follow those of deformable grains led along 
     for (int g : { 0, 1 }) {
         stiff.grains.prescribed[stiff.grains.centre(g)] =
             stiff.grains.prescribed[component(stiff.grains.centre(g), 1)] = 1;
-        flexpm::prescribe_spin(stiff.grains, g, 0.0, 1.0);
+        driven::prescribe_spin(stiff.grains, g, 0.0);
     }
     flexpm::set_motion(stiff.grains, 1, { speed, 0.5 * speed }, spin, 1.0);
     const int c = soft.grains.centre(1);
@@ -243,9 +243,9 @@ TEST_CASE("an elastic rigid contact resists rotation with K_n t h^3 / 12", "[rig
     for (int g : { 0, 1 }) {
         a.grains.prescribed[a.grains.centre(g)] =
             a.grains.prescribed[component(a.grains.centre(g), 1)] = 1;
-        flexpm::prescribe_spin(a.grains, g, 0.0, 1.0);
+        driven::prescribe_spin(a.grains, g, 0.0);
     }
-    flexpm::prescribe_spin(a.grains, 1, angle, 1.0);
+    driven::prescribe_spin(a.grains, 1, angle);
     run(a, 1, 0.0);
     const double h = size, t = specimens::thickness;
     // the edge is half a size from the centre: shear adds its force at that arm

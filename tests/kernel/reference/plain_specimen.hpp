@@ -21,7 +21,7 @@ struct Node {
     Point reference;                      ///< place when bonded [m]
     Point displacement;                   ///< since then [m]
     Point velocity;                       ///< half a step after the displacement [m/s]
-    Point loading_velocity;               ///< part of it that is not damped [m/s]
+    Point undamped_velocity;              ///< part of it that is not damped [m/s]
     Point force;                          ///< of the last step, without damping [N]
     bool held_x = false, held_y = false;  ///< the velocity is given
     double inverse_mass = 0.0;            ///< 0: follows a rigid grain [1/kg]
@@ -46,7 +46,7 @@ struct Grain {
     // rigid grains
     double angle = 0.0;            ///< turned since the reference [rad]
     double spin = 0.0;             ///< half a step later [rad/s]
-    double loading_spin = 0.0;     ///< part of it that is not damped [rad/s]
+    double undamped_spin = 0.0;    ///< part of it that is not damped [rad/s]
     bool spin_held = false;        ///< the spin is given
     double inverse_inertia = 0.0;  ///< [1/(kg m^2)]
 
@@ -95,13 +95,13 @@ struct Plate {
     double stiffness = 0.0, shear_stiffness = 0.0;  ///< [Pa/m]
     double friction = 0.0;                          ///< [-]
     bool bonded = false;
-    bool loaded = false;     ///< answers to `load`, else its velocity is given
-    double load = 0.0;       ///< along the normal [N]
-    double mass = 0.0;       ///< [kg]
-    Point displacement;      ///< [m]
-    Point velocity;          ///< half a step later [m/s]
-    Point loading_velocity;  ///< part of it that is not damped [m/s]
-    Point force;             ///< on the specimen [N]
+    bool loaded = false;      ///< answers to `load`, else its velocity is given
+    double load = 0.0;        ///< along the normal [N]
+    double mass = 0.0;        ///< [kg]
+    Point displacement;       ///< [m]
+    Point velocity;           ///< half a step later [m/s]
+    Point undamped_velocity;  ///< part of it that is not damped [m/s]
+    Point force;              ///< on the specimen [N]
     std::vector<PlatePoint> points;
 };
 

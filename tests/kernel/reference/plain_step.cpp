@@ -124,11 +124,11 @@ struct Integration {
     double dt, damping;
 };
 
-/// Velocity half a step after the force, with local damping of what it has beyond that of the loading.
+/// Velocity half a step after the force, with local damping of what it has beyond what is left alone.
 double accelerated(
-    double velocity, double loading, double force, double inverse_mass, Integration by)
+    double velocity, double undamped, double force, double inverse_mass, Integration by)
 {
-    const double own = velocity - loading;
+    const double own = velocity - undamped;
     const double sign = own > 0.0 ? 1.0 : (own < 0.0 ? -1.0 : 0.0);
     return velocity + by.dt * (force - by.damping * std::fabs(force) * sign) * inverse_mass;
 }
@@ -159,8 +159,8 @@ void push(Specimen& s, Plate& plate, double dt, double damping)
     }
     if (!plate.loaded) return;
     const double net = plate.load - dot(n, plate.force), speed = dot(n, plate.velocity);
-    const double loading = dot(n, plate.loading_velocity);
-    plate.velocity = accelerated(speed, loading, net, 1.0 / plate.mass, { dt, damping }) * n;
+    const double undamped = dot(n, plate.undamped_velocity);
+    plate.velocity = accelerated(speed, undamped, net, 1.0 / plate.mass, { dt, damping }) * n;
 }
 
 // ---- triangles ---------------------------------------------------------------------------------
@@ -229,9 +229,9 @@ void strain_triangle(Specimen& s, const Grain& grain, const std::array<int, 3>& 
 
 void accelerate(Node& n, Point force, Integration by)
 {
-    const Point old = n.velocity, loading = n.loading_velocity;
-    if (!n.held_x) n.velocity.x = accelerated(old.x, loading.x, force.x, n.inverse_mass, by);
-    if (!n.held_y) n.velocity.y = accelerated(old.y, loading.y, force.y, n.inverse_mass, by);
+    const Point old = n.velocity, undamped = n.undamped_velocity;
+    if (!n.held_x) n.velocity.x = accelerated(old.x, undamped.x, force.x, n.inverse_mass, by);
+    if (!n.held_y) n.velocity.y = accelerated(old.y, undamped.y, force.y, n.inverse_mass, by);
 }
 
 /// Places at the end of the step. The nodes of a rigid grain follow its centre by exact rotation.
@@ -267,7 +267,8 @@ void accelerate(Specimen& s, Grain& grain, Integration by)
     }
     accelerate(centre, force, by);
     if (!grain.spin_held)
-        grain.spin = accelerated(grain.spin, grain.loading_spin, moment, grain.inverse_inertia, by);
+        grain.spin =
+            accelerated(grain.spin, grain.undamped_spin, moment, grain.inverse_inertia, by);
     // velocities of the nodes whose product with dt is the exact way of the coming step
     for (int n : grain.nodes) {
         const Point arm = s.nodes[n].place() - centre.place();

@@ -249,7 +249,7 @@ void draw_boundary(Random& random, Assembly& a, std::string& name)
             flexpm::prescribe(a, flexpm::side_nodes(a, side), below(random, 2), 0.0);
     }
     if (a.grains.is_rigid(0) && chance(random, 0.3))
-        flexpm::prescribe_spin(a.grains, below(random, a.grains.count), 0.0, 1.0);
+        driven::prescribe_spin(a.grains, below(random, a.grains.count), 0.0);
 }
 
 /// Let a part of all velocities be that of a loading, which is not damped.
@@ -258,11 +258,11 @@ void draw_loading(Random& random, Assembly& a)
     const double part = chance(random, 0.5) ? 0.0 : between(random, -0.5, 1.0);
     flexpm::Grains& grains = a.grains;
     for (std::size_t i = 0; i < grains.velocity.size(); ++i)
-        grains.loading_velocity[i] = part * grains.velocity[i];
+        a.loading.grains.velocity[i] = part * grains.velocity[i];
     for (std::size_t i = 0; i < grains.spin.size(); ++i)
-        grains.loading_spin[i] = part * grains.spin[i];
-    for (flexpm::Plate& p : a.plates)
-        p.loading_velocity = part * p.velocity;
+        a.loading.grains.spin[i] = part * grains.spin[i];
+    for (const flexpm::Plate& p : a.plates)
+        a.loading.plates.push_back({ part * p.velocity, {}, 0.0 });
 }
 
 /// A length over which the contacts of a specimen soften [m].

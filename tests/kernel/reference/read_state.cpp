@@ -22,13 +22,14 @@ using flexpm::vector_at;
 /// Numbers of the nodes in the plain list by their offsets in the kernel's arrays.
 using Numbers = std::map<int, int>;
 
-Node read_node(const flexpm::Grains& grains, int offset)
+Node read_node(const Assembly& a, int offset)
 {
+    const flexpm::Grains& grains = a.grains;
     Node n;
     n.reference = vector_at(grains.reference, offset);
     n.displacement = vector_at(grains.displacement, offset);
     n.velocity = vector_at(grains.velocity, offset);
-    n.loading_velocity = vector_at(grains.loading_velocity, offset);
+    n.undamped_velocity = vector_at(a.undamped().velocity, offset);
     n.force = vector_at(grains.force, offset);
     n.held_x = grains.prescribed[flexpm::component(offset, 0)] != 0;
     n.held_y = grains.prescribed[flexpm::component(offset, 1)] != 0;
@@ -36,14 +37,15 @@ Node read_node(const flexpm::Grains& grains, int offset)
     return n;
 }
 
-void read_grain(const flexpm::Grains& grains, int g, Specimen& s, Numbers& number)
+void read_grain(const Assembly& a, int g, Specimen& s, Numbers& number)
 {
+    const flexpm::Grains& grains = a.grains;
     Grain grain;
     for (int n = 0; n < grains.nodes_of(g); ++n) {
         const int offset = grains.node(g, n);
         number[offset] = static_cast<int>(s.nodes.size());
         grain.nodes.push_back(number[offset]);
-        s.nodes.push_back(read_node(grains, offset));
+        s.nodes.push_back(read_node(a, offset));
     }
     grain.centre = number[grains.centre(g)];
     for (int t = 0; t < flexpm::triangles_of(grains, g); ++t) {
@@ -57,7 +59,7 @@ void read_grain(const flexpm::Grains& grains, int g, Specimen& s, Numbers& numbe
         const int slot = grains.slot[g];
         grain.angle = flexpm::rotation_of(grains, g);
         grain.spin = grains.spin[slot];
-        grain.loading_spin = grains.loading_spin[slot];
+        grain.undamped_spin = a.undamped().spin[slot];
         grain.spin_held = grains.spin_prescribed[slot] != 0;
         grain.inverse_inertia = grains.inverse_inertia[slot];
     }
@@ -95,8 +97,9 @@ Contact read_contact(const Assembly& a, int c, const Numbers& number)
     return contact;
 }
 
-Plate read_plate(const Assembly& a, const flexpm::Plate& from, const Numbers& number)
+Plate read_plate(const Assembly& a, std::size_t place, const Numbers& number)
 {
+    const flexpm::Plate& from = a.plates[place];
     Plate plate;
     plate.normal = from.normal;
     plate.stiffness = from.stiffness;
@@ -108,7 +111,7 @@ Plate read_plate(const Assembly& a, const flexpm::Plate& from, const Numbers& nu
     plate.mass = from.mass;
     plate.displacement = from.displacement;
     plate.velocity = from.velocity;
-    plate.loading_velocity = from.loading_velocity;
+    plate.undamped_velocity = a.loading.of_plate(place).velocity;
     plate.force = from.force;
     for (int i = 0; i < flexpm::plate_points(from); ++i) {
         const flexpm::PlatePoint p = flexpm::plate_point(from, i);
@@ -212,15 +215,15 @@ Specimen read_state(const Assembly& a)
     Specimen s;
     Numbers number;
     for (int g = 0; g < a.grains.count; ++g)
-        read_grain(a.grains, g, s, number);
+        read_grain(a, g, s, number);
     for (int c = 0; c < a.contacts.count; ++c)
         s.contacts.push_back(read_contact(a, c, number));
     for (int e = 0; e < a.edges.count; ++e) {
         const auto nodes = a.edges.nodes(e);
         s.edges.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, a.edges.pressure[e] });
     }
-    for (const flexpm::Plate& plate : a.plates)
-        s.plates.push_back(read_plate(a, plate, number));
+    for (std::size_t p = 0; p < a.plates.size(); ++p)
+        s.plates.push_back(read_plate(a, p, number));
     s.thickness = a.thickness;
     s.gravity = a.gravity;
     s.step = a.step;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/step.hpp>
 
 #include "support/specimens.hpp"
@@ -35,6 +36,14 @@ template <class Velocity> void set_velocity(Assembly& a, int grain, Velocity vel
 inline void set_velocity(Assembly& a, int grain, Point v)
 {
     set_velocity(a, grain, [v](Point) { return v; });
+}
+
+/// Give a rigid grain a spin [rad/s] that no moment changes.
+inline void prescribe_spin(flexpm::Grains& grains, int grain, double spin)
+{
+    const Point velocity = vector_at(grains.velocity, grains.centre(grain));
+    flexpm::set_motion(grains, grain, velocity, spin, 1.0);
+    grains.spin_prescribed[grains.slot[grain]] = 1;
 }
 
 /// Velocities that bring every node in one step of `dt` to target(node offset).

@@ -3,12 +3,12 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/driven.hpp"
 #include "support/law_path.hpp"

@@ -2,7 +2,6 @@
 /// @file  Bonds and grains that a script erases: energies to round-off, the record of cracks, and that nothing else
 /// knows of them any more. SI units.
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
@@ -15,6 +14,7 @@
 #include <flexpm/kernel/topology/contact_update.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/catch.hpp"
 

@@ -183,6 +183,22 @@ inline double damage_of(const Contacts& contacts, int contact, int point)
     return law::damage(contacts.law_of(contact), s.max_opening, s.shear_damage);
 }
 
+/// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
+inline Point relative_velocity(
+    const Contacts& contacts, int contact, int point, const Array<double>& velocity)
+{
+    Point sum;
+    for (int side = 0; side < 2; ++side) {
+        const double sign = side == 0 ? -1.0 : 1.0;
+        const double w = contacts.weight(contact, point, side);
+        for (int end = 0; end < 2; ++end) {
+            const double part = sign * (end == 0 ? 1.0 - w : w);
+            sum = sum + part * vector_at(velocity, contacts.node(contact, side, end));
+        }
+    }
+    return sum;
+}
+
 /// Shares of an edge's second node between which a contact acts: the whole edge, but a part where the faces of a joint have slid.
 inline std::array<double, 2> acting_part(const Assembly& a, int contact, int side)
 {

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/assembly/contacts.hpp>
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
 #include <flexpm/kernel/assembly/grains.hpp>
+#include <flexpm/kernel/assembly/loading_motion.hpp>
 #include <flexpm/kernel/assembly/parts.hpp>
 #include <flexpm/kernel/assembly/step_plan.hpp>
 
@@ -22,7 +23,9 @@ struct Assembly {
     BoundaryEdges edges;
     std::vector<Plate> plates;
     std::vector<NodeSet> node_sets;
+    std::vector<HeldEdge> held_edges;
     EnergyLedger ledger;
+    LoadingMotion loading;
     SteadyMotion steady;
     double thickness = 0.0;  ///< out of plane [m]
     Point gravity;           ///< acceleration of all masses [m/s^2], by set_gravity()
@@ -30,6 +33,12 @@ struct Assembly {
 
     // derived
     StepPlan plan;
+
+    /// Motion of the grains that damping does not act on.
+    const GrainMotion& undamped() const
+    {
+        return steady.is_followed() ? steady.mean : loading.grains;
+    }
 
     /// Calls visit(name, member) for all members that are saved.
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
@@ -39,7 +48,9 @@ struct Assembly {
         visit("edges", s.edges);
         visit("plates", s.plates);
         visit("node_sets", s.node_sets);
+        visit("held_edges", s.held_edges);
         visit("ledger", s.ledger);
+        visit("loading", s.loading);
         visit("steady", s.steady);
         visit("thickness", s.thickness);
         visit("gravity_x", s.gravity.x);

@@ -56,7 +56,6 @@ struct Grains {
     Array<double> reference;         ///< position when bonded [m]
     Array<double> displacement;      ///< from `reference` [m]
     Array<double> velocity;          ///< half a step after `displacement` [m/s]
-    Array<double> loading_velocity;  ///< part of `velocity` that damping does not act on [m/s]
     Array<double> force;             ///< contacts, elements, pressure; without damping [N]
     Array<std::uint8_t> prescribed;  ///< 1: the velocity is given, not integrated
     Array<double> inverse_mass;      ///< [block][node][lane], of the scaled or real mass [1/kg]
@@ -65,7 +64,6 @@ struct Grains {
     // centre node, which alone can be prescribed; velocities of all nodes follow from centre and spin.
     Array<double> rotation;         ///< [block][RotationRow][lane]
     Array<double> spin;             ///< angular velocity, half a step after `rotation` [rad/s]
-    Array<double> loading_spin;     ///< part of `spin` that damping does not act on [rad/s]
     Array<double> inverse_inertia;  ///< of the scaled or real moment of inertia [1/(kg m^2)]
     Array<std::uint8_t> spin_prescribed;  ///< 1: the spin is given, not integrated
 
@@ -123,39 +121,15 @@ struct Grains {
         visit("reference", s.reference);
         visit("displacement", s.displacement);
         visit("velocity", s.velocity);
-        visit("loading_velocity", s.loading_velocity);
         visit("force", s.force);
         visit("prescribed", s.prescribed);
         visit("inverse_mass", s.inverse_mass);
         visit("rotation", s.rotation);
         visit("spin", s.spin);
-        visit("loading_spin", s.loading_spin);
         visit("inverse_inertia", s.inverse_inertia);
         visit("spin_prescribed", s.spin_prescribed);
         visit("shape", s.shape);
         visit("stiffness", s.stiffness);
-    }
-};
-
-/// What the motion of the grains is followed by while a specimen comes down from its peak, deviation D55. Grains::loading_velocity
-/// and loading_spin hold the mean motion since the last look then; all lists are empty while it is not followed.
-struct SteadyMotion {
-    Array<double>
-        loading_velocity;  ///< that the loading alone gives, layout of Grains::displacement [m/s]
-    Array<double> loading_spin;  ///< the same of rigid grains, [slot] [rad/s]
-    Array<double> displacement;  ///< at the last look [m]
-    Array<double> angle;         ///< of rigid grains at the last look, [slot] [rad]
-    std::int64_t step = 0;       ///< of the last look
-
-    bool is_followed() const { return !loading_velocity.empty(); }
-
-    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
-    {
-        visit("loading_velocity", s.loading_velocity);
-        visit("loading_spin", s.loading_spin);
-        visit("displacement", s.displacement);
-        visit("angle", s.angle);
-        visit("step", s.step);
     }
 };
 

@@ -30,9 +30,7 @@ struct Plate {
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
     double load = 0.0;    ///< force on the plate along its normal [N]
     Point velocity;       ///< half a step after `displacement` [m/s]
-    Point
-        loading_velocity;  ///< part of `velocity` of a loaded plate that damping does not act on [m/s]
-    double mass = 0.0;     ///< of a loaded plate, scaled [kg]
+    double mass = 0.0;    ///< of a loaded plate, scaled [kg]
 
     // state
     Point displacement;           ///< [m]
@@ -70,8 +68,6 @@ struct Plate {
         visit("load", s.load);
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
-        visit("loading_velocity_x", s.loading_velocity.x);
-        visit("loading_velocity_y", s.loading_velocity.y);
         visit("mass", s.mass);
         visit("displacement_x", s.displacement.x);
         visit("displacement_y", s.displacement.y);
@@ -110,11 +106,8 @@ struct NodeSet {
     bool floats = false;
 
     // what drives it
-    Point velocity;          ///< of the pivot, half a step after `displacement` [m/s]
-    double spin = 0.0;       ///< [rad/s]
-    Point loading_velocity;  ///< of one that floats: part of `velocity` that is not damped [m/s]
-    Point loading_force;     ///< growth of `force` with the motion of the loading [N/s]
-    double loading_moment = 0.0;  ///< the same of `moment` [N m/s]
+    Point velocity;     ///< of the pivot, half a step after `displacement` [m/s]
+    double spin = 0.0;  ///< [rad/s]
 
     // state
     Point pivot;          ///< where it is now [m]
@@ -144,11 +137,6 @@ struct NodeSet {
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
         visit("spin", s.spin);
-        visit("loading_velocity_x", s.loading_velocity.x);
-        visit("loading_velocity_y", s.loading_velocity.y);
-        visit("loading_force_x", s.loading_force.x);
-        visit("loading_force_y", s.loading_force.y);
-        visit("loading_moment", s.loading_moment);
         visit("pivot_x", s.pivot.x);
         visit("pivot_y", s.pivot.y);
         visit("displacement_x", s.displacement.x);
@@ -167,6 +155,22 @@ struct NodeSet {
         visit("drag_work_next", s.drag_work_next);
         visit("kinetic", s.kinetic);
         visit("unbalanced", s.unbalanced);
+    }
+};
+
+/// The edge of a rigid grain that must not move along an axis, see hold_side().
+struct HeldEdge {
+    int grain = 0;
+    int axis = 0;
+    double lever =
+        0.0;  ///< velocity along the axis that a spin of 1 gives to it, at the reference [m]
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("grain", s.grain);
+        visit("axis", s.axis);
+        visit("lever", s.lever);
     }
 };
 

@@ -95,22 +95,30 @@ void check_blocks(const Grains& grains)
         check_index("values of nodes", nodes, std::numeric_limits<int>::max() / 2);
         check_index("values of triangles", triangles, std::numeric_limits<int>::max());
     }
-    for (std::size_t size :
-        { grains.reference.size(), grains.displacement.size(), grains.velocity.size(),
-            grains.loading_velocity.size(), grains.force.size(), grains.prescribed.size() }) {
+    for (std::size_t size : { grains.reference.size(), grains.displacement.size(),
+             grains.velocity.size(), grains.force.size(), grains.prescribed.size() }) {
         check_size("values of nodes", size, nodes);
     }
     check_size("masses", grains.inverse_mass.size(), nodes / dimension);
     check_size("shapes of triangles", grains.shape.size(), triangles);
 }
 
+void check_loading(const Assembly& a)
+{
+    const LoadingMotion& l = a.loading;
+    check_size("velocities of the loading", l.grains.velocity.size(), a.grains.velocity.size());
+    check_size("spins of the loading", l.grains.spin.size(), a.grains.spin.size());
+    check_index("plates of the loading", l.plates.size(), a.plates.size() + 1);
+    check_index("node sets of the loading", l.sets.size(), a.node_sets.size() + 1);
+}
+
 void check_steady(const Assembly& a)
 {
     const SteadyMotion& s = a.steady;
     const bool followed = s.is_followed();
-    for (std::size_t size : { s.loading_velocity.size(), s.displacement.size() })
+    for (std::size_t size : { s.mean.velocity.size(), s.displacement.size() })
         check_size("values of nodes followed", size, followed ? a.grains.displacement.size() : 0);
-    for (std::size_t size : { s.loading_spin.size(), s.angle.size() })
+    for (std::size_t size : { s.mean.spin.size(), s.angle.size() })
         check_size("rotations followed", size, followed ? a.grains.spin.size() : 0);
     check_index("step of the last look", s.step, a.step + 1);
 }
@@ -131,8 +139,8 @@ void check_grains(const Grains& grains)
     check_indices("material of a grain", grains.material, kinds);
     check_indices("grain of a particle", grains.parent, grains.count);
     const std::int64_t slots = static_cast<std::int64_t>(grains.in_slot.size());
-    for (std::size_t size : { grains.spin.size(), grains.loading_spin.size(),
-             grains.inverse_inertia.size(), grains.spin_prescribed.size() }) {
+    for (std::size_t size :
+        { grains.spin.size(), grains.inverse_inertia.size(), grains.spin_prescribed.size() }) {
         check_size("rotations", size, slots);
     }
     check_size("rotations", grains.rotation.size(), RotationRow::count * slots);
@@ -257,8 +265,13 @@ void check_state(const Assembly& a)
     check_index("node sets", static_cast<std::int64_t>(a.node_sets.size()), most);
     for (const NodeSet& set : a.node_sets)
         check_node_set(a.grains, set);
+    for (const HeldEdge& edge : a.held_edges) {
+        check_index("grain of a held edge", edge.grain, a.grains.count);
+        check_index("axis of a held edge", edge.axis, dimension);
+    }
     check_ledger(a.ledger, a.grains.blocks());
     check_index("step", a.step, std::int64_t { 1 } << 60);
+    check_loading(a);
     check_steady(a);
 }
 

@@ -3,8 +3,8 @@
 /// loaded and after contacts or edges have changed; no step builds any of it.
 #pragma once
 
-#include <flexpm/kernel/assembly/lists.hpp>
 #include <flexpm/kernel/core/array.hpp>
+#include <flexpm/kernel/core/lists.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -115,14 +115,16 @@ double mass_of(const Grains& grains, const NodeSet& set)
 }
 
 /// One that floats answers to the specimen: to minus the forces that hold its nodes.
-void integrate_floating(const Assembly& a, NodeSet& set, double dt, double damping)
+///
+/// @param undamped  part of its velocity that damping does not act on [m/s]
+void integrate_floating(const Assembly& a, NodeSet& set, Point undamped, double dt, double damping)
 {
     const double mass = mass_of(a.grains, set), inverse = mass > 0.0 ? 1.0 / mass : 0.0;
     StepSums sums;
-    integrate_one<true>({ -set.force.x, inverse, 0.0, set.loading_velocity.x }, dt, damping,
-        set.velocity.x, sums, 0);
-    integrate_one<true>({ -set.force.y, inverse, 0.0, set.loading_velocity.y }, dt, damping,
-        set.velocity.y, sums, 0);
+    integrate_one<true>(
+        { -set.force.x, inverse, 0.0, undamped.x }, dt, damping, set.velocity.x, sums, 0);
+    integrate_one<true>(
+        { -set.force.y, inverse, 0.0, undamped.y }, dt, damping, set.velocity.y, sums, 0);
     set.damping_work += set.damping_work_next + sums.damped[0];
     set.damping_work_next = sums.damped_next[0];
     set.drag_work += set.drag_work_next + sums.dragged[0];
@@ -233,14 +235,15 @@ void drive_node_sets(Assembly& a, double dt)
 
 void update_node_sets(Assembly& a, double dt, double damping)
 {
-    for (NodeSet& set : a.node_sets) {
+    for (std::size_t i = 0; i < a.node_sets.size(); ++i) {
+        NodeSet& set = a.node_sets[i];
         set.displacement = set.displacement + dt * set.velocity;
         set.pivot = set.pivot + dt * set.velocity;
         set.angle += dt * set.spin;
         const double power = sum_reactions(a, set), of_float = float_power(set);
         set.work += set.work_next + 0.5 * dt * (power - of_float);
         set.float_work += set.float_work_next + 0.5 * dt * of_float;
-        if (set.floats) integrate_floating(a, set, dt, damping);
+        if (set.floats) integrate_floating(a, set, a.loading.of_set(i).velocity, dt, damping);
         drive(a, set, dt);
     }
 }

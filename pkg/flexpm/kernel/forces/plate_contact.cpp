@@ -2,6 +2,7 @@
 /// @file  Plates against boundary edges.
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/central_difference.hpp>
 
 #include <algorithm>
@@ -71,15 +72,16 @@ bool bears_any(const Assembly& a, const Plate& plate)
 
 /// A loaded plate answers to its load and to the specimen along its normal. Deviation D57: with loose grains alone before it
 /// the load would drive it through the specimen and does not act.
-void integrate_loaded(Plate& plate, bool bears, double dt, double damping)
+///
+/// @param undamped  part of its speed that damping does not act on [m/s]
+void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, double damping)
 {
     const double load = bears ? plate.load : 0.0;
     const double net = load - dot(plate.normal, plate.force);
     double speed = dot(plate.normal, plate.velocity);
     const double old = speed;
     StepSums sums;
-    const double loading = dot(plate.normal, plate.loading_velocity);
-    integrate_one<true>({ net, 1.0 / plate.mass, 0.0, loading }, dt, damping, speed, sums, 0);
+    integrate_one<true>({ net, 1.0 / plate.mass, 0.0, undamped }, dt, damping, speed, sums, 0);
     plate.velocity = speed * plate.normal;
     plate.damping_work += plate.damping_work_next + sums.damped[0];
     plate.damping_work_next = sums.damped_next[0];
@@ -91,19 +93,54 @@ void integrate_loaded(Plate& plate, bool bears, double dt, double damping)
     plate.unbalanced = bears ? sums.largest[0] : plate.load;
 }
 
-void update_plate(Assembly& a, Plate& plate, double dt, double damping)
+void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 {
+    Plate& plate = a.plates[number];
     const Point before = plate.force;
     plate.displacement = plate.displacement + dt * plate.velocity;
     plate.force = touch(a, plate, dt);
     if (plate.loaded) {
-        integrate_loaded(plate, bears_any(a, plate), dt, damping);
+        const double undamped = dot(plate.normal, a.loading.of_plate(number).velocity);
+        integrate_loaded(plate, undamped, bears_any(a, plate), dt, damping);
     } else {
         plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }
 }
 
 }  // namespace
+
+void require_plate(const Assembly& a, int plate)
+{
+    if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
+        refuse("plate", plate, "", "must be the number of a plate; add one first");
+    }
+}
+
+void press(Assembly& a, int plate, double pressure)
+{
+    require_plate(a, plate);
+    check_not_negative("pressure on a plate", pressure, "Pa");
+    if (a.plates[plate].mass <= 0.0) {
+        refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
+    }
+    a.plates[plate].loaded = true;
+    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
+}
+
+void set_velocity(Assembly& a, int plate, Point velocity)
+{
+    require_plate(a, plate);
+    check_finite("velocity of a plate", velocity.x, "m/s");
+    check_finite("velocity of a plate", velocity.y, "m/s");
+    Plate& p = a.plates[plate];
+    // the half step that a loaded plate was promised is not taken any more
+    if (p.loaded) {
+        p.boundary_work_next = p.damping_work_next = p.drag_work_next = 0.0;
+        p.kinetic = p.unbalanced = 0.0;
+    }
+    p.loaded = false;
+    p.velocity = velocity;
+}
 
 int plate_points(const Plate& p) { return static_cast<int>(p.edges.size()) * p.points; }
 
@@ -128,8 +165,8 @@ void update_plates(Assembly& a, double dt, double damping)
             set_vector(a.edges.forces, first + node_stride, {});
         }
     }
-    for (Plate& plate : a.plates)
-        update_plate(a, plate, dt, damping);
+    for (std::size_t i = 0; i < a.plates.size(); ++i)
+        update_plate(a, i, dt, damping);
 }
 
 double elastic_energy(const Plate& plate)

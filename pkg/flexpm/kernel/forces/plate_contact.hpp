@@ -10,6 +10,9 @@
 
 namespace flexpm {
 
+/// @throws std::invalid_argument  unless there is a plate of that number
+void require_plate(const Assembly& a, int plate);
+
 /// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity. It does not act while all of
 /// its grains are loose, which counts as a load that nothing balances.
 void press(Assembly& a, int plate, double pressure);

@@ -19,9 +19,4 @@ double cell_area(const Tessellation& t, int cell)
     return polygon_shape(cell_polygon(t, cell)).area;
 }
 
-Point cell_centroid(const Tessellation& t, int cell)
-{
-    return polygon_shape(cell_polygon(t, cell)).centroid;
-}
-
 }  // namespace flexpm

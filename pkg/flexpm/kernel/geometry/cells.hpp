@@ -48,7 +48,4 @@ std::vector<Point> cell_polygon(const Tessellation& tessellation, int cell);
 /// Area of a cell [m^2].
 double cell_area(const Tessellation& tessellation, int cell);
 
-/// Centroid of a cell.
-Point cell_centroid(const Tessellation& tessellation, int cell);
-
 }  // namespace flexpm

@@ -74,7 +74,7 @@ double plate_way(const Assembly& a, int plate, Point direction)
 double plate_rate(const Assembly& a, int plate, Point direction)
 {
     const Plate& p = plate_of(a, plate);
-    return dot(p.loaded ? p.loading_velocity : p.velocity, direction);
+    return dot(p.loaded ? a.loading.of_plate(plate).velocity : p.velocity, direction);
 }
 
 double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction)

@@ -5,8 +5,9 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <algorithm>
@@ -148,22 +149,21 @@ double push(const Assembly& a, const std::vector<int>& plates, Point direction)
 
 /// Sum over the driven sets along the loading, of a force and a moment of each.
 template <class Force, class Moment>
-double sum_of_sets(
-    const Assembly& a, const PartGeometry& parts, const Force& force, const Moment& moment)
+double sum_of_sets(const PartGeometry& parts, const Force& force, const Moment& moment)
 {
     double sum = 0.0;
     for (int s : parts.driven_sets)
-        sum += dot(force(a.node_sets[s]), parts.direction) + parts.turn * moment(a.node_sets[s]);
+        sum += dot(force(s), parts.direction) + parts.turn * moment(s);
     for (int s : parts.back_sets)
-        sum -= parts.turn * moment(a.node_sets[s]);
+        sum -= parts.turn * moment(s);
     return sum;
 }
 
 double push_of_sets(const Assembly& a, const PartGeometry& parts)
 {
     return sum_of_sets(
-        a, parts, [](const NodeSet& s) { return s.force; },
-        [](const NodeSet& s) { return s.moment; });
+        parts, [&](int set) { return a.node_sets[set].force; },
+        [&](int set) { return a.node_sets[set].moment; });
 }
 
 /// Forces along the loading: of the holding plates and of the driven ones.
@@ -182,8 +182,8 @@ EndForces ends_of(const Assembly& a, const PartGeometry& parts)
 double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity)
 {
     double sum = sum_of_sets(
-        a, parts, [](const NodeSet& s) { return s.loading_force; },
-        [](const NodeSet& s) { return s.loading_moment; });
+        parts, [&](int set) { return a.loading.of_set(set).force; },
+        [&](int set) { return a.loading.of_set(set).moment; });
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
@@ -212,13 +212,19 @@ double part_displacement(const Assembly& a, const PartGeometry& parts)
     return dot(set.displacement, parts.direction) + parts.turn * set.angle;
 }
 
-AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts)
+TestFrame part_frame(const Assembly& a, const PartGeometry& parts)
 {
     check(a, parts);
-    AxialObservation o = observe_ends(a, ends_of(a, parts), Sense::tension, parts.area);
-    o.axial_strain = part_displacement(a, parts) / parts.length;
-    o.lateral_strain = std::numeric_limits<double>::quiet_NaN();
-    return o;
+    TestFrame frame;
+    frame.area = parts.area;
+    frame.height = parts.length;
+    frame.sense = Sense::tension;
+    frame.ends = [parts](const Assembly& now) { return ends_of(now, parts); };
+    frame.strains = [parts](const Assembly& now) {
+        return TestStrains { part_displacement(now, parts) / parts.length,
+            std::numeric_limits<double>::quiet_NaN() };
+    };
+    return frame;
 }
 
 TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt)
@@ -236,9 +242,10 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     }
     require_held(moved);
     for (NodeSet& set : moved.node_sets) {
-        set.velocity = set.loading_velocity = {};
+        set.velocity = {};
         set.spin = 0.0;
     }
+    moved.loading.sets.clear();
     for (int s : parts.driven_sets)
         set_motion_of(moved, s, parts.direction, parts.turn);
     for (int s : parts.back_sets)

@@ -3,8 +3,7 @@
 /// against a part of the outline, and node sets. SI units; load and displacement are positive along the loading.
 #pragma once
 
-#include <flexpm/kernel/laboratory/axial_measures.hpp>
-#include <flexpm/kernel/laboratory/loading_scales.hpp>
+#include <flexpm/kernel/laboratory/test_frame.hpp>
 
 #include <vector>
 
@@ -34,9 +33,9 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
 /// Way of the driven parts along the loading [m], or their angle [rad].
 double part_displacement(const Assembly& a, const PartGeometry& parts);
 
-/// Observation of the last step, which must have been measured, without lateral strain and confinement.
+/// The frame of such a test; its load is positive as tension is. There is no lateral strain and no confinement.
 /// @throws std::invalid_argument  if a part is not there or a size is not above zero
-AxialObservation observe_parts(const Assembly& a, const PartGeometry& parts);
+TestFrame part_frame(const Assembly& a, const PartGeometry& parts);
 
 /// Scales of such a test, from its elastic solution for a unit way of the driven parts: its stiffness gives the
 /// modulus, and the mass that takes part in the motion the steps of a crossing. These are those of a bar of the same

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/loading_scales.hpp>
+#include <flexpm/kernel/statics/unilateral_solve.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -113,21 +114,6 @@ double cut_area(const Assembly& a)
 }
 
 }  // namespace
-
-Point relative_velocity(
-    const Contacts& contacts, int contact, int point, const Array<double>& velocity)
-{
-    Point sum;
-    for (int side = 0; side < 2; ++side) {
-        const double sign = side == 0 ? -1.0 : 1.0;
-        const double w = contacts.weight(contact, point, side);
-        for (int end = 0; end < 2; ++end) {
-            const double part = sign * (end == 0 ? 1.0 - w : w);
-            sum = sum + part * vector_at(velocity, contacts.node(contact, side, end));
-        }
-    }
-    return sum;
-}
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)
 {

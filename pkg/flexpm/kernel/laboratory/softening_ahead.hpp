@@ -18,13 +18,6 @@ struct SofteningRule {
     double crossing = 1.0;  ///< steps in which a wave crosses the specimen
 };
 
-/// Share of its friction that a point that slides bears, at least.
-constexpr double sliding_share = 0.99;
-
-/// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
-Point relative_velocity(
-    const Contacts& contacts, int contact, int point, const Array<double>& velocity);
-
 /// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
 /// elastic branch, at small displacements [s]; infinite if none does.
 double elastic_time(const Assembly& a, const Array<double>& velocity);

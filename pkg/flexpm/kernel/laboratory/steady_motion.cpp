@@ -52,7 +52,7 @@ public:
         const int slot = a.grains.slot[grain];
         const double most = fastest / a.grains.radius[grain];
         if (!a.grains.spin_prescribed[slot])
-            a.grains.loading_spin[slot] = std::clamp(turn / time, -most, most);
+            a.steady.mean.spin[slot] = std::clamp(turn / time, -most, most);
     }
 
     /// What has come loose has no part in the descent: all of its motion is damped.
@@ -65,7 +65,7 @@ public:
 private:
     void take(int i, double velocity) const
     {
-        if (!a.grains.prescribed[i]) a.grains.loading_velocity[i] = velocity;
+        if (!a.grains.prescribed[i]) a.steady.mean.velocity[i] = velocity;
     }
 
     Assembly& a;
@@ -99,8 +99,7 @@ void follow_steady_motion(Assembly& a, double dt, double fastest)
     check_positive("fastest descent", fastest, "m/s");
     const Array<double> angle = angles(a.grains);
     if (!a.steady.is_followed()) {
-        a.steady.loading_velocity = a.grains.loading_velocity;
-        a.steady.loading_spin = a.grains.loading_spin;
+        a.steady.mean = a.loading.grains;
     } else if (a.step > a.steady.step) {
         take_mean(a, angle, static_cast<double>(a.step - a.steady.step) * dt, fastest);
     }
@@ -109,32 +108,6 @@ void follow_steady_motion(Assembly& a, double dt, double fastest)
     a.steady.step = a.step;
 }
 
-void end_steady_motion(Assembly& a)
-{
-    if (!a.steady.is_followed()) return;
-    a.grains.loading_velocity = a.steady.loading_velocity;
-    a.grains.loading_spin = a.steady.loading_spin;
-    a.steady = {};
-}
-
-Array<double>& velocity_of_loading(Assembly& a)
-{
-    return a.steady.is_followed() ? a.steady.loading_velocity : a.grains.loading_velocity;
-}
-
-const Array<double>& velocity_of_loading(const Assembly& a)
-{
-    return a.steady.is_followed() ? a.steady.loading_velocity : a.grains.loading_velocity;
-}
-
-Array<double>& spin_of_loading(Assembly& a)
-{
-    return a.steady.is_followed() ? a.steady.loading_spin : a.grains.loading_spin;
-}
-
-const Array<double>& spin_of_loading(const Assembly& a)
-{
-    return a.steady.is_followed() ? a.steady.loading_spin : a.grains.loading_spin;
-}
+void end_steady_motion(Assembly& a) { a.steady = {}; }
 
 }  // namespace flexpm

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion that goes on steadily while a specimen comes down from its peak, deviation D55: damping does not act on it.
+/// @file  Motion that goes on steadily while a specimen comes down from its peak, deviation D55:
+/// damping does not act on it.
 ///
-/// Grains that slide down are shaken by the cracks around them. The damping of Eq. 2 opposes the velocity of each node by a share
-/// of its force, which the shaking makes large, so that it drags on a slow motion like a thick fluid and holds the specimen
-/// together. What damping leaves alone is therefore the mean motion since the last look, that of the loading among it; what
-/// nodes move beyond it is damped as ever. SI units.
+/// Grains that slide down are shaken by the cracks around them. The damping of Eq. 2 opposes the
+/// velocity of each node by a share of its force, which the shaking makes large, so that it drags
+/// on a slow motion like a thick fluid and holds the specimen together. What damping leaves alone
+/// is therefore the mean motion since the last look, that of the loading among it; what nodes move
+/// beyond it is damped as ever. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 
 namespace flexpm {
 
-/// Give the velocities that damping does not act on those of the mean motion since the last look, from the second look on.
+/// Let damping leave alone the mean motion since the last look, from the second look on.
 ///
 /// @param dt  time step [s]
 void follow_steady_motion(Assembly& a, double dt, double fastest);
 
-/// Give them those of the loading alone again.
+/// Let it leave alone that of the loading again.
 void end_steady_motion(Assembly& a);
-
-/// Velocities that the loading alone gives, whatever else damping does not act on [m/s].
-Array<double>& velocity_of_loading(Assembly& a);
-const Array<double>& velocity_of_loading(const Assembly& a);
-
-/// The same of the spins of rigid grains [rad/s].
-Array<double>& spin_of_loading(Assembly& a);
-const Array<double>& spin_of_loading(const Assembly& a);
 
 }  // namespace flexpm

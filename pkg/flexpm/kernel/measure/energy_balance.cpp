@@ -40,10 +40,11 @@ FLEXPM_INLINE bool all_finite(const double* values, int count)
 double damping_power(const Assembly& a, double damping)
 {
     const Grains& grains = a.grains;
+    const GrainMotion& undamped = a.undamped();
     double total = 0.0;
     const auto add = [&](double force, double velocity) { total += std::fabs(force * velocity); };
     const auto add_vector = [&](Point force, int node) {
-        const Point v = vector_at(grains.velocity, node) - vector_at(grains.loading_velocity, node);
+        const Point v = vector_at(grains.velocity, node) - vector_at(undamped.velocity, node);
         if (!grains.prescribed[component(node, 0)]) add(force.x, v.x);
         if (!grains.prescribed[component(node, 1)]) add(force.y, v.y);
     };
@@ -53,18 +54,21 @@ double damping_power(const Assembly& a, double damping)
             const Resultant on = resultant_on(grains, g);
             add_vector(on.force, grains.centre(g));
             if (!grains.spin_prescribed[slot])
-                add(on.moment, grains.spin[slot] - grains.loading_spin[slot]);
+                add(on.moment, grains.spin[slot] - undamped.spin[slot]);
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
             add_vector(vector_at(grains.force, grains.node(g, n)), grains.node(g, n));
     }
-    for (const Plate& p : a.plates) {
-        if (p.loaded) add(p.unbalanced, dot(p.normal, p.velocity - p.loading_velocity));
+    for (std::size_t i = 0; i < a.plates.size(); ++i) {
+        const Plate& p = a.plates[i];
+        if (!p.loaded) continue;
+        add(p.unbalanced, dot(p.normal, p.velocity - a.loading.of_plate(i).velocity));
     }
-    for (const NodeSet& set : a.node_sets) {
+    for (std::size_t i = 0; i < a.node_sets.size(); ++i) {
+        const NodeSet& set = a.node_sets[i];
         if (!set.floats) continue;
-        const Point v = set.velocity - set.loading_velocity;
+        const Point v = set.velocity - a.loading.of_set(i).velocity;
         add(set.force.x, v.x);
         add(set.force.y, v.y);
     }

@@ -46,7 +46,7 @@ struct Freedom {
     double force;         ///< generalised force without damping; of a rotation the moment
     double inverse_mass;  ///< generalised; of a rotation that of the moment of inertia
     double prescribed;    ///< 1: the velocity is given; 0: it is integrated
-    double loading;       ///< velocity of the loading, which is not damped
+    double undamped;      ///< part of the velocity that is not damped
     double length =
         1.0;  ///< makes a force of it for the unbalanced ratio: 1, or the arm of a moment [m]
 };
@@ -61,13 +61,13 @@ FLEXPM_INLINE void integrate_one(
     const Freedom& f, double dt, double damping, double& velocity, StepSums& sums, int lane)
 {
     const double old = velocity, free = Prescribed ? 1.0 - f.prescribed : 1.0;
-    const double against = old > f.loading ? -1.0 : (old < f.loading ? 1.0 : 0.0);
+    const double against = old > f.undamped ? -1.0 : (old < f.undamped ? 1.0 : 0.0);
     const double damp = free * against * damping * std::fabs(f.force);
     const double next = old + dt * (free * f.force + damp) * f.inverse_mass;
     velocity = next;
     sums.damped[lane] -= 0.5 * dt * damp * old;
     sums.damped_next[lane] -= 0.5 * dt * damp * next;
-    sums.dragged[lane] -= 0.5 * dt * damp * f.loading;
+    sums.dragged[lane] -= 0.5 * dt * damp * f.undamped;
     if (Prescribed) {
         const double reaction = (free - 1.0) * f.force;
         sums.prescribed[lane] += 0.5 * dt * reaction * old;

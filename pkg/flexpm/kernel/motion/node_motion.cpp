@@ -33,7 +33,7 @@ FLEXPM_INLINE void integrate_lanes(const NodeRows& b, double dt, double damping,
     for (int n = 0; n < b.nodes; ++n) {
         const double* f = b.force + n * node_stride;
         double* v = b.velocity + n * node_stride;
-        const double* loading = b.loading_velocity + n * node_stride;
+        const double* undamped = b.undamped_velocity + n * node_stride;
         const double* inverse_mass = b.inverse_mass + n * lanes;
         alignas(64) double prescribed[node_stride] = {};
         if (Prescribed) std::copy_n(b.prescribed + n * node_stride, node_stride, prescribed);
@@ -42,7 +42,7 @@ FLEXPM_INLINE void integrate_lanes(const NodeRows& b, double dt, double damping,
             for (int axis = 0; axis < dimension; ++axis) {
                 const int i = component(l, axis);
                 integrate_one<Measure, Prescribed>(
-                    { f[i], inverse_mass[l], prescribed[i], loading[i] }, dt, damping, v[i], sums,
+                    { f[i], inverse_mass[l], prescribed[i], undamped[i] }, dt, damping, v[i], sums,
                     l);
             }
         }
@@ -62,11 +62,12 @@ FLEXPM_INLINE void integrate_block(const NodeRows& b, double dt, double damping,
 
 }  // namespace
 
-NodeRows node_rows(Grains& grains, int block)
+NodeRows node_rows(Assembly& a, int block)
 {
+    Grains& grains = a.grains;
     const int first = grains.block_nodes[block];
     return { grains.group(block).nodes, grains.displacement.data() + first,
-        grains.velocity.data() + first, grains.loading_velocity.data() + first,
+        grains.velocity.data() + first, a.undamped().velocity.data() + first,
         grains.force.data() + first, grains.prescribed.data() + first,
         grains.inverse_mass.data() + first / dimension };
 }

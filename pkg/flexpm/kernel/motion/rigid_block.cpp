@@ -136,10 +136,12 @@ FLEXPM_INLINE void integrate_lanes(
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const int y = component(l, 1);
-        const Freedom along_x = { f.x[l], b.inverse_mass[l], prescribed[l], b.loading_velocity[l] };
-        const Freedom along_y = { f.y[l], b.inverse_mass[l], prescribed[y], b.loading_velocity[y] };
+        const Freedom along_x = { f.x[l], b.inverse_mass[l], prescribed[l],
+            b.undamped_velocity[l] };
+        const Freedom along_y = { f.y[l], b.inverse_mass[l], prescribed[y],
+            b.undamped_velocity[y] };
         const Freedom turn = { f.moment[l], b.inverse_inertia[l], spin_prescribed[l],
-            b.loading_spin[l], Measure ? std::sqrt(f.square_arm[l]) : 1.0 };
+            b.undamped_spin[l], Measure ? std::sqrt(f.square_arm[l]) : 1.0 };
         integrate_one<Measure, Prescribed>(along_x, dt, damping, v[l], sums, l);
         integrate_one<Measure, Prescribed>(along_y, dt, damping, v[y], sums, l);
         integrate_one<Measure, Prescribed>(turn, dt, damping, b.spin[l], sums, l);

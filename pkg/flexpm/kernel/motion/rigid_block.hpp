@@ -16,20 +16,20 @@ struct RigidRows {
     const double* reference;
     double* displacement;
     double* velocity;
-    const double* loading_velocity;  ///< of the centre
+    const double* undamped_velocity;  ///< of the centre; null where no step is done
     const double* force;
     const std::uint8_t* prescribed;  ///< of the centre
     const double* inverse_mass;      ///< of the centre
     double* rotation;                ///< [RotationRow]
     double* spin;
-    const double* loading_spin;
+    const double* undamped_spin;  ///< likewise
     const std::uint8_t* spin_prescribed;
     const double* inverse_inertia;
 };
 
 /// Move the grains to the end of the step; then new velocities and spins from the nodal forces and
-/// their moments about the centres, and velocities of all nodes so that dt times them is the exact way
-/// of the coming step.
+/// their moments about the centres, and velocities of all nodes so that dt times them is the exact
+/// way of the coming step.
 ///
 /// @param measure  also sum kinetic energy and largest unbalanced force
 void step_rigid(const RigidRows& b, double dt, double damping, bool measure, StepSums& sums);

@@ -18,20 +18,29 @@ void need_rigid(const Grains& grains, int grain)
     }
 }
 
-}  // namespace
-
-RigidRows rigid_rows(Grains& grains, int block)
+/// Rows of a block without what a step needs besides.
+RigidRows rows_of(Grains& grains, int block)
 {
     const int first = grains.block_nodes[block], nodes = grains.group(block).nodes;
     const int centre = first + node_stride * (nodes - 1);
     return { nodes, grains.reference.data() + first, grains.displacement.data() + first,
-        grains.velocity.data() + first, grains.loading_velocity.data() + centre,
-        grains.force.data() + first, grains.prescribed.data() + centre,
-        grains.inverse_mass.data() + centre / dimension,
+        grains.velocity.data() + first, nullptr, grains.force.data() + first,
+        grains.prescribed.data() + centre, grains.inverse_mass.data() + centre / dimension,
         grains.rotation.data() + RotationRow::count * lanes * block,
-        grains.spin.data() + lanes * block, grains.loading_spin.data() + lanes * block,
-        grains.spin_prescribed.data() + lanes * block,
+        grains.spin.data() + lanes * block, nullptr, grains.spin_prescribed.data() + lanes * block,
         grains.inverse_inertia.data() + lanes * block };
+}
+
+}  // namespace
+
+RigidRows rigid_rows(Assembly& a, int block)
+{
+    RigidRows rows = rows_of(a.grains, block);
+    const GrainMotion& undamped = a.undamped();
+    rows.undamped_velocity =
+        undamped.velocity.data() + (rows.prescribed - a.grains.prescribed.data());
+    rows.undamped_spin = undamped.spin.data() + lanes * block;
+    return rows;
 }
 
 void set_motion(Grains& grains, int grain, Point velocity, double spin, double dt)
@@ -43,14 +52,7 @@ void set_motion(Grains& grains, int grain, Point velocity, double spin, double d
     const int centre = grains.centre(grain);
     set_vector(grains.velocity, centre, velocity);
     grains.spin[grains.slot[grain]] = spin;
-    spread_velocities(rigid_rows(grains, grains.block_of(grain)), dt);
-}
-
-void prescribe_spin(Grains& grains, int grain, double spin, double dt)
-{
-    const int centre = grains.centre(grain);
-    set_motion(grains, grain, vector_at(grains.velocity, centre), spin, dt);
-    grains.spin_prescribed[grains.slot[grain]] = 1;
+    spread_velocities(rows_of(grains, grains.block_of(grain)), dt);
 }
 
 double rotation_of(const Grains& grains, int grain)

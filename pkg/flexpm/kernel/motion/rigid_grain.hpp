@@ -2,7 +2,7 @@
 /// @file  One rigid grain at a time: its motion and its geometry. SI units, rotations counter-clockwise.
 #pragma once
 
-#include <flexpm/kernel/assembly/grains.hpp>
+#include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/motion/rigid_block.hpp>
@@ -12,14 +12,12 @@
 
 namespace flexpm {
 
-RigidRows rigid_rows(Grains& grains, int block);
+/// Rows of a block, for a step.
+RigidRows rigid_rows(Assembly& a, int block);
 
 /// Velocity of the centre [m/s] and spin [rad/s]; the nodes follow. Use this, not the velocities of
 /// nodes, for a rigid grain.
 void set_motion(Grains& grains, int grain, Point velocity, double spin, double dt);
-
-/// Prescribe the spin [rad/s] instead of integrating it.
-void prescribe_spin(Grains& grains, int grain, double spin, double dt);
 
 /// Angle from the reference [rad].
 double rotation_of(const Grains& grains, int grain);

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/forces/contact_forces.hpp>
 #include <flexpm/kernel/forces/element_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/forces/held_sides.hpp>
 #include <flexpm/kernel/forces/nodal_forces.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
@@ -63,9 +64,9 @@ void update_grain_block(Assembly& a, int block, const StepOptions& o)
     if (a.gravity.x != 0.0 || a.gravity.y != 0.0) add_weight(a, block);
     StepSums sums;
     if (group.rigid) {
-        step_rigid(rigid_rows(grains, block), o.dt, o.damping, o.measure, sums);
+        step_rigid(rigid_rows(a, block), o.dt, o.damping, o.measure, sums);
     } else {
-        const NodeRows rows = node_rows(grains, block);
+        const NodeRows rows = node_rows(a, block);
         move_nodes(rows, o.dt);
         add_element_forces(grains, block, a.plan.prefetch.needed);
         integrate_nodes(rows, o.dt, o.damping, o.measure, sums);
@@ -159,6 +160,7 @@ void step(Assembly& a, const StepOptions& options)
     const ThreadTeam::Work share = [&](int thread) { update_share(a, options, team, thread); };
     team.run(share);
     update_node_sets(a, options.dt, options.damping);  // which are few
+    hold_edges(a, options.dt);                         // likewise
     ++a.step;
 }
 

@@ -371,8 +371,6 @@ SidePair crossing_sides(const std::vector<Ring>& rings)
     return {};
 }
 
-bool is_simple_ring(const Ring& ring) { return crossing_sides({ ring }).first < 0; }
-
 PolygonOutline PolygonOutline::make(Ring corners, std::vector<Ring> holes)
 {
     PolygonOutline outline;

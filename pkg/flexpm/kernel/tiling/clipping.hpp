@@ -37,9 +37,6 @@ PlanarCells clip_cells(const Tessellation& tessellation, const PolygonOutline& o
 std::vector<Loop> open_ring(const std::vector<Point>& vertices, const Loop& rim, const Loop& hole,
     const std::vector<Loop>& others);
 
-/// Whether a ring of corners neither crosses nor touches itself.
-bool is_simple_ring(const std::vector<Point>& ring);
-
 /// Two sides of rings that cross or touch, -1: none. Neighbours in a ring share an end, which is no touch.
 struct SidePair {
     int first = -1, second = -1;

@@ -103,7 +103,7 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
         triangles += ShapeRow::count * lanes * group.triangle_count();
     }
     for (auto* array : { &a.grains.reference, &a.grains.displacement, &a.grains.velocity,
-             &a.grains.loading_velocity, &a.grains.force })
+             &a.loading.grains.velocity, &a.grains.force })
         array->assign(nodes, 0.0);
     a.grains.prescribed.assign(nodes, 0);
     a.grains.inverse_mass.assign(nodes / dimension, 0.0);
@@ -111,7 +111,7 @@ void lay_out_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
     a.grains.stiffness.assign(StiffnessRow::count * lanes * a.grains.blocks(), 0.0);
     a.grains.rotation.assign(RotationRow::count * lanes * a.grains.blocks(), 0.0);
     a.grains.spin.assign(lanes * a.grains.blocks(), 0.0);
-    a.grains.loading_spin.assign(lanes * a.grains.blocks(), 0.0);
+    a.loading.grains.spin.assign(lanes * a.grains.blocks(), 0.0);
     a.grains.inverse_inertia.assign(lanes * a.grains.blocks(), 0.0);
     a.grains.spin_prescribed.assign(lanes * a.grains.blocks(), 0);
     a.ledger.damping_work.assign(2 * a.grains.blocks(), 0.0);

@@ -251,13 +251,6 @@ void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
     }
 }
 
-void check_index(const Assembly& a, int plate)
-{
-    if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
-        refuse("plate", plate, "", "must be the number of a plate; add one first");
-    }
-}
-
 std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const PlateContact& contact)
 {
     if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
@@ -396,7 +389,7 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
 
 void fix_tangential(Assembly& a, int plate)
 {
-    check_index(a, plate);
+    require_plate(a, plate);
     const Plate& p = a.plates[plate];
     if (p.gap.empty()) refuse("edges at the plate", 0.0, "", "must be at least 1; all are erased");
     const auto first =
@@ -423,32 +416,6 @@ int add_wall(Assembly& a, Point position, Point normal, const PlateContact& cont
     if (!(least >= 0.0)) refuse("gap between wall and grains", least, "m", "must not be below 0");
     a.plates.push_back(p);
     return static_cast<int>(a.plates.size()) - 1;
-}
-
-void press(Assembly& a, int plate, double pressure)
-{
-    check_index(a, plate);
-    check_not_negative("pressure on a plate", pressure, "Pa");
-    if (a.plates[plate].mass <= 0.0) {
-        refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
-    }
-    a.plates[plate].loaded = true;
-    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
-}
-
-void set_velocity(Assembly& a, int plate, Point velocity)
-{
-    check_index(a, plate);
-    check_finite("velocity of a plate", velocity.x, "m/s");
-    check_finite("velocity of a plate", velocity.y, "m/s");
-    Plate& p = a.plates[plate];
-    // the half step that a loaded plate was promised is not taken any more
-    if (p.loaded) {
-        p.boundary_work_next = p.damping_work_next = p.drag_work_next = 0.0;
-        p.kinetic = p.unbalanced = 0.0;
-    }
-    p.loaded = false;
-    p.velocity = velocity;
 }
 
 }  // namespace flexpm

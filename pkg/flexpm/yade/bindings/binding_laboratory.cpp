@@ -8,6 +8,7 @@
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/end_rule.hpp>
+#include <flexpm/kernel/measure/centre_strain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include <boost/python/stl_iterator.hpp>

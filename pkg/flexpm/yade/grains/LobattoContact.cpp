@@ -3,8 +3,8 @@
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 

@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
-#include <flexpm/kernel/laboratory/loading_field.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -45,24 +45,6 @@ namespace {
 		{ "initial_energy", [](const auto& o) { return o.energies.initial; } },
 	} };
 
-	bool isDisc(const AxialRecorder& recorder)
-	{
-		flexpm::check_not_negative("AxialRecorder.diameter", recorder.diameter, "m");
-		return recorder.diameter > 0;
-	}
-
-	flexpm::Sense senseOf(const AxialRecorder& recorder) { return recorder.tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
-
-	/// What the recorder sees of the specimen after a step; the strains count from the bonded state.
-	flexpm::AxialObservation observed(const AxialRecorder& recorder, const flexpm::Assembly& assembly)
-	{
-		auto now = recorder.betweenParts() ? flexpm::observe_parts(assembly, recorder.parts())
-		        : isDisc(recorder)         ? flexpm::observe_disc(assembly, recorder.diameter)
-		                                   : flexpm::observe(assembly, flexpm::rectangle_of(assembly, senseOf(recorder)));
-		if (recorder.loading) now.velocity_factor = recorder.loading->velocityFactor;
-		return now;
-	}
-
 	/// @throws std::runtime_error  if the record would have a number that is not finite; the test has diverged then
 	void requireFinite(const flexpm::AxialObservation& now, GrainSolver& solver)
 	{
@@ -78,27 +60,31 @@ namespace {
 
 AxialRecorder::~AxialRecorder() = default;
 
-bool AxialRecorder::betweenParts() const { return !driven.empty() || !drivenSets.empty(); }
-
-flexpm::PartGeometry AxialRecorder::parts() const
+const TestFrame& AxialRecorder::testFrame() const
 {
-	return { driven, holding, { direction[0], direction[1] }, area, length, drivenSets, backSets, holdingSets, direction[2] };
+	if (!frame) throw std::invalid_argument("AxialRecorder.frame = None, must be that of the test");
+	return *frame;
+}
+
+flexpm::AxialObservation AxialRecorder::observed(const flexpm::Assembly& assembly) const
+{
+	auto now = flexpm::observe(assembly, testFrame().frame(assembly));
+	if (loading) now.velocity_factor = loading->velocityFactor;
+	return now;
 }
 
 void AxialRecorder::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (!solver->measured()) return;
-	auto now = observed(*this, solver->forEngines());
+	auto now = observed(solver->forEngines());
 	requireFinite(now, *solver);
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
-	if (betweenParts()) {
-		values.push_back(now.axial_stress * area);
-		values.push_back(now.axial_strain * length);
-	}
+	for (Real own : testFrame().values(now.axial_stress, now.axial_strain))
+		values.push_back(own);
 	for (const auto& gauge : gauges)
 		values.push_back(gauge->reading(solver->forEngines()));
 	if (!controlled.empty()) values.push_back(setPoint);
@@ -115,7 +101,7 @@ void AxialRecorder::postLoad(AxialRecorder&)
 	if (!fromNow) return;
 	fromNow              = false;
 	const auto& assembly = GrainSolver::ofScene(*Omega::instance().getScene())->current();
-	const auto  now      = observed(*this, assembly);
+	const auto  now      = observed(assembly);
 	zero                 = Vector2r(now.axial_strain, now.lateral_strain);
 	for (const auto& gauge : gauges)
 		gauge->setZero(assembly);
@@ -126,10 +112,8 @@ py::list AxialRecorder::names() const
 	py::list all;
 	for (const Column& column : recorded)
 		all.append(column.name);
-	if (betweenParts()) {
-		all.append("load");
-		all.append("displacement");
-	}
+	for (const string& own : testFrame().columns())
+		all.append(own);
 	for (const auto& gauge : gauges)
 		all.append(gauge->name);
 	if (!controlled.empty()) all.append("set_point");
@@ -138,7 +122,7 @@ py::list AxialRecorder::names() const
 
 py::object AxialRecorder::rows() const
 {
-	const std::size_t columns = recorded.size() + (betweenParts() ? 2 : 0) + gauges.size() + (controlled.empty() ? 0 : 1);
+	const std::size_t columns = recorded.size() + testFrame().columns().size() + gauges.size() + (controlled.empty() ? 0 : 1);
 	return flexpm_bindings::copied(values, columns, flexpm_bindings::Access::readOnly);
 }
 
@@ -148,12 +132,12 @@ std::pair<Real, Real> AxialRecorder::measure(const string& column, const flexpm:
 	for (const auto& gauge : gauges) {
 		if (gauge->name == column) return { gauge->reading(assembly), gauge->rate(assembly, field) };
 	}
-	if (betweenParts() && column == "load") return { flexpm::part_load(assembly, parts()), flexpm::part_load_rate(assembly, parts(), field) };
-	if (betweenParts() || isDisc(*this) || column != "lateral_strain")
+	auto own = testFrame().measure(column, assembly, field);
+	if (!own)
 		throw std::invalid_argument(
 		        "AxialRecorder.controlled = " + column + ", must be the name of a gauge, load between parts, or lateral_strain of a rectangle");
-	const auto sense = senseOf(*this);
-	return { flexpm::lateral_strain(assembly, sense, assembly.grains.displacement) - zero[1], flexpm::lateral_strain(assembly, sense, field) };
+	if (column == "lateral_strain") own->first -= zero[1];
+	return *own;
 }
 
 py::list AxialRecorder::gaugeList() const
@@ -184,14 +168,8 @@ void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)
 
 py::dict AxialRecorder::scales() const
 {
-	const auto  world = Omega::instance().getScene();
-	const auto& a     = GrainSolver::ofScene(*world)->assembly;
-	if (betweenParts()) return flexpm_bindings::scales_dict(flexpm::part_scales(a, parts(), strength, world->dt));
-	const auto sense  = tension || isDisc(*this) ? flexpm::Sense::tension : flexpm::Sense::compression;
-	const auto inputs = flexpm::scale_inputs(a, sense, world->dt);
-	if (diameter > 0) return flexpm_bindings::scales_dict(flexpm::disc_scales(inputs, diameter));
-	const auto size = flexpm::rectangle_of(a, sense);
-	return flexpm_bindings::scales_dict(flexpm::rectangle_scales(inputs, size.width, size.height));
+	const auto world = Omega::instance().getScene();
+	return flexpm_bindings::scales_dict(testFrame().scales(GrainSolver::ofScene(*world)->assembly, world->dt));
 }
 
 } // namespace yade

@@ -2,11 +2,12 @@
 /// @file  Record of an axial test on grains, and its end, paper Sec. 4.1.
 #pragma once
 
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_rule.hpp>
-#include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/Gauge.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
+#include <flexpm/yade/laboratory/TestFrame.hpp>
 
 namespace yade {
 
@@ -26,26 +27,19 @@ public:
 	/// What a column of the record that a servo may follow reads now, and what it grows by in a second with the motion of the loading.
 	/// @throws std::invalid_argument  if it is none
 	std::pair<Real, Real> measure(const string& column, const flexpm::Assembly& assembly) const;
-	/// Whether parts hold and load the specimen.
-	bool                 betweenParts() const;
-	flexpm::PartGeometry parts() const;
 
+private:
+	/// @throws std::invalid_argument  if there is none
+	const TestFrame& testFrame() const;
+	/// What it sees of the specimen after a step; the strains count from the bonded state.
+	flexpm::AxialObservation observed(const flexpm::Assembly& assembly) const;
+
+public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
 		"as both must look at the same steps) and stops the simulation when the test is over. Place it after the solver.",
-		((Real, diameter, 0.,, "Diameter of a disc between a lower and an upper plate; 0: the specimen is a rectangle [m]."))
-		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
-		((vector<int>, driven,,, "Plates that load a specimen between parts, as :yref:`GrainSolver` numbers them; empty: it is loaded between its ends [-]."))
-		((vector<int>, holding,,, "Plates that hold it against them [-]."))
-		((vector<int>, drivenSets,,, "Node sets that load it, as :yref:`GrainSolver` numbers them [-]."))
-		((vector<int>, backSets,,, "Those that turn the other way [-]."))
-		((vector<int>, holdingSets,,, "Node sets that hold it against a direction [-]."))
-		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; z = 1: node sets turn, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
-		((Real, area, 0.,, "Load over the record's stress, between parts [m2]."))
-		((Real, length, 0.,, "Displacement over the record's strain, between parts [m]."))
-		((Real, strength, 0.,, "Stress that a test between parts may reach, roughly [Pa]."))
-		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen between parts, in the order of scales(); empty before it. Those of a broken one would be others."))
+		((shared_ptr<TestFrame>, frame, shared_ptr<TestFrame>(new RectangleFrame),, "Where load and strains come from: a :yref:`RectangleFrame`, a :yref:`DiscFrame` or a :yref:`PartFrame`."))
 		((vector<shared_ptr<Gauge>>, gauges,, Attr::hidden, "Readings that the record has, too."))
 		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
 		((string, controlled,,, "Column that a :yref:`ServoController` makes follow its set point, which is recorded, too: a gauge's, load, lateral_strain; empty: none."))

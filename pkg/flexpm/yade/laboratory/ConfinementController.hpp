@@ -2,24 +2,22 @@
 /// @file  Pressure on sides of a specimen of deformable grains, paper Sec. 4.1.
 #pragma once
 
-#include <flexpm/yade/abi/yade_lite.hpp>
-#include <flexpm/yade/bindings/saved_class.hpp>
+#include <flexpm/yade/laboratory/PressureController.hpp>
 
 namespace yade {
 
-class ConfinementController : public BoundaryController {
+class ConfinementController : public PressureController {
 public:
 	~ConfinementController() override;
-	void action() override;
 
+protected:
+	void press(flexpm::Assembly& assembly, Real now) const override;
+
+public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(ConfinementController, BoundaryController,
-		"Presses on sides of the specimen; the pressure follows the deforming edges. Place it before :yref:`GrainSolver`.",
-		((Real, pressure, 0.,, "Pressure, compressive positive [Pa]."))
+	YADE_CLASS_BASE_DOC_ATTRS(ConfinementController, PressureController,
+		"Presses on sides of the specimen itself; the pressure follows the deforming edges. Place it before :yref:`GrainSolver`.",
 		((vector<int>, sides, (vector<int> { 1, 3 }),, "Sides of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left [-]."))
-		((int, rampSteps, 0,, "Steps over which the pressure goes to its value, gently at both ends [-]."))
-		((Real, startPressure, 0.,, "Pressure from which it does [Pa]."))
-		((long, rampBegin, -1,, "Step from which they count; below 0: the next one [-] |yupdate|."))
 	);
 	// clang-format on
 };

@@ -3,7 +3,8 @@
 
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
+#include <flexpm/kernel/laboratory/preload.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

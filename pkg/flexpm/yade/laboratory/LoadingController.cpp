@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
+#include <flexpm/kernel/statics/unilateral_solve.hpp>
 
 namespace yade {
 

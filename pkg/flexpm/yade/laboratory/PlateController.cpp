@@ -3,8 +3,7 @@
 
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/laboratory/static_preload.hpp>
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
@@ -17,13 +16,8 @@ void PlateController::action()
 {
 	const Real ratio    = follow(velocity, seenVelocity, drivenAt);
 	auto&      assembly = GrainSolver::ofScene(*scene)->assembly;
-	if (rampBegin < 0) rampBegin = assembly.step;
-	for (int plate : plates) {
-		if (loaded)
-			flexpm::press(assembly, plate, flexpm::ramped(startPressure, pressure, assembly.step - rampBegin, rampSteps));
-		else
-			flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
-	}
+	for (int plate : plates)
+		flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
 	for (int set : nodeSets)
 		flexpm::set_motion_of(assembly, set, { drivenAt[0], drivenAt[1] }, drivenAt[2]);
 	for (int set : backSets)
@@ -34,7 +28,7 @@ void PlateController::action()
 	else if ((elasticStart || undampedLoading) && !started)
 		flexpm::start_elastically(assembly, undampedLoading, ofParts ? flexpm::Held::by_parts : flexpm::Held::by_ends);
 	started = true;
-	if (undampedLoading && ofParts && !loaded) renew(assembly, true);
+	if (undampedLoading && ofParts) renew(assembly, true);
 	flexpm::drive_node_sets(assembly, scene->dt); // those that float have got another velocity
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What moves the rigid plates and node sets of a test: a velocity or a pressure, paper Sec. 4.1.
+/// @file  What moves the rigid plates and node sets of a test at a velocity, paper Sec. 4.1.
 #pragma once
 
 #include <flexpm/yade/bindings/saved_class.hpp>
@@ -14,17 +14,12 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PlateController, LoadingController,
-		"Moves rigid plates, which :yref:`GrainSolver` holds: at a velocity, or each on its own along its normal under a pressure "
-		"(several plates on a side make a membrane); and node sets. Place it before :yref:`GrainSolver`.",
+		"Moves rigid plates and node sets, which :yref:`GrainSolver` holds, at a velocity; :yref:`PressureController` presses plates. "
+		"Place it before :yref:`GrainSolver`.",
 		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
-		((bool, loaded, false,, "Let the plates move under the pressure; otherwise they move at the velocity."))
 		((vector<int>, nodeSets,,, "Numbers of the node sets, as GrainSolver.addNodeSet returns them, that have the velocity and spin [-]."))
 		((vector<int>, backSets,,, "Those that turn the other way [-]."))
 		((Vector3r, velocity, Vector3r::Zero(),, "Velocity of plates and node sets along x and y at factor 1 [m/s, or m per step with scaled masses]; z: spin of the sets [rad/s]."))
-		((Real, pressure, 0.,, "Pressure on the width of each plate, compressive positive [Pa]."))
-		((int, rampSteps, 0,, "Steps over which the pressure goes to its value, gently at both ends [-]."))
-		((Real, startPressure, 0.,, "Pressure from which it does [Pa]."))
-		((long, rampBegin, -1,, "Step from which they count; below 0: the next one [-] |yupdate|."))
 		((bool, elasticStart, false,, "Start all grains with the velocities of the elastic solution for the plates' velocity, so that no wave runs through the specimen."))
 		((bool, ofParts, false,, "The plates are supports on parts of the outline, which hold the specimen by themselves: for the elastic solution nothing else does, and joints that the loading opens carry nothing."))
 		((Vector3r, seenVelocity, Vector3r::Zero(), Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))

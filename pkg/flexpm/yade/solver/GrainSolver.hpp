@@ -76,6 +76,7 @@ public:
 	void       turnNodeSet(int set, py::object about);
 	void       moveNodeSet(int set, Vector3r velocity);
 	py::list   nodeSets();
+	void       holdSide(int side, bool x, bool y);
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
 	void       setGravity(Vector3r acceleration);
@@ -89,6 +90,7 @@ public:
 	py::object sideNodes(int side);
 	py::dict   overlaps(Real smallestPart);
 	Real       unbalanced();
+	Real       crossingSteps(Real diameter);
 	py::dict   balance();
 	void       clearPressure(int side);
 
@@ -145,6 +147,8 @@ public:
 		.def("moveNodeSet", AfterAssembly<&GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity")),
 			"Move a set from the next step on: velocity along x and y [m/s, or m per step with scaled masses]; z: spin [rad/s].")
 		.def("nodeSets", AfterAssembly<&GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, axes that it holds, whether it floats, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
+		.def("holdSide", AfterAssembly<&GrainSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false),
+			"Keep a side of the outline from moving along x, y or both: nodes of deformable grains; of rigid grains the centres across the side, and the edges along it.")
 		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
@@ -160,6 +164,7 @@ public:
 		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
 			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2].")
 		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("crossingSteps", AfterAssembly<&GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc of the grains of a diameter [m] [-].")
 		.def("balance", AfterAssembly<&GrainSolver::balance>::call,
 			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
 			"of rigid grains by the contact forces and branches. outside_stress: what pressure, plates, held nodes and weight would make of it in balance [Pa]. "

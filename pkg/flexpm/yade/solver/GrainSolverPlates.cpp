@@ -2,6 +2,7 @@
 /// @file  Plates, node sets and pressure on the specimen, as scripts lay them on and take them off.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
+#include <flexpm/kernel/forces/held_sides.hpp>
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
@@ -95,6 +96,12 @@ py::list GrainSolver::nodeSets()
 		all.append(d);
 	}
 	return all;
+}
+
+void GrainSolver::holdSide(int side, bool x, bool y)
+{
+	if (x) flexpm::hold_side(current(), side, 0);
+	if (y) flexpm::hold_side(current(), side, 1);
 }
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)

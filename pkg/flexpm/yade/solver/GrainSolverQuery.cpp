@@ -3,13 +3,14 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/assembly/snapshot.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/test_frame.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include <algorithm>
 
@@ -22,6 +23,8 @@ py::tuple GrainSolver::elasticConstants()
 	const auto e = flexpm::elastic_constants(current());
 	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
 }
+
+Real GrainSolver::crossingSteps(Real diameter) { return flexpm::disc_scales(assembly, diameter, Omega::instance().getScene()->dt).crossing_steps; }
 
 py::dict GrainSolver::energies()
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Unpacking the assembly.
-#include <flexpm/kernel/assembly/snapshot.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
 

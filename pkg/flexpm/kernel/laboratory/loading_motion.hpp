@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Preload of a test along its elastic solution, paper Sec. 4.1: no crack is possible before
-/// the first contact point reaches its strength, so no slow steps are needed up to there.
+/// @file  The motion that a loading gives to a specimen: the elastic solution at the present
+/// velocity of its ends and parts, deviation D30, found anew as cracks open and slide, deviation
+/// D40. Damping does not act on it.
 ///
-/// All nodes are driven along the elastic solution in a few steps and then released with its
-/// velocities. The contacts' history, the works and the energies are those of these steps. SI
-/// units, tension positive.
+/// steady_motion.hpp says what damping leaves alone besides. SI units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -13,8 +12,10 @@ namespace flexpm {
 
 /// What holds a specimen, for its elastic solution.
 enum class Held {
-    by_ends,  ///< plates along whole ends, which leave it free to slide: it is kept from that
-    by_parts,  ///< supports that hold it by themselves; cracks and joints bear pressure and friction alone
+    /// plates along whole ends, which leave it free to slide: it is kept from that
+    by_ends,
+    /// supports that hold it by themselves; cracks and joints bear pressure and friction alone
+    by_parts,
 };
 
 /// Velocities of all nodes at which the bonded assembly deforms in elastic equilibrium with the
@@ -42,30 +43,13 @@ void start_elastically(Assembly& a, bool undamped, Held held = Held::by_ends);
 /// @returns  whether there is a solution
 bool renew_loading(Assembly& a, double sense = 1.0);
 
-/// Contact points that count as cracks for that solution: those with a damage of a half or more.
-int count_softened(const Assembly& a);
-
-/// Contacts of joints that are cracked, pressed, and whose faces slide past each other: a joint
-/// without strength slides without a point that softens.
-int count_sliding_joints(const Assembly& a);
-
 /// Change the velocities that the loading gives to `ratio` times what they are, and all velocities
 /// with them, so that a change of the loading's velocity raises no wave. The kinetic energy that
 /// this gives is work of the boundary. Call drive_node_sets() afterwards.
 void change_loading(Assembly& a, double ratio);
 
-/// Take hold of all nodes of an unloaded, gripped and driven rectangle, so that `steps` steps take
-/// it along its elastic solution to `share` of the strain at which the first point leaves its
-/// branch.
-///
-/// @throws std::invalid_argument  if the share or the number of steps is out of range, or if no
-///         load breaks a point
-void preload(Assembly& a, double share, int steps, double dt);
-
-/// Release the nodes; the top goes on at `velocity` [m/s], all others as the elastic solution
-/// does. The kinetic energy that this gives is work of the boundary.
-///
-/// @param undamped  as for start_elastically()
-void release_preload(Assembly& a, double velocity, double dt, bool undamped);
+/// Velocities of all nodes in that motion, in the layout of Grains::displacement; held and driven
+/// nodes have their own [m/s].
+Array<double> loading_field(const Assembly& a);
 
 }  // namespace flexpm

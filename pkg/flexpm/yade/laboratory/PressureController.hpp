@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Pressure on the rigid plates of a test, paper Sec. 4.1.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
+
+namespace yade {
+
+class PressureController : public BoundaryController {
+public:
+	~PressureController() override;
+	void action() override;
+
+protected:
+	/// Press with what the pressure is in the coming step [Pa].
+	virtual void press(flexpm::Assembly& assembly, Real now) const;
+
+public:
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(PressureController, BoundaryController,
+		"Lets rigid plates, which :yref:`GrainSolver` holds, move under a pressure, each on its own along its normal; several on a "
+		"side make a membrane. :yref:`PlateController` moves plates at a velocity. Place it before :yref:`GrainSolver`.",
+		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
+		((Real, pressure, 0.,, "Pressure, of a plate on its width, compressive positive [Pa]."))
+		((int, rampSteps, 0,, "Steps over which the pressure goes to its value, gently at both ends [-]."))
+		((Real, startPressure, 0.,, "Pressure from which it does [Pa]."))
+		((long, rampBegin, -1,, "Step from which they count; below 0: the next one [-] |yupdate|."))
+	);
+	// clang-format on
+};
+REGISTER_SAVED(PressureController);
+
+} // namespace yade

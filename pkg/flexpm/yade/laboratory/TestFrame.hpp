@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What tells a record where load and strains of its test come from: one class for each outline and way to hold it,
+/// paper Sec. 4.1.
+#pragma once
+
+#include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/yade/abi/yade_lite.hpp>
+#include <flexpm/yade/bindings/saved_class.hpp>
+
+#include <optional>
+
+namespace yade {
+
+class TestFrame : public Serializable {
+public:
+	/// What a measure reads, and what it grows by in a second with the motion of the loading.
+	using Measure = std::pair<Real, Real>;
+
+	~TestFrame() override;
+	/// The kernel's frame; by itself the class has none.
+	virtual flexpm::TestFrame  frame(const flexpm::Assembly& assembly) const;
+	virtual flexpm::TestScales scales(const flexpm::Assembly& assembly, Real dt) const;
+	/// Names of the columns that a record has because of it.
+	virtual vector<string> columns() const { return {}; }
+	/// Their values, of the record's stress and strain.
+	virtual vector<Real> values(Real, Real) const { return {}; }
+	/// A measure of its own that a servo may follow, where nodes move so; none of that name.
+	virtual std::optional<Measure> measure(const string&, const flexpm::Assembly&, const flexpm::Array<double>&) const { return {}; }
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(TestFrame, Serializable,
+		"Base of what tells an :yref:`AxialRecorder` where load and strains come from. Not to be used directly.",
+	);
+	// clang-format on
+};
+REGISTER_SAVED(TestFrame);
+
+class RectangleFrame : public TestFrame {
+public:
+	~RectangleFrame() override;
+	flexpm::TestFrame      frame(const flexpm::Assembly& assembly) const override;
+	flexpm::TestScales     scales(const flexpm::Assembly& assembly, Real dt) const override;
+	std::optional<Measure> measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(RectangleFrame, TestFrame,
+		"A rectangle between its bottom and its top.",
+		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
+	);
+	// clang-format on
+
+private:
+	flexpm::Sense sense() const { return tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
+};
+REGISTER_SAVED(RectangleFrame);
+
+class DiscFrame : public TestFrame {
+public:
+	~DiscFrame() override;
+	flexpm::TestFrame  frame(const flexpm::Assembly& assembly) const override;
+	flexpm::TestScales scales(const flexpm::Assembly& assembly, Real dt) const override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(DiscFrame, TestFrame,
+		"A disc between a lower and an upper plate, the first two of :yref:`GrainSolver`.",
+		((Real, diameter, 0.,, "Of the disc [m]."))
+	);
+	// clang-format on
+};
+REGISTER_SAVED(DiscFrame);
+
+class PartFrame : public TestFrame {
+public:
+	~PartFrame() override;
+	flexpm::TestFrame      frame(const flexpm::Assembly& assembly) const override;
+	flexpm::TestScales     scales(const flexpm::Assembly& assembly, Real dt) const override;
+	vector<string>         columns() const override { return { "load", "displacement" }; }
+	vector<Real>           values(Real stress, Real strain) const override { return { stress * area, strain * length }; }
+	std::optional<Measure> measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(PartFrame, TestFrame,
+		"Plates and node sets that hold and load a specimen of any outline, as :yref:`GrainSolver` numbers them.",
+		((vector<int>, driven,,, "Plates that load it [-]."))
+		((vector<int>, holding,,, "Plates that hold it against them [-]."))
+		((vector<int>, drivenSets,,, "Node sets that load it [-]."))
+		((vector<int>, backSets,,, "Those that turn the other way [-]."))
+		((vector<int>, holdingSets,,, "Node sets that hold it against a direction [-]."))
+		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; z = 1: node sets turn, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
+		((Real, area, 0.,, "Load over the record's stress [m2]."))
+		((Real, length, 0.,, "Displacement over the record's strain [m]."))
+		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
+		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it. Those of a broken one would be others."))
+	);
+	// clang-format on
+
+private:
+	flexpm::PartGeometry parts() const;
+};
+REGISTER_SAVED(PartFrame);
+
+} // namespace yade
