@@ -49,7 +49,7 @@ class Ending:
     Attributes:
         signal: That killed it, 0 if none.
         error: Class of its exception, empty if it raised none.
-        message: Of the exception.
+        message: Message of the exception.
     """
 
     signal: int

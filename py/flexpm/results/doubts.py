@@ -63,7 +63,7 @@ LARGEST_PARTING = 2.0
 FEWEST_GRAINS_ACROSS = 6.0
 #: Difference of Poisson's ratio from the elastic one that is none [-].
 LARGEST_POISSON_CHANGE = 0.05
-#: Of a pulse that has not passed both sections in one piece.
+#: Line about a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
     "which has no speed"
@@ -111,9 +111,9 @@ def of_result(
     """What the results say about the loading.
 
     Args:
-        status: Of the result.
+        status: Status of the result.
         energy_error: Relative error of the energy balance [-].
-        mismatch: Of both ends' reactions, median up to the peak [-].
+        mismatch: Mismatch of both ends' reactions, median up to the peak [-].
         rate: Factor on the loading rate [-].
     """
     lines = []

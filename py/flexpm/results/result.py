@@ -183,7 +183,7 @@ class Result(Shown):
 
         Args:
             wave: ``p`` or ``s``.
-            distance: Of the sections between which it is taken [m].
+            distance: Distance of the sections between which it is taken [m].
         """
         setattr(self, waves.name_of(wave), waves.speed(self.curve, distance))
 

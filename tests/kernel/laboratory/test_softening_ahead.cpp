@@ -139,7 +139,7 @@ TEST_CASE("Points that make up a small part of a cut may come faster, brittle on
     const Array<double> v = moving(a, corner, { 0.0, speed });
     const auto of_rock = factor_before_softening(a, v, dt, rule);
     CHECK(std::isfinite(of_rock));
-    // of one edge alone, a thirtieth of the cut, the rest may go
+    // points of one edge alone, a thirtieth of the cut, may go
     for (int c = 0; c < a.contacts.count; ++c) {
         const auto [g, h] = a.contacts.pairs[c];
         const bool below = (g == corner || h == corner) && std::abs(g - h) == 30;

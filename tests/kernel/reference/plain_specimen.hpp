@@ -43,7 +43,7 @@ struct Grain {
         triangles;  ///< nodes, counter-clockwise; none: the grain is rigid
     flexpm::ElasticMaterial elastic;
 
-    // of rigid grains
+    // rigid grains
     double angle = 0.0;            ///< turned since the reference [rad]
     double spin = 0.0;             ///< half a step later [rad/s]
     double undamped_spin = 0.0;    ///< part of it that is not damped [rad/s]

@@ -22,7 +22,8 @@ namespace {
 constexpr double size = 3e-3;  // of a square [m]
 const auto material = specimens::granite_contact();
 
-/// Two squares side by side whose discs have a part of the radius at which they would touch: all of their motion is given.
+/// Two squares side by side whose discs have a part of the radius at which they would touch: all of
+/// their motion is given.
 Assembly held_pair(bool rigid, double disc)
 {
     auto pair = specimens::grid(2, 1, size);

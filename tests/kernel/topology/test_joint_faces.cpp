@@ -194,7 +194,7 @@ TEST_CASE("Masses rise for new partners, real ones stay")
     CHECK((a.grains.inverse_mass == before) == (dt == 0.0));
 }
 
-TEST_CASE("Of a joint that has cracked in part only the cracked faces get new partners")
+TEST_CASE("Only the cracked faces of a joint that has cracked in part get new partners")
 {
     Assembly a = held_rows();
     const int beside = contact_of(a, { 0, 1 }), bond = contact_of(a, { 7, 7 + columns });

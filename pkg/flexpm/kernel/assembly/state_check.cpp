@@ -28,7 +28,7 @@ void check_equal(const char* part, std::int64_t value, std::int64_t wanted)
     if (value != wanted) refuse_state(part, value, "must be " + std::to_string(wanted));
 }
 
-/// Of an array.
+/// Refuse an array of another size.
 void check_size(const char* part, std::size_t size, std::int64_t wanted)
 {
     check_equal(part, static_cast<std::int64_t>(size), wanted);

@@ -19,7 +19,8 @@ double beyond(double value, double limit)
     return std::min(std::max(value / limit - 1.0, 0.0), 1.0);
 }
 
-/// Whether the second face looks to the first, and not from far behind it. Two that are opposed have no mean.
+/// Whether the second face looks to the first, and not from far behind it. Two that are opposed
+/// have no mean.
 bool is_before(const BondFaces& faces)
 {
     if (!(faces.cosine() > least_cosine)) return false;

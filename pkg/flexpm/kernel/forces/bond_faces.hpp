@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The two faces that a bond has left where it cracked: the edges of its grains, which lay on each other when
-/// bonded. Deviation D59. SI units.
+/// @file  The two faces that a bond has left where it cracked: the edges of its grains, which lay
+/// on each other when bonded. Deviation D59. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -29,8 +29,9 @@ struct BondFaces {
 /// The faces of a contact that has been a bond.
 BondFaces bond_faces(const Assembly& a, int contact);
 
-/// How far two faces have parted from where they lay when bonded: 0 as long as they have slid by less than half an edge and turned
-/// by less than 30 degrees, 1 from twice that on, and where the middle of one lies by half an edge behind the other.
+/// How far two faces have parted from where they lay when bonded: 0 as long as they have slid by
+/// less than half an edge and turned by less than 30 degrees, 1 from twice that on, and where the
+/// middle of one lies by half an edge behind the other.
 double parting(const BondFaces& faces);
 
 /// Whether they lie as they did, by this part of what parting() allows.

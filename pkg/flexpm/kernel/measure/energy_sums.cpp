@@ -90,7 +90,7 @@ FLEXPM_INLINE void add_softened(const double* area, const double* states,
     energy = sum;
 }
 
-/// Of records of contacts, `lanes` at a time.
+/// Forces in records of contacts, `lanes` at a time.
 FLEXPM_INLINE void add_forces(const double* forces, int contacts, LaneSum& total)
 {
     LaneSum sum = total;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Grains that lie on each other, which contacts at edges and discs do not all prevent. SI units.
+/// @file  Grains that lie on each other, which contacts at edges and discs do not all prevent. SI
+/// units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -19,7 +20,8 @@ struct Overlap {
         closed;  ///< normal force of the pair over stiffness and thickness: the area that it accounts for [m^2]
 };
 
-/// Pairs of grains that overlap by more than a part of the smaller one, ascending. Corners are taken as convex.
+/// Pairs of grains that overlap by more than a part of the smaller one, ascending. Corners are
+/// taken as convex.
 std::vector<Overlap> find_overlaps(const Assembly& a, double smallest_part);
 
 }  // namespace flexpm

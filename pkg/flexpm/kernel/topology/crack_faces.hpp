@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Bonds that have cracked through: their grains meet at the faces that the bond has left.
 ///
-/// Deviation D59: as long as the two faces of a bond lie as they did, is_facing(), the opening of its points is that between
-/// the faces, and its normal is across them: the pair meets again where it was bonded, whether its discs touched there or
-/// not, and slides along its faces. The further they part beyond that, parting(), the more its normal turns to the line of the
-/// centres, as discs have it; once it bears nothing it ends as soon as the discs let it. A normal turns slowly while it
-/// bears something, so that the force goes over. Joints have rules of their own, joint_faces.hpp.
+/// Deviation D59: as long as the two faces of a bond lie as they did, is_facing(), the opening of
+/// its points is that between the faces, and its normal is across them: the pair meets again where
+/// it was bonded, whether its discs touched there or not, and slides along its faces. The further
+/// they part beyond that, parting(), the more its normal turns to the line of the centres, as discs
+/// have it; once it bears nothing it ends as soon as the discs let it. A normal turns slowly while
+/// it bears something, so that the force goes over. Joints have rules of their own,
+/// joint_faces.hpp.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -35,9 +37,10 @@ struct CrackChanges {
     std::vector<GrainPair> pairs;  ///< of those that have come or gone, ascending
 };
 
-/// Let bonds that have cracked through follow their faces or discs, and let those that have ended act again where their
-/// faces come near; a touch of that pair which bears nothing ends. No force begins or ends with that, up to what would raise energy; what stored
-/// energy loses is booked as friction. Arguments as of change_contacts().
+/// Let bonds that have cracked through follow their faces or discs, and let those that have ended
+/// act again where their faces come near; a touch of that pair which bears nothing ends. No force
+/// begins or ends with that, up to what would raise energy; what stored energy loses is booked as
+/// friction. Arguments as of change_contacts().
 CrackChanges follow_cracks(Assembly& a, double damping, double dt);
 
 }  // namespace flexpm

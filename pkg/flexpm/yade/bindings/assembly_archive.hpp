@@ -37,7 +37,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::LoadingMotion& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::SteadyMotion& part, unsigned) { archiveMembers(archive, part); }
 
-	/// Of what visit_members() lists and how it lies in memory: to be raised with each change of either.
+	/// Version of what visit_members() lists and how it lies in memory: to be raised with each change of either.
 	constexpr unsigned assemblyVersion = 14;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)

@@ -110,7 +110,7 @@ public:
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
-		((vector<shared_ptr<Material>>, materials,, Attr::hidden, "Of each mineral, as given."))
+		((vector<shared_ptr<Material>>, materials,, Attr::hidden, "Material of each mineral, as given."))
 		((vector<vector<Real>>, materialValues,, Attr::hidden, "What was taken from them, see valuesOf()."))
 		((Real, massStep, 0., Attr::hidden, "Time step that the masses are scaled for, or the longest that real ones allow; 0 without masses [s]."))
 		((Real, massDamping, 0., Attr::hidden, "Damping for which it is so [-]."))
