@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Specimens between a held bottom and a driven top, for counting and timing steps. SI units,
-/// lengths per unit step; tension positive.
+/// @file  Specimens between a held bottom and a driven top, for counting and timing steps. SI
+/// units, lengths per unit step; tension positive.
 #pragma once
 
 #include <flexpm/kernel/forces/plate_contact.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A hash for each of the kernel's results, one a line, on every instruction set: builds of two
-/// compilers must print the same. Geometry first: what follows is made of it.
+/// @file  A hash for each of the kernel's results, one a line, on every instruction set: builds of
+/// two compilers must print the same. Geometry first: what follows is made of it.
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/geometry/disc_sizes.hpp>
 #include <flexpm/kernel/geometry/insertion.hpp>

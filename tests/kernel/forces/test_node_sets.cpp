@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Node sets: held, moved and turned nodes, their forces, moments and works, and those that float. SI units.
+/// @file  Node sets: held, moved and turned nodes, their forces, moments and works, and those that
+/// float. SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -200,7 +201,8 @@ TEST_CASE("A set that floats bears a moment alone, which is the same all along a
     CHECK(turned.moment == Approx(stiffness * turned.angle).epsilon(1e-3));
     CHECK(held.moment == Approx(-turned.moment).epsilon(5e-3));
     CHECK(norm(turned.force) * length < 5e-3 * turned.moment);
-    // its end has moved by that of an arc, about half of the angle times the length between the sets
+    // its end has moved by that of an arc, about half of the angle times the length between the
+    // sets
     CHECK(
         turned.displacement.y == Approx(0.5 * turned.angle * (length - 2.0 * size)).epsilon(0.15));
     CHECK(miss_of(a) < 1e-9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Adaptive loading rate: what it follows, how fast it changes, and that a change of the driven
-/// velocity keeps the balance of energies. SI units.
+/// @file  Adaptive loading rate: what it follows, how fast it changes, and that a change of the
+/// driven velocity keeps the balance of energies. SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/forces/plate_contact.hpp>

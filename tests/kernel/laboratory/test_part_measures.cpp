@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Supports on parts of the outline, gauges, the scales of a test between parts, and the motion that a loading
-/// gives to a cracked specimen. SI units.
+/// @file  Supports on parts of the outline, gauges, the scales of a test between parts, and the
+/// motion that a loading gives to a cracked specimen. SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -288,7 +288,8 @@ TEST_CASE("A specimen that is cracked through moves as two halves under an undam
 
 namespace {
 
-/// A block upon another one, held at the bottom, a joint without strength between them; the plate on top is driven.
+/// A block upon another one, held at the bottom, a joint without strength between them; the plate
+/// on top is driven.
 struct Blocks {
     Assembly a;
     int joint = 0, top = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Servo of a loading: the ends' velocity for a measure to follow its set point, on a specimen and on the model of a bar
-/// with one weak line. SI units.
+/// @file  Servo of a loading: the ends' velocity for a measure to follow its set point, on a
+/// specimen and on the model of a bar with one weak line. SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -25,8 +25,9 @@ namespace {
 
 constexpr ServoRule rule = { 2.0, 16.0, 100.0 };
 
-/// Bar with a weak line in the middle, of the theory page: the opening of the line and its rate, the way of an end. Lengths are in
-/// those at the strength, times in wave crossings. A gauge lies across the line.
+/// Bar with a weak line in the middle, of the theory page: the opening of the line and its rate,
+/// the way of an end. Lengths are in those at the strength, times in wave crossings. A gauge lies
+/// across the line.
 struct Bar {
     double softening = 2.0;  ///< eta + 1: slope of the line's law over the stiffness of the bar
     double share = 0.1;      ///< length of the gauge over that of the bar

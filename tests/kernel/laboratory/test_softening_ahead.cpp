@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  How slowly a loading must come to points that will soften: distances to strengths in closed form. SI units.
+/// @file  How slowly a loading must come to points that will soften: distances to strengths in
+/// closed form. SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>

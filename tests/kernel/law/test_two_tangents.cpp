@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The law of sizes with two tangents put to it: what a face in space needs and a contact of the plane does
-/// not show. Tension positive.
+/// @file  The law of sizes with two tangents put to it: what a face in space needs and a contact of
+/// the plane does not show. Tension positive.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/law/bilinear_step.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The energy balance: exact for a linear system, kept to 1 % through breaking, and missed when
-/// the law is wrong or the rate coarse, paper Eqs. 1-3. SI units.
+/// @file  The energy balance: exact for a linear system, kept to 1 % through breaking, and missed
+/// when the law is wrong or the rate coarse, paper Eqs. 1-3. SI units.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -151,8 +151,8 @@ TEST_CASE("Books opened in the middle of a motion count from there")
 
 namespace {
 
-/// Books of an axial test: velocity of the top [m/s], way [m], and what is done to the assembly after
-/// every step.
+/// Books of an axial test: velocity of the top [m/s], way [m], and what is done to the assembly
+/// after every step.
 template <class Each>
 double axial_miss(const flexpm::ContactMaterial& m, double velocity, double way, Each each)
 {

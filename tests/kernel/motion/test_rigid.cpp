@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Rigid grains: exact rotation, contacts as those of deformable grains, masses, energy, and the
-/// elastic solve. SI units, tension positive, rotations counter-clockwise.
+/// @file  Rigid grains: exact rotation, contacts as those of deformable grains, masses, energy, and
+/// the elastic solve. SI units, tension positive, rotations counter-clockwise.
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A specimen as a textbook would write it down: lists of grains, nodes, contacts and points, each with its own
-/// numbers. SI units, tension and opening positive, rotations counter-clockwise.
+/// @file  A specimen as a textbook would write it down: lists of grains, nodes, contacts and
+/// points, each with its own numbers. SI units, tension and opening positive, rotations
+/// counter-clockwise.
 #pragma once
 
 #include <flexpm/kernel/core/vector.hpp>

@@ -13,7 +13,8 @@ namespace {
 using flexpm::cross;
 using flexpm::dot;
 
-/// What a rotation adds to a vector: (cos - 1) r and sin across it, without loss of digits for a small angle.
+/// What a rotation adds to a vector: (cos - 1) r and sin across it, without loss of digits for a
+/// small angle.
 Point turned_by(double angle, Point r)
 {
     const double half = std::sin(0.5 * angle);
@@ -31,7 +32,8 @@ Point on_edge(Point first, Point second, double weight)
 
 // ---- contacts, Eqs. 5-19 and D24 ---------------------------------------------------------------
 
-/// Unit normal at the present places: between the centres (Eq. 5), or across the mean of both edges.
+/// Unit normal at the present places: between the centres (Eq. 5), or across the mean of both
+/// edges.
 Point normal_of(const Specimen& s, const Contact& c)
 {
     if (!c.across_edges) {
@@ -71,8 +73,8 @@ void update_contact(Specimen& s, Contact& c, double dt)
             way_of[side] = on_edge(way(c.edge[side][0]), way(c.edge[side][1]), p.weight[side]);
         const Point apart = way_of[1] - way_of[0];
         const double opens = dot(apart, mean), slips = cross(mean, apart);
-        // both grains are compared in the middle of the gap, to which each edge carries its rotation; the gap is that
-        // of half of the step
+        // both grains are compared in the middle of the gap, to which each edge carries its
+        // rotation; the gap is that of half of the step
         const double along = p.state.slip - p.paired_slip;
         const double opening = p.state.opening + 0.5 * (opens + turn * along);
         const double slip = along + 0.5 * (slips - turn * p.state.opening);
@@ -96,7 +98,8 @@ void update_contact(Specimen& s, Contact& c, double dt)
                         p.weight[side]);
         }
     }
-    // forces act in the middle of the gap: each edge takes half of its moment as a couple along the normal
+    // forces act in the middle of the gap: each edge takes half of its moment as a couple along the
+    // normal
     for (int side = 0; side < 2; ++side) {
         const double couple = 0.5 * gap_moment * c.per_length[side];
         on_ends[side][0].x += couple;
@@ -124,7 +127,8 @@ struct Integration {
     double dt, damping;
 };
 
-/// Velocity half a step after the force, with local damping of what it has beyond what is left alone.
+/// Velocity half a step after the force, with local damping of what it has beyond what is left
+/// alone.
 double accelerated(
     double velocity, double undamped, double force, double inverse_mass, Integration by)
 {
@@ -133,7 +137,8 @@ double accelerated(
     return velocity + by.dt * (force - by.damping * std::fabs(force) * sign) * inverse_mass;
 }
 
-/// A spring at each point, with friction; a loaded plate moves along its normal as a body of its own.
+/// A spring at each point, with friction; a loaded plate moves along its normal as a body of its
+/// own.
 void push(Specimen& s, Plate& plate, double dt, double damping)
 {
     plate.displacement = plate.displacement + dt * plate.velocity;

@@ -145,7 +145,8 @@ struct PointMeasures {
     Measure way, damage, energy;
 };
 
-/// A jump of the law that is as near as this may be taken by one of the two and not by the other [-].
+/// A jump of the law that is as near as this may be taken by one of the two and not by the other
+/// [-].
 constexpr double round_off = 1e-11;
 
 bool same_record(const ContactPoint& a, const ContactPoint& b, double size)

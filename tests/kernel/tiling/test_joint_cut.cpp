@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Cells cut by lines, and the onset of slip on the contact of two driven blocks. SI units, tension positive.
+/// @file  Cells cut by lines, and the onset of slip on the contact of two driven blocks. SI units,
+/// tension positive.
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/geometry/polygon.hpp>

@@ -40,8 +40,8 @@ void move(Assembly& a, int grain, Point way, int steps)
 /// Move the last grain along x.
 void move_last(Assembly& a, double way, int steps) { move(a, 2, { way, 0.0 }, steps); }
 
-/// The same with the last bond torn, apart and taken out, and a new contact of the last two grains, number 2, in its
-/// place.
+/// The same with the last bond torn, apart and taken out, and a new contact of the last two grains,
+/// number 2, in its place.
 Assembly row_with_touch()
 {
     Assembly a = row_of_three();
@@ -170,8 +170,8 @@ TEST_CASE("A new contact goes over to other edges where the grain rolls around a
 
 TEST_CASE("An edge across a contact takes no couple; the force is that of the discs")
 {
-    // grains four times as high as wide: discs above each other touch within their cells, where the edges that stand
-    // are the closest
+    // grains four times as high as wide: discs above each other touch within their cells, where the
+    // edges that stand are the closest
     auto specimen = specimens::grid(2, 1, size);
     for (Point& vertex : specimen.cells.vertices)
         vertex.y *= 4.0;

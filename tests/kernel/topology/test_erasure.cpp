@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Bonds and grains that a script erases: energies to round-off, the record of cracks, and that nothing else
-/// knows of them any more. SI units.
+/// @file  Bonds and grains that a script erases: energies to round-off, the record of cracks, and
+/// that nothing else knows of them any more. SI units.
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
@@ -74,7 +74,8 @@ double largest_miss(Assembly& a, int steps, double dt = 1.0)
     return worst;
 }
 
-/// The balance before, just after and long after an erasure that takes at least `least` of the energy.
+/// The balance before, just after and long after an erasure that takes at least `least` of the
+/// energy.
 void check_balance(Assembly& a, const Erasure& what, double least, double dt = 1.0)
 {
     largest_miss(a, 1, dt);  // a weight acts from the first step on

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Values by which a window colours grains, in states with closed forms. SI units, tension positive.
+/// @file  Values by which a window colours grains, in states with closed forms. SI units, tension
+/// positive.
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>

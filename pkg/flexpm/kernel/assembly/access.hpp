@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One grain, triangle or contact of the packed arrays at a time, for all that is not a step.
+/// @file  One grain, triangle or contact of the packed arrays at a time, for all that is not a
+/// step.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -222,7 +223,8 @@ inline Point traction_of(const Assembly& a, int contact, int point)
     return { law::normal_traction(law, law::gap(law, s), s.max_opening, damage), s.shear_traction };
 }
 
-/// Shares of an edge's second node between which a contact acts: the whole edge, but a part where the faces of a joint have slid.
+/// Shares of an edge's second node between which a contact acts: the whole edge, but a part where
+/// the faces of a joint have slid.
 inline std::array<double, 2> acting_part(const Assembly& a, int contact, int side)
 {
     const Contacts& contacts = a.contacts;
@@ -237,8 +239,8 @@ inline std::array<double, 2> acting_part(const Assembly& a, int contact, int sid
     return { middle - half, middle + half };
 }
 
-/// Unit normal of a contact when it was bonded, from a to b: along the centres, or across the edge of
-/// a contact without a branch.
+/// Unit normal of a contact when it was bonded, from a to b: along the centres, or across the edge
+/// of a contact without a branch.
 inline Point bonded_normal(const Assembly& a, int contact)
 {
     Point along = a.contacts.branch(contact);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A bonded assembly of grains: its saved state by topic, and apart from it the plan of a step. SI units,
-/// tension positive.
+/// @file  A bonded assembly of grains: its saved state by topic, and apart from it the plan of a
+/// step. SI units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/assembly/boundary_edges.hpp>
@@ -40,8 +40,9 @@ struct Assembly {
         return steady.is_followed() ? steady.mean : loading.grains;
     }
 
-    /// What the plane leaves out: area of a facet and volume of a section, from what is seen of them. The order
-    /// of products decides the last digit: a factor that comes first goes in with the length.
+    /// What the plane leaves out: area of a facet and volume of a section, from what is seen of
+    /// them. The order of products decides the last digit: a factor that comes first goes in with
+    /// the length.
     double area_of(double length) const { return length * thickness; }
     double length_of(double area) const { return area / thickness; }
     double volume_of(double section) const { return section * thickness; }

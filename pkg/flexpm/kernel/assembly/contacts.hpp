@@ -23,14 +23,14 @@ enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2, 
 constexpr int point_rows = row_count<PointState>;
 constexpr int law_rows = row_count<LawParameters>;
 
-/// Rows of a contact's nodes: ends of the edges of grains a and b, and the places of their centres in
-/// StepPlan::next_centre.
+/// Rows of a contact's nodes: ends of the edges of grains a and b, and the places of their centres
+/// in StepPlan::next_centre.
 struct NodeRow {
     enum : int { a0, a1, b0, b1, centre_a, centre_b, count };
 };
 
-/// Contacts in the order of their grain pair. Arrays named in the plural are laid out [block][row][lane]; the function
-/// in the singular is one value of one contact.
+/// Contacts in the order of their grain pair. Arrays named in the plural are laid out
+/// [block][row][lane]; the function in the singular is one value of one contact.
 struct Contacts {
     static constexpr int force_values = 4 * dimension;  ///< components on the nodes a0, a1, b0, b1
 
@@ -43,26 +43,30 @@ struct Contacts {
     std::vector<int> law;    ///< index into `laws`
     std::vector<int> joint;  ///< joint on which the contact lies, -1: none
     std::vector<std::uint8_t> bonded;  ///< 1: since the specimen was bonded, 0: touched later
-    /// 1: a bond that a script has erased; its row is kept, without effect, for the record of cracks.
+    /// 1: a bond that a script has erased; its row is kept, without effect, for the record of
+    /// cracks.
     std::vector<std::uint8_t> erased;
-    /// Distance of centres of grains that share no edge, though their discs overlap when bonded [m].
+    /// Distance of centres of grains that share no edge, though their discs overlap when bonded
+    /// [m].
     std::map<GrainPair, double> close_pairs;
     Array<int> nodes;       ///< [NodeRow]
     Array<double> weights;  ///< [point][side]: share of the edge's second node [-]
     Array<double> areas;    ///< [point] [m^2]
-    /// [component] from centre a to centre b when bonded [m]; zero: the normal is that of the edges.
+    /// [component] from centre a to centre b when bonded [m]; zero: the normal is that of the
+    /// edges.
     Array<double> branches;
     Array<double> inverse_edge_lengths;  ///< [side]: 1 / (edge along the tangent) when bonded [1/m]
     Array<double> normals;               ///< [component] of the current unit normal, from a to b
     Array<double> states;                ///< [point][row of PointState]
-    /// [point]: slip at which its places on the two edges lay opposite to each other [m]; 0 until faces slide far.
+    /// [point]: slip at which its places on the two edges lay opposite to each other [m]; 0 until
+    /// faces slide far.
     Array<double> paired_slips;
     Array<int> crack_steps;           ///< [point]: step of the crack or erasure, -1 while intact
     Array<std::uint8_t> crack_modes;  ///< [point]: CrackMode
     Array<double> crack_positions;    ///< [point][component] where it cracked [m]
     Array<double> crack_energies;     ///< [point]: dissipated by damage until it cracked [J]
-    /// `force_values` of each contact, one contact after the other, as nodes gather them [N]; a force of
-    /// zero follows the last block, see no_force().
+    /// `force_values` of each contact, one contact after the other, as nodes gather them [N]; a
+    /// force of zero follows the last block, see no_force().
     Array<double> forces;
 
     int blocks() const { return blocks_of(count); }
@@ -158,8 +162,8 @@ struct Contacts {
     int no_force() const { return blocks() * lanes * force_values; }
     void append_no_force() { forces.resize(static_cast<std::size_t>(no_force()) + dimension, 0.0); }
 
-    /// Calls visit(array, rows, index) for all arrays with rows per contact; index(contact, row, rows) is the
-    /// place of a value.
+    /// Calls visit(array, rows, index) for all arrays with rows per contact; index(contact, row,
+    /// rows) is the place of a value.
     template <class Self, class Visitor> static void visit_rows(Self& s, Visitor&& visit)
     {
         visit(s.nodes, static_cast<int>(NodeRow::count), row_index);

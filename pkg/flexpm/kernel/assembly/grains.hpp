@@ -34,8 +34,9 @@ struct RotationRow {
     enum : int { cosine_less_one, sine, angle, count };
 };
 
-/// Grains of one mesh connectivity form a group and are stepped `lanes` at a time. Node arrays are laid out
-/// [block][node of the grain][component][lane]; a node is named by the offset of its x value.
+/// Grains of one mesh connectivity form a group and are stepped `lanes` at a time. Node arrays are
+/// laid out [block][node of the grain][component][lane]; a node is named by the offset of its x
+/// value.
 struct Grains {
     Layout layout = plane_layout;
     int count = 0;
@@ -62,7 +63,8 @@ struct Grains {
     Array<double> inverse_mass;      ///< [block][node][lane], of the scaled or real mass [1/kg]
 
     // rigid grains, without meaning for others: [slot] unless said. Their mass is that of the
-    // centre node, which alone can be prescribed; velocities of all nodes follow from centre and spin.
+    // centre node, which alone can be prescribed; velocities of all nodes follow from centre and
+    // spin.
     Array<double> rotation;         ///< [block][RotationRow][lane]
     Array<double> spin;             ///< angular velocity, half a step after `rotation` [rad/s]
     Array<double> inverse_inertia;  ///< of the scaled or real moment of inertia [1/(kg m^2)]
@@ -97,7 +99,8 @@ struct Grains {
         return material[grain_a] * static_cast<int>(elastic.size()) + material[grain_b];
     }
 
-    // a vector of a node, by the node's offset, and the places of its components in the arrays of nodes
+    // a vector of a node, by the node's offset, and the places of its components in the arrays of
+    // nodes
     int component(int node, int axis) const { return layout.component(node, axis); }
     int scalar_index(int node) const { return layout.scalar_index(node); }
     Point vector_at(const Array<double>& values, int node) const

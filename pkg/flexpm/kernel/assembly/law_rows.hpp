@@ -6,8 +6,8 @@
 
 namespace flexpm {
 
-/// Parameters of a block's contacts as rows. One for all blocks of a pass: a lane keeps what it holds for
-/// contacts of the same law.
+/// Parameters of a block's contacts as rows. One for all blocks of a pass: a lane keeps what it
+/// holds for contacts of the same law.
 struct LawRows {
     int filled[lanes];         ///< index of the law in each lane, -1: none
     bool lane_dilates[lanes];  ///< whether that law dilates

@@ -12,7 +12,8 @@
 
 namespace flexpm {
 
-/// Where the components of the vectors of nodes lie. A node is named by the place of its first component.
+/// Where the components of the vectors of nodes lie. A node is named by the place of its first
+/// component.
 struct Layout {
     int dimension = 0;         ///< components of a vector
     int grains_per_block = 0;  ///< grains whose values lie side by side
@@ -44,7 +45,8 @@ struct Layout {
 /// Grains of the plane: a row of `lanes` grains for each component.
 constexpr Layout plane_layout { 2, lanes, lanes, 2 * lanes };
 
-// The same as constants, for lanes, which are made for the one layout. What is no lane asks Grains::layout.
+// The same as constants, for lanes, which are made for the one layout. What is no lane asks
+// Grains::layout.
 constexpr int dimension = plane_layout.dimension;
 constexpr int node_stride = plane_layout.node_stride;
 constexpr int component(int node, int axis) { return plane_layout.component(node, axis); }

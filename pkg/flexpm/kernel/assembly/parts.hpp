@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Parts that hold and load a specimen: rigid plates against its outline, paper Sec. 4.1, and sets of nodes. SI
-/// units; forces are those on the specimen.
+/// @file  Parts that hold and load a specimen: rigid plates against its outline, paper Sec. 4.1,
+/// and sets of nodes. SI units; forces are those on the specimen.
 #pragma once
 
 #include <flexpm/kernel/core/vector.hpp>
@@ -9,11 +9,11 @@
 
 namespace flexpm {
 
-/// A straight plate that loads grains through one-point contacts. It does not turn; its normal points
-/// into the specimen, and forces are positive along it. Its contacts are the middles of boundary edges
-/// of rigid grains, or both ends of those of deformable grains, each with half of the edge: a boundary
-/// node then carries its tributary length. Contacts are elastic and only press, unless the plate is
-/// bonded.
+/// A straight plate that loads grains through one-point contacts. It does not turn; its normal
+/// points into the specimen, and forces are positive along it. Its contacts are the middles of
+/// boundary edges of rigid grains, or both ends of those of deformable grains, each with half of
+/// the edge: a boundary node then carries its tributary length. Contacts are elastic and only
+/// press, unless the plate is bonded.
 struct Plate {
     // what it is
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
@@ -93,11 +93,11 @@ struct Plate {
 /// Place of point `point` along its edge, 0 to 1.
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
 
-/// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid motion,
-/// a translation and a rotation about a pivot, counter-clockwise.
+/// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid
+/// motion, a translation and a rotation about a pivot, counter-clockwise.
 /// Deviation D52: of rigid grains the centres are held, and the grains are free to turn about them.
-/// Deviation D53: with `floats` the rotation alone is given; the set moves under the forces on it, so
-/// that only a moment acts.
+/// Deviation D53: with `floats` the rotation alone is given; the set moves under the forces on it,
+/// so that only a moment acts.
 struct NodeSet {
     // what it is
     std::vector<int> nodes;   ///< of deformable grains; of rigid ones their centres

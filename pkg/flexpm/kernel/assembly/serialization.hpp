@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Members that a saved state holds: visit_members(part, visit) calls visit(name, member) for those of each part
-/// of an assembly, by which a run continues to the same bits.
+/// @file  Members that a saved state holds: visit_members(part, visit) calls visit(name, member)
+/// for those of each part of an assembly, by which a run continues to the same bits.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

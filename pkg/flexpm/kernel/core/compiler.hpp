@@ -2,9 +2,10 @@
 /// @file  Words for the compiler that GCC and Clang spell differently or at length.
 #pragma once
 
-/// A function that becomes part of its caller, and with it of the caller's instruction set. FLEXPM_ONE_COPY: it stays
-/// one function, and so do the variants for instruction sets, for builds that count what runs.
-/// FLEXPM_INLINED says the same of a function without a name, behind its parameters.
+/// A function that becomes part of its caller, and with it of the caller's instruction set.
+/// FLEXPM_ONE_COPY: it stays one function, and so do the variants for instruction sets, for builds
+/// that count what runs. FLEXPM_INLINED says the same of a function without a name, behind its
+/// parameters.
 #ifdef FLEXPM_ONE_COPY
 #define FLEXPM_INLINE inline
 #define FLEXPM_INLINED

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Structs of numbers kept as rows, one lane of which is one struct: a row for each member, `lanes` values apart,
-/// in the order in which the struct's visit_members() names them. That list is the only one.
+/// @file  Structs of numbers kept as rows, one lane of which is one struct: a row for each member,
+/// `lanes` values apart, in the order in which the struct's visit_members() names them. That list
+/// is the only one.
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>

@@ -35,8 +35,8 @@ struct Gradient {
     double xx, xy, yx, yy;
 };
 
-/// Displacement gradient from the displacements of the three nodes [m], not from their positions: small
-/// strains keep all their digits.
+/// Displacement gradient from the displacements of the three nodes [m], not from their positions:
+/// small strains keep all their digits.
 FLEXPM_INLINE Gradient displacement_gradient(const TriangleShape& s, Point u0, Point u1, Point u2)
 {
     const double ax = u1.x - u0.x, ay = u1.y - u0.y;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Relative motion of the points of a block of contacts and their forces on the nodes, `lanes`
-/// at a time, paper Eqs. 5-12 and 18-19. Inlined into the functions that are compiled for each
-/// instruction set.
+/// @file  Relative motion of the points of a block of contacts and their forces on the nodes,
+/// `lanes` at a time, paper Eqs. 5-12 and 18-19. Inlined into the functions that are compiled for
+/// each instruction set.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -70,8 +70,9 @@ FLEXPM_INLINE bool any_normal_of_edge(const ContactLanes& b)
     return any_of(of_edge);
 }
 
-/// x and y of the nodes of a row, one node after the other, or the compiler runs out of registers for
-/// the addresses. A row is stored at once: a load of it in one register would wait for two halves.
+/// x and y of the nodes of a row, one node after the other, or the compiler runs out of registers
+/// for the addresses. A row is stored at once: a load of it in one register would wait for two
+/// halves.
 FLEXPM_INLINE void gather_values(const double* from, const int* nodes, double* to)
 {
     const double* from_y = from + component(0, 1);
@@ -90,8 +91,8 @@ FLEXPM_INLINE void gather_pairs(const double* from, const int* pairs, double* to
     unzip<Wide>([&](int i) { return *reinterpret_cast<const Two*>(from + pairs[i]); }, to);
 }
 
-/// A quantity at point `p` of an edge, less its value at the first end, from the difference of the ends.
-/// `Whole`: three points, of weights 0, 1/2 and 1, on both sides.
+/// A quantity at point `p` of an edge, less its value at the first end, from the difference of the
+/// ends. `Whole`: three points, of weights 0, 1/2 and 1, on both sides.
 template <bool Whole>
 FLEXPM_INLINE double between_edges(const ContactLanes& b, int p, int l, double of_a, double of_b)
 {
@@ -120,8 +121,8 @@ FLEXPM_INLINE void prefetch_ahead(const ContactLanes& b, const T* rows, int per_
     prefetch_ahead(b, rows, per_block, per_block);
 }
 
-/// A vector along the normal at the end of the step: between the centres, rows of x and y of a and of b,
-/// or, where a contact has no branch, across the mean of the two edges.
+/// A vector along the normal at the end of the step: between the centres, rows of x and y of a and
+/// of b, or, where a contact has no branch, across the mean of the two edges.
 template <bool OfEdges>
 FLEXPM_INLINE Point direction(const ContactLanes& b, const double* centres, double dt, int l)
 {
@@ -151,8 +152,8 @@ template <bool Whole> FLEXPM_INLINE double inverse_length_of_b(const ContactLane
 /// the new normal: with it the work of a turning contact is what its energy says to third order.
 ///
 /// Deviation D24: both grains are compared in the middle of the gap between their places of a point
-/// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair that
-/// turns as one body neither opens nor slips.
+/// (the paper's one contact location, Eq. 9), to which each edge carries its own rotation: a pair
+/// that turns as one body neither opens nor slips.
 template <int Points, bool OfEdges, bool Whole, bool Wide>
 FLEXPM_INLINE void move_points(const ContactLanes& b, double dt, PointMotion& motion)
 {
@@ -214,7 +215,8 @@ struct EndShares {
     }
 };
 
-/// Vector from its components along a unit normal and along the tangent that lies counter-clockwise of it.
+/// Vector from its components along a unit normal and along the tangent that lies counter-clockwise
+/// of it.
 FLEXPM_INLINE Point in_frame(Point normal, double along_normal, double along_tangent)
 {
     return { along_normal * normal.x - along_tangent * normal.y,

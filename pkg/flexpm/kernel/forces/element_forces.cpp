@@ -21,7 +21,8 @@ struct ElementRows {
 /// Triangles from the one that is worked on to the one to ask for.
 constexpr int prefetch_distance = 12;
 
-/// Ask for the shape of a triangle ahead, and as many nodes of the next block as there are triangles.
+/// Ask for the shape of a triangle ahead, and as many nodes of the next block as there are
+/// triangles.
 FLEXPM_INLINE void prefetch_ahead(const ElementRows& b, int triangle)
 {
     if (!b.prefetches) return;

@@ -88,7 +88,8 @@ void drive(Assembly& a, NodeSet& set, double dt)
     set.float_work_next = 0.5 * dt * of_float;
 }
 
-/// Force and moment of the last step, and their power with the velocities that the nodes had in it [W].
+/// Force and moment of the last step, and their power with the velocities that the nodes had in it
+/// [W].
 double sum_reactions(const Assembly& a, NodeSet& set)
 {
     double power = 0.0;

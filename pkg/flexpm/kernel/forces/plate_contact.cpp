@@ -22,7 +22,8 @@ void add_force(BoundaryEdges& edges, const PlatePoint& p, Point force)
     set_vector(edges.forces, second, vector_at(edges.forces, second) + p.weight * force);
 }
 
-/// Shear force after a slip of the grain along the plate [m], within friction; what rubs off counts as energy of friction.
+/// Shear force after a slip of the grain along the plate [m], within friction; what rubs off counts
+/// as energy of friction.
 double shear_force(Plate& plate, const PlatePoint& p, int index, double normal_force, double slip)
 {
     const double old = plate.shear_force[index], trial = old - p.shear_stiffness * slip;
@@ -70,8 +71,8 @@ bool bears_any(const Assembly& a, const Plate& plate)
         [&](int e) { return !a.grains.loose[a.edges.grain[e]]; });
 }
 
-/// A loaded plate answers to its load and to the specimen along its normal. Deviation D57: with loose grains alone before it
-/// the load would drive it through the specimen and does not act.
+/// A loaded plate answers to its load and to the specimen along its normal. Deviation D57: with
+/// loose grains alone before it the load would drive it through the specimen and does not act.
 ///
 /// @param undamped  part of its speed that damping does not act on [m/s]
 void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, double damping)

@@ -2,8 +2,8 @@
 /// @file  Plates against the boundary edges of grains: one-point contacts, their forces, work and
 /// energy, paper Sec. 4.1. SI units; openings are positive, forces of a plate on the specimen are
 /// positive along its normal.
-/// Deviation D20: a plate's contact has the stiffness K_n of the grains' contacts times its tributary
-/// length times the thickness.
+/// Deviation D20: a plate's contact has the stiffness K_n of the grains' contacts times its
+/// tributary length times the thickness.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -13,8 +13,9 @@ namespace flexpm {
 /// @throws std::invalid_argument  unless there is a plate of that number
 void require_plate(const Assembly& a, int plate);
 
-/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given velocity. It does not act while all of
-/// its grains are loose, which counts as a load that nothing balances.
+/// Let a plate move along its normal under a pressure [Pa] on its width instead of a given
+/// velocity. It does not act while all of its grains are loose, which counts as a load that nothing
+/// balances.
 void press(Assembly& a, int plate, double pressure);
 
 /// Prescribe a plate's velocity [m/s].
@@ -44,8 +45,8 @@ double elastic_energy(const Plate& p);
 Point plate_force(const Assembly& a, int side);
 bool has_plates(const Assembly& a, int side);
 
-/// Length along the plate between its outermost points in contact, each with its tributary length [m];
-/// 0 if nothing touches.
+/// Length along the plate between its outermost points in contact, each with its tributary length
+/// [m]; 0 if nothing touches.
 double contact_width(const Assembly& a, int plate);
 
 }  // namespace flexpm

@@ -10,8 +10,8 @@ namespace flexpm {
 double axial_stress(const EndForces& ends, Sense sense, double area)
 {
     const double sign = sense == Sense::compression ? -1.0 : 1.0;
-    // Deviation D25: the drag of damping on the moving grains adds to one end what it takes from the
-    // other
+    // Deviation D25: the drag of damping on the moving grains adds to one end what it takes from
+    // the other
     return sign * 0.5 * (ends.top - ends.bottom) / area;
 }
 

@@ -19,7 +19,8 @@ namespace flexpm {
 
 namespace {
 
-/// Strength that a test is taken to have, over the stress at which its first contact point softens [-].
+/// Strength that a test is taken to have, over the stress at which its first contact point softens
+/// [-].
 constexpr double strength_over_softening = 2.0;
 /// Time in which sets move by next to nothing at a unit velocity [s].
 constexpr double unit_way = 1e-9;
@@ -45,8 +46,8 @@ void check(const Assembly& a, const PartGeometry& parts)
     }
 }
 
-/// Stiffness of the parts against motions of the specimen as one: along x, along y, and about a point over a length
-/// [N/m].
+/// Stiffness of the parts against motions of the specimen as one: along x, along y, and about a
+/// point over a length [N/m].
 struct RigidStiffness {
     Point about;
     double length;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What a test records whose specimen is held and loaded by parts: supports, rollers and boxes, each a plate
-/// against a part of the outline, and node sets. SI units; load and displacement are positive along the loading.
+/// @file  What a test records whose specimen is held and loaded by parts: supports, rollers and
+/// boxes, each a plate against a part of the outline, and node sets. SI units; load and
+/// displacement are positive along the loading.
 #pragma once
 
 #include <flexpm/kernel/laboratory/test_frame.hpp>
@@ -23,27 +24,31 @@ struct PartGeometry {
     double turn = 0.0;  ///< 1: sets turn; load and way are moments [N m] and an angle
 };
 
-/// Load [N, or N m]: mean of what the driven parts push and the holding ones push back. Deviation D25.
+/// Load [N, or N m]: mean of what the driven parts push and the holding ones push back. Deviation
+/// D25.
 double part_load(const Assembly& a, const PartGeometry& parts);
 
-/// Change of the driven parts' push in a unit of time, where nodes move at such velocities, in the layout of
-/// Grains::displacement, and plates at their own; that of sets is the one of the loading [N/s].
+/// Change of the driven parts' push in a unit of time, where nodes move at such velocities, in the
+/// layout of Grains::displacement, and plates at their own; that of sets is the one of the loading
+/// [N/s].
 double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity);
 
 /// Way of the driven parts along the loading [m], or their angle [rad].
 double part_displacement(const Assembly& a, const PartGeometry& parts);
 
-/// The frame of such a test; its load is positive as tension is. There is no lateral strain and no confinement.
+/// The frame of such a test; its load is positive as tension is. There is no lateral strain and no
+/// confinement.
 /// @throws std::invalid_argument  if a part is not there or a size is not above zero
 TestFrame part_frame(const Assembly& a, const PartGeometry& parts);
 
-/// Scales of such a test, from its elastic solution for a unit way of the driven parts: its stiffness gives the
-/// modulus, and the mass that takes part in the motion the steps of a crossing. These are those of a bar of the same
-/// lowest frequency: sqrt(3 m / k) / dt, with the kinetic energy m / 2 and the stored energy k / 2 at a unit velocity
-/// and way. Joints that the loading opens carry nothing.
+/// Scales of such a test, from its elastic solution for a unit way of the driven parts: its
+/// stiffness gives the modulus, and the mass that takes part in the motion the steps of a crossing.
+/// These are those of a bar of the same lowest frequency: sqrt(3 m / k) / dt, with the kinetic
+/// energy m / 2 and the stored energy k / 2 at a unit velocity and way. Joints that the loading
+/// opens carry nothing.
 ///
-/// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first contact point leaves
-///                  its elastic branch
+/// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
+///                  contact point leaves its elastic branch
 /// @throws std::invalid_argument  if the parts leave the whole specimen free to move
 /// @throws std::runtime_error     if they leave a piece of it free
 TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt);

@@ -17,11 +17,13 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Damage up to which a joint's point has only begun to soften: a plane of such points still bears nearly its strength. What a
-/// joint takes that is weaker than the rock tells too little; points of rock tell by themselves that they soften (crack_wait.hpp).
+/// Damage up to which a joint's point has only begun to soften: a plane of such points still bears
+/// nearly its strength. What a joint takes that is weaker than the rock tells too little; points of
+/// rock tell by themselves that they soften (crack_wait.hpp).
 constexpr double begun = 0.1;
 
-/// Points that may come to their strengths faster, over the cut through a square as large as the specimen [-].
+/// Points that may come to their strengths faster, over the cut through a square as large as the
+/// specimen [-].
 constexpr double few = 0.05;
 
 /// Normal and shear traction of a point [Pa], or what they grow by in a unit of time.
@@ -57,8 +59,8 @@ Approach earlier(const Approach& one, const Approach& other)
     return other.time < one.time ? other : one;
 }
 
-/// How a point comes to its strengths at a steady growth of its tractions: to that in tension or, in either sense, to |shear| = c - mu
-/// normal.
+/// How a point comes to its strengths at a steady growth of its tractions: to that in tension or,
+/// in either sense, to |shear| = c - mu normal.
 Approach approach(const Strengths& left, const Tractions& now, const Tractions& growth)
 {
     Approach first;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  How far contact points are from their strengths along the motion of a loading, deviation D58. SI units,
-/// tension positive.
+/// @file  How far contact points are from their strengths along the motion of a loading, deviation
+/// D58. SI units, tension positive.
 ///
-/// What ends bear is ahead of what a plane in the specimen bears: by what the load grows by until a wave has told them that the
-/// plane softens. Points that soften one after the other tell by what they dissipate that the load must wait
-/// (crack_wait.hpp). A plane whose points soften at once has told nothing before. The elastic solution, along which
-/// the specimen moves up to there, tells when that will be.
+/// What ends bear is ahead of what a plane in the specimen bears: by what the load grows by until a
+/// wave has told them that the plane softens. Points that soften one after the other tell by what
+/// they dissipate that the load must wait (crack_wait.hpp). A plane whose points soften at once has
+/// told nothing before. The elastic solution, along which the specimen moves up to there, tells
+/// when that will be.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -22,9 +23,10 @@ struct SofteningRule {
 /// elastic branch, at small displacements [s]; infinite if none does.
 double elastic_time(const Assembly& a, const Array<double>& velocity);
 
-/// Factor on a velocity of the loading that brings its points to their strengths slowly enough [-]; infinite if few enough are on the
-/// way there. A point's distance to its strength may shrink by 1 / e in a crossing, or its traction grow by `growth`. Of the points that
-/// are elastic still, or bear friction and do not slide, those may be faster that make up a twentieth of a cut through a
+/// Factor on a velocity of the loading that brings its points to their strengths slowly enough [-];
+/// infinite if few enough are on the way there. A point's distance to its strength may shrink by 1
+/// / e in a crossing, or its traction grow by `growth`. Of the points that are elastic still, or
+/// bear friction and do not slide, those may be faster that make up a twentieth of a cut through a
 /// square as large as the specimen.
 ///
 /// @param velocity  of all nodes in that motion, see loading_field() [m/s]

@@ -27,7 +27,8 @@ Point bounded(Point velocity, double fastest)
     return speed > fastest ? (fastest / speed) * velocity : velocity;
 }
 
-/// Mean motion of the nodes since the last look; of a rigid grain the centre alone has a velocity that counts.
+/// Mean motion of the nodes since the last look; of a rigid grain the centre alone has a velocity
+/// that counts.
 class MeanMotion {
 public:
     MeanMotion(Assembly& assembly, double time, double fastest) :

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Bilinear softening of one local contact point, paper Sec. 2.5-2.6, Eqs. 22-27 and Fig. 3: its parameters, its
-/// state and what follows from both. bilinear_step.hpp advances it.
-/// Opening and tension are positive, slip is counted along the contact's tangent. SI units.
+/// @file  Bilinear softening of one local contact point, paper Sec. 2.5-2.6, Eqs. 22-27 and Fig. 3:
+/// its parameters, its state and what follows from both. bilinear_step.hpp advances it. Opening and
+/// tension are positive, slip is counted along the contact's tangent. SI units.
 /// Deviation D1: Eqs. 26-27 print D; D = 1 means cracked, so strengths are multiplied by (1 - D).
 /// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
 /// Deviation D3: unloading in tension goes along the secant.
@@ -73,20 +73,21 @@ constexpr double brittle_limit = 1e200;
 ///         is below the elastic energy at the strength by more than 1e-12 of it
 LawParameters make_law(const ContactMaterial& material);
 
-/// Material whose strengths are multiplied by a factor, and fracture energies by its square: the curves of Fig. 3 grow in
-/// both directions, so a brittle contact stays brittle.
+/// Material whose strengths are multiplied by a factor, and fracture energies by its square: the
+/// curves of Fig. 3 grow in both directions, so a brittle contact stays brittle.
 ContactMaterial scaled_strength(const ContactMaterial& material, double factor);
 
 /// Whether a joint has no strength: its points are cracked from the start.
 bool is_cracked(const ContactMaterial& joint);
 
-/// Law of a joint, whose strengths may be 0. Fracture energies of 0 are the elastic energies at the strengths.
+/// Law of a joint, whose strengths may be 0. Fracture energies of 0 are the elastic energies at the
+/// strengths.
 /// Deviation D36: beside a strength above 0 one of 0 counts as a millionth of it.
 /// @throws std::invalid_argument  as make_law(), for a strength below 0
 LawParameters joint_law(const ContactMaterial& joint);
 
-/// Material of the same stiffness and friction, with strengths that only an opening or a slip of one
-/// metre would come to.
+/// Material of the same stiffness and friction, with strengths that only an opening or a slip of
+/// one metre would come to.
 ContactMaterial unbreakable(const ContactMaterial& material);
 
 /// State of a point, which is all that it needs to continue. All zero means bonded and unloaded.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A step of one local contact point by the bilinear law of bilinear.hpp.
-/// The law itself (namespace law) knows sizes along the direction of shear and no tangent. The functions below it put
-/// the point's tangent to it: one in the plane; a point with two takes the norm where one takes the absolute value.
+/// @file  A step of one local contact point by the bilinear law of bilinear.hpp. The law itself
+/// (namespace law) knows sizes along the direction of shear and no tangent. The functions below it
+/// put the point's tangent to it: one in the plane; a point with two takes the norm where one takes
+/// the absolute value.
 #pragma once
 
 #include <flexpm/kernel/law/bilinear.hpp>
@@ -39,13 +40,14 @@ inline double lifting_work(double gap_before, double normal_before, double gap, 
     return 0.5 * (gap * normal - gap_before * normal_before);
 }
 
-/// Step of a point: tensile damage, normal traction, shear return with its damage in closed form, and the
-/// normal traction once more with the new damage and dilation. It has no branches, so that eight points
-/// advance at once.
+/// Step of a point: tensile damage, normal traction, shear return with its damage in closed form,
+/// and the normal traction once more with the new damage and dilation. It has no branches, so that
+/// eight points advance at once.
 ///
 /// @tparam Dilating  false: the law does not dilate
 /// @param shear_damage  before the step, as `max_opening`
-/// @param plastic  plastic(size): eta K_n |s_p| at the end of the step if the shear traction has that size [Pa]
+/// @param plastic  plastic(size): eta K_n |s_p| at the end of the step if the shear traction has
+///         that size [Pa]
 template <bool Dilating, class Plastic>
 FLEXPM_INLINE Response respond(const LawParameters& p, const Trial& trial, double max_opening,
     double shear_damage, Plastic plastic)
@@ -65,7 +67,8 @@ FLEXPM_INLINE Response respond(const LawParameters& p, const Trial& trial, doubl
     const double new_limit = std::max(limit - softening * damaging, 0.0);
     const double shear = excess > 0.0 ? std::min(size, new_limit) : size;
     const double slip = (size - shear) / p.shear_stiffness;
-    // both tests: round-off in `slip`, and brittle shear under tension, which slips less than slip_left
+    // both tests: round-off in `slip`, and brittle shear under tension, which slips less than
+    // slip_left
     const bool used_up = (damaging >= slip_left) | (slip >= slip_left);
     const double sheared =
         excess > 0.0 ? (used_up ? 1.0 : shear_damage + slip / p.critical_slip) : shear_damage;
@@ -116,15 +119,16 @@ FLEXPM_INLINE Branch branch_at(
     return { normal, limit, d, largest, same_secant };
 }
 
-/// Tractions that friction leaves [Pa], the shear as a size, and energy [J/m^2] that it takes in a step.
+/// Tractions that friction leaves [Pa], the shear as a size, and energy [J/m^2] that it takes in a
+/// step.
 struct Friction {
     double shear;
     double normal;
     double loss;
 };
 
-/// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be damaged
-/// further: respond() in short. `normal` is the traction on its branch.
+/// Friction of a point that shear has used up (D_s = 1), which carries no tension and cannot be
+/// damaged further: respond() in short. `normal` is the traction on its branch.
 template <bool Dilating, class Plastic>
 FLEXPM_INLINE Friction rub(
     const LawParameters& p, double normal, const Trial& trial, Plastic plastic)
@@ -183,8 +187,8 @@ FLEXPM_INLINE Traction advance_point(
     return { r.normal, s.shear_traction, r.damage_before, r.damage };
 }
 
-/// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and the point is
-/// not where `next` says, if it would not.
+/// Advance a point that stays on its current branch: no new damage, no slip. Returns false, and the
+/// point is not where `next` says, if it would not.
 ///
 /// @tparam Intact  true: the point has no damage, which need not be worked out
 /// @tparam Dilating  false: the law does not dilate
@@ -212,8 +216,9 @@ struct Sliding {
     double loss;
 };
 
-/// Friction of a point that shear has used up. Together with advance_elastic() this is the whole step of such a
-/// point. `tried` is what that has made of `before`, with the tractions that the point would have without friction.
+/// Friction of a point that shear has used up. Together with advance_elastic() this is the whole
+/// step of such a point. `tried` is what that has made of `before`, with the tractions that the
+/// point would have without friction.
 template <bool Dilating = true>
 FLEXPM_INLINE Sliding slide_used_up(
     const LawParameters& p, double normal, const PointState& before, const PointState& tried)

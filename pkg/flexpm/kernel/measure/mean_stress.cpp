@@ -88,7 +88,8 @@ double overlap(const Plate& plate)
     return sum;
 }
 
-/// Calls visit(force, place) with the net force on each node, or on the centre of each rigid grain, that is free to move.
+/// Calls visit(force, place) with the net force on each node, or on the centre of each rigid grain,
+/// that is free to move.
 template <class Visit> void for_each_net_force(const Grains& grains, Visit visit)
 {
     const auto free = [&](Point force, int node) {

@@ -12,7 +12,8 @@
 namespace flexpm {
 
 /// Sums over the degrees of freedom of a block, [lane] [J]; `next` belongs to the half step after.
-/// Cleared and copied by loops over lanes: of a whole struct the compiler makes slow string instructions.
+/// Cleared and copied by loops over lanes: of a whole struct the compiler makes slow string
+/// instructions.
 struct StepSums {
     alignas(64) double damped[lanes], damped_next[lanes];
     alignas(64) double dragged[lanes];  ///< in either half step: what of it goes with the loading
@@ -51,8 +52,8 @@ struct Freedom {
         1.0;  ///< makes a force of it for the unbalanced ratio: 1, or the arm of a moment [m]
 };
 
-/// New velocity of a degree of freedom in a lane, and the works of damping and of what prescribes the velocity: a
-/// force F at step n works over half of the step before and half of the step after,
+/// New velocity of a degree of freedom in a lane, and the works of damping and of what prescribes
+/// the velocity: a force F at step n works over half of the step before and half of the step after,
 /// F dt (v(n-1/2) + v(n+1/2)) / 2.
 ///
 /// @tparam Prescribed  false: the velocity is not prescribed, which need not be looked at

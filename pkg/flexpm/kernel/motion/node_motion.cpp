@@ -24,8 +24,9 @@ bool prescribes_any(const NodeRows& b)
     return any != 0;
 }
 
-/// Few blocks lie on a boundary: all others are integrated without looking at `prescribed`. Bytes and
-/// doubles in one loop are not vectorised, hence the copy; the sums are a local, which no row aliases.
+/// Few blocks lie on a boundary: all others are integrated without looking at `prescribed`. Bytes
+/// and doubles in one loop are not vectorised, hence the copy; the sums are a local, which no row
+/// aliases.
 template <bool Measure, bool Prescribed>
 FLEXPM_INLINE void integrate_lanes(const NodeRows& b, double dt, double damping, StepSums& total)
 {

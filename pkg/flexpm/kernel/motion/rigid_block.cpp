@@ -58,8 +58,8 @@ FLEXPM_INLINE void move_centres(const RigidRows& b, int centre, double dt)
     }
 }
 
-/// Move the outer nodes with the grains and sum the forces there. With `Move` false nodes stay where
-/// they are. Arms about the centres are left in the place of the nodes' velocities.
+/// Move the outer nodes with the grains and sum the forces there. With `Move` false nodes stay
+/// where they are. Arms about the centres are left in the place of the nodes' velocities.
 template <bool Move, bool Measure>
 FLEXPM_INLINE void find_arms(const RigidRows& b, int centre, Resultants& sum)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One rigid grain at a time: its motion and its geometry. SI units, rotations counter-clockwise.
+/// @file  One rigid grain at a time: its motion and its geometry. SI units, rotations
+/// counter-clockwise.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

@@ -111,7 +111,8 @@ void update_shared_grains(Assembly& a, TileRange own, const StepOptions& options
     }
 }
 
-/// Press the loaded edges and push the plates, which are few; book what erased grains leave for this step.
+/// Press the loaded edges and push the plates, which are few; book what erased grains leave for
+/// this step.
 void update_boundary(Assembly& a, const StepOptions& options)
 {
     a.ledger.erased += a.ledger.erased_next;

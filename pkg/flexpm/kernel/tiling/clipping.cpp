@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Boolean operations of CGAL on polygons with exact numbers: both neighbours find the same crossing.
+/// @file  Boolean operations of CGAL on polygons with exact numbers: both neighbours find the same
+/// crossing.
 #include <flexpm/kernel/tiling/clipping.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -242,7 +243,8 @@ public:
     {
     }
 
-    /// Two cells between a hole and a rim, with cuts from two corners of the hole; none if these see no corners of the rim.
+    /// Two cells between a hole and a rim, with cuts from two corners of the hole; none if these
+    /// see no corners of the rim.
     std::vector<Loop> open(int left, int right) const
     {
         const int n = static_cast<int>(rim.size()), m = static_cast<int>(hole.size());

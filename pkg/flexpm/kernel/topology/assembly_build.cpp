@@ -57,8 +57,8 @@ struct Block {
     std::vector<int> grains;
 };
 
-/// Grains of equal connectivity by eights. Blocks follow the order of the grains, which is one in space,
-/// and not that of the groups: what a step reads together then lies together.
+/// Grains of equal connectivity by eights. Blocks follow the order of the grains, which is one in
+/// space, and not that of the groups: what a step reads together then lies together.
 std::vector<Block> group_grains(Assembly& a, const std::vector<MeshedGrain>& grains)
 {
     std::map<std::pair<int, std::vector<int>>, std::vector<int>> members;

@@ -191,7 +191,8 @@ ContactEnergy energy_of(const Contacts& contacts, int contact)
 }
 
 /// Keep in the balance what contacts that end have dissipated; what they store leaves as friction.
-/// Point by point: sums in another order have other last digits, which the waiting for cracks makes other results.
+/// Point by point: sums in another order have other last digits, which the waiting for cracks makes
+/// other results.
 void keep_energy(Assembly& a, const std::vector<int>& ended)
 {
     for (int c : ended) {
@@ -205,7 +206,8 @@ void keep_energy(Assembly& a, const std::vector<int>& ended)
     }
 }
 
-/// Raise masses where new contacts need it. The kinetic energy that this adds counts as initial energy.
+/// Raise masses where new contacts need it. The kinetic energy that this adds counts as initial
+/// energy.
 void raise_masses(Assembly& a, double damping, double dt)
 {
     Grains& grains = a.grains;

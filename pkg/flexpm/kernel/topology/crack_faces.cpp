@@ -45,8 +45,8 @@ Point turned(Point p, double angle)
 
 Point tangent_of(Point normal) { return { -normal.y, normal.x }; }
 
-/// State of a point that bears nothing, at its place between the faces. Where these lie on each other already it begins to
-/// bear there.
+/// State of a point that bears nothing, at its place between the faces. Where these lie on each
+/// other already it begins to bear there.
 PointState open_state(PointState s, const LawParameters& law, Point apart, Point normal)
 {
     s.shear_traction = 0.0;
@@ -56,7 +56,8 @@ PointState open_state(PointState s, const LawParameters& law, Point apart, Point
     return s;
 }
 
-/// State of a point whose traction, a vector, goes over from one normal to another. It falls where it would store more.
+/// State of a point whose traction, a vector, goes over from one normal to another. It falls where
+/// it would store more.
 PointState turned_state(PointState s, const LawParameters& law, Point from, Point to)
 {
     const double before = law::elastic_energy(law, s);
@@ -78,8 +79,8 @@ Point apart_at(const Contacts& contacts, int contact, int point, const BondFaces
     return faces.apart(contacts.weight(contact, point, 0), contacts.weight(contact, point, 1));
 }
 
-/// Whether a place on the faces of a crack, or the discs, are less than a part of both radii from touching, or the centres from
-/// where they were bonded.
+/// Whether a place on the faces of a crack, or the discs, are less than a part of both radii from
+/// touching, or the centres from where they were bonded.
 bool is_near(const Assembly& a, int contact, const BondFaces& faces, double part)
 {
     const GrainPair pair = a.contacts.pairs[contact];
@@ -122,8 +123,8 @@ void set_couple(Contacts& contacts, int contact, const BondFaces& faces)
         contacts.inverse_edge_length(contact, side) = inverse;
 }
 
-/// Let the normal of a crack be `normal` now, and turn with the line of the centres from there; across its faces where these
-/// face each other.
+/// Let the normal of a crack be `normal` now, and turn with the line of the centres from there;
+/// across its faces where these face each other.
 void set_branch(Assembly& a, int contact, Point normal, bool between_faces)
 {
     const GrainPair pair = a.contacts.pairs[contact];
@@ -132,8 +133,8 @@ void set_branch(Assembly& a, int contact, Point normal, bool between_faces)
     a.contacts.set_branch(contact, between_faces ? Point {} : norm(now) * normal - (now - bonded));
 }
 
-/// Normal that a crack should have: across its faces while these lie as they did, then turning to the line of the centres the
-/// further they part.
+/// Normal that a crack should have: across its faces while these lie as they did, then turning to
+/// the line of the centres the further they part.
 Point wanted_normal(const Assembly& a, int contact, const BondFaces& faces, double parted)
 {
     const Point between = between_centres(a.grains, a.contacts.pairs[contact]);

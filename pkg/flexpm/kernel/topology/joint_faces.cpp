@@ -144,7 +144,8 @@ Point normal_across(const Line& a, const Line& b)
     return { along.y / length, -along.x / length };
 }
 
-/// Whether two faces lie opposite to each other, and the parts that do: the ends of the second are projected onto the first.
+/// Whether two faces lie opposite to each other, and the parts that do: the ends of the second are
+/// projected onto the first.
 bool find_overlap(const Grains& grains, const Face& f, const Face& g, Overlap& overlap)
 {
     const Line a(grains, f.nodes), b(grains, reversed(g.nodes));
@@ -336,7 +337,8 @@ FaceContact contact_of(const Assembly& a, const Joint& joint, int number, const 
     return made;
 }
 
-/// Whether the contacts of a joint act elsewhere than between the faces that now lie opposite to each other.
+/// Whether the contacts of a joint act elsewhere than between the faces that now lie opposite to
+/// each other.
 bool must_change(const Assembly& a, const Joint& joint, const std::vector<Overlap>& overlaps)
 {
     std::size_t stay = 0;

@@ -197,7 +197,8 @@ std::vector<int> add_plates(Assembly& a, const std::vector<Plate>& plates)
     return numbers;
 }
 
-/// The plate that was laid like another one, -1 if none was. What was erased since is missing in both.
+/// The plate that was laid like another one, -1 if none was. What was erased since is missing in
+/// both.
 int find_like(const Assembly& a, const Plate& p)
 {
     for (std::size_t i = 0; i < a.plates.size(); ++i) {
@@ -210,8 +211,8 @@ int find_like(const Assembly& a, const Plate& p)
     return -1;
 }
 
-/// Distance of a support's place from the outline, over the length of the edge there, that is none: an arc is made of
-/// chords [-].
+/// Distance of a support's place from the outline, over the length of the edge there, that is none:
+/// an arc is made of chords [-].
 constexpr double off_outline = 0.05;
 
 double distance_to(const Edge& edge, Point place)
@@ -221,7 +222,8 @@ double distance_to(const Edge& edge, Point place)
     return norm(edge.start + std::clamp(part, 0.0, 1.0) * along_edge - place);
 }
 
-/// @throws std::invalid_argument  unless a support lies on the outline, with half of its length or more, and ends on it
+/// @throws std::invalid_argument  unless a support lies on the outline, with half of its length or
+///         more, and ends on it
 void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
 {
     const Point tangent = { -p.normal.y, p.normal.x };
