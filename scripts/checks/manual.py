@@ -15,7 +15,7 @@ import re
 import sys
 from pathlib import Path
 
-MOST_LINES = 2800
+MOST_LINES = 2950
 COLUMNS = 120
 UNBROKEN = re.compile(r"^ +\S.* \| |https?://|^ +:alt: ")
 

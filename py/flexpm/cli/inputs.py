@@ -19,13 +19,11 @@ from ..results import doubts
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
 from ..specimens.files.source import SpecimenSource
-from ..specimens.space.spec import SolidSpec
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..specimens.space.specimen import SolidSpecimen
     from ..specimens.specimen import Specimen
 
 
@@ -123,15 +121,6 @@ def packed(kind: str, options: Table) -> SpecimenSource:
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     spec = SpecimenSpec(kind, **{name: options[name] for name in names})
     return SpecimenSource.read(spec, joints=options["joints_file"])
-
-
-def solid(kind: str, options: Table, progress: terminal.Progress) -> SolidSpecimen:
-    """Pack the solid that the options describe, which are all for its shape."""
-    spec = SolidSpec(kind, **options)
-    load_yade()
-    from ..specimens.space.specimen import SolidSpecimen
-
-    return SolidSpecimen.pack(spec, progress)
 
 
 def made(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:

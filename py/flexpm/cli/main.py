@@ -23,7 +23,7 @@ from click.shell_completion import shell_complete
 
 from .._version import __version__
 from ..errors import InputError, SimulationError
-from ..files import Table, json_text, require_writable, write_text
+from ..files import json_text, require_writable, write_text
 from ..materials.material import load
 from ..report import tables
 from ..require import nearest
@@ -31,6 +31,7 @@ from ..text import name_of
 from . import compare as cli_compare
 from . import inputs, runs, signals, terminal
 from . import options as cli_options
+from . import solids as cli_solids
 from .parameters import Count
 
 if TYPE_CHECKING:
@@ -108,24 +109,8 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     _describe(made, folder, mesh)
 
 
-@specimen.command()
-@cli_options.box_options
-@cli_options.grain_options
-@cli_options.out_option
-@cli_options.quiet_option
-def box(out: Path, quiet: bool, **options: Any) -> None:
-    """A box of polyhedral grains; solids are not tested yet."""
-    _describe_solid("box", out, quiet, options)
-
-
-@specimen.command()
-@cli_options.cylinder_options
-@cli_options.grain_options
-@cli_options.out_option
-@cli_options.quiet_option
-def cylinder(out: Path, quiet: bool, **options: Any) -> None:
-    """An upright cylinder of polyhedral grains; solids are not tested yet."""
-    _describe_solid("cylinder", out, quiet, options)
+specimen.add_command(cli_solids.box)
+specimen.add_command(cli_solids.cylinder)
 
 
 @command.command(short_help="Time a step of each model.")
@@ -331,25 +316,3 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     maps.specimen_picture(picture, polygons, triangles, caption, made.joint_lines())
     terminal.say(tables.statistics_table(found))
     terminal.say(f"  files  {picture}, {folder / 'specimen.json'}")
-
-
-def _describe_solid(kind: str, out: Path, quiet: bool, options: Table) -> None:
-    """Pack a solid; print its statistics and write them with its file, its mesh and its picture."""
-    folder = inputs.locked_folder(out)
-    with terminal.Progress(quiet) as progress:
-        made = inputs.solid(kind, options, progress)
-    from ..report.outside import outside_picture
-    from ..results.vtu_solid import SolidShape, write_solid_vtu
-
-    found, cells = made.statistics(), made.cells
-    pairs, outer = cells.faces[: cells.contacts, :2], cells.faces[cells.contacts :, 0]
-    shape = SolidShape(*made.tetrahedra(), cells.vertices, made.contact_polygons(), pairs)
-    write_text(folder / "specimen.json", json_text(found))
-    made.save(folder / "solid.json")
-    write_solid_vtu(folder / "specimen.vtu", shape)
-    picture = folder / "specimen.png"
-    caption = f"{found['grains']} grains, {found['contacts']} contacts"
-    outside_picture(picture, cells.vertices, made.outer_polygons(), outer, caption)
-    terminal.say(tables.statistics_table(found))
-    names = ("specimen.json", "solid.json", "specimen.vtu")
-    terminal.say(f"  files  {', '.join(map(str, (picture, *(folder / name for name in names))))}")

@@ -18,7 +18,6 @@ from ..require import NOT_NEGATIVE, POSITIVE, Bounds
 from ..runs.loading_rate import LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import STARTS, RunSpec
-from ..specimens.space.spec import SIZES as SOLID_SIZES
 from ..specimens.spec import SIZES, SpecimenSpec
 from .parameters import Count, Name, Quantity, Range, Seeds
 
@@ -37,7 +36,7 @@ def combined(*options: Decorator) -> Decorator:
     return decorate
 
 
-def _length(name: str, default: float, help_text: str, *, sizes: bool = True) -> Decorator:
+def length_option(name: str, default: float, help_text: str, *, sizes: bool = True) -> Decorator:
     """A length; a size is left to the test, whose specimen may have another default."""
     return click.option(
         name,
@@ -61,8 +60,8 @@ def _by_test(value: Callable[[TestKind], float], option: str) -> str:
 
 
 rectangle_options = combined(
-    _length("--width", SIZES["rectangle"]["width"], "Width"),
-    _length("--height", SIZES["rectangle"]["height"], "Height"),
+    length_option("--width", SIZES["rectangle"]["width"], "Width"),
+    length_option("--height", SIZES["rectangle"]["height"], "Height"),
 )
 
 
@@ -153,17 +152,8 @@ grain_options = combined(
     seed_option,
 )
 packing_options = combined(
-    _length("--thickness", SpecimenSpec.thickness, "Thickness out of plane", sizes=False),
+    length_option("--thickness", SpecimenSpec.thickness, "Thickness out of plane", sizes=False),
     grain_options,
-)
-box_options = combined(
-    _length("--width", SOLID_SIZES["box"]["width"], "Width, along x"),
-    _length("--depth", SOLID_SIZES["box"]["depth"], "Depth, along y"),
-    _length("--height", SOLID_SIZES["box"]["height"], "Height, along z"),
-)
-cylinder_options = combined(
-    _length("--diameter", SOLID_SIZES["cylinder"]["diameter"], "Diameter"),
-    _length("--height", SOLID_SIZES["cylinder"]["height"], "Height, along z"),
 )
 specimen_option = click.option(
     "--specimen",
@@ -179,7 +169,7 @@ joints_option = click.option(
     metavar="FILE",
     help="Cut the specimen along the segments of a CSV file x1,y1,x2,y2,name [m].",
 )
-disc_options = _length(
+disc_options = length_option(
     "--diameter", SIZES["disc"]["diameter"], "Diameter of the disc, or of half of one"
 )
 material_options = combined(

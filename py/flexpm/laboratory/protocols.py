@@ -46,7 +46,7 @@ from ..runs.output import Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec, described
 from ..runs.runner import Foresee, Runner
 from ..specimens.files import given
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import Specimen, require_specimen
 from .part_tests import grains_across, measure, part_rig, prepared
 
 #: Names of the files of a run.
@@ -177,6 +177,7 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
+    require_specimen("run", specimen)
     output = Output(report, frames, film)
     chosen = load_material(material, model)
     spec = RunSpec(

@@ -23,11 +23,10 @@ from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..materials.mixing import description, mineral_materials, pair_materials
-from ..require import quoted, require_one_of, require_threads
+from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..specimens import inner_particles, mineral_map
-from ..specimens.space.spec import refuse_solid
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import Specimen, require_specimen
 from ..threads import limited
 from . import spheres
 from .collider import collider
@@ -235,9 +234,7 @@ def build(
     points = int(points)  # numpy's integers are no integers for the kernel
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
-    refuse_solid("build", specimen)
-    if not isinstance(specimen, Specimen):
-        raise InputError(f"build: specimen = {quoted(specimen)}, must be a Specimen")
+    require_specimen("build", specimen)
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
         return spheres.build(
@@ -291,7 +288,7 @@ def elastic(
         InputError: for an argument out of range or a specimen that is no rectangle.
     """
     require_one_of("build: model", model, GRAIN_MODELS)
-    refuse_solid("elastic", specimen)
+    require_specimen("elastic", specimen)
     grains = _grains(specimen, model, points, mesh)
     chosen = _fitted(specimen, grains, load_material(material, model), model)
     solver = _assembled(grains, chosen)

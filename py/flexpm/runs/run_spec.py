@@ -38,7 +38,6 @@ from ..require import (
     require_number,
     require_one_of,
 )
-from ..specimens.space.spec import refuse_solid
 from ..specimens.spec import SIZES, SpecimenSpec
 from .loading_rate import LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 
@@ -164,7 +163,6 @@ class RunSpec:
 
     def __post_init__(self) -> None:
         require_one_of("run: test", self.test, tuple(KINDS))
-        refuse_solid("run", self.specimen)
         self._check_unused()
         if self.kind.dynamic:
             self._set("dynamic", True)

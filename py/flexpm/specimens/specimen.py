@@ -21,6 +21,7 @@ from ..joints.lines import Lines
 from ..joints.lines import checked as checked_lines
 from ..notebook import Shown
 from ..progress import Progress
+from ..require import quoted
 from . import statistics
 from . import strengths as contact_strengths
 from .checks import SHORT_EDGE as SHORT_EDGE
@@ -30,6 +31,7 @@ from .kernel_input import Circle, call, checksum, columns, mineral_indices
 from .plane import Filling
 from .shapes import PlaneShapes
 from .space.makers import SolidShapes
+from .space.specimen import SolidSpecimen
 from .spec import SpecimenSpec
 
 #: Below this share of the mean diameter a distance is round-off [-].
@@ -290,3 +292,18 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             "mean_diameter": self.mean_diameter,
             **({"joints": joints} if joints else {}),
         }
+
+
+def require_specimen(where: str, given: object) -> None:
+    """Refuse what is no plane specimen, the only ones that are tested so far.
+
+    Raises:
+        InputError: for a solid, and for anything else.
+    """
+    if isinstance(given, SolidSpecimen):
+        raise InputError(
+            f"{where}: specimen = {given.kind}, must be plane: solids can be packed, measured, "
+            "saved and drawn so far (flexpm specimen box, cylinder), not tested"
+        )
+    if not isinstance(given, Specimen):
+        raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")

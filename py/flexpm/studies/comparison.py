@@ -28,7 +28,7 @@ from ..results.strength import Envelope
 from ..runs.checkpoint import INTERVAL
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described, ranges, split
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import Specimen, require_specimen
 from ..text import name_of
 from .jobs import place_of
 
@@ -136,6 +136,7 @@ def compare(
     Raises:
         InputError: for an argument that is wrong for any of the runs.
     """
+    require_specimen("compare", specimen)
     folder = None if out is None else output_folder(out)
     threads, interval = options.pop("threads", 1), options.pop("checkpoint_interval", INTERVAL)
     report = options.pop("report", True)

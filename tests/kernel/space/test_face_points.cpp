@@ -2,7 +2,7 @@
 /// @file  Points of faces against closed forms and against the moments of random polygons.
 #include <flexpm/kernel/space/face_points.hpp>
 
-#include "support/face_moments.hpp"
+#include "space/face_moments.hpp"
 
 using namespace flexpm_test;
 

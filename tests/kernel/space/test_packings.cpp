@@ -3,7 +3,7 @@
 #include <flexpm/kernel/space/face_triangles.hpp>
 #include <flexpm/kernel/space/fan_meshes.hpp>
 
-#include "support/face_moments.hpp"
+#include "space/face_moments.hpp"
 
 using namespace flexpm_test;
 

@@ -46,7 +46,7 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
 
 
 def _places(frame: Frame) -> tuple[float, float]:
-    """Of the pairs of notches, across [m]."""
+    """Places of the pairs of notches, across [m]."""
     half = 0.5 * frame.number("distance")
     return frame.middle - half, frame.middle + half
 

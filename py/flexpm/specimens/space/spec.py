@@ -119,13 +119,3 @@ class SolidSpec:
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
-
-
-def refuse_solid(where: str, specimen: object) -> None:
-    """Refuse a solid, or what it is made from, where plane specimens are tested."""
-    found = getattr(specimen, "spec", specimen)
-    if isinstance(found, SolidSpec):
-        raise InputError(
-            f"{where}: specimen = {found.kind}, must be plane: solids can be packed, measured, "
-            "saved and drawn so far (flexpm specimen box, cylinder), not tested"
-        )

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Commands that make solid specimens: ``flexpm specimen box`` and ``cylinder``. SI units."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..files import json_text, write_text
+from ..report import tables
+from ..specimens.space.spec import SIZES, SolidSpec
+from . import inputs, terminal
+from . import options as cli_options
+from .options import combined, length_option
+
+if TYPE_CHECKING:
+    from ..specimens.space.specimen import SolidSpecimen
+
+_BOX, _CYLINDER = SIZES["box"], SIZES["cylinder"]
+box_options = combined(
+    length_option("--width", _BOX["width"], "Width, along x"),
+    length_option("--depth", _BOX["depth"], "Depth, along y"),
+    length_option("--height", _BOX["height"], "Height, along z"),
+)
+cylinder_options = combined(
+    length_option("--diameter", _CYLINDER["diameter"], "Diameter"),
+    length_option("--height", _CYLINDER["height"], "Height, along z"),
+)
+
+
+@click.command()
+@box_options
+@cli_options.grain_options
+@cli_options.out_option
+@cli_options.quiet_option
+def box(out: Path, quiet: bool, **options: Any) -> None:
+    """A box of polyhedral grains; solids are not tested yet."""
+    _make(SolidSpec("box", **options), out, quiet)
+
+
+@click.command()
+@cylinder_options
+@cli_options.grain_options
+@cli_options.out_option
+@cli_options.quiet_option
+def cylinder(out: Path, quiet: bool, **options: Any) -> None:
+    """An upright cylinder of polyhedral grains; solids are not tested yet."""
+    _make(SolidSpec("cylinder", **options), out, quiet)
+
+
+def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:
+    folder = inputs.locked_folder(out)
+    with terminal.Progress(quiet) as progress:
+        inputs.load_yade()
+        from ..specimens.space.specimen import SolidSpecimen
+
+        made = SolidSpecimen.pack(spec, progress)
+    _describe(made, folder)
+
+
+def _describe(made: SolidSpecimen, folder: Path) -> None:
+    """Print the statistics and write them with the specimen, its mesh and its picture."""
+    from ..report.outside import outside_picture
+    from ..results.vtu_solid import SolidShape, write_solid_vtu
+
+    found, cells = made.statistics(), made.cells
+    pairs, outer = cells.faces[: cells.contacts, :2], cells.faces[cells.contacts :, 0]
+    shape = SolidShape(*made.tetrahedra(), cells.vertices, made.contact_polygons(), pairs)
+    write_text(folder / "specimen.json", json_text(found))
+    made.save(folder / "solid.json")
+    write_solid_vtu(folder / "specimen.vtu", shape)
+    caption = f"{found['grains']} grains, {found['contacts']} contacts"
+    picture = folder / "specimen.png"
+    outside_picture(picture, cells.vertices, made.outer_polygons(), outer, caption)
+    terminal.say(tables.statistics_table(found))
+    names = ("specimen.png", "specimen.json", "solid.json", "specimen.vtu")
+    terminal.say(f"  files  {', '.join(str(folder / name) for name in names)}")
