@@ -129,7 +129,7 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
     const int g = real ? a.grains.in_slot[slot] : a.grains.in_slot[block * lanes];
     const GrainMesh& mesh = grains[g].mesh;
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-        // of the slot, not of the grain: a padded lane stands beside it
+        // the place of the slot, not of its grain: a padded lane stands beside it
         const int node = a.grains.block_nodes[block]
             + a.grains.layout.node_stride * static_cast<int>(n) + lane;
         a.grains.set_vector(a.grains.reference, node, mesh.nodes[n]);
