@@ -90,7 +90,7 @@ def test_contacts_come_and_go_at_the_same_steps_after_loading(make, bits, tmp_pa
     model.run(437)
     O.save(str(tmp_path / "scene.bin"))
     uninterrupted, touching = [], [pairs()]
-    for _ in range(40):
+    for _ in range(100):
         model.run(13)
         uninterrupted.append(bits())
         touching.append(pairs())

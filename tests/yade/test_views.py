@@ -134,7 +134,8 @@ def test_bonds_show_their_points(half_broken):
         elastic = law["normal_stiffness"] * phys.opening[sound]
         assert phys.traction[sound, 0] == pytest.approx(elastic, rel=1e-12, abs=1e-6)
         a, b = (O.bodies[i].state.pos for i in (bond.id1, bond.id2))
-        assert geom.normal == pytest.approx((b - a).normalized(), abs=1e-5)
+        if not phys.cracked.all():  # the normal of a cracked bond is across its faces (D59)
+            assert geom.normal == pytest.approx((b - a).normalized(), abs=1e-5)
         length = np.linalg.norm(geom.ends[1] - geom.ends[0])
         thickness = half_broken.specimen.thickness
         assert phys.area.sum() == pytest.approx(length * thickness, rel=1e-3)

@@ -6,7 +6,8 @@ from __future__ import annotations
 import re
 
 import pytest
-from fuzz_child import NUMBERS, QUERIES, Child, examples
+from fuzz_child import Child, examples
+from fuzz_script import NUMBERS, QUERIES
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 

@@ -17,6 +17,7 @@ from flexpm.errors import InputError
 from flexpm.report import tables
 from flexpm.results import waves
 from flexpm.results.record import COLUMNS, Curve
+from flexpm.runs import runner
 from flexpm.runs.checkpoint import Checkpoint
 from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
@@ -104,6 +105,7 @@ def test_an_interrupted_pulse_goes_on_to_the_same_bits(slab, tmp_path, monkeypat
         if len(saves) == 1:
             raise KeyboardInterrupt
 
+    monkeypatch.setattr(runner, "_LOOK_UP", 1e-3)  # on a fast machine one look takes it to the end
     monkeypatch.setattr(Checkpoint, "save", interrupt)
     monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > 50))
     with pytest.raises(KeyboardInterrupt):

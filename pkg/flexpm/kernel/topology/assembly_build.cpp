@@ -130,8 +130,8 @@ void fill_slot(Assembly& a, int slot, const std::vector<MeshedGrain>& grains)
     const GrainMesh& mesh = grains[g].mesh;
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
         // the place of the slot, not of its grain: a padded lane stands beside it
-        const int node = a.grains.block_nodes[block]
-            + a.grains.layout.node_stride * static_cast<int>(n) + lane;
+        const int node =
+            a.grains.block_nodes[block] + a.grains.layout.node_stride * static_cast<int>(n) + lane;
         a.grains.set_vector(a.grains.reference, node, mesh.nodes[n]);
         for (int axis = 0; axis < a.grains.layout.dimension; ++axis)
             a.grains.prescribed[a.grains.component(node, axis)] = !real;
