@@ -55,8 +55,9 @@ struct Held {
 
 TEST_CASE("A push on an edge stops it and changes no moment of momentum about it", "[forces]")
 {
-    const auto [side, axis] = GENERATE(Held { left_side, 1 }, Held { right_side, 1 },
+    const Held held = GENERATE(Held { left_side, 1 }, Held { right_side, 1 },
         Held { bottom_side, 0 }, Held { top_side, 0 });
+    const int side = held.side, axis = held.axis;
     Assembly a = squares(true);
     hold_side(a, side, axis);
     REQUIRE(a.held_edges.size() == 2);

@@ -233,6 +233,11 @@ TEST_CASE("Grains touch at the sum of their radii, or where their discs overlapp
     CHECK(flexpm::touching_distance(a, { 0, 2 }) == radii);
     a.contacts.close_pairs[{ 0, 2 }] = 0.9 * radii;
     CHECK(flexpm::touching_distance(a, { 0, 2 }) == 0.9 * radii);
+    CHECK(!flexpm::is_touching(a, { 0, 2 }));
+    move_last(a, -1.05 * size, 10);  // from two sizes to 0.95
+    CHECK(!flexpm::is_touching(a, { 0, 2 }));
+    move_last(a, -0.1 * size, 10);
+    CHECK(flexpm::is_touching(a, { 0, 2 }));
 }
 
 TEST_CASE("Near pairs are those that no acting contact holds")
