@@ -94,6 +94,8 @@ TEST_CASE("With no slip along its second tangent a point of a face is one of the
 TEST_CASE("Which tangents a face has makes no difference")
 {
     flexpm::Random random(32);
+    // round-off, which a law that softens almost as steeply as it is stiff multiplies
+    const double close = 1e-8;
     int cracked = 0;
     for (int i = 0; i < 300; ++i) {
         const Case c(random);
@@ -103,15 +105,17 @@ TEST_CASE("Which tangents a face has makes no difference")
         const double energy = c.material.shear_fracture_energy + c.material.tensile_fracture_energy;
         for (int k = 0; k < 60; ++k) {
             const double opening = c.opening * either_way(random);
-            const Tangent slip = c.slip * Tangent(either_way(random) + 0.3, either_way(random));
+            // one after the other: compilers take arguments in orders of their own
+            const double along = either_way(random) + 0.3, across = either_way(random);
+            const Tangent slip = c.slip * Tangent(along, across);
             const Traction t = face.advance(p, opening, slip);
             const Traction u = turned.advance(p, opening, turn * slip);
             // a crack falls into another step where round-off decides; it does not in these draws
-            REQUIRE(u.normal == Approx(t.normal).margin(1e-9 * c.material.tensile_strength));
-            REQUIRE(std::abs(turned.shear - turn * face.shear) < 1e-9 * c.material.cohesion);
-            REQUIRE(u.damage == Approx(t.damage).margin(1e-9));
-            REQUIRE(turned.damage_energy == Approx(face.damage_energy).margin(1e-9 * energy));
-            REQUIRE(turned.friction_energy == Approx(face.friction_energy).margin(1e-9 * energy));
+            REQUIRE(u.normal == Approx(t.normal).margin(close * c.material.tensile_strength));
+            REQUIRE(std::abs(turned.shear - turn * face.shear) < close * c.material.cohesion);
+            REQUIRE(u.damage == Approx(t.damage).margin(close));
+            REQUIRE(turned.damage_energy == Approx(face.damage_energy).margin(close * energy));
+            REQUIRE(turned.friction_energy == Approx(face.friction_energy).margin(close * energy));
             REQUIRE(face.damage_energy >= -1e-13 * energy);
         }
         cracked += face.shear_damage >= 1.0;
