@@ -426,10 +426,11 @@ def _result(rig: TestRig, spec: RunSpec) -> Result:
     kinds = [kind["name"] for kind in result.material.get("minerals", ())]
     result.cracks = cracks_from_snapshot(snapshot, result.curve, kinds)
     result.cracks_by_pair = count_by_pair(result.cracks)
+    sudden = rig.may_fail_at_once and not rig.diverged
     result.measure(
         _largest_unbalanced(spec),
         waiting=spec.loading == "waiting",
-        crossing=rig.scales().crossing_steps if rig.may_fail_at_once else None,
+        crossing=rig.scales().crossing_steps if sudden else None,
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )

@@ -161,6 +161,17 @@ TEST_CASE("A joint without strength is cracked from the start and no crack", "[t
     CHECK(flexpm::energies(a).damage == 0.0);
 }
 
+TEST_CASE("Points of a line that are nearer than round-off count once", "[tiling]")
+{
+    const Point left { 0.0, 0.5 * size }, right { 3.0 * size, 0.5 * size };
+    const Point below { 0.0, 0.5 * size - 5e-324 }, beside { 5e-324, 0.5 * size };
+    const double straight = joint_length(cut_grid(3, 1, { { left, right } }), 0);
+    CHECK(straight == Approx(3.0 * size));
+    CHECK(joint_length(cut_grid(3, 1, { { left, left, beside, below, right } }), 0) == straight);
+    const Point aside { left.x + 1e-14 * size, left.y };
+    CHECK_THROWS_WITH(cut_grid(3, 1, { { left, aside } }), Catch::Contains("without length"));
+}
+
 TEST_CASE("Strengths of which one is zero", "[tiling]")
 {
     const flexpm::LawParameters p = flexpm::joint_law(joint(10e6, 0.0, 0.5));

@@ -244,12 +244,13 @@ def test_a_killed_process_leaves_no_temporary_folder_of_yade(tmp_path):
 
 
 def started(tmp_path, *before):
-    """A run that has begun to step."""
+    """A run that has begun to step: its first frame is there."""
     command = [*before, *COMMAND, "run", "uniaxial", *TINY, "--rate", "0.05", "--out", "out"]
+    command += ["--frames", "100"]
     process = subprocess.Popen(
         command, env=ENVIRONMENT, cwd=tmp_path, stderr=subprocess.PIPE, text=True
     )
-    while not (tmp_path / "out" / "specimen.vtu").exists():
+    while not any((tmp_path / "out").glob("frames/*.vtu")):
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.01)
     return process

@@ -207,6 +207,8 @@ private:
 
 /// Sizes of the specimen within which a line may reach: beyond, round-off shows in its places.
 constexpr double farthest = 1e6;
+/// Sizes of the specimen within which two points of a line are one: round-off of their distance.
+constexpr double same_place = 1e-12;
 
 double size_of(const Tessellation& t)
 {
@@ -216,24 +218,30 @@ double size_of(const Tessellation& t)
     return size;
 }
 
-/// @param reach  how far from a vertex of the specimen its points may lie [m]
-void check_line(const JointLine& line, std::size_t number, Point vertex, double reach)
+/// A line whose points that are there twice in a row count once.
+/// @param size  of the specimen [m], which has this vertex
+JointLine checked_line(const JointLine& line, std::size_t number, Point vertex, double size)
 {
     const std::string name = "joint line " + std::to_string(number);
     if (line.points.size() < 2) {
         refuse(name + ": points", static_cast<double>(line.points.size()), "",
             "must be >= 2; complete the line");
     }
-    for (std::size_t k = 0; k < line.points.size(); ++k) {
-        if (!is_finite(line.points[k]))
-            refuse(name + ": point", place(line.points[k]), "must be finite; correct it");
-        if (!(norm(line.points[k] - vertex) <= reach)) {
-            refuse(name + ": point", place(line.points[k]),
+    JointLine found { {}, line.joint };
+    for (const Point p : line.points) {
+        if (!is_finite(p)) refuse(name + ": point", place(p), "must be finite; correct it");
+        if (!(norm(p - vertex) <= farthest * size)) {
+            refuse(name + ": point", place(p),
                 "must lie within 1e6 sizes of the specimen; move it there");
         }
-        if (k > 0 && !(norm(line.points[k] - line.points[k - 1]) > 0.0))
-            refuse(name + ": point", place(line.points[k]), "must not be there twice; remove one");
+        if (found.points.empty() || norm(p - found.points.back()) > same_place * size)
+            found.points.push_back(p);
     }
+    if (found.points.size() < 2) {
+        refuse(name + ": point", place(line.points.front()),
+            "must not be there twice in a line without length; remove the line");
+    }
+    return found;
 }
 
 }  // namespace
@@ -247,14 +255,15 @@ JointCut cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>
         const SharedEdge& edge = tessellation.shared_edges[e];
         if (joints[e] >= 0) cells.joints[undirected(edge.vertex_0, edge.vertex_1)] = joints[e];
     }
-    const double reach = farthest * size_of(tessellation);
+    const double size = size_of(tessellation);
+    std::vector<JointLine> checked;
     for (std::size_t k = 0; k < lines.size(); ++k)
-        check_line(lines[k], k, tessellation.vertices.front(), reach);
+        checked.push_back(checked_line(lines[k], k, tessellation.vertices.front(), size));
     CellIndex index(cells);
     Cutter cutter(index, enclosed_area(tessellation) / tessellation.cells());
     JointCut made;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-        made.lines.push_back(cutter.cut(lines[k]));
+        made.lines.push_back(cutter.cut(checked[k]));
         if (tell) tell(k + 1);
     }
     remove_idle_vertices(index, tessellation.vertices.size());
