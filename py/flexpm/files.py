@@ -37,6 +37,8 @@ _LARGEST, _LARGEST_TABLE = 64 * 10**6, 10**9
 _CHUNK = 2**20
 #: Begins the name of each temporary file.
 _TEMPORARY = ".flexpm-"
+#: Rights of a new file, less the user's umask; ``mkstemp`` makes files for the owner alone.
+_MODE = 0o666
 _LOCK = ".flexpm.lock"
 #: Errors of a disk or a machine that is full or broken, not of what the user has named.
 DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENFILE, errno.EMFILE)
@@ -61,8 +63,9 @@ def whole_file(path: Path | str) -> Iterator[Path]:
     """
     path = Path(path)
     target = _replaced(path)
-    temporary = _new_file(target or Path(tempfile.gettempdir(), path.name))
-    try:
+    temporary = _beside(target or Path(tempfile.gettempdir(), path.name))
+    try:  # the file is made within: a signal may come as soon as it is there
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, _MODE))
         yield temporary
         if target is None:
             _pour(temporary, path)
@@ -75,7 +78,8 @@ def whole_file(path: Path | str) -> Iterator[Path]:
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error  # a full disk, by name
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink()
 
 
 def _replaced(path: Path) -> Path | None:
@@ -345,7 +349,7 @@ class FolderLock:
 def _locked(file: Path, folder: Path) -> int | None:
     """Open and lock a file; None if the file system cannot."""
     while True:
-        handle = os.open(file, os.O_RDWR | os.O_CREAT, 0o666)
+        handle = os.open(file, os.O_RDWR | os.O_CREAT, _MODE)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
             # the one who had it may have removed the file in the meantime
@@ -375,14 +379,6 @@ def _unlock(file: Path, handle: int, owner: int) -> None:
         os.close(handle)
 
 
-def _new_file(path: Path) -> Path:
-    """Make an empty file beside `path`, readable for those that the user's umask allows.
-
-    ``mkstemp`` makes files for the owner alone, and the umask can only be asked for by changing it,
-    which other threads would notice.
-    """
-    while True:
-        name = f"{_TEMPORARY}{path.stem}-{secrets.token_hex(4)}{path.suffix}"
-        with contextlib.suppress(FileExistsError):
-            os.close(os.open(path.with_name(name), os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-            return path.with_name(name)
+def _beside(path: Path) -> Path:
+    """A name beside `path` that nobody has."""
+    return path.with_name(f"{_TEMPORARY}{path.stem}-{secrets.token_hex(8)}{path.suffix}")
