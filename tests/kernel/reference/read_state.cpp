@@ -115,7 +115,7 @@ Plate read_plate(const Assembly& a, std::size_t place, const Numbers& number)
     plate.force = from.force;
     for (int i = 0; i < flexpm::plate_points(from); ++i) {
         const flexpm::PlatePoint p = flexpm::plate_point(from, i);
-        const auto nodes = a.edges.nodes(p.edge);
+        const auto nodes = a.facets.nodes(p.facet);
         plate.points.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, p.weight,
             from.area[i], from.gap[i], from.shear_force[i] });
     }
@@ -219,9 +219,9 @@ Specimen read_state(const Assembly& a)
         read_grain(a, g, s, number);
     for (int c = 0; c < a.contacts.count; ++c)
         s.contacts.push_back(read_contact(a, c, number));
-    for (int e = 0; e < a.edges.count; ++e) {
-        const auto nodes = a.edges.nodes(e);
-        s.edges.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, a.edges.pressure[e] });
+    for (int e = 0; e < a.facets.count; ++e) {
+        const auto nodes = a.facets.nodes(e);
+        s.edges.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, a.facets.pressure[e] });
     }
     for (std::size_t p = 0; p < a.plates.size(); ++p)
         s.plates.push_back(read_plate(a, p, number));

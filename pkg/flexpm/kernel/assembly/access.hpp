@@ -125,11 +125,21 @@ inline GrainCount count_grains(const Grains& grains)
     return count;
 }
 
-/// Number of boundary edges of grains that are there.
-inline int count_edges(const Assembly& a)
+/// Number of facets of grains that are there.
+inline int count_facets(const Assembly& a)
 {
-    return static_cast<int>(std::count_if(a.edges.grain.begin(), a.edges.grain.end(),
+    return static_cast<int>(std::count_if(a.facets.grain.begin(), a.facets.grain.end(),
         [&](int grain) { return a.grains.erased[grain] == 0; }));
+}
+
+/// A facet of the boundary where it was bonded, and its area [m^2].
+inline FacetPlace facet_place(const Assembly& a, int facet)
+{
+    return facet_place(a.grains, a.facets, facet);
+}
+inline double facet_area(const Assembly& a, int facet)
+{
+    return a.area_of(facet_place(a, facet).length());
 }
 
 /// Place of the contact with a lasting number; -1 if there is none, or none any more.

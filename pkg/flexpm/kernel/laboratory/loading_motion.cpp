@@ -27,8 +27,8 @@ int middle_of(const Assembly& a, int side)
         middle += a.grains.reference[n] / static_cast<double>(nodes.size());
     int nearest = a.grains.centre(0);
     double least = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < a.edges.count; ++e) {
-        const int c = a.grains.centre(a.edges.grain[e]);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const int c = a.grains.centre(a.facets.grain[e]);
         if (!is_on_side(a, e, side) || !(std::fabs(a.grains.reference[c] - middle) < least))
             continue;
         least = std::fabs(a.grains.reference[c] - middle);
@@ -43,11 +43,10 @@ Point velocity_before(const Assembly& a, const Plate& plate, const Array<double>
     double sum = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const auto n = a.edges.nodes(p.edge);
-        for (int end = 0; end < 2; ++end) {
-            const double part = end == 0 ? 1.0 - p.weight : p.weight;
-            sum += part * dot(plate.normal, vector_at(velocity, n[end]));
-        }
+        const auto n = a.facets.nodes(p.facet);
+        const auto parts = facet_parts(p.weight);
+        for (int k = 0; k < facet_nodes; ++k)
+            sum += parts[k] * dot(plate.normal, a.grains.vector_at(velocity, n[k]));
     }
     const double mean = sum / plate_points(plate);
     return mean * plate.normal;

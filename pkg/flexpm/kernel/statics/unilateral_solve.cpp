@@ -95,7 +95,7 @@ bool loosen_plates(Assembly& a, const Array<double>& velocity)
         if (plate.bonded) continue;
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const Point v = vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
+            const Point v = vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
             const bool leaves = dot(plate.normal, v - plate.displacement) > 0.0;
             if (plate.opening[i] < 0.0 || !leaves || plate.opening[i] == loosened) continue;
             plate.area[i] *= loose;

@@ -287,17 +287,18 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
     }
 }
 
-void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedGrain>& grains)
+void lay_out_facets(Assembly& a, const Tessellation& t, const std::vector<MeshedGrain>& grains)
 {
-    a.edges.count = static_cast<int>(t.boundary_edges.size());
-    a.edges.resize_rows();
-    a.edges.pressure.assign(a.edges.count, 0.0);
-    for (int i = 0; i < a.edges.count; ++i) {
+    a.facets.count = static_cast<int>(t.boundary_edges.size());
+    a.facets.resize_rows();
+    a.facets.pressure.assign(a.facets.count, 0.0);
+    for (int i = 0; i < a.facets.count; ++i) {
         const BoundaryEdge& e = t.boundary_edges[i];
-        a.edges.grain.push_back(e.cell);
-        a.edges.side.push_back(e.side);
-        a.edges.set_nodes(i, node_of_vertex(a.grains, grains, e.cell, e.vertex_0),
-            node_of_vertex(a.grains, grains, e.cell, e.vertex_1));
+        a.facets.grain.push_back(e.cell);
+        a.facets.side.push_back(e.side);
+        a.facets.set_nodes(i,
+            { node_of_vertex(a.grains, grains, e.cell, e.vertex_0),
+                node_of_vertex(a.grains, grains, e.cell, e.vertex_1) });
     }
 }
 
@@ -392,7 +393,7 @@ Assembly make_assembly(
     for (int slot = 0; slot < a.grains.blocks() * lanes; ++slot)
         fill_slot(a, slot, grains);
     bond(a, t, discs, grains, options);
-    lay_out_edges(a, t, grains);
+    lay_out_facets(a, t, grains);
     prepare_step(a);
     find_close_pairs(a, t);
     part_sides_of_joints(a, t);
