@@ -89,9 +89,10 @@ Contact read_contact(const Assembly& a, int c, const Numbers& number)
         point.area = contacts.area(c, p);
         point.state = contacts.point_state(c, p);
         point.paired_slip = contacts.paired_slip(c, p);
-        point.crack_step = contacts.crack_steps[contacts.point_index(c, p)];
-        point.crack_mode = contacts.crack_modes[contacts.point_index(c, p)];
-        point.crack_place = contacts.crack_position(c, p);
+        const flexpm::PointCrack crack = contacts.crack(c, p);
+        point.crack_step = crack.step;
+        point.crack_mode = crack.mode;
+        point.crack_place = crack.position;
         contact.points.push_back(point);
     }
     return contact;

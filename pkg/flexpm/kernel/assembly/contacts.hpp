@@ -19,6 +19,14 @@ using GrainPair = std::array<int, 2>;  ///< two grains, the smaller number first
 /// How a point of contact lost its bond; one that a script has erased did not crack.
 enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2, erased_point = 3 };
 
+/// When, how and where a point has lost its bond, and what its damage had taken until then.
+struct PointCrack {
+    int step = -1;  ///< of the crack or the erasure, -1 while intact
+    CrackMode mode = intact;
+    Point position;       ///< [m]
+    double energy = 0.0;  ///< [J]
+};
+
 /// Rows of a point: a member of PointState or LawParameters each.
 constexpr int point_rows = row_count<PointState>;
 constexpr int law_rows = row_count<LawParameters>;
@@ -143,13 +151,21 @@ struct Contacts {
     void set_branch(int contact, Point p) { set_vector(branches, vector_index(contact), p); }
     Point normal(int contact) const { return vector_at(normals, vector_index(contact)); }
     void set_normal(int contact, Point p) { set_vector(normals, vector_index(contact), p); }
-    Point crack_position(int contact, int point) const
+
+    PointCrack crack(int contact, int point) const
     {
-        return vector_at(crack_positions, point_index(contact, point, 0, dimension));
+        const int index = point_index(contact, point);
+        return { crack_steps[index], static_cast<CrackMode>(crack_modes[index]),
+            vector_at(crack_positions, point_index(contact, point, 0, dimension)),
+            crack_energies[index] };
     }
-    void set_crack_position(int contact, int point, Point p)
+    void set_crack(int contact, int point, const PointCrack& crack)
     {
-        set_vector(crack_positions, point_index(contact, point, 0, dimension), p);
+        const int index = point_index(contact, point);
+        crack_steps[index] = crack.step;
+        crack_modes[index] = crack.mode;
+        set_vector(crack_positions, point_index(contact, point, 0, dimension), crack.position);
+        crack_energies[index] = crack.energy;
     }
 
     /// Index of the x component of the force on a node, as node() has them; y follows.

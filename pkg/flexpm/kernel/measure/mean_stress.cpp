@@ -73,7 +73,7 @@ void add_contacts(const Assembly& a, Virial& total)
             }
         }
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            const double gap = opening_of(a, c, p);
+            const double gap = opening_of(contacts, c, p);
             total.volume += contacts.area(c, p) * std::min(gap, 0.0);
         }
     }

@@ -256,7 +256,7 @@ int law_of_edge(Assembly& a, const SharedEdge& e, int edge, const AssemblyOption
 void crack_from_start(Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p)
-        contacts.state(contact, p, &PointState::shear_damage) = 1.0;
+        take_strength(contacts, contact, p);
 }
 
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,

@@ -30,8 +30,7 @@ double elastic_energy(const Contacts& contacts, int contact)
 {
     double sum = 0.0;
     for (int p = 0; p < contacts.points_of(contact); ++p)
-        sum += contacts.area(contact, p)
-            * law::elastic_energy(contacts.law_of(contact), contacts.point_state(contact, p));
+        sum += contacts.area(contact, p) * energy_of(contacts, contact, p).elastic;
     return sum;
 }
 
@@ -237,7 +236,7 @@ double bonded_distance(const Grains& grains, GrainPair pair)
 bool presses(const Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        if (law::gap(contacts.law_of(contact), contacts.point_state(contact, p)) < 0.0) return true;
+        if (gap_of(contacts, contact, p) < 0.0) return true;
     }
     return false;
 }

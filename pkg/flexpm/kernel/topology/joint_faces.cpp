@@ -64,8 +64,7 @@ bool has_moved(const Contacts& contacts, int contact)
 {
     if (!is_active(contacts, contact)) return true;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const double way =
-            contacts.state(contact, p, &PointState::slip) - contacts.paired_slip(contact, p);
+        const double way = apart_along(contacts, contact, p);
         for (int side = 0; side < 2; ++side) {
             const double part = way * contacts.inverse_edge_length(contact, side);
             if (std::fabs(part) > small_part) return true;
@@ -245,8 +244,8 @@ struct Handed {
 Handed value_at(const Contacts& contacts, int contact, int side, double share)
 {
     const auto value = [&](int p) {
-        const PointState s = contacts.point_state(contact, p);
-        return Handed { s.shear_traction, s.slip };
+        return Handed { traction_of_state(contacts, contact, p).shear,
+            slip_of(contacts, contact, p) };
     };
     const int last = contacts.points_of(contact) - 1;
     if (last == 0) return value(0);
