@@ -81,6 +81,7 @@ TEST_CASE("Each saved part lists all its members")
 {
     check_members(flexpm::Grains());
     check_members(flexpm::Contacts());
+    check_members(flexpm::ContactGroup());
     check_members(flexpm::Facets());
     check_members(flexpm::EnergyLedger());
     check_members(flexpm::Layout());

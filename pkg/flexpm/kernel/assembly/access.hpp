@@ -261,10 +261,8 @@ inline double mean_opening(const Contacts& contacts, int contact)
 inline Point contact_force(const Contacts& contacts, int contact)
 {
     Point sum;
-    for (int end = 0; end < 2; ++end) {
-        const double* force = &contacts.forces[Contacts::force_index(contact, 1, end)];
-        sum = sum + Point { force[0], force[1] };
-    }
+    for (int corner = 0; corner < contacts.corners_of(contact); ++corner)
+        sum = sum + contacts.force(contact, 1, corner);
     return sum;
 }
 
@@ -275,10 +273,10 @@ inline Point relative_velocity(
     Point sum;
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? -1.0 : 1.0;
-        const double w = contacts.weight(contact, point, side);
-        for (int end = 0; end < 2; ++end) {
-            const double part = sign * (end == 0 ? 1.0 - w : w);
-            sum = sum + part * vector_at(velocity, contacts.node(contact, side, end));
+        const auto parts = facet_parts(contacts.weight(contact, point, side));
+        for (int corner = 0; corner < contacts.corners_of(contact); ++corner) {
+            const double part = sign * parts[corner];
+            sum = sum + part * vector_at(velocity, contacts.node(contact, side, corner));
         }
     }
     return sum;

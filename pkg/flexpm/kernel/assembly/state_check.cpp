@@ -190,7 +190,8 @@ void check_contacts(const Assembly& a)
 {
     const Contacts& contacts = a.contacts;
     check_index("contacts", contacts.count, most);
-    check_index("points of a contact", contacts.points, 4, 1);
+    check_equal("corners of a contact", contacts.group.corners, facet_nodes);
+    check_index("points of a contact", contacts.group.points, 4, 1);
     for (std::size_t size : { contacts.pairs.size(), contacts.id.size(), contacts.law.size(),
              contacts.joint.size(), contacts.bonded.size(), contacts.erased.size() }) {
         check_size("values of contacts", size, contacts.count);

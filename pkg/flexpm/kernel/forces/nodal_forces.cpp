@@ -31,9 +31,9 @@ void add_contacts(const Grains& grains, const Contacts& contacts, ForceSources& 
     for (int c = 0; c < contacts.count; ++c) {
         for (int side = 0; side < 2; ++side) {
             const int block = grains.block_of(contacts.pairs[c][side]);
-            for (int end = 0; end < 2; ++end) {
-                const int node = contacts.node(c, side, end);
-                const int force = Contacts::force_index(c, side, end);
+            for (int corner = 0; corner < contacts.corners_of(c); ++corner) {
+                const int node = contacts.node(c, side, corner);
+                const int force = Contacts::force_index(c, side, corner);
                 int *first = &sources.pairs[node], *second = first + lanes;
                 if (*first == none) {
                     *first = force;

@@ -264,7 +264,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
 {
     a.contacts.count = static_cast<int>(t.shared_edges.size());
     size_contacts(a.contacts);
-    EdgePoints points = edge_points(a.contacts.points);
+    EdgePoints points = edge_points(a.contacts.group.points);
     for (int c = 0; c < a.contacts.blocks() * lanes; ++c) {
         const SharedEdge& e = t.shared_edges[std::min(c, a.contacts.count - 1)];
         if (options.on_centre_line) {
@@ -368,7 +368,7 @@ Assembly make_assembly(
     check(t, options);
     Assembly a;
     a.grains.count = t.cells();
-    a.contacts.points = options.points;
+    a.contacts.group.points = options.points;
     a.thickness = options.thickness;
     a.grains.elastic = options.elastic;
     a.grains.material = options.grain_material;

@@ -47,8 +47,8 @@ void fill_face(Assembly& a, int c, const FaceContact& face)
     Contacts& contacts = a.contacts;
     const int centre_rows[] = { NodeRow::centre_a, NodeRow::centre_b };
     for (int side = 0; side < 2; ++side) {
-        for (int end = 0; end < 2; ++end)
-            contacts.node(c, side, end) = face.edges[side][end];
+        for (int corner = 0; corner < contacts.corners_of(c); ++corner)
+            contacts.node(c, side, corner) = face.edges[side][corner];
         contacts.nodes[row_index(c, centre_rows[side], NodeRow::count)] =
             a.grains.centre_place(face.pair[side]);
         contacts.inverse_edge_length(c, side) = face.inverse_edge_length[side];

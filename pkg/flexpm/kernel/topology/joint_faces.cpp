@@ -322,8 +322,8 @@ FaceContact contact_of(const Assembly& a, const Joint& joint, int number, const 
     auto acting = acting_on(a.contacts, joint, *o.first);
     const bool of_first = !acting.empty();
     if (!of_first) acting = acting_on(a.contacts, joint, *o.second);
-    const EdgePoints places = edge_points(a.contacts.points);
-    for (int p = 0; p < a.contacts.points; ++p) {
+    const EdgePoints places = edge_points(a.contacts.group.points);
+    for (int p = 0; p < a.contacts.group.points; ++p) {
         FaceContact::Place& point = made.points[p];
         for (int side = 0; side < 2; ++side)
             point.weight[side] = o.on[side].at(places.weight[p]);

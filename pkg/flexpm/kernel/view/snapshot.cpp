@@ -67,7 +67,7 @@ void add_place(const Assembly& a, int contact, std::vector<std::int32_t>& number
 void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
     std::vector<std::int32_t>& mode, std::vector<double>& position, std::vector<double>& energy)
 {
-    for (int p = 0; p < a.contacts.points; ++p) {
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
         const PointCrack crack = a.contacts.crack(contact, p);
         step.push_back(crack.step);
         mode.push_back(crack.mode);
@@ -80,7 +80,7 @@ void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
     add_place(a, contact, s.contact, s.contact_grains, s.contact_ends);
     add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position, s.crack_energy);
-    for (int p = 0; p < a.contacts.points; ++p) {
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
         s.point_opening.push_back(opening_of(a.contacts, contact, p));
         s.point_slip.push_back(slip_of(a.contacts, contact, p));
         s.point_damage.push_back(damage_of(a.contacts, contact, p));

@@ -127,7 +127,7 @@ py::object GrainSolver::sideNodes(int side)
 py::dict GrainSolver::snapshot()
 {
 	const auto s = flexpm::take_snapshot(current());
-	const int  p = assembly.contacts.points;
+	const int  p = assembly.contacts.group.points; // all contacts have as many: rows of (contact, point)
 	py::dict   d;
 	d["positions"]           = copied(s.positions, 2);
 	d["reference"]           = copied(s.reference, 2);
