@@ -71,6 +71,12 @@ struct Facets {
     }
 };
 
+/// The one tangent that a normal has in the plane: turned by 90 degrees, counter-clockwise.
+constexpr Point tangent_of(Point normal) { return { -normal.y, normal.x }; }
+
+/// Velocity that a spin gives to the end of an arm.
+constexpr Point velocity_of_spin(double spin, Point arm) { return spin * tangent_of(arm); }
+
 /// Parts that the nodes of a facet have in a point at share `weight` of the way from its first to
 /// its second node.
 inline std::array<double, facet_nodes> facet_parts(double weight)

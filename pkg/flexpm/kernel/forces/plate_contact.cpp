@@ -12,8 +12,6 @@ namespace flexpm {
 
 namespace {
 
-Point tangent_of(const Plate& p) { return { -p.normal.y, p.normal.x }; }
-
 void add_force(Facets& facets, const PlatePoint& p, Point force)
 {
     const auto parts = facet_parts(p.weight);
@@ -42,7 +40,7 @@ double normal_force(const Plate& plate, const PlatePoint& p, double gap)
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
 Point touch(Assembly& a, Plate& plate, double dt)
 {
-    const Point tangent = tangent_of(plate);
+    const Point tangent = tangent_of(plate.normal);
     Point total;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
@@ -155,7 +153,7 @@ PlatePoint plate_point(const Plate& p, int index)
 Point point_force(const Plate& p, int index)
 {
     const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
-    return normal * p.normal + p.shear_force[index] * tangent_of(p);
+    return normal * p.normal + p.shear_force[index] * tangent_of(p.normal);
 }
 
 void update_plates(Assembly& a, double dt, double damping)
@@ -205,7 +203,7 @@ Point plate_force(const Assembly& a, int side)
 double contact_width(const Assembly& a, int plate)
 {
     const Plate& p = a.plates.at(plate);
-    const Point tangent = tangent_of(p);
+    const Point tangent = tangent_of(p.normal);
     double first = 0.0, last = 0.0;
     bool any = false;
     for (int i = 0; i < plate_points(p); ++i) {

@@ -146,7 +146,7 @@ void note_rates(Assembly& a, const StaticSolution& found, double sense)
         const int first = set.nodes.front();
         const Point arm = vector_at(grains.reference, first) - pivot;
         const Point v =
-            sense * vector_at(found.displacement, first) - set.spin * Point { -arm.y, arm.x };
+            sense * vector_at(found.displacement, first) - velocity_of_spin(set.spin, arm);
         given.velocity = { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0 };
     }
 }
@@ -289,7 +289,7 @@ Array<double> loading_field(const Assembly& a)
         for (int k = 0; k < grains.nodes_of(g); ++k) {
             const int n = grains.node(g, k);
             const Point arm = grains.position(n) - middle;
-            set_vector(field, n, velocity + spin * Point { -arm.y, arm.x });
+            set_vector(field, n, velocity + velocity_of_spin(spin, arm));
         }
     }
     return field;

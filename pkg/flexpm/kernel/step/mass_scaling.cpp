@@ -89,7 +89,7 @@ void add_contact(const Assembly& a, int contact, StiffnessBound& bound)
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const double area = contacts.area(contact, p);
         for (const auto& [direction, stiffness] : { std::pair { n, law.normal_stiffness },
-                 std::pair { Point { -n.y, n.x }, law.shear_stiffness } }) {
+                 std::pair { tangent_of(n), law.shear_stiffness } }) {
             SpringSide sides[2];
             for (int s = 0; s < 2; ++s) {
                 sides[s] = spring_side(a.grains, contacts.pairs[contact][s],
@@ -110,8 +110,8 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
     const Point n = plate.normal;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        for (const auto& [direction, stiffness] : { std::pair { n, p.stiffness },
-                 std::pair { Point { -n.y, n.x }, p.shear_stiffness } }) {
+        for (const auto& [direction, stiffness] :
+            { std::pair { n, p.stiffness }, std::pair { tangent_of(n), p.shear_stiffness } }) {
             const SpringSide s = spring_side(
                 a.grains, a.facets.grain[p.facet], a.facets.nodes(p.facet), p.weight, direction);
             const double k = stiffness * (s.size() + 1.0);

@@ -42,8 +42,6 @@ Point turned(Point p, double angle)
     return { c * p.x - s * p.y, s * p.x + c * p.y };
 }
 
-Point tangent_of(Point normal) { return { -normal.y, normal.x }; }
-
 /// State of a point that bears nothing, at its place between the faces. Where these lie on each
 /// other already it begins to bear there.
 PointState open_state(PointState s, const LawParameters& law, Point apart, Point normal)

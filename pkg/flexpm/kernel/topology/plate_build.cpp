@@ -81,7 +81,7 @@ struct CoveredFacet {
 
 CoveredFacet covered_part(const FacetPlace& facet, Point normal, const Patch& patch)
 {
-    const Point tangent = { -normal.y, normal.x };
+    const Point tangent = tangent_of(normal);
     const double start = along(tangent, facet.start - patch.place);
     const double way = along(tangent, facet.end - patch.place) - start;
     const double half = 0.5 * patch.length;
@@ -212,7 +212,7 @@ double distance_to(const FacetPlace& facet, Point place)
 ///         more, and ends on it
 void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
 {
-    const Point tangent = { -p.normal.y, p.normal.x };
+    const Point tangent = tangent_of(p.normal);
     double off = std::numeric_limits<double>::infinity(), length = 0.0, first = off, last = -off;
     for (int e : p.facets) {
         const FacetPlace facet = facet_place(a, e);
@@ -249,7 +249,7 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
     }
     if (facets.empty()) refuse("edges of a side", 0.0, "", "must be at least 1; all are erased");
     const Point normal = facet_place(a, facets.front()).normal();
-    const Point direction = { -normal.y, normal.x };
+    const Point direction = tangent_of(normal);
     double first = std::numeric_limits<double>::infinity(), last = -first;
     for (int e : facets) {
         for (Point p : { facet_place(a, e).start, facet_place(a, e).end }) {
