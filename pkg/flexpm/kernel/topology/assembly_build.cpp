@@ -4,9 +4,9 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/geometry/disc_checks.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
-#include <flexpm/kernel/topology/edge_points.hpp>
 #include <flexpm/kernel/topology/joint_sides.hpp>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #include <flexpm/kernel/topology/crack_faces.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/forces/bond_faces.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
-#include <flexpm/kernel/topology/edge_points.hpp>
 
 #include <algorithm>
 #include <cmath>

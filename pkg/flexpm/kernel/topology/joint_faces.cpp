@@ -2,8 +2,8 @@
 #include <flexpm/kernel/topology/joint_faces.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
-#include <flexpm/kernel/topology/edge_points.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -323,6 +323,7 @@ FaceContact contact_of(const Assembly& a, const Joint& joint, int number, const 
     const bool of_first = !acting.empty();
     if (!of_first) acting = acting_on(a.contacts, joint, *o.second);
     const EdgePoints places = edge_points(a.contacts.group.points);
+    made.points.resize(a.contacts.group.points);
     for (int p = 0; p < a.contacts.group.points; ++p) {
         FaceContact::Place& point = made.points[p];
         for (int side = 0; side < 2; ++side)
