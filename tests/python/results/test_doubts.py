@@ -53,6 +53,32 @@ def test_a_normal_stress_in_other_units_is_doubtful():
     assert "normal_stress = 2, is unusual" in doubts.of_inputs(spec.to_json())[0]
 
 
+@pytest.mark.parametrize(
+    ("test", "cohesion", "rate", "told"),
+    [
+        # the rock has 30 MPa; errors of these: doc/record/rates
+        ("biaxial", 2e6, 1.0, True),
+        ("biaxial", 2e6, 0.25, False),
+        ("biaxial", 8e6, 1.0, False),
+        ("biaxial", 8e6, 4.0, True),
+        ("biaxial", 0.0, 4.0, False),
+        ("shear", 2e6, 4.0, False),
+    ],
+)
+def test_a_joint_that_is_weak_beside_the_rock_is_doubtful(test, cohesion, rate, told):
+    rock = materials.load("augig-table7", "flexible")
+    keys = {
+        "normal_stiffness": 1e14,
+        "shear_stiffness": 3e13,
+        "cohesion": cohesion,
+        "friction": 0.5,
+    }
+    weak = rock.with_set({f"joint.a.{key}": value for key, value in keys.items()}, "flexible")
+    spec = RunSpec(test, SpecimenSpec("rectangle"), described(weak, "flexible"), rate=rate)
+    found = doubts.of_inputs(spec.to_json())
+    assert [line.partition(" = ")[0] for line in found] == ["joint a: strength"] * told
+
+
 def test_doubts_about_a_result():
     assert doubts.of_result("ok", 0.009, 0.04, 1.0) == []
     assert doubts.of_result("ok", None, None, None) == []
