@@ -20,7 +20,6 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
-from ..materials.mixing import description
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..specimens import mineral_map
