@@ -43,7 +43,8 @@ def write_files(folder: Path, result: Result, notches: Sequence[int] = ()) -> No
         write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
-        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches)
+        broken = result.cracks_by_pair
+        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches, broken)
         fragment_picture(folder / "fragments.png", result.snapshot, caption)
         emission_picture(folder / "events.png", result, caption)
 

@@ -17,7 +17,8 @@ from flexpm.errors import InputError
 from flexpm.kinds import toughness
 from flexpm.laboratory.part_tests import notch_depth, prepared
 from flexpm.report import tables
-from flexpm.rigs.part_rig import Part, PartRig
+from flexpm.rigs.part_rig import PartRig
+from flexpm.rigs.parts import Part
 from flexpm.runs.checkpoint import Checkpoint
 from flexpm.runs.run_spec import TESTS, RunSpec, described
 
