@@ -16,7 +16,9 @@ import re
 import sys
 from pathlib import Path
 
-ADDED = 160  # by solids (99 lines) and laws of pairs (20); to be raised with what they add, to 500
+#: By solids (99 lines), laws of pairs (20), folders of own tests (16); to be raised with what they
+#: add, to 500.
+ADDED = 180
 MOST_LINES = 2600 + ADDED
 COLUMNS = 120
 UNBROKEN = re.compile(r"^ +\S.* \| |https?://|^ +:alt: ")
