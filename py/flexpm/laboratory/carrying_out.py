@@ -23,7 +23,7 @@ from ..runs.loading_rate import Loading
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
-from ..runs.written import about, write_files
+from ..runs.written import about, notches_of, write_files
 from ..specimens.files import given
 from .outcome import outcome
 from .part_tests import part_rig, prepared
@@ -82,7 +82,8 @@ def carry_out(
     result.step_time = runner.step_time
     result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
     if folder is not None:
-        write_files(folder, result)
+        cut = bool(result.material.get("joints"))
+        write_files(folder, result, notches_of(folder / "specimen.vtu") if cut else ())
         _write_others(folder, result, output, rig)
     return result
 

@@ -90,14 +90,6 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
         setattr(result, name, value)
 
 
-def grains_across(specimen: Specimen) -> float:
-    """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
-    if not isinstance(specimen.outline, np.ndarray):
-        return specimen.dimensions["diameter"] / specimen.mean_diameter
-    (left, bottom), (right, top) = _corners(specimen)
-    return min(right - left, top - bottom) / specimen.mean_diameter
-
-
 def notch_depth(specimen: Specimen) -> float:
     """How far the notch has been cut from the bottom [m]; 0 without one. Deviation D35."""
     bottom = _corners(specimen)[0][1]

@@ -14,20 +14,14 @@ from ..materials.material import Material
 from ..models.options import SPHERE_MODELS
 from ..require import require_known
 from ..rigs.frames import COLLECTION, STATE, TABLE
+from ..runs import written
 from ..runs.checkpoint import INTERVAL, Checkpoint
-from ..runs.output import Output, refuse_other_result
+from ..runs.output import BEGUN, Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec
-from ..specimens.files import given
 from ..specimens.specimen import Specimen
 
 #: Names of the files of a run.
-FILES = (
-    *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
-    *("specimen.vtu", "final.vtu", "checkpoint.json", given.FILE),
-    *("curve.png", "cracks.png", "events.png", "fragments.png"),
-    "report.html",
-    *(TABLE, COLLECTION, STATE),
-)
+FILES = (*written.FILES, "specimen.vtu", BEGUN, TABLE, COLLECTION, STATE)
 
 
 @dataclass(frozen=True)

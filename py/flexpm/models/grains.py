@@ -28,7 +28,16 @@ from ..threads import limited
 from . import spheres
 from .assembly import assembled, constants, fitted, grains_of
 from .collider import collider
-from .options import GRAIN_MODELS, SPHERE_MODELS, Motion, check_options, local_damping, motion_of
+from .options import (
+    GRAIN_MODELS,
+    MESHES,
+    POINTS,
+    SPHERE_MODELS,
+    Motion,
+    check_options,
+    local_damping,
+    motion_of,
+)
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
 
@@ -46,6 +55,8 @@ class Model:
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
         minerals: Index of each grain's mineral, or None if all grains are alike.
         gravity: Acceleration downwards [m/s2], with real masses only.
+        points: Contact points per contact.
+        mesh: Triangles in each grain.
     """
 
     specimen: Specimen
@@ -56,6 +67,8 @@ class Model:
     dynamic: bool = False
     minerals: IntArray | None = None
     gravity: float = 0.0
+    points: int = POINTS[-1]
+    mesh: str = MESHES[0]
 
     def set_masses(self) -> None:
         """Scale the masses, or set the real ones and their stable time step, before the first step.
@@ -243,7 +256,11 @@ def build(
     engines = [collider(bounds, mean_diameter), solver, _idle_newton()]
     set_engines(engines)
     kinds = mineral_map.minerals_of(specimen, chosen)
-    built = Model(specimen, chosen, model, solver, engines, dynamic, kinds, gravity)
+    built = Model(
+        *(specimen, chosen, model, solver, engines, dynamic, kinds, gravity),
+        points=grains.points,
+        mesh=mesh,
+    )
     built.set_threads(threads)
     built.set_masses()
     return built

@@ -133,9 +133,10 @@ def emission_table(result: Result) -> Rows | None:
     if not result.emission:
         return None
     largest = sorted(result.emission, key=lambda one: -one.energy)[:_LISTED]
+    words = words_of_test(result.test)
     rows = [
         (
-            scaled(one.strain, 100.0, "%"),
+            scaled(float(places_of(result, one.strain)), 1.0, words.x.unit),
             f"{scaled(one.x, 1e3, '', 3)}, {scaled(one.y, 1e3, '', 3)} mm",
             str(one.points),
             MODES[one.mode],
@@ -144,7 +145,7 @@ def emission_table(result: Result) -> Rows | None:
         )
         for one in largest
     ]
-    header = ("strain", "centre", "points", "mode", "energy", "magnitude")
+    header = (words.over, "centre", "points", "mode", "energy", "magnitude")
     return Rows("Acoustic emission: the largest events", header, rows, _note(result))
 
 

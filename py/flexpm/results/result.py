@@ -113,7 +113,9 @@ class Result(Shown):
         """What makes the numbers doubtful, one line each; see ``doubts``."""
         record = measures.until_regained(self.curve) if kind_of(self.test).regains else self.curve
         mismatch = measures.median_end_mismatch(record)
-        rate = None if self.inputs is None else self.inputs["rate"]
+        # a script's own test has no option of the command
+        given = self.inputs or {}
+        rate = given["rate"] if given.get("repeatable", bool(given)) else None
         found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
         if kind_of(self.test).rig is Rig.WAVE and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)
@@ -125,7 +127,8 @@ class Result(Shown):
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
         if kind_of(self.test).quasi_static:
             found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
-        return found
+        told = given.get("doubts", ())  # by a script's rig
+        return found + [line for line in told if line not in found]
 
     def measure(
         self,

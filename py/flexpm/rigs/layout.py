@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import yade
 from yade import wrapper
 
 from ..errors import InputError
+from ..files import Table
 from ..models.grains import Model
 from ..require import (
     NOT_NEGATIVE,
@@ -180,6 +182,32 @@ class PartLayout:
         return number
 
     @property
+    def parts(self) -> list[Table]:
+        """All parts as plain values: plates, then held nodes by their numbers.
+
+        A place is that where the part was laid, or since when displacements count [m].
+        """
+        solver = self.built.solver
+        plates = [
+            {
+                "part": "plate",
+                **{name: one[name] for name in ("normal", "width", "friction", "bonded")},
+                "place": _before(one),
+            }
+            for one in solver.plates()
+        ]
+        sets = [
+            {
+                "part": "held nodes",
+                "nodes": [int(node) for node in one["nodes"]],
+                "axes": one["axes"],
+                "place": _before(one),
+            }
+            for one in solver.nodeSets()
+        ]
+        return [*plates, *sets]
+
+    @property
     def _begun(self) -> bool:
         """Whether the record has begun, here or in the scene that was taken up."""
         return self.built.engine(wrapper.AxialRecorder) is not None
@@ -191,3 +219,9 @@ class PartLayout:
                 f"{what}: scene = another one than that of the rig, must be the same; after "
                 "O.reset() or O.load() make a new rig"
             )
+
+
+def _before(part: Table) -> list[float]:
+    """Where a part was before it was displaced [m]."""
+    found: list[float] = np.subtract(part["place"], part["displacement"]).tolist()
+    return found

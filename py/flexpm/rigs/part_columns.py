@@ -7,11 +7,15 @@ import numpy as np
 from yade import wrapper
 
 from ..errors import InputError
+from ..files import Table
 from ..require import require_flag, require_known
 from ..results.record import COLUMNS, Curve
 from .layout import PartLayout
 from .parts import HeldNodes, RigPart, require_part
 from .places import Place, require_column, require_direction, require_vector
+
+#: What a gauge reads.
+_TRAITS = ("first", "second", "plate", "nodes", "direction", "length")
 
 
 class PartColumns(PartLayout):
@@ -89,6 +93,16 @@ class PartColumns(PartLayout):
         own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
         return Curve.from_columns(names, rows, own)
 
+    @property
+    def gauges(self) -> list[Table]:
+        """All gauges as plain values: nodes, or the part whose way it is, and the direction."""
+        found = []
+        for one in self._recorder.gauges:
+            traits = {name: getattr(one, name) for name in _TRAITS}
+            traits["direction"] = list(traits["direction"])
+            found.append({"gauge": one.name, **traits})
+        return found
+
     def _columns(self) -> tuple[str, ...]:
         """All that a name of a column may not be, and that may have a second name."""
         names = (*COLUMNS, *self._recorder.names, "load", "displacement", *self._same)
@@ -116,7 +130,7 @@ class PartColumns(PartLayout):
             recorder.addGauge(gauge)
             return
         there = next(one for one in recorder.gauges if one.name == name)
-        for trait in ("first", "second", "plate", "nodes", "direction", "length"):
+        for trait in _TRAITS:
             now, asked = getattr(there, trait), getattr(gauge, trait)
             if now != asked and name not in recorder.lostGauges():
                 raise InputError(

@@ -9,6 +9,7 @@ import numpy as np
 from yade import wrapper
 
 from ..errors import InputError
+from ..files import Table
 from ..require import NOT_NEGATIVE, POSITIVE, require_number
 from .layout import PartLayout
 from .parts import HeldNodes, Part, RigPart, numbers, require_apart, require_parts
@@ -121,6 +122,20 @@ class PartLoads(PartLayout):
         )
         for part in (*sets, *others):
             self._turn_about(part, pivot)
+
+    @property
+    def drives(self) -> Table:
+        """Which parts load and hold, by their numbers, and what stress and strain are then."""
+        frame = self._frame
+        return {
+            "driven": {"plates": frame.driven, "held nodes": frame.drivenSets},
+            "turned back": {"held nodes": frame.backSets},
+            "against": {"plates": frame.holding, "held nodes": frame.holdingSets},
+            "direction": [frame.direction[axis] for axis in range(3)],
+            "area": frame.area,
+            "length": frame.length,
+            "strength": frame.strength,
+        }
 
     def _new_frame(self) -> wrapper.PartFrame:
         return wrapper.PartFrame()

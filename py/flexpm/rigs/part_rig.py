@@ -15,6 +15,7 @@ import numpy as np
 from yade import wrapper
 
 from ..errors import InputError
+from ..files import Table
 from ..kinds.registry import OWN, kind_of
 from ..models.grains import Model
 from ..require import NOT_NEGATIVE, require_number
@@ -66,6 +67,11 @@ class PartRig(PartColumns, PartLoads, GrainRig):
     def kind(self) -> str:
         """Name of the test."""
         return self._kind
+
+    @property
+    def laid(self) -> Table:
+        """Parts, what loads, and gauges, as plain values."""
+        return {"parts": self.parts, "drive": self.drives, "gauges": self.gauges}
 
     def scales(self) -> Scales:
         """What the loading rate follows from: the elastic solution of the specimen before it.
@@ -181,6 +187,10 @@ class PartRig(PartColumns, PartLoads, GrainRig):
     def _crossing_steps(self) -> float:
         """Steps of a disc of the specimen's area: what is open before it is pressed has none."""
         return self.built.solver.crossingSteps(self.built.specimen.equal_diameter)
+
+    @property
+    def _pressed_part(self) -> Table:
+        return {} if self.pressed is None else {"part": str(self.pressed)}
 
     def _begin_record(self) -> None:
         super()._begin_record()

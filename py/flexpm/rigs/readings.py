@@ -15,6 +15,7 @@ from typing import Protocol
 import numpy as np
 import yade
 
+from ..files import Table
 from ..kinds.registry import of_ends
 from ..models.grains import Model
 from ..models.spheres import SphereModel
@@ -161,6 +162,11 @@ class RigReadings(ABC):
     @abstractmethod
     def balance(self) -> Balance:
         """What the specimen fails to bear of the pressure on it now."""
+
+    @property
+    def laid(self) -> Table:
+        """How the specimen is held and loaded, as plain values."""
+        return {"ends": {"test": self.kind, "pull": self.tension}}
 
     @property
     @abstractmethod

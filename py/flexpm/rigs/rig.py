@@ -6,20 +6,24 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
+from pathlib import Path
 from typing import NoReturn
 
 import yade
 from yade import EnumClass_TestState as TestState
 
 from ..errors import InputError, SimulationError
+from ..files import Table
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..require import require_number
+from ..results.result import Result
 from ..runs.loading_rate import WAITING_MODELS, Loading, Schedule
 from ..runs.runner import Runner, Span
 from ..threads import limited
+from .outcome.folder import save
 from .readings import RigReadings
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
@@ -60,6 +64,9 @@ class TestRig(RigReadings):
         """Take a specimen that has just been built, or whose scene has been loaded."""
         super().__init__(built, tension=tension)
         self._runner = runner or Runner()
+        done = yade.O.iter  # what came before is not known
+        #: What has been done so far, as plain values: each stage, and the steps at its ends.
+        self.stages: list[Table] = [{"stage": "found", "last_step": done}] if done else []
         #: Called after each step.
         self.watch: Callable[[TestRig], None] | None = None
 
@@ -75,6 +82,7 @@ class TestRig(RigReadings):
         Raises:
             SimulationError: if the forces do not come to balance.
         """
+        self._tell("confine", pressure=pressure, **self._pressed_part)
         begin = partial(self._begin_confinement, pressure)
         entered = self._stage(begin, self._at_rest, "isotropic pressure")
         if entered and not self.diverged and not self._at_rest():
@@ -92,6 +100,7 @@ class TestRig(RigReadings):
             loading: Rate, start and end; None for the defaults.
         """
         loading = loading or Loading()
+        self._tell("load", **asdict(loading))
         begin = partial(self.start, loading)
         if loading.static:
             self._stage(partial(self._begin_preload, loading), self._is_over)
@@ -110,6 +119,7 @@ class TestRig(RigReadings):
             SimulationError: if the strain does not come there.
         """
         strain = require_number("strain_to: strain", strain)
+        self._tell("strain_to", strain=strain, rate=rate)
         entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
         if self.diverged or (entered and not self._is_over()):
             raise SimulationError(
@@ -132,6 +142,7 @@ class TestRig(RigReadings):
             SimulationError: if the specimen does not bear it.
         """
         stress = require_number("stress_to: stress", stress, unit="Pa")
+        self._tell("stress_to", stress=stress, rate=rate)
         senses: list[float] = []  # of a stage that is taken up: that with which it began
 
         def there() -> bool:
@@ -152,6 +163,28 @@ class TestRig(RigReadings):
         plan = self._schedule(loading)
         self._drive(plan)
         return _span(plan)
+
+    def save(self, folder: Path | str, *, report: bool = True) -> Result:
+        """Write what the test has left so far into a folder, as a run does; the scene stays.
+
+        The folder has ``result.json``, ``curve.csv``, ``cracks.csv``, ``events.csv``,
+        ``fragments.csv``, ``final.vtu``, the pictures, ``report.html`` and, of a specimen that is
+        no plain packing, ``grains.json``; no frames and no checkpoints. ``inputs`` in
+        ``result.json`` tells specimen, material, parts, loading and stages; ``repeatable`` is false
+        there: only the script repeats the test.
+
+        Args:
+            folder: Made if it is not there. One that this test was saved in before is replaced.
+            report: Write report.html, too.
+
+        Returns:
+            The result, as ``Result.read`` finds it there.
+
+        Raises:
+            InputError: if the folder holds another run, or results of something else.
+            BusyError: if another process uses it.
+        """
+        return save(self, self.stages, folder, report=report, step_time=self._runner.step_time)
 
     def finish(self) -> None:
         """Bring YADE's objects up to date, for scripts that go on, and save the last state."""
@@ -213,25 +246,38 @@ class TestRig(RigReadings):
 
     # Stages
 
+    @property
+    def _pressed_part(self) -> Table:
+        """What `confine` presses on, where that is not all around."""
+        return {}
+
+    def _tell(self, stage: str, **values: object) -> None:
+        self.stages.append({"stage": stage, **values, "first_step": yade.O.iter})
+
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
         """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
         if self.diverged or not self._runner.enter(begin):
             return False
         try:
-            with limited(self.built.threads):
-                self._runner.run(
-                    self._step if self.watch is None else self._watched_step,
-                    over,
-                    lambda: text or self._standing(),
-                    save=self.saves_anywhere,
-                    foreseen=not text,
-                )
+            self._step_through(over, text)
         except RuntimeError:
             if not self.diverged:
                 raise
         except ValueError as error:  # an engine cannot do what it was asked for
             raise InputError(str(error)) from None
+        finally:
+            self.stages[-1]["last_step"] = yade.O.iter
         return True
+
+    def _step_through(self, over: Callable[[], bool], text: str) -> None:
+        with limited(self.built.threads):
+            self._runner.run(
+                self._step if self.watch is None else self._watched_step,
+                over,
+                lambda: text or self._standing(),
+                save=self.saves_anywhere,
+                foreseen=not text,
+            )
 
     def _begin_confinement(self, pressure: float) -> Span:
         crossing = math.ceil(self._crossing_steps())

@@ -88,6 +88,7 @@ class WaveRig(GrainRig):
 
     def send(self) -> None:
         """Let a pulse go from the bottom until it has passed the upper section."""
+        self._tell("send")
         self._stage(self._begin_wave, lambda: self.diverged)
 
     def expected_speed(self) -> float:

@@ -22,6 +22,7 @@ from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
 from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
 from .input_names import INPUT_UNITS, UNUSED
+from .run_inputs import RunInputs
 from .run_spec import RunSpec, described
 
 if TYPE_CHECKING:
@@ -46,6 +47,11 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
         InputError: if it cannot be read, or is no such file.
     """
     inputs = load_json(file, "result").get("inputs")
+    if is_own(inputs):
+        raise InputError(
+            f"result = {str(file)!r}, is of a script's own test (repeatable = false), must be of a "
+            "run; start that script again"
+        )
     if not isinstance(inputs, Mapping) or not isinstance(inputs.get("material"), Mapping):
         raise InputError(
             f"result = {str(file)!r}, has no inputs of a run; give a result.json of flexpm"
@@ -99,12 +105,40 @@ def write_report(folder: Path, result: Result) -> Path:
     """Write report.html of a run into its folder, from its result and its specimen.vtu."""
     from ..report.pages.page_run import write_page
 
+    if is_own(result.inputs):
+        return _write_own(folder, result)
     with _refusing(folder / "result.json"):
         spec = RunSpec.from_json(result.inputs or {})
     commands = [("From its one file:", "flexpm rerun result.json")]
     if line := command(spec):
         commands.append(("By all that was asked for:", line))
     return write_page(folder, result, told(spec), commands)
+
+
+def is_own(inputs: object) -> bool:
+    """Whether inputs of a result.json are those of a script's own test, which it alone repeats."""
+    return isinstance(inputs, Mapping) and inputs.get("repeatable") is False
+
+
+def _write_own(folder: Path, result: Result) -> Path:
+    """The page of a script's own test."""
+    from ..report.pages.page_run import write_own_page
+
+    content = result.inputs or {}
+    names = {field.name for field in fields(RunInputs)}
+    with _refusing(folder / "result.json"):
+        plain = {name: value for name, value in content.items() if name in names}
+        known = {field.name for field in fields(SpecimenSpec)}
+        specimen = {key: value for key, value in plain["specimen"].items() if key in known}
+        spec = RunInputs(**{**plain, "specimen": SpecimenSpec(**specimen)})
+        shown = ("model", "points", "mesh", "dynamic", "gravity", "damping")
+        values = [(name, getattr(spec, name)) for name in shown]
+        inputs = [
+            *(Input(name, value, INPUT_UNITS.get(name, ""), "given") for name, value in values),
+            *_of_specimen(spec.specimen),
+            *_of_material(spec),
+        ]
+    return write_own_page(folder, result, inputs)
 
 
 class Input(NamedTuple):
@@ -170,7 +204,7 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         yield Input(label, value, INPUT_UNITS.get(name, ""), source)
 
 
-def _of_material(spec: RunSpec) -> Iterator[Input]:
+def _of_material(spec: RunInputs) -> Iterator[Input]:
     name = str(spec.material.get("name"))
     known = name in preset_names()
     preset = described(load(name, spec.model), spec.model) if known else {}

@@ -28,7 +28,7 @@ KINDS = {
 }
 _SAID = {"packings": "several packings"}
 #: A file of a run that has begun.
-_BEGUN = "checkpoint.json"
+BEGUN = "checkpoint.json"
 
 
 def kind_of(folder: Path) -> str | None:
@@ -42,7 +42,7 @@ def refuse_other_kind(folder: Path, kind: str) -> None:
     Raises:
         InputError: if it holds some.
     """
-    found = kind_of(folder) or ("run" if (folder / _BEGUN).is_file() else None)
+    found = kind_of(folder) or ("run" if (folder / BEGUN).is_file() else None)
     if found is not None and found != kind:
         raise InputError(
             f"out = {str(folder)!r}, holds results of {_SAID.get(found, found)}, must be free for "

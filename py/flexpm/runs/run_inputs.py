@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 from ..files import Table
 from ..kinds.option import Value
@@ -81,6 +82,13 @@ class RunInputs:
     damping: float | None = None
     interaction_range: float | None = None
     own: Mapping[str, Value] = field(default_factory=dict)
+
+    def to_json(self) -> Table:
+        """All fields as JSON has them, the test's own options beside them: no tuples."""
+        plain = asdict(self)
+        own = plain.pop("own")
+        content: Table = json.loads(json.dumps({**plain, **own}, allow_nan=False))
+        return content
 
     @property
     def kind(self) -> TestKind:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import MISSING, asdict, dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 
 from ..errors import InputError
 from ..files import Table
@@ -97,13 +97,6 @@ class RunSpec(RunInputs):
         parts = [field.name for field in fields(SpecimenSpec)]
         plain["specimen"] = SpecimenSpec(**_known(parts, plain["specimen"]))
         return cls(**split(plain))
-
-    def to_json(self) -> Table:
-        """All fields as JSON has them, the test's own options beside them: no tuples."""
-        plain = asdict(self)
-        own = plain.pop("own")
-        content: Table = json.loads(json.dumps({**plain, **own}, allow_nan=False))
-        return content
 
     @property
     def results(self) -> int:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from .._version import __version__
@@ -16,10 +17,25 @@ from ..report.tables import size_text
 from ..report.waves import wave_picture
 from ..results.result import Result
 from ..results.vtu import read_vtu, write_vtu
+from ..specimens.files import given
+
+#: Names of the files of a test.
+FILES = (
+    *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
+    *("final.vtu", given.FILE),
+    *("curve.png", "cracks.png", "events.png", "fragments.png"),
+    "report.html",
+)
 
 
-def write_files(folder: Path, result: Result) -> None:
-    """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
+def write_files(folder: Path, result: Result, notches: Sequence[int] = ()) -> None:
+    """Write numbers, record, cracks, final state and pictures of a result into `folder`.
+
+    Args:
+        folder: It exists.
+        result: The result.
+        notches: Numbers of the contacts that were cut open before the test.
+    """
     result.write(folder)
     draw = wave_picture if kind_of(result.test).rig is Rig.WAVE else curve_picture
     draw(folder / "curve.png", result)
@@ -27,8 +43,6 @@ def write_files(folder: Path, result: Result) -> None:
         write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
-        cut = bool(result.material.get("joints"))
-        notches = _notches(folder / "specimen.vtu") if cut else []
         broken = result.cracks_by_pair
         crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches, broken)
         fragment_picture(folder / "fragments.png", result.snapshot, caption)
@@ -44,7 +58,7 @@ def about(inputs: Table | None) -> Table:
     return {**about, "material": material["name"], "seed": specimen["seed"], "flexpm": __version__}
 
 
-def _notches(specimen: Path) -> list[int]:
+def notches_of(specimen: Path) -> list[int]:
     """Numbers of the contacts that are cut open in the file of a specimen before its test."""
     before = read_vtu(specimen)
     return [int(number) for number in before.contact[before.cuts]]

@@ -4,6 +4,7 @@
 from ..model_names import BLOCK_MODELS
 from ..rates import Rates
 from ..test_kind import Rig, TestKind
+from ..words import Drawn, Words
 
 _RATES = Rates(0.01, running_share=0.01, likely_crossings=60)
 
@@ -15,4 +16,9 @@ KIND = TestKind(
     rig=Rig.PARTS,
     stages=(),
     rates=dict.fromkeys(BLOCK_MODELS, _RATES),
+    needs_peak=False,  # a script says when it is over
+    words=Words(
+        Drawn("axial_strain", "displacement over length", 1.0, "SI"),
+        Drawn("axial_stress", "load over area", 1.0, "SI"),
+    ),
 )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.ticker import EngFormatter
 
 from ...arrays import IntArray
 from ...errors import InputError
+from ...files import Table
 from ...kinds.registry import kind_of
 from ...results import measures
 from ...results.cracks import SHEAR, TENSILE
@@ -31,6 +32,10 @@ _POINTS = 700
 _ENERGIES = ("elastic", "damage", "friction", "damping", "kinetic", "potential")
 #: Pictures that a page shows where a run has them.
 _PICTURES = {"events.png": "Acoustic emission"}
+#: Those of a script's own test, which has no map.
+_OWN_PICTURES = {"cracks.png": "Cracks", "fragments.png": "Fragments"}
+#: Values of a list that are shown.
+_LONGEST_LIST = 8
 #: What each status means and what to do then; the FAQ of the documentation says more.
 STATUS = {
     "ok": Status(
@@ -61,6 +66,23 @@ STATUS = {
         "Lower the --rate if it was raised. Look for inputs in other units (Pa, m) and for "
         "stiffnesses that differ by many orders.",
     ),
+}
+#: The same of a script's own test, of which nobody knows when it is over, or how slow is slow.
+OWN_STATUS = {
+    "ok": Status(
+        "ok",
+        True,
+        "Energies balance, and the load did not grow fast as its peak came.",
+        "Run the script again at half the rate: what changes is not of the rock.",
+    ),
+    "not_quasistatic": Status(
+        "not_quasistatic",
+        False,
+        "The loading was too fast: the energies do not balance, or the load grew fast as its peak "
+        "came. Strengths come out too high.",
+        "Run the script again at half the rate until the peak stands still.",
+    ),
+    "diverged": STATUS["diverged"],
 }
 #: What to cite, without the version.
 _PAPER = (
@@ -113,6 +135,86 @@ def write_page(
     )
     write(folder / FILE, page)
     return folder / FILE
+
+
+def write_own_page(folder: Path, result: Result, inputs: Iterable[Input]) -> Path:
+    """Write the page of a script's own test, which has no state from before it.
+
+    Args:
+        folder: Folder of the test, with its pictures.
+        result: The test.
+        inputs: What specimen and model are.
+
+    Returns:
+        The file.
+    """
+    chart, rows = stress_chart(result)
+    known = [row for row in result_rows(result)[:-1] if any(map(str.isdigit, row[1]))]
+    page = Page(
+        title=f"A script's {test_text(result)}",
+        about=size_text(result),
+        versions=versions(result),
+        status=OWN_STATUS.get(result.status),
+        results=Rows("Result", ("quantity", "value"), known, _reading(result)),
+        warnings=result.warnings,
+        charts=[chart, _energy_chart(result)] if len(rows) else [],
+        tables=[
+            one
+            for one in (
+                *_told_tables(result.inputs or {}),
+                _pairs_table(result),
+                emission_table(result),
+                inputs_table(inputs),
+            )
+            if one
+        ],
+        pictures=[
+            Picture(title, folder / name)
+            for name, title in {**_OWN_PICTURES, **_PICTURES}.items()
+            if (folder / name).is_file()
+        ],
+        commands=[],
+        cite=cite(result.flexpm),
+    )
+    write(folder / FILE, page)
+    return folder / FILE
+
+
+def _told_tables(inputs: Table) -> Iterator[Rows]:
+    """Stages, parts and gauges of a script's own test, a row each."""
+    for title, name, word in (
+        ("Stages", "stages", "stage"),
+        ("Parts", "parts", "part"),
+        ("Gauges", "gauges", "gauge"),
+    ):
+        rows = [
+            (str(number), str(one.get(word, "")), _told(one, word))
+            for number, one in enumerate(inputs.get(name, ()))
+        ]
+        if rows:
+            yield Rows(title, ("number", word, "what it is, SI"), rows)
+    if drive := inputs.get("drive"):
+        rows = [(key, _told_value(value), "") for key, value in drive.items()]
+        yield Rows("Loading", ("what", "value, SI", ""), rows)
+
+
+def _told(one: Table, word: str) -> str:
+    """What a stage, part or gauge is, but its name."""
+    shown = {key: value for key, value in one.items() if key != word and value is not None}
+    return ", ".join(
+        f"{key.replace('_', ' ')} {_told_value(value)}" for key, value in shown.items()
+    )
+
+
+def _told_value(value: object) -> str:
+    """A plain value in a few letters; long lists are counted."""
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key} {_told_value(one)}" for key, one in value.items() if one) or "none"
+    if isinstance(value, list):
+        if len(value) > _LONGEST_LIST:
+            return f"({len(value)} of them)"
+        return "(" + ", ".join(map(_told_value, value)) + ")"
+    return f"{value:g}" if isinstance(value, float) else with_unit(value, "")
 
 
 def versions(result: Result) -> str:

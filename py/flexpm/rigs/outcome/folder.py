@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The folder of a script's own test: what it was, its result, its files. SI units."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from ...errors import InputError
+from ...files import (
+    FolderLock,
+    Table,
+    output_folder,
+    read_json,
+    refuse_folders,
+    remove_earlier,
+)
+from ...kinds.registry import OWN
+from ...materials.mixing import is_brittle
+from ...models.grains import Model
+from ...report.pages.page import FILE as REPORT
+from ...results.cracks import MODES
+from ...results.result import Result
+from ...results.snapshot import Snapshot
+from ...runs.asked import write_report
+from ...runs.loading_rate import WAITING_MODELS, rates_of
+from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
+from ...runs.run_inputs import RunInputs
+from ...runs.run_spec import described
+from ...runs.written import FILES, write_files
+from ...specimens.files import given
+from ..readings import RigReadings
+from .result import result_of
+
+#: Number of the way in which the inputs of a script's own test are written.
+SCHEMA = 1
+#: What a record without area and length has: its stress is the load, its strain the displacement.
+_STRESSES = (
+    *("youngs_modulus", "poissons_ratio", "elastic_poissons_ratio", "softening_slope"),
+    *("peak_stress", "peak_strain"),
+    *(
+        f"{onset}_{what}"
+        for mode in MODES.values()
+        for onset in (f"first_{mode}_crack", f"{mode}_onset")
+        for what in ("strain", "stress")
+    ),
+)
+
+#: What stays in a test, from its first stage to its last.
+_FIXED = ("test", "specimen", "material", "model", "points", "mesh", "ends", "parts", "drive")
+
+
+def save(
+    rig: RigReadings,
+    stages: Sequence[Table],
+    folder: Path | str,
+    *,
+    report: bool = True,
+    step_time: float | None = None,
+) -> Result:
+    """Write what a script's own test has left so far; arguments as for ``TestRig.save``."""
+    place = output_folder(folder)
+    refuse_folders(place, FILES)
+    lock = FolderLock(place)
+    inputs = _inputs(rig, stages)
+    _refuse_others(place, inputs)
+    result = _result(rig, inputs)
+    result.step_time = step_time
+    given.save(place, rig.built.specimen)
+    assert result.snapshot is not None
+    write_files(place, result, _notches(rig, result.snapshot))
+    if report:
+        write_report(place, result)
+    else:
+        remove_earlier(place / REPORT)
+    del lock  # the folder is free from here on
+    return result
+
+
+def _inputs(rig: RigReadings, stages: Sequence[Table]) -> Table:
+    """What the test was, as far as plain values tell."""
+    built = rig.built
+    loads = [stage for stage in stages if "rate" in stage]
+    run = RunInputs(
+        OWN.name,
+        built.specimen.spec,
+        described(built.material, built.name),
+        built.name,
+        rate=loads[-1]["rate"] if loads else RunInputs.rate,
+        loading=_loading(rig, stages),
+        confinement=rig.confinement or 0.0,
+    )
+    if isinstance(built, Model):
+        run = replace(
+            run,
+            points=built.points,
+            mesh=built.mesh,
+            dynamic=built.dynamic,
+            gravity=built.gravity,
+            damping=built.damping,
+        )
+    told = {"schema": SCHEMA, "repeatable": False, **rig.laid, "stages": [*stages]}
+    content: Table = json.loads(json.dumps({**run.to_json(), **told, "doubts": rig.warnings}))
+    return content
+
+
+def _loading(rig: RigReadings, stages: Sequence[Table]) -> str:
+    """Kind of the last loading; ``stress_to`` waits for cracks where grains can."""
+    kinds = [stage["kind"] for stage in stages if "kind" in stage]
+    waits = any("stress" in stage for stage in stages) and rig.built.name in WAITING_MODELS
+    return kinds[-1] if kinds else "waiting" if waits else "constant"
+
+
+def _result(rig: RigReadings, inputs: Table) -> Result:
+    waiting = inputs["loading"] == "waiting"
+    result = result_of(rig, OWN.name, _largest_unbalanced(rig, waiting), waiting=waiting)
+    result.inputs = inputs
+    drive = inputs.get("drive", {})
+    if drive and drive["area"] == drive["length"] == 1.0:
+        for name in _STRESSES:
+            setattr(result, name, None)
+    if drive and not drive["direction"][2] and len(result.curve):  # what turns has moments
+        result.peak_load = float(result.curve["load"].max())
+    return result
+
+
+def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
+    """Largest unbalanced-force ratio that is quasi-static [-], infinite where none is known."""
+    rates = rates_of(rig.kind, rig.built.name)
+    ratio = rates.quasistatic
+    if waiting:
+        brittle = is_brittle(described(rig.built.material, rig.built.name))
+        ratio = None if rates.waiting_ratios is None else rates.waiting_ratios[brittle]
+    return math.inf if ratio is None else ratio
+
+
+def _notches(rig: RigReadings, snapshot: Snapshot) -> list[int]:
+    """Numbers of the contacts of open joints, which no test has opened."""
+    specimen = rig.built.specimen
+    if specimen.edge_joints is None:
+        return []
+    open_ones = {joint.name for joint in rig.built.material.joints if joint.open}
+    names = specimen.spec.joint_names or ()
+    joints = [name in open_ones for name in names]
+    return [
+        int(number)
+        for number in snapshot.contact
+        if number < len(specimen.edge_joints)
+        and (joint := int(specimen.edge_joints[number])) >= 0
+        and joints[joint]
+    ]
+
+
+def _refuse_others(folder: Path, inputs: Table) -> None:
+    """Refuse a folder with another run than an earlier state of this test.
+
+    Raises:
+        InputError: if it holds one.
+    """
+    refuse_other_kind(folder, "run")
+    file = folder / RESULT
+    if (folder / BEGUN).exists():
+        whose = "another run"
+    elif not file.exists() or _is_earlier(file, inputs):
+        return
+    else:
+        whose = "another run" if is_of_flexpm(file) else "another program"
+    raise InputError(
+        f"save: folder = {str(folder)!r}, holds files of {whose}, which would be replaced; choose "
+        "another folder"
+    )
+
+
+def _is_earlier(file: Path, inputs: Table) -> bool:
+    """Whether a result.json is that of the same test, at this or an earlier stage."""
+    try:
+        there = read_json(file)["inputs"]
+        stages, now = there["stages"], inputs["stages"]
+        same = all(_fixed(there, name) == _fixed(inputs, name) for name in _FIXED)
+        return bool(same and stages == now[: len(stages)])
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        return False
+
+
+def _fixed(inputs: Table, name: str) -> object:
+    """An input without the places of parts, whose last digits come from where they are now."""
+    value = inputs.get(name)
+    if name == "parts":
+        return [{key: one[key] for key in one if key != "place"} for one in inputs.get(name, ())]
+    return value

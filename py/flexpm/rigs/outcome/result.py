@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result of a test on a rig: what record, grains and cracks say at its end. SI units."""
+
+from __future__ import annotations
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from ..._version import __version__
+from ...kinds.registry import kind_of
+from ...models.grains import Model
+from ...results.cracks import count_by_pair, cracks_from_snapshot
+from ...results.emission import EventRule, event_rule
+from ...results.result import Result
+from ...specimens.specimen import Specimen
+from ..readings import RigReadings
+
+
+def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting: bool) -> Result:
+    """Measure what a test has left in its rig and its scene.
+
+    Args:
+        rig: Holds the specimen.
+        test: Name of the test, which says what its record means.
+        largest_unbalanced: Ratio up to which it is quasi-static [-], see ``Result.measure``.
+        waiting: Its loading waited for cracks.
+    """
+    built = rig.built
+    counts, snapshot = built.counts(), built.snapshot()
+    result = Result(
+        flexpm=__version__,
+        yade=yade.config.version,
+        test=test,
+        model=built.name,
+        material=built.describe_material(),
+        seed=built.specimen.seed,
+        grains=counts["grains"],
+        contacts=counts["contacts"],
+        nodes=counts.get("nodes"),
+        triangles=counts.get("triangles"),
+        particles=counts.get("particles"),
+        inner_contacts=counts.get("inner_contacts"),
+    )
+    if kind_of(test).quasi_static:
+        result.grains_across = grains_across(built.specimen)
+    result.curve = rig.record
+    kinds = [kind["name"] for kind in result.material.get("minerals", ())]
+    result.cracks = cracks_from_snapshot(snapshot, result.curve, kinds)
+    result.cracks_by_pair = count_by_pair(result.cracks)
+    # before it is loaded a script's own test has no scales
+    sudden = rig.may_fail_at_once and not rig.diverged and len(result.curve) > 0
+    result.measure(
+        largest_unbalanced,
+        waiting=waiting,
+        crossing=rig.scales().crossing_steps if sudden else None,
+        diverged=rig.diverged,
+        initial_energy=rig.initial_energy,
+    )
+    result.contact_width = rig.contact_width
+    result.measure_fragments(snapshot)
+    if isinstance(built, Model):  # bonds of spheres tell no energy
+        result.measure_emission(_event_rule(built.specimen, built.solver))
+        result.joint_bend = built.joint_bend
+        cuts = built.specimen.joint_cuts.items()
+        result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
+        result.loose_grains, result.largest_parting = built.parting
+    return result
+
+
+def grains_across(specimen: Specimen) -> float:
+    """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
+    if not isinstance(specimen.outline, np.ndarray):
+        return specimen.dimensions["diameter"] / specimen.mean_diameter
+    sizes = np.ptp(specimen.outline, axis=0)
+    return float(np.min(sizes)) / specimen.mean_diameter
+
+
+def _event_rule(specimen: Specimen, solver: wrapper.GrainSolver) -> EventRule:
+    """What makes an event, by the speed of a wave through a disc of the specimen's area."""
+    diameter = specimen.equal_diameter
+    return event_rule(specimen.mean_diameter, diameter, solver.crossingSteps(diameter))
