@@ -118,6 +118,7 @@ _SPEC: dict[str, _Rule] = {
     "kind": _is_text,
     "diameters": _or_none(_row(2)),
     "joint_names": _or_none(_list(_is_text, 1)),
+    "networks": _or_none(_list(lambda value: isinstance(value, Mapping), 1)),
     **dict.fromkeys(
         ("discs", "outline", "minerals", "cells", "joints", "strengths"), _or_none(_is_text)
     ),
@@ -315,6 +316,15 @@ def _require_points(
         raise refuse(f"disc {bad[0]} = elsewhere, must lie in its cell")
 
 
+def _require_networks(spec: SpecimenSpec) -> None:
+    """Networks are some."""
+    if spec.networks is not None:
+        from ...joints.network import Network
+
+        for table in spec.networks:
+            Network.of(table)
+
+
 def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     """So many joints are those of the spec, on edges between cells, near their lines."""
     import numpy as np
@@ -323,6 +333,7 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
 
     spec, lines, grains = found["spec"], found["joints"], found.get("grains")
     names = spec.joint_names or ()
+    _require_networks(spec)
     if (spec.joints is None) is not (grains is None) or bool(names) is (spec.joints is None):
         raise refuse("joints, joint_names and grains = some, must be all there or none")
     if grains is not None:
