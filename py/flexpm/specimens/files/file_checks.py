@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: Distances below this share of the mean diameter are round-off, and that of areas [-].
 _ROUND_OFF, _AREA = 1e-5, 1e-9
+#: Longest edge of a cell on a circle, in mean diameters [-].
+_CHORD = 3.0
 #: A reference point may lie out of its cell by this share of its radius [-].
 _OUTSIDE = 0.75
 #: Farthest contacts of a joint from its lines, in mean diameters [-].
@@ -232,6 +234,8 @@ def _require_sides(found: Table, sides: IntArray) -> None:
     if isinstance(outline, Circle):
         centre = np.array([outline.x, outline.y])
         off = np.abs(np.hypot(*np.moveaxis(ends - centre, -1, 0)) - outline.radius)
+        if found["spec"].joints is not None:  # these cut chords, which leave the circle by c^2 / 8R
+            off -= 0.125 * (_CHORD * least / _ROUND_OFF) ** 2 / outline.radius
         whole, area = not number.any(), math.pi * outline.radius**2
     else:
         rings = (outline, *found["holes"])
@@ -316,15 +320,6 @@ def _require_points(
         raise refuse(f"disc {bad[0]} = elsewhere, must lie in its cell")
 
 
-def _require_networks(spec: SpecimenSpec) -> None:
-    """Networks are some."""
-    if spec.networks is not None:
-        from ...joints.network import Network
-
-        for table in spec.networks:
-            Network.of(table)
-
-
 def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     """So many joints are those of the spec, on edges between cells, near their lines."""
     import numpy as np
@@ -333,7 +328,10 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
 
     spec, lines, grains = found["spec"], found["joints"], found.get("grains")
     names = spec.joint_names or ()
-    _require_networks(spec)
+    if spec.networks is not None:
+        from ...joints.network import Network
+
+        [*map(Network.of, spec.networks)]
     if (spec.joints is None) is not (grains is None) or bool(names) is (spec.joints is None):
         raise refuse("joints, joint_names and grains = some, must be all there or none")
     if grains is not None:
