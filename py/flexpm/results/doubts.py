@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..files import Table
+from ..kinds.registry import kind_of
+from ..kinds.test_kind import Stage
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -36,6 +38,10 @@ LARGEST_GROWTH = 0.015
 #: the rate in use gives where it errs by less than 2 %, below what faster ones give where they err
 #: by more: 0.010 and 0.016, and 0.0064 and 0.0066.
 LARGEST_GROWTH_OF_JOINTS = {"flexible": 0.012, "rigid": 0.0065}
+#: Rate times the rock's strength over that of a joint above which the joint may bear too much: its
+#: cracks come one after the other, and the load tells nothing. Errors above 2 % that nothing else
+#: names begin at 15; up to 5 they are 1.1 % at most (``doc/record/rates``).
+LARGEST_RATE_OF_JOINTS = 5.0
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
 #: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
@@ -81,8 +87,33 @@ def of_inputs(inputs: Table) -> list[str]:
     tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
     tables += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
     lines = [line for where, values in tables for line in _of_values(where, values)]
+    lines += of_weak_joints(inputs)
     damping = inputs.get("damping")  # 0.7 before it could be chosen
     return lines + of_gravity(inputs.get("gravity") or 0.0, 0.7 if damping is None else damping)
+
+
+def of_weak_joints(inputs: Table) -> list[str]:
+    """Joints so weak beside the rock that no limit of the loading parts rates.
+
+    Args:
+        inputs: As result.json has them.
+    """
+    if Stage.LOAD not in kind_of(inputs["test"]).stages:  # what slides does so at any rate
+        return []
+    lines = []
+    for joint in inputs["material"].get("joints", ()):
+        shares = [
+            joint[key] / inputs["material"][key]
+            for key in ("cohesion", "tensile_strength")
+            if joint.get(key) and inputs["material"].get(key)
+        ]
+        if shares and inputs["rate"] > LARGEST_RATE_OF_JOINTS * min(shares):
+            lines.append(
+                f"joint {joint['name']}: strength = {100.0 * min(shares):.2g} % of the rock's; the "
+                f"load may be some per cent too large at --rate {inputs['rate']:g}; compare "
+                f"with --rate {0.25 * inputs['rate']:g}"
+            )
+    return lines
 
 
 def of_gravity(gravity: float, damping: float) -> list[str]:

@@ -10,13 +10,8 @@ import pytest
 from flexpm.cli import main as cli
 from flexpm.materials import material as materials
 from flexpm.results import doubts
-from flexpm.runs.run_spec import (
-    TESTS,
-    RunSpec,
-    described,
-    models_of,
-    shape_of,
-)
+from flexpm.runs.input_names import models_of, shape_of
+from flexpm.runs.run_spec import TESTS, RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
 SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"
@@ -56,6 +51,32 @@ def test_a_normal_stress_in_other_units_is_doubtful():
     material = described(materials.load("augig-table7", "flexible"), "flexible")
     spec = RunSpec("shear", SpecimenSpec("rectangle"), material, normal_stress=2.0)
     assert "normal_stress = 2, is unusual" in doubts.of_inputs(spec.to_json())[0]
+
+
+@pytest.mark.parametrize(
+    ("test", "cohesion", "rate", "told"),
+    [
+        # the rock has 30 MPa; errors of these: doc/record/rates
+        ("biaxial", 2e6, 1.0, True),
+        ("biaxial", 2e6, 0.25, False),
+        ("biaxial", 8e6, 1.0, False),
+        ("biaxial", 8e6, 4.0, True),
+        ("biaxial", 0.0, 4.0, False),
+        ("shear", 2e6, 4.0, False),
+    ],
+)
+def test_a_joint_that_is_weak_beside_the_rock_is_doubtful(test, cohesion, rate, told):
+    rock = materials.load("augig-table7", "flexible")
+    keys = {
+        "normal_stiffness": 1e14,
+        "shear_stiffness": 3e13,
+        "cohesion": cohesion,
+        "friction": 0.5,
+    }
+    weak = rock.with_set({f"joint.a.{key}": value for key, value in keys.items()}, "flexible")
+    spec = RunSpec(test, SpecimenSpec("rectangle"), described(weak, "flexible"), rate=rate)
+    found = doubts.of_inputs(spec.to_json())
+    assert [line.partition(" = ")[0] for line in found] == ["joint a: strength"] * told
 
 
 def test_doubts_about_a_result():
