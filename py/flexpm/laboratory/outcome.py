@@ -68,6 +68,7 @@ def outcome(rig: TestRig, spec: RunSpec) -> Result:
         result.joint_bend = rig.built.joint_bend
         cuts = rig.built.specimen.joint_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
+        result.networks = rig.built.specimen.network_intensities() or None
         result.loose_grains, result.largest_parting = rig.built.parting
     return result
 

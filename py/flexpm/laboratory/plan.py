@@ -15,7 +15,7 @@ from ..models.options import SPHERE_MODELS
 from ..require import require_known
 from ..rigs.frames import COLLECTION, STATE, TABLE
 from ..runs.checkpoint import INTERVAL, Checkpoint
-from ..runs.output import Output, refuse_other_result
+from ..runs.output import ROSE, Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec
 from ..specimens.files import given
 from ..specimens.specimen import Specimen
@@ -24,7 +24,7 @@ from ..specimens.specimen import Specimen
 FILES = (
     *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
     *("specimen.vtu", "final.vtu", "checkpoint.json", given.FILE),
-    *("curve.png", "cracks.png", "events.png", "fragments.png"),
+    *("curve.png", "cracks.png", "events.png", "fragments.png", ROSE),
     "report.html",
     *(TABLE, COLLECTION, STATE),
 )

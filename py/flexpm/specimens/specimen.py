@@ -209,12 +209,15 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         """P21 of each set of a network [1/m], as it was ``asked``, ``drawn`` and ``cut``.
 
         Drawn is that of the traces in the specimen, of which a seed has more or less than it was
-        asked for; cut is that of the contacts which they have made.
+        asked for; cut is that of the contacts which they have made, with their bends (D35).
         """
         area, found = float(np.sum(self.tessellation.cell_areas)), {}
+        ends = dict(zip(self.spec.joint_names or (), self.joint_lines(), strict=True))
         for name, asked in self.spec.asked_intensities:
-            cut = self.joint_cuts.get(name)
-            lengths = (cut.length - cut.outside, cut.cut) if cut is not None else (0.0, 0.0)
+            lengths = [0.0, 0.0]  # of a set without a trace
+            if name in ends:
+                cut, way = self.joint_cuts[name], ends[name][:, 1] - ends[name][:, 0]
+                lengths = [cut.length - cut.outside, float(np.sum(np.hypot(way[:, 0], way[:, 1])))]
             drawn, made = (length / area for length in lengths)
             found[name] = {"asked": asked, "drawn": drawn, "cut": made}
         return found
