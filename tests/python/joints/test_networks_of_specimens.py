@@ -119,6 +119,12 @@ def test_a_run_tells_its_network_and_repeats(file, rectangle, tmp_path, capsys):
     capsys.readouterr()
     assert cli.main(["rerun", str(out), "--quiet", "--out", str(tmp_path / "again")]) == 3
     assert "the same as in" in capsys.readouterr().out
+
+
+@pytest.mark.long
+def test_packings_of_several_seeds_have_one_network(file, tmp_path):
+    law = [word for one in LAW.split() for word in ("--set", one)]
+    call = ["run", "uniaxial", "--model", "rigid", *SIZES, *SHORT, *law, "--network", str(file)]
     assert cli.main([*call, "--seeds", "1-2", "--no-report", "--out", str(tmp_path / "two")]) == 3
     for seed in (1, 2):
         result = json.loads((tmp_path / "two" / f"seed-{seed}" / "result.json").read_text())
@@ -168,3 +174,21 @@ def test_a_seed_without_a_network_is_refused(tmp_path, capsys):
     call = ["specimen", "disc", "--network-seed", "2", "--out", str(tmp_path / "out")]
     assert cli.main(call) == 2
     assert "network_seed = 2, must be given with network only" in capsys.readouterr().err
+
+
+def test_a_set_that_cuts_nothing_reads_back(rectangle, tmp_path):
+    """A trace within a grain is kept, and a set without a trace has no joint."""
+    lines = {"short": [(0.0101, 0.02), (0.0103, 0.02)], "weak": [(0.0, 0.01), (0.02, 0.03)]}
+    cut = rectangle.with_joints(lines)
+    assert cut.joint_cuts["short"].cut == 0.0
+    cut.save(tmp_path / "cut.json")
+    assert Specimen.load(tmp_path / "cut.json").joint_cuts == cut.joint_cuts
+    one = {
+        "intensity": 120.0,
+        "length": {"law": "constant", "value": 0.01},
+        "orientation": {"law": "constant", "angle": 45.0},
+    }
+    cut = rectangle.with_network({"set": {"weak": one, "rare": {**one, "intensity": 1e-6}}})
+    assert cut.network_intensities()["rare"] == {"asked": 1e-6, "drawn": 0.0, "cut": 0.0}
+    cut.save(tmp_path / "cut.json")
+    assert Specimen.load(tmp_path / "cut.json").spec == cut.spec

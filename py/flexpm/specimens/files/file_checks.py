@@ -344,8 +344,10 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
         if 2 * np.count_nonzero(parted & (tiling.edge_joints >= 0)) < np.count_nonzero(parted):
             raise refuse("grains = others, must be parted by joints alone")
     used = tiling.edge_joints[tiling.edge_joints >= 0]
-    if len(used) != joints or {*used.tolist()} != {*range(len(names))}:
-        raise refuse("joints = edges, must be some of each joint that spec names")
+    cuts = found["joint_cuts"]  # lines of a joint may cut nothing
+    bearing = {k for k, name in enumerate(names) if name not in cuts or cuts[name].cut > 0.0}
+    if len(used) != joints or {*used.tolist()} != bearing:
+        raise refuse("joints = edges, must be some of each joint that has cut")
     if not lines:
         return  # of an earlier version
     if [*lines] != [*names]:
