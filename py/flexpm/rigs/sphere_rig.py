@@ -119,10 +119,10 @@ class SphereRig(TestRig):
 
     def scales(self) -> Scales:
         """What the loading rate follows from, of the contacts alone."""
-        specimen, law = self.built.specimen, self.built.material.law(self.built.name)
-        strengths = law["tensile_strength"], law["cohesion"], law["friction"]
+        specimen, mean = self.built.specimen, self.built.laws.mean
+        strengths = (mean(key) for key in ("tensile_strength", "cohesion", "friction"))
         inputs = (
-            contact_modulus(law["normal_stiffness"], specimen.mean_diameter),
+            contact_modulus(mean("normal_stiffness"), specimen.mean_diameter),
             reference_strength(self.tension or self.disc, *strengths),
             in_order(state.mass for state in self.built.states()),
             specimen.thickness,

@@ -29,7 +29,8 @@ def write_files(folder: Path, result: Result) -> None:
         caption = size_text(result)
         cut = bool(result.material.get("joints"))
         notches = _notches(folder / "specimen.vtu") if cut else []
-        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches)
+        broken = result.cracks_by_pair
+        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches, broken)
         fragment_picture(folder / "fragments.png", result.snapshot, caption)
         emission_picture(folder / "events.png", result, caption)
 

@@ -100,7 +100,7 @@ def make(inputs: Table, base: Path) -> Job:
     Raises:
         InputError: for a missing test, an unknown key or a value out of range.
     """
-    given = {key.replace("-", "_"): value for key, value in inputs.items()}
+    given = {spelt(key): value for key, value in inputs.items()}
     if "test" not in given:
         raise InputError(f"study test is missing; give one of {', '.join(_TESTS)}")
     test = given.pop("test")
@@ -128,6 +128,12 @@ def make(inputs: Table, base: Path) -> Job:
     if kind_of(test).is_solve:
         output = Output(report=False)  # nothing moves
     return Job({"test": test, **used}, tuple(arguments(test, used)), spec, output=output)
+
+
+def spelt(key: str) -> str:
+    """A key with ``_`` for ``-``, but in the names of minerals and joints."""
+    names, dot, name = key.rpartition(".")
+    return f"{names}{dot}{name.replace('-', '_')}"
 
 
 def has_use(key: str, test: str, model: object) -> bool:
