@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fracture networks: sets of traces with random places, lengths and angles. SI units, degrees.
 
-Centres are a Poisson process. Traces are drawn in a window that is larger than the specimen by the
-longest one, so that as many reach into it as from a rock without ends, and clipped to the specimen.
+Centres are a Poisson process (D70). Traces are drawn in a window that is larger than the specimen
+by the longest one, so that as many reach into it as from a rock without ends, and clipped to it.
 The generator of numbers is numpy's PCG64, apart for each set by its name.
 """
 
