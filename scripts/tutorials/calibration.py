@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 8: calibration of a rock of one's own, then a test with the material that was found.
+"""Tutorial 9: calibration of a rock of one's own, then a test with the material that was found.
 
 The rock and the keys that may change stand in calibration.toml. The command does all runs, and none
 of them twice: started again it goes on where it was.

@@ -169,6 +169,36 @@ class Cells:
         return float(0.5 * (ring[:, 0] @ following[:, 1] - ring[:, 1] @ following[:, 0]))
 
 
+class Networks:
+    """Specimens that any fracture network cuts, saved and loaded."""
+
+    def __init__(self) -> None:
+        import flexpm
+
+        self._wholes = (
+            flexpm.Specimen.rectangle(0.016, 0.02, 0.01),
+            flexpm.Specimen.disc(0.02, 0.01),
+        )
+
+    def __call__(self, example: dict[str, Any]) -> str:
+        """The error of an example, or what became of it."""
+        import flexpm
+
+        for whole in self._wholes:
+            try:
+                cut = whole.with_network(example)
+            except flexpm.InputError as raised:
+                return f"InputError: {raised}"
+            with tempfile.TemporaryDirectory() as folder:
+                cut.save(f"{folder}/it.json")
+                again = flexpm.Specimen.load(f"{folder}/it.json")
+            if again.spec != cut.spec:
+                return "another specimen in its file"
+            if again.network_intensities() != cut.network_intensities():
+                return "another intensity in its file"
+        return "done"
+
+
 class Physics:
     """Runs with any material, specimen and test."""
 
@@ -264,6 +294,7 @@ def serve(kind: str, out: Any) -> None:
         "script": Script,
         "discs": Discs,
         "cells": Cells,
+        "networks": Networks,
         "command": Command,
         "physics": Physics,
     }

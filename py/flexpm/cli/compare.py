@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option
-@cli_options.joints_option
+@cli_options.cut_options
 @cli_options.loading_options
 @cli_options.range_option
 @cli_options.threads_option

@@ -87,7 +87,13 @@ def source(test: str, options: Table) -> SpecimenSource:
     else:
         refuse_packing()
     packed = RunSpec.packed(test, options) if file is None else None
-    return SpecimenSource.read(packed, file, options["joints_file"])
+    return _source(packed, file, options)
+
+
+def _source(packed: SpecimenSpec | None, file: Path | None, options: Table) -> SpecimenSource:
+    """A specimen with the lines that the options cut it by."""
+    names = ("joints_file", "network_file", "network_seed")
+    return SpecimenSource.read(packed, file, *(options[name] for name in names))
 
 
 def run_spec(test: str, options: Table, chosen: Material, specimen: SpecimenSource) -> RunSpec:
@@ -121,7 +127,7 @@ def packed(kind: str, options: Table) -> SpecimenSource:
     """The packing that the options describe, which are all for its shape, with its joints."""
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     spec = SpecimenSpec(kind, **{name: options[name] for name in names})
-    return SpecimenSource.read(spec, joints=options["joints_file"])
+    return _source(spec, None, options)
 
 
 def made(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
@@ -133,7 +139,7 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
     """
     load_yade()
     found = specimen.make(progress)
-    if specimen.lines is not None:
+    if specimen.lines is not None or specimen.network is not None:
         for line in doubts.of_cuts({name: one.to_json() for name, one in found.joint_cuts.items()}):
             _warn(line)
     return found

@@ -28,6 +28,7 @@ from ..materials.material import load
 from ..materials.mixing import value_of
 from ..report import tables
 from ..require import nearest
+from ..runs.output import ROSE
 from ..text import name_of
 from . import compare as cli_compare
 from . import inputs, runs, signals, terminal
@@ -83,7 +84,7 @@ def specimen() -> None:
 @specimen.command()
 @cli_options.rectangle_options
 @cli_options.packing_options
-@cli_options.joints_option
+@cli_options.cut_options
 @cli_options.drawn_mesh_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -98,7 +99,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 @specimen.command()
 @cli_options.disc_options
 @cli_options.packing_options
-@cli_options.joints_option
+@cli_options.cut_options
 @cli_options.drawn_mesh_option
 @cli_options.out_option
 @cli_options.quiet_option
@@ -314,5 +315,11 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None
     polygons = maps.cell_polygons(made.tessellation)
     maps.specimen_picture(picture, polygons, triangles, caption, made.joint_lines())
+    files = [picture, folder / "specimen.json"]
+    if made.spec.networks:
+        from ..report.rose import rose_picture
+
+        files.append(folder / ROSE)
+        rose_picture(files[-1], made)
     terminal.say(tables.statistics_table(found))
-    terminal.say(f"  files  {picture}, {folder / 'specimen.json'}")
+    terminal.say(f"  files  {', '.join(map(str, files))}")

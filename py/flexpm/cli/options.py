@@ -170,6 +170,23 @@ joints_option = click.option(
     metavar="FILE",
     help="Cut the specimen along the segments of a CSV file x1,y1,x2,y2,name [m].",
 )
+network_options = combined(
+    click.option(
+        "--network",
+        "network_file",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Cut the specimen along the traces of a fracture network, a TOML file.",
+    ),
+    click.option(
+        "--network-seed",
+        type=Count(0),
+        metavar="N",
+        help="Seed of the network.  [default: that of its file]",
+    ),
+)
+#: Lines that cut a specimen.
+cut_options = combined(joints_option, network_options)
 disc_options = length_option(
     "--diameter", SIZES["disc"]["diameter"], "Diameter of the disc, or of half of one"
 )

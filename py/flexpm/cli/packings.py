@@ -83,6 +83,10 @@ def _given(options: Table) -> Table:
         found["material"] = options["material"]  # also that of a comparison, which none has given
     if options["joints_file"] is not None:
         found["joints"] = str(options["joints_file"].resolve())  # runs have folders of their own
+    if options["network_file"] is not None:
+        found["network"] = str(options["network_file"].resolve())
+    if options["network_seed"] is not None:
+        found["network_seed"] = options["network_seed"]
     parts = (one.partition("=") for one in options["assignments"])
     return found | {f"set.{key.strip()}": value.strip() for key, _, value in parts}
 

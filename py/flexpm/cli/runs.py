@@ -47,7 +47,7 @@ _discard_option = click.option(
 @cli_options.packing_options
 @cli_options.seeds_options
 @cli_options.specimen_option
-@cli_options.joints_option
+@cli_options.cut_options
 @click.option(
     "--confinement",
     type=Quantity("Pa", NOT_NEGATIVE),
@@ -125,7 +125,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 @cli_options.rectangle_options
 @cli_options.packing_options
 @cli_options.specimen_option
-@cli_options.joints_option
+@cli_options.cut_options
 @click.option(
     "--out",
     type=click.Path(path_type=Path),

@@ -45,7 +45,7 @@ def read(path: Path) -> Lines:
                 f"{where}: cells = {len(row)}, must be {len(COLUMNS)}, one for each column; "
                 "take out what is too much"
             )
-        _check_name(label, f"{where}: name")
+        check_name(label, f"{where}: name")
         start, end = _ends(where, row)
         lines = found.setdefault(label, [])
         if lines and lines[-1][-1] == start:
@@ -103,7 +103,7 @@ def checked(joints: object) -> Lines:
         raise InputError(f"joints = {quoted(joints)}, must be lines by the name of their joint")
     found: Lines = {}
     for name, given in joints.items():
-        _check_name(name, "joint")
+        check_name(name, "joint")
         lines = _plain(given)
         if _is_line(lines):
             lines = [lines]
@@ -116,7 +116,7 @@ def checked(joints: object) -> Lines:
     return found
 
 
-def _check_name(name: object, where: str) -> None:
+def check_name(name: object, where: str) -> None:
     """Refuse what is no printable word."""
     if not isinstance(name, str) or not name.isprintable() or not name or set(name) & _NOT_IN_NAMES:
         raise InputError(

@@ -20,7 +20,7 @@ from ..rigs.rig import TestRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
 from ..runs.loading_rate import Loading
-from ..runs.output import Output
+from ..runs.output import ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
 from ..runs.written import about, notches_of, write_files
@@ -70,6 +70,10 @@ def carry_out(
         built.set_threads(threads)
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot(), about(spec.to_json()))
+        if specimen.spec.networks:
+            from ..report.rose import rose_picture
+
+            rose_picture(folder / ROSE, specimen)
     runner = Runner(checkpoint, progress, foresee)
     rig = _rig_of(built, spec, runner)
     if folder is not None and output.frames:

@@ -16,12 +16,12 @@ from ..require import require_known
 from ..rigs.frames import COLLECTION, STATE, TABLE
 from ..runs import written
 from ..runs.checkpoint import INTERVAL, Checkpoint
-from ..runs.output import BEGUN, Output, refuse_other_result
+from ..runs.output import BEGUN, ROSE, Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec
 from ..specimens.specimen import Specimen
 
 #: Names of the files of a run.
-FILES = (*written.FILES, "specimen.vtu", BEGUN, TABLE, COLLECTION, STATE)
+FILES = (*written.FILES, "specimen.vtu", BEGUN, ROSE, TABLE, COLLECTION, STATE)
 
 
 @dataclass(frozen=True)

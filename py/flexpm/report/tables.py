@@ -202,6 +202,10 @@ def statistics_table(found: Table) -> str:
                 lines = f"{cut['lines'] - cut['idle']} of {cut['lines']}"
                 length = f"{1e3 * cut['cut']:.4g} of {1e3 * cut['length']:.4g} mm"
                 rows.append((f"joint {joint}: lines that cut, length", f"{lines}, {length}"))
+        elif name == "networks":
+            for joint, one in value.items():
+                numbers = ", ".join(f"{number:.4g}" for number in one.values())
+                rows.append((f"joint {joint}: P21 {', '.join(one)}", f"{numbers} 1/m"))
         elif isinstance(value, Mapping):
             for share, number in value.items():
                 rows.append((words.format(_share(float(share))), scaled(number, factor, unit)))

@@ -79,6 +79,7 @@ class Result(Shown):
     joint_cuts: Table | None = (
         None  #: what came of the lines of each joint, by its name; lengths [m]
     )
+    networks: Table | None = None  #: P21 asked for, drawn and cut of each set of traces [1/m]
     loose_grains: int | None = None  #: joined by no contact to what is held, at the end
     #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
     largest_parting: float | None = None

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -195,6 +195,9 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         value = getattr(spec, name)
         if value is None:
             continue
+        if name == "networks":
+            yield from _of_networks(value)
+            continue
         source = "default" if value == default else "given"
         if name in ("discs", "outline", "cells", "minerals", "joints", "strengths"):
             source = f"checksum of what is in {GRAINS_FILE}"
@@ -202,6 +205,21 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
             source = "by the test"
         label = "shape" if name == "kind" else name
         yield Input(label, value, INPUT_UNITS.get(name, ""), source)
+
+
+def _of_networks(networks: Sequence[Table]) -> Iterator[Input]:
+    for network in networks:
+        yield Input("network_seed", network["seed"], "", "given")
+        for name, one in network["set"].items():
+            for key in ("length", "orientation"):
+                yield Input(f"{name}: {key}", _law_text(one[key]), "", "given")
+            yield Input(f"{name}: intensity P21", one["intensity"], "1/m", "given")
+
+
+def _law_text(law: Table) -> str:
+    """A law of a network and its numbers in a line."""
+    name, *others = (f"{key.replace('_', ' ')} {value}" for key, value in law.items())
+    return ", ".join((name.removeprefix("law "), *others))
 
 
 def _of_material(spec: RunInputs) -> Iterator[Input]:

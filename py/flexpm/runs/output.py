@@ -12,6 +12,8 @@ from ..files import read_json
 from ..require import Bounds, require_one_of, require_whole
 from .run_spec import RunSpec
 
+#: Name of the picture of a fracture network.
+ROSE = "network.png"
 #: Kinds of films: a picture that moves, and a film that needs ffmpeg.
 FILMS = ("gif", "mp4")
 #: Frames of a film if no number is given; more than the most are a mistake.

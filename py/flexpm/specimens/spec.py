@@ -7,9 +7,12 @@ Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from ..files import Table
 from ..joints.lines import Lines, checksum
 from .checks import (
     SHORT_EDGE,
@@ -19,6 +22,10 @@ from .checks import (
     require_seed,
     require_short_edge,
 )
+
+if TYPE_CHECKING:
+    from ..arrays import FloatArray
+    from ..joints.window import Window
 
 #: Sizes of each shape and their defaults [m]: the paper's specimens, Sec. 4.1.
 SIZES: dict[str, dict[str, float]] = {
@@ -54,6 +61,8 @@ class SpecimenSpec:
         joint_names: Names of the joints; None if there are none.
         strengths: Checksum of the factors of the contacts' strengths; None if they are alike.
         minerals: Checksum of given minerals of the grains; None if there are none.
+        networks: Fracture networks whose traces are among the joints, as tables that draw them
+            again; None if there are none.
     """
 
     kind: str = "rectangle"
@@ -72,6 +81,7 @@ class SpecimenSpec:
     joints: str | None = None
     joint_names: tuple[str, ...] | None = None
     strengths: str | None = None
+    networks: tuple[Table, ...] | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -83,6 +93,8 @@ class SpecimenSpec:
         self._set("short_edge", require_short_edge(self.short_edge))
         if self.joint_names is not None:  # a list in a file
             self._set("joint_names", tuple(self.joint_names))
+        if self.networks is not None:
+            self._set("networks", tuple(self.networks))
         if self.discs is None:
             self._check_packing(where)
         elif not (self.diameters is None and self.porosity is None and self.seed is None):
@@ -110,6 +122,53 @@ class SpecimenSpec:
             joints=checksum(lines, self.joints),
             joint_names=tuple(dict.fromkeys(names)),
         )
+
+    def with_network(self, network: Table, lines: Lines) -> SpecimenSpec:
+        """The same specimen, cut by the traces of a network.
+
+        Args:
+            network: Its table.
+            lines: What was drawn of it.
+
+        Raises:
+            InputError: for a set with the name of a joint that is there already.
+        """
+        earlier = [*(self.joint_names or ()), *(name for name, _ in self.asked_intensities)]
+        for name in network["set"]:
+            if name in earlier:
+                raise InputError(
+                    f"network set {name}: name = {name}, is that of a joint which the specimen "
+                    "has; take another name"
+                )
+        return replace(self.with_joints(lines), networks=(*(self.networks or ()), network))
+
+    @property
+    def asked_intensities(self) -> list[tuple[str, float]]:
+        """Name and P21 [1/m] of each set of the networks."""
+        return [
+            (name, one["intensity"])
+            for network in self.networks or ()
+            for name, one in network["set"].items()
+        ]
+
+    def window(
+        self, outline: Sequence[Sequence[float]] | FloatArray | Mapping[str, float] | None
+    ) -> Window:
+        """Where traces of networks are drawn: the box about the specimen, or its circle.
+
+        Args:
+            outline: Corners, or x, y and radius of a circle [m]; None: that of a packing.
+        """
+        from ..joints.window import Window
+
+        if self.kind == "half-disc" or outline is None:  # made from its sizes
+            across = self.sizes.get("diameter", 0.0)
+            if self.kind == "disc":
+                return Window.circle(0.0, 0.0, 0.5 * across)
+            if self.kind == "half-disc":
+                return Window((0.0, 0.0), (across, 0.5 * across))
+            return Window((0.0, 0.0), (self.sizes["width"], self.sizes["height"]))
+        return Window.circle(**outline) if isinstance(outline, Mapping) else Window.about(outline)
 
     def require_alike(self, model: str) -> None:
         """Refuse joints and strengths of each contact, for a model with contacts of its own."""

@@ -19,6 +19,7 @@ from ..joints.bend import largest_bend
 from ..joints.cuts import Cut
 from ..joints.lines import Lines
 from ..joints.lines import checked as checked_lines
+from ..joints.lines import read as read_lines
 from ..notebook import Shown
 from ..progress import Progress
 from ..require import quoted
@@ -159,6 +160,68 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             | {name: cut.and_(self.joint_cuts.get(name)) for name, cut in cuts.items()},
         )
 
+    def joints_from_csv(self, path: Path | str, progress: Progress | None = None) -> Specimen:
+        """Return the specimen cut by the joints of a CSV file, as ``--joints`` does.
+
+        Args:
+            path: Segments, columns x1, y1, x2, y2 [m] and name; those of one name that follow each
+                other are one line.
+            progress: Called with (lines done, lines, text).
+
+        Raises:
+            InputError: if the file cannot be read or a row is no segment, and as ``with_joints``.
+        """
+        return self.with_joints(read_lines(Path(path)), progress)
+
+    def with_network(
+        self,
+        network: Path | str | Mapping[str, object],
+        seed: int | None = None,
+        progress: Progress | None = None,
+    ) -> Specimen:
+        """Return the specimen cut by the traces of a fracture network, as ``--network`` does.
+
+        Each set of traces is a joint, whose law the material has.
+
+        Args:
+            network: TOML file of the network, or the same as a table: its ``seed``, and for each
+                joint under ``set`` its P21 ``intensity`` [1/m] and the laws ``length`` [m] and
+                ``orientation`` [degree].
+            seed: Counts before that of the network; the same seed draws the same traces.
+            progress: Called with (lines done, lines, text).
+
+        Raises:
+            InputError: for a value out of range, more than 20 000 traces, or none at all, for a set
+                with the name of a joint that is there already, and as ``with_joints``.
+        """
+        from ..joints.network import Network
+
+        if isinstance(network, Path | str):
+            chosen = Network.read(network, seed)
+        else:
+            chosen = Network.of(network, seed)
+        outline = vars(self.outline) if isinstance(self.outline, Circle) else self.outline
+        lines = chosen.lines(self.spec.window(outline))
+        spec = self.spec.with_network(chosen.to_json(), lines)
+        return dataclasses.replace(self.with_joints(lines, progress), spec=spec)
+
+    def network_intensities(self) -> dict[str, dict[str, float]]:
+        """P21 of each set of a network [1/m], as it was ``asked``, ``drawn`` and ``cut``.
+
+        Drawn is that of the traces in the specimen, of which a seed has more or less than it was
+        asked for; cut is that of the contacts which they have made, with their bends (D35).
+        """
+        area, found = float(np.sum(self.tessellation.cell_areas)), {}
+        ends = dict(zip(self.spec.joint_names or (), self.joint_lines(), strict=True))
+        for name, asked in self.spec.asked_intensities:
+            lengths = [0.0, 0.0]  # of a set without a trace
+            if name in ends:
+                cut, way = self.joint_cuts[name], ends[name][:, 1] - ends[name][:, 0]
+                lengths = [cut.length - cut.outside, float(np.sum(np.hypot(way[:, 0], way[:, 1])))]
+            drawn, made = (length / area for length in lengths)
+            found[name] = {"asked": asked, "drawn": drawn, "cut": made}
+        return found
+
     def with_strengths(self, factors: Sequence[float] | FloatArray) -> Specimen:
         """Return the specimen with contacts of different strength (D38).
 
@@ -284,6 +347,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             Counts, areas [m^2], lengths [m], angles [degree]; see the keys.
         """
         joints = {name: cut.to_json() for name, cut in self.joint_cuts.items()}
+        networks = self.network_intensities()
         meshes = self.meshes("refined"), self.meshes("fan")
         return {
             **statistics.of_cells(self.tessellation),
@@ -291,6 +355,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             "removed_discs": self.removed_discs,
             "mean_diameter": self.mean_diameter,
             **({"joints": joints} if joints else {}),
+            **({"networks": networks} if networks else {}),
         }
 
 

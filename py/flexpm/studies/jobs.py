@@ -31,8 +31,10 @@ from ..specimens.spec import SpecimenSpec
 _TESTS = tuple(KINDS)
 #: Keys that change the material.
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
-#: Keys that name files: a saved specimen, and lines of joints.
-_FILES = ("specimen", "joints")
+#: Keys that name files: a saved specimen, lines of joints, and a fracture network.
+_FILES = ("specimen", "joints", "network")
+#: Keys that say how a specimen is cut, which no run asks for: it has the specimen.
+_CUTS = (*_FILES, "network_seed")
 #: Keys of what a run writes beside its results; they are no inputs of it.
 _OUTPUTS = ("frames", "film")
 #: Keys of a packing.
@@ -113,7 +115,7 @@ def make(inputs: Table, base: Path) -> Job:
     for key in used:
         name = key.removeprefix("set.")
         if not (joint.is_key(name) or interface.is_key(name)):
-            require_known("study key", key, [*input_names.OPTIONS, "material", *_FILES, *_CHANGES])
+            require_known("study key", key, [*input_names.OPTIONS, "material", *_CUTS, *_CHANGES])
     for key in ("material", *_FILES):
         if key in used:
             require_text(f"study {key}", used[key])
@@ -154,8 +156,8 @@ def _specimen(test: str, used: Table) -> SpecimenSpec:
                     "own; leave one out"
                 )
     packed = None if "specimen" in used else RunSpec.packed(test, used)
-    file, joints = (Path(used[key]) if key in used else None for key in _FILES)
-    return SpecimenSource.read(packed, file, joints).spec
+    file, joints, network = (Path(used[key]) if key in used else None for key in _FILES)
+    return SpecimenSource.read(packed, file, joints, network, used.get("network_seed")).spec
 
 
 def place_of(model: str, confinement: float, confinements: int) -> str:

@@ -87,6 +87,17 @@ def test_joints(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_fracture_network(package_parent, tmp_path):
+    """Two networks at two dips: joints near 60 degrees slide, level ones hardly weaken."""
+    text = printed("fracture_network.py", package_parent, str(tmp_path), "2", "0,60")
+    level, steep = (float(number) for number in re.findall(r"strength +([\d.]+)", text))
+    assert steep < 0.8 * level
+    assert "P21 asked 150" in text
+    assert (tmp_path / "dip-60" / "network-2" / "network.png").stat().st_size > 10000
+    assert (tmp_path / "strengths.png").stat().st_size > 10000
+
+
+@pytest.mark.long
 def test_calibration(package_parent, tmp_path):
     text = printed("calibration.py", package_parent, str(tmp_path / "rock"))
     assert text.count(": met") == 3

@@ -24,11 +24,11 @@ KEYS = st.sampled_from(
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
     --thickness --diameters --points --gravity --diameter --length --span --notch --distance
     --normal-stress
-    --max-displacement --seeds --frames --workers --damping
+    --max-displacement --network-seed --seeds --frames --workers --damping
     --interaction-range""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
-    --joints""".split()
+    --joints --network""".split()
 OPTIONS = st.one_of(
     st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
     st.tuples(st.sampled_from(NAMED), WORDS),

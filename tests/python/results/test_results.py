@@ -64,6 +64,7 @@ KEYS = [
     "notch_depth",
     "joint_bend",
     "joint_cuts",
+    "networks",
     "loose_grains",
     "largest_parting",
     "fracture_toughness",

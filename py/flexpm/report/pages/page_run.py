@@ -31,7 +31,7 @@ _POINTS = 700
 #: Energies that a page shows, in the order of their colours.
 _ENERGIES = ("elastic", "damage", "friction", "damping", "kinetic", "potential")
 #: Pictures that a page shows where a run has them.
-_PICTURES = {"events.png": "Acoustic emission"}
+_PICTURES = {"network.png": "Fracture network", "events.png": "Acoustic emission"}
 #: Those of a script's own test, which has no map.
 _OWN_PICTURES = {"cracks.png": "Cracks", "fragments.png": "Fragments"}
 #: Values of a list that are shown.
@@ -122,7 +122,12 @@ def write_page(
         maps=maps,
         tables=[
             one
-            for one in (_pairs_table(result), emission_table(result), inputs_table(inputs))
+            for one in (
+                _networks_table(result),
+                _pairs_table(result),
+                emission_table(result),
+                inputs_table(inputs),
+            )
             if one
         ],
         pictures=[
@@ -319,6 +324,18 @@ def _pairs_table(result: Result) -> Rows | None:
         for pair, counts in result.cracks_by_pair.items()
     ]
     return Rows("Cracked points by pair of minerals", ("pair", "tensile", "shear"), rows)
+
+
+def _networks_table(result: Result) -> Rows | None:
+    """P21 of each set of a fracture network; None if there is none."""
+    if not result.networks:
+        return None
+    keys = ("asked", "drawn", "cut")
+    rows = [
+        (name, *(f"{found[key]:.4g}" for key in keys)) for name, found in result.networks.items()
+    ]
+    note = "Drawn: traces in the specimen; cut: contacts that they have made."
+    return Rows("Fracture network, P21 [1/m]", ("joint", *keys), rows, note)
 
 
 def _energy_chart(result: Result) -> Chart:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: Distances below this share of the mean diameter are round-off, and that of areas [-].
 _ROUND_OFF, _AREA = 1e-5, 1e-9
+#: Longest edge of a cell on a circle, in mean diameters [-].
+_CHORD = 3.0
 #: A reference point may lie out of its cell by this share of its radius [-].
 _OUTSIDE = 0.75
 #: Farthest contacts of a joint from its lines, in mean diameters [-].
@@ -118,6 +120,7 @@ _SPEC: dict[str, _Rule] = {
     "kind": _is_text,
     "diameters": _or_none(_row(2)),
     "joint_names": _or_none(_list(_is_text, 1)),
+    "networks": _or_none(_list(lambda value: isinstance(value, Mapping), 1)),
     **dict.fromkeys(
         ("discs", "outline", "minerals", "cells", "joints", "strengths"), _or_none(_is_text)
     ),
@@ -231,6 +234,8 @@ def _require_sides(found: Table, sides: IntArray) -> None:
     if isinstance(outline, Circle):
         centre = np.array([outline.x, outline.y])
         off = np.abs(np.hypot(*np.moveaxis(ends - centre, -1, 0)) - outline.radius)
+        if found["spec"].joints is not None:  # these cut chords, which leave the circle by c^2 / 8R
+            off -= 0.125 * (_CHORD * least / _ROUND_OFF) ** 2 / outline.radius
         whole, area = not number.any(), math.pi * outline.radius**2
     else:
         rings = (outline, *found["holes"])
@@ -323,6 +328,10 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
 
     spec, lines, grains = found["spec"], found["joints"], found.get("grains")
     names = spec.joint_names or ()
+    if spec.networks is not None:
+        from ...joints.network import Network
+
+        [*map(Network.of, spec.networks)]
     if (spec.joints is None) is not (grains is None) or bool(names) is (spec.joints is None):
         raise refuse("joints, joint_names and grains = some, must be all there or none")
     if grains is not None:
@@ -335,8 +344,10 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
         if 2 * np.count_nonzero(parted & (tiling.edge_joints >= 0)) < np.count_nonzero(parted):
             raise refuse("grains = others, must be parted by joints alone")
     used = tiling.edge_joints[tiling.edge_joints >= 0]
-    if len(used) != joints or {*used.tolist()} != {*range(len(names))}:
-        raise refuse("joints = edges, must be some of each joint that spec names")
+    cuts = found["joint_cuts"]  # lines of a joint may cut nothing
+    bearing = {k for k, name in enumerate(names) if name not in cuts or cuts[name].cut > 0.0}
+    if len(used) != joints or {*used.tolist()} != bearing:
+        raise refuse("joints = edges, must be some of each joint that has cut")
     if not lines:
         return  # of an earlier version
     if [*lines] != [*names]:

@@ -1,38 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a specimen comes from that commands and studies ask for. Nothing heavy is loaded for it."""
+"""Where a specimen comes from that commands and studies ask for.
+
+Nothing heavy is loaded for it, but numpy and scipy where a fracture network is drawn.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...errors import InputError
 from ...joints import lines as joint_lines
 from ...progress import Progress
 from ..spec import SpecimenSpec
 from . import specimen_file
 
 if TYPE_CHECKING:
+    from ...joints.network import Network
     from ..specimen import Specimen
 
 
 @dataclass(frozen=True)
 class SpecimenSource:
-    """A packing or a file of a specimen, and lines of joints that cut it.
+    """A packing or a file of a specimen, lines of joints that cut it, then a fracture network.
 
     Attributes:
         plain: What the specimen is made from before these joints cut it.
         file: File of the specimen; None: it is packed.
         lines: Lines of the joints, which were read once: their file may be a pipe; None: no joints.
+        network: The network; None: none.
+        traces: What was drawn of it.
     """
 
     plain: SpecimenSpec
     file: Path | None = None
     lines: joint_lines.Lines | None = None
+    network: Network | None = None
+    traces: joint_lines.Lines = field(default_factory=dict)
 
     @classmethod
     def read(
-        cls, packed: SpecimenSpec | None, file: Path | None = None, joints: Path | None = None
+        cls,
+        packed: SpecimenSpec | None,
+        file: Path | None = None,
+        joints: Path | None = None,
+        network: Path | None = None,
+        network_seed: int | None = None,
     ) -> SpecimenSource:
         """Read what files there are.
 
@@ -40,19 +54,37 @@ class SpecimenSource:
             packed: A packing, or None if there is a file of a specimen.
             file: The specimen's file.
             joints: A CSV file of joints.
+            network: A TOML file of a fracture network.
+            network_seed: Counts before its own seed.
 
         Raises:
-            InputError: for a file that cannot be read, or that holds something else.
+            InputError: for a file that cannot be read, or that holds something else, and for a
+                network that cannot be drawn.
         """
+        outline = None
         if file is not None:
-            packed = specimen_file.spec_of(specimen_file.read(file))
+            content = specimen_file.read(file)
+            packed, outline = specimen_file.spec_of(content), content["outline"]
         assert packed is not None
-        return cls(packed, file, None if joints is None else joint_lines.read(joints))
+        lines = None if joints is None else joint_lines.read(joints)
+        if network is None:
+            if network_seed is not None:
+                raise InputError(
+                    f"network_seed = {network_seed}, must be given with network only; leave it out"
+                )
+            return cls(packed, file, lines)
+        from ...joints.network import Network
+
+        chosen = Network.read(network, network_seed)
+        return cls(packed, file, lines, chosen, chosen.lines(packed.window(outline)))
 
     @property
     def spec(self) -> SpecimenSpec:
         """What the specimen is made from, joints included."""
-        return self.plain if self.lines is None else self.plain.with_joints(self.lines)
+        spec = self.plain if self.lines is None else self.plain.with_joints(self.lines)
+        if self.network is None:
+            return spec
+        return spec.with_network(self.network.to_json(), self.traces)
 
     def make(self, progress: Progress | None = None) -> Specimen:
         """Pack or load the specimen and cut it; YADE must be loaded.
@@ -68,4 +100,8 @@ class SpecimenSource:
         found = (
             Specimen.pack(self.plain, progress) if self.file is None else Specimen.load(self.file)
         )
-        return found if self.lines is None else found.with_joints(self.lines, progress)
+        if self.lines is not None:
+            found = found.with_joints(self.lines, progress)
+        if self.network is not None:
+            found = found.with_network(self.network.to_json(), None, progress)
+        return found
