@@ -8,7 +8,7 @@ import numpy as np
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
-from flexpm.results.snapshot import Snapshot, triangle_areas
+from flexpm.results.snapshot import Snapshot
 
 #: Ten grains across the hole, which is a tenth of the side.
 SIDE, RADIUS, AROUND, RINGS = 0.04, 0.002, 32, 13
@@ -16,7 +16,6 @@ THICKNESS = 0.01
 CONFINING, GREATEST = 5e6, 15e6
 SECTORS = np.radians(np.arange(0.0, 360.0, 15.0))
 REACH = 1.15  # radii
-CUTS = 8  # of each edge of a triangle, for its part in a sector
 
 
 def cells() -> list[np.ndarray]:
@@ -42,12 +41,10 @@ def cells() -> list[np.ndarray]:
     ]
 
 
-def polar(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distance from the middle over the radius of a circle with the hole's area, and angle."""
-    x, y = (places - 0.5 * SIDE).T
+def radius() -> float:
+    """Radius of a circle with the hole's area [m]."""
     part = np.pi / AROUND
-    equal = RADIUS * np.sqrt(np.sin(part) / part)
-    return np.hypot(x, y) / equal, np.arctan2(y, x) % (2.0 * np.pi)
+    return RADIUS * np.sqrt(np.sin(part) / part)
 
 
 def by_sector(angle: np.ndarray, values: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -60,17 +57,17 @@ def by_sector(angle: np.ndarray, values: np.ndarray, weights: np.ndarray) -> np.
 
 def measured(state: Snapshot) -> np.ndarray:
     """Mean hoop stress of the grains in each sector, compression positive [Pa]."""
-    steps = (np.arange(CUTS) + 1.0 / 3.0) / CUTS
-    one, two = (axis.ravel() for axis in np.meshgrid(steps, steps))
-    inside = one + two < 1.0
-    shares = np.column_stack([1.0 - one - two, one, two])[inside]
-    places = np.einsum("sc,mcx->msx", shares, state.reference[state.triangles])
-    weights = np.repeat(triangle_areas(state) / len(shares), len(shares))
-    distance, angle = polar(places.reshape(-1, 2))
-    xx, yy, xy = (-np.repeat(one, len(shares)) for one in state.triangle_stress.T)
-    hoop = xx * np.sin(angle) ** 2 + yy * np.cos(angle) ** 2 - xy * np.sin(2.0 * angle)
-    near = distance < REACH
-    return by_sector(angle[near], hoop[near], weights[near])
+    distance, angle = np.meshgrid(
+        np.linspace(0.99, REACH, 80), np.radians(np.arange(0.0, 360.0, 0.25)) + 1e-3
+    )
+    distance, angle = distance.ravel(), angle.ravel()
+    middle = np.full(2, 0.5 * SIDE)
+    ways = np.column_stack([np.cos(angle), np.sin(angle)])
+    found = state.stress_at(middle + radius() * distance[:, None] * ways)
+    assert 0 < found.missing < 0.1 * len(found)  # between the circle and the corners of the hole
+    there = np.isfinite(found.xx)
+    hoop = -found.polar(middle).hoop
+    return by_sector(angle[there], hoop[there], distance[there])
 
 
 def kirsch(across: float, along: float) -> np.ndarray:

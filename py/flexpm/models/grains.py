@@ -25,6 +25,7 @@ from ..materials.material import load as load_material
 from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
+from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import inner_particles, mineral_map
 from ..specimens.specimen import Specimen, require_specimen
 from ..threads import limited
@@ -155,7 +156,8 @@ class Model:
 
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
-        return Snapshot(**self.solver.snapshot(), grain_mineral=self.minerals)
+        source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
+        return Snapshot(**self.solver.snapshot(), grain_mineral=self.minerals, stress_source=source)
 
     def describe_material(self) -> Table:
         """Name and parameters of the material, of minerals also the area that they have."""
