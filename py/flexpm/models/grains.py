@@ -156,8 +156,13 @@ class Model:
 
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
+        return Snapshot(**self.solver.snapshot(), **self.of_snapshots)
+
+    @property
+    def of_snapshots(self) -> Table:
+        """What snapshots tell beside the solver's arrays: minerals, and what stresses are."""
         source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
-        return Snapshot(**self.solver.snapshot(), grain_mineral=self.minerals, stress_source=source)
+        return {"grain_mineral": self.minerals, "stress_source": source}
 
     def describe_material(self) -> Table:
         """Name and parameters of the material, of minerals also the area that they have."""

@@ -35,12 +35,13 @@ from .parts import (
     require_parts,
 )
 from .places import Place, require_column, require_direction, require_vector
+from .statics.elastic_state import PartStatics
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9
 
 
-class PartRig(GrainRig, PartLayout):
+class PartRig(PartStatics, GrainRig, PartLayout):
     """A specimen of any outline between parts.
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,

@@ -168,9 +168,10 @@ def test_pressed_grains_bear_the_pressure_and_rigid_ones_say_that_it_is_a_mean(m
     state = built.snapshot()
     assert state.stress_source == (OF_TRIANGLES if model == "flexible" else OF_GRAINS)
     means = state.grain_areas @ state.grain_stress / state.grain_areas.sum()
-    # rigid grains overlap: the sum over them lacks what contacts bear between their middles
-    np.testing.assert_allclose(means, [-5e6, -5e6, 0.0], atol=5e4)
+    np.testing.assert_allclose(means[:2], -5e6, atol=5e4)
+    # plates of rigid grains do not turn, and may bear a little shear
+    np.testing.assert_allclose(means, built.solver.balance()["mean_stress"], atol=5e3)
     middle = state.stress_at(state.reference.mean(axis=0))
     if model == "rigid":
-        owner = np.flatnonzero(np.all(state.grain_stress == middle.stress[0], axis=1))
-        assert len(owner) == 1
+        own = np.all(np.isclose(state.grain_stress, middle.stress[0], rtol=1e-12), axis=1)
+        assert np.count_nonzero(own) == 1
