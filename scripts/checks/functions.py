@@ -34,11 +34,7 @@ MOST_FILE_LINES = {"py/flexpm": 400, "tests": 500}
 #: Files that wait to be split, with the lines that they have at most till then.
 LONG_FILES = {
     "py/flexpm/cli/options.py": 500,  # options of tests are to be made from their kinds
-    "py/flexpm/laboratory/protocols.py": 490,
     "py/flexpm/models/grains.py": 435,  # what is assembled becomes a typed struct
-    "py/flexpm/rigs/part_rig.py": 520,
-    "py/flexpm/rigs/rig.py": 440,
-    "py/flexpm/runs/run_spec.py": 555,
 }
 _BODY = re.compile(r"\b(?:go|action)\s*\([^;{}]*\)\s*(?:const\s*)?(?:override\s*)?\{")
 # A name, parameters without a call in them, what may follow them, and the body or the end.

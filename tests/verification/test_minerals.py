@@ -229,11 +229,15 @@ def test_wrong_minerals_are_refused_in_one_line(data, message):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("model", ["jcfpm", "cohfrict"])
-def test_yades_own_models_refuse_minerals(model):
+@pytest.mark.parametrize("model", ["inner", "inner-un"])
+def test_inner_particles_refuse_minerals(model):
+    sets = {"inner": {"normal_stiffness": K_SOFT, "shear_ratio": 0.3}}
+    whole = Material.from_dict({**BASE, "elastic": sets, "mineral": [{"name": "a", "fraction": 1}]})
     for call in (flexpm.build, lambda *given: flexpm.run("uniaxial", *given)):
-        with pytest.raises(flexpm.InputError, match="one kind of grain; use flexible or rigid"):
-            call(grid(), rock(), model)
+        with pytest.raises(
+            flexpm.InputError, match="one kind of grain; use one of flexible, rigid"
+        ):
+            call(grid(), whole, model)
 
 
 @pytest.mark.parametrize("given", [[0], [0.0] * 24, [-1] * 24, [0, 1] * 13])

@@ -15,7 +15,7 @@ from matplotlib.path import Path as Outline
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.models.options import MODELS, SPHERE_MODELS
-from flexpm.models.sphere_bonds import Bonds, bonds_of
+from flexpm.models.sphere_bonds import Bonds, Laws, bonds_of
 from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.specimen import Specimen
 from flexpm.studies import jobs, study
@@ -29,15 +29,19 @@ def rectangle() -> Specimen:
     return Specimen.rectangle(0.02, 0.03, 0.01, seed=2)
 
 
+def laws_of(specimen: Specimen) -> Laws:
+    return Laws(np.zeros(len(specimen.discs), dtype=int), [LAW], [LAW])
+
+
 def farther(specimen: Specimen, reach: float) -> tuple[Bonds, int]:
     """All bonds, and the number of those between neighbours, which come first."""
-    return bonds_of(specimen, LAW, reach), len(specimen.tessellation.shared_edges)
+    return bonds_of(specimen, laws_of(specimen), reach), len(specimen.tessellation.shared_edges)
 
 
 @pytest.mark.parametrize("reach", [1.0, 1.5, 2.0])
 def test_each_pair_within_the_range_is_bonded_once(rectangle, reach):
     bonds, neighbours = farther(rectangle, reach)
-    plain = bonds_of(rectangle, LAW)
+    plain = bonds_of(rectangle, laws_of(rectangle))
     for name in ("grains", "ends", "areas", "normal_stiffness", "shear_strength"):
         assert np.array_equal(getattr(bonds, name)[:neighbours], getattr(plain, name)), name
     centres, radii = rectangle.centres, rectangle.radii

@@ -25,6 +25,7 @@ from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import json_text, require_writable, write_text
 from ..materials.material import load
+from ..materials.mixing import value_of
 from ..report import tables
 from ..require import nearest
 from ..text import name_of
@@ -180,11 +181,10 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
 
     plan = calibration_problem.read(file)
     start = load(plan.material_file, plan.model)
+    values = {key: value_of(start, key, plan.model) for key in plan.free}
     folder = inputs.locked_folder(out or Path(file.stem), "calibrate")
     with terminal.Progress(quiet, unit="sets") as progress:
-        found = calibration_search.run(
-            plan, folder, start=start.law(plan.model), progress=progress, **options
-        )
+        found = calibration_search.run(plan, folder, start=values, progress=progress, **options)
     preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
     calibration_report.write_preset(preset, start, plan, found)
     calibration_report.picture(picture, plan, found)

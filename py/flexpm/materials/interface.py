@@ -157,9 +157,7 @@ def with_values(
     """
     found = {one.pair: one for one in interfaces}
     for label, value in values.items():
-        names, _, key = label.removeprefix(_PREFIX).rpartition(".")
-        is_factor = names.endswith(".factor")
-        pair = _split(label, names.removesuffix(".factor"), minerals)
+        pair, key, is_factor = read_key(label, minerals)
         old = found.get(pair, Interface(pair))
         own, factors = dict[str, object](old.values), dict[str, object](old.factors)
         own.pop(key, None)
@@ -167,6 +165,17 @@ def with_values(
         (factors if is_factor else own)[key] = value
         found[pair] = dataclasses.replace(old, values=own, factors=factors)
     return checked([*found.values()], minerals)
+
+
+def read_key(label: str, minerals: Sequence[str]) -> tuple[tuple[str, str], str, bool]:
+    """Pair and key of the law that a key names, and whether it is a factor.
+
+    Raises:
+        InputError: for a mineral that the rock does not have.
+    """
+    names, _, key = label.removeprefix(_PREFIX).rpartition(".")
+    pair = _split(label, names.removesuffix(".factor"), minerals)
+    return pair, key, names.endswith(".factor")
 
 
 def _split(label: str, names: str, minerals: Sequence[str]) -> tuple[str, str]:

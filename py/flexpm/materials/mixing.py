@@ -20,13 +20,14 @@ from collections.abc import Mapping
 from ..errors import InputError
 from ..files import Table
 from ..require import require_known
+from . import interface
 from .interface import KEYS, Interface
-from .keys import ELASTIC_KEYS, ENERGY_KEYS, elastic_set_name
+from .keys import ELASTIC_KEYS, ELASTIC_SET, ENERGY_KEYS, elastic_set_name
 from .material import ENERGY_TOLERANCE, ElasticSet, Law, Material
 from .mineral import Mineral
 
-#: Models that can have grains of several minerals.
-MODELS = ("flexible", "rigid")
+#: Models that can have grains of several minerals; inner particles are of one rock.
+MODELS = tuple(model for model in ELASTIC_SET if elastic_set_name(model) != "inner")
 
 
 def mineral_materials(rock: Material) -> list[Material]:
@@ -69,7 +70,7 @@ def description(rock: Material, model: str = "flexible") -> Table:
     if model not in MODELS:
         raise InputError(
             f"material = {rock.name!r} has minerals, model {model} takes one kind of grain; "
-            f"use {' or '.join(MODELS)}"
+            f"use one of {', '.join(MODELS)}"
         )
     pairs = pair_materials(rock, model)
     grains = mineral_materials(rock)
@@ -106,6 +107,26 @@ def from_description(described: Table, model: str) -> Material:
     tables = {"mineral": kinds, "joint": joints, "interface": pairs}
     own = {name: table for name, table in tables.items() if table}
     return Material.from_dict(_as_in_a_file(values, model) | own)
+
+
+def value_of(rock: Material, label: str, model: str) -> object:
+    """Value that a key of the rock, or ``interface.MINERAL/MINERAL.KEY``, has for a model.
+
+    A factor that is not given is 1. None of a key that the law does not have.
+
+    Raises:
+        InputError: for a mineral that the rock does not have, and as ``pair_materials``.
+    """
+    if not interface.is_key(label):
+        return {**rock.law(model)}.get(label)
+    names = [kind.name for kind in rock.minerals]
+    pair, key, is_factor = interface.read_key(label, names)
+    if is_factor:
+        own = {one.pair: one.factors for one in rock.interfaces}.get(pair, {})
+        return own.get(key, 1.0)
+    first, second = map(names.index, pair)
+    law = pair_materials(rock, model)[first * len(names) + second].law(model)
+    return {**law}.get(key)
 
 
 def is_brittle(described: Table) -> bool:

@@ -156,7 +156,8 @@ class Model:
 
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
-        return Snapshot(**self.solver.snapshot(), **self.of_snapshots)
+        found: Table = {**self.solver.snapshot(), **self.of_snapshots}
+        return Snapshot(**found)
 
     @property
     def of_snapshots(self) -> Table:
@@ -166,13 +167,7 @@ class Model:
 
     def describe_material(self) -> Table:
         """Name and parameters of the material, of minerals also the area that they have."""
-        found = {"name": self.material.name, **description(self.material, self.name)}
-        if self.minerals is not None:
-            kinds = found["minerals"]
-            areas = mineral_map.area_fractions(self.specimen, self.minerals, len(kinds))
-            for kind, area in zip(kinds, areas, strict=True):
-                kind["area_fraction"] = area
-        return found
+        return mineral_map.describe(self.specimen, self.material, self.name, self.minerals)
 
     @property
     def parting(self) -> tuple[int, float]:

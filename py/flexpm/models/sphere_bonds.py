@@ -10,6 +10,8 @@ its strengths it takes
 so that one bond carries in tension and in shear what the edge's contact points carry together. Both
 models break at once: fracture energies are not used. Strengths are forces and magnitudes.
 
+Grains of several minerals have the law of their pair, as in the other models (deviation D27).
+
 Pairs within an interaction range are bonded, too, if one is asked for: as if they shared an edge of
 the length of the smaller disc's diameter, across their middle (deviation D61).
 """
@@ -17,15 +19,66 @@ the length of the smaller disc's diameter, across their middle (deviation D61).
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
-from functools import reduce
+from functools import partial, reduce
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..materials.material import Law
+from ..materials.material import Law, Material
+from ..materials.mixing import description, mineral_materials, pair_materials
+from ..specimens.mineral_map import minerals_of
 from ..specimens.specimen import Specimen
+
+
+@dataclass(frozen=True)
+class Laws:
+    """Effective parameters of grains and of their pairs, ``Material.law``."""
+
+    minerals: IntArray  #: of each grain
+    grains: Sequence[Law]  #: of each mineral, of the rock if grains are alike
+    pairs: Sequence[Law]  #: of contacts of minerals i and j, at i times their number plus j
+
+    @property
+    def are_alike(self) -> bool:
+        """Whether the rock has one kind of grain."""
+        return len(self.grains) == 1
+
+    def of_grains(self, key: str) -> FloatArray:
+        """Value of a key for each grain."""
+        values: FloatArray = _values(self.grains, key)[self.minerals]
+        return values
+
+    def of_contacts(self, key: str, grains: IntArray) -> FloatArray:
+        """Value of a key for the contacts of two grains each, (n, 2)."""
+        first, second = self.minerals[grains].T
+        values: FloatArray = _values(self.pairs, key)[first * len(self.grains) + second]
+        return values
+
+    def mean(self, key: str) -> float:
+        """Mean of a key over the grains, to the bit if they are alike."""
+        if self.are_alike:
+            return float(_values(self.grains, key)[0])
+        return float(np.mean(self.of_grains(key)))
+
+
+def laws_of(specimen: Specimen, material: Material, model: str) -> Laws:
+    """Effective parameters of the minerals of a specimen and of their pairs.
+
+    Raises:
+        InputError: for minerals that the model cannot have or that do not go together.
+    """
+    description(material, model)
+    found = minerals_of(specimen, material)
+    if found is None:
+        found = np.zeros(len(specimen.discs), dtype=np.int32)
+    grains, pairs = mineral_materials(material), pair_materials(material, model)
+    return Laws(found, [one.law(model) for one in grains], [one.law(model) for one in pairs])
+
+
+def _values(laws: Sequence[Law], key: str) -> FloatArray:
+    return np.array([{**law}[key] for law in laws], dtype=float)
 
 
 @dataclass(frozen=True)
@@ -40,6 +93,7 @@ class Bonds:
     bending_stiffness: FloatArray  #: k_b [N m]
     tensile_strength: FloatArray  #: F_t [N]
     shear_strength: FloatArray  #: F_s without friction [N]
+    friction: FloatArray  #: mu [-]
 
     def __len__(self) -> int:
         return len(self.grains)
@@ -57,12 +111,12 @@ def in_order(values: Iterable[float]) -> float:
     return reduce(operator.add, values, 0.0)
 
 
-def bonds_of(specimen: Specimen, law: Law, interaction_range: float | None = None) -> Bonds:
+def bonds_of(specimen: Specimen, laws: Laws, interaction_range: float | None = None) -> Bonds:
     """Bonds of a specimen.
 
     Args:
         specimen: The grains; a bond stands on each edge that two of them share.
-        law: Effective parameters, ``Material.law``.
+        laws: Effective parameters.
         interaction_range: Distance up to which discs are bonded, too, over the sum of their radii
             [-]; None for none but those.
     """
@@ -75,16 +129,18 @@ def bonds_of(specimen: Specimen, law: Law, interaction_range: float | None = Non
         ends = np.concatenate((ends, _edges_across(specimen, farther)))
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     areas = lengths * specimen.thickness
-    normal = law["normal_stiffness"] * areas
+    of_bonds = partial(laws.of_contacts, grains=grains)
+    normal = of_bonds("normal_stiffness") * areas
     return Bonds(
         grains=grains,
         ends=ends,
         areas=areas,
         normal_stiffness=normal,
-        shear_stiffness=law["shear_ratio"] * normal,
+        shear_stiffness=of_bonds("shear_ratio") * normal,
         bending_stiffness=normal * lengths**2 / 12.0,
-        tensile_strength=law["tensile_strength"] * areas,
-        shear_strength=law["cohesion"] * areas,
+        tensile_strength=of_bonds("tensile_strength") * areas,
+        shear_strength=of_bonds("cohesion") * areas,
+        friction=of_bonds("friction"),
     )
 
 

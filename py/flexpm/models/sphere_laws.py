@@ -150,6 +150,7 @@ class Jcfpm(SphereLaw):
         bond.crossSection = float(bonds.areas[row])
         bond.FnMax = float(bonds.tensile_strength[row])
         bond.FsMax = float(bonds.shear_strength[row])
+        bond.tanFrictionAngle = _friction(bonds, row)
 
     def set_rest(self, contact: wrapper.Interaction, overlap: float) -> None:
         """Set the overlap at which a contact carries no force [m]."""
@@ -224,6 +225,7 @@ class Cohfrict(SphereLaw):
         bond.kr = bond.ktw = float(bonds.bending_stiffness[row])
         bond.normalAdhesion = float(bonds.tensile_strength[row])
         bond.shearAdhesion = float(bonds.shear_strength[row])
+        bond.tangensOfFrictionAngle = _friction(bonds, row)
         # newer releases of YADE also break bonds by moments; limits below zero: elastic ones
         for limit in ("rollingAdhesion", "twistingAdhesion"):
             if hasattr(bond, limit):
@@ -265,6 +267,11 @@ class Cohfrict(SphereLaw):
 
 #: The laws by name of the model.
 LAWS: dict[str, SphereLaw] = {law.name: law for law in (Jcfpm(), Cohfrict())}
+
+
+def _friction(bonds: Bonds, row: int) -> float:
+    """Friction of a bond to the bits that YADE takes from the angles of its spheres [-]."""
+    return math.tan(math.atan(bonds.friction[row]))
 
 
 def _common(law: Law, young: float) -> tuple[dict[str, float], dict[str, float]]:

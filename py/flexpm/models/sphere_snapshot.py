@@ -31,6 +31,7 @@ def snapshot(
     bonds: Bonds,
     cracks: CrackWatch,
     interactions: Interactions,
+    minerals: IntArray | None = None,
 ) -> Snapshot:
     """State of the spheres and their bonds.
 
@@ -40,6 +41,7 @@ def snapshot(
         bonds: Properties of the bonds.
         cracks: What watches them, just after a look.
         interactions: That each bonded pair has now.
+        minerals: Index of each grain's mineral, or None if all grains are alike.
     """
     motion = Motion(specimen, bodies)
     grain_of, reference, triangles, triangle_grain = _fans(specimen, cracks.alive)
@@ -62,6 +64,7 @@ def snapshot(
         triangles=triangles,
         triangle_grain=triangle_grain,
         triangle_stress=stress[triangle_grain],
+        grain_mineral=minerals,
         contact=np.flatnonzero(kept),
         contact_grains=bonds.grains,
         contact_ends=ends,

@@ -20,19 +20,19 @@ import yade
 from yade import utils, wrapper
 
 from .._flexpm import mass_margin, set_engines
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
-from ..materials.mixing import description
 from ..require import require_one_of
 from ..results.snapshot import Snapshot
+from ..specimens.mineral_map import describe
 from ..specimens.specimen import Specimen
 from ..threads import limited
 from .collider import collider
 from .options import SPHERE_MODELS
-from .sphere_bonds import Bonds, bonds_of, stiffness_bounds
+from .sphere_bonds import Bonds, Laws, bonds_of, laws_of, stiffness_bounds
 from .sphere_cracks import CrackWatch, body_with
 from .sphere_laws import LAWS, SphereLaw
 from .sphere_snapshot import snapshot
@@ -49,10 +49,11 @@ class SphereModel:
         specimen: The grains.
         material: Their material.
         kind: What its contact law does differently.
+        laws: Effective parameters of its minerals and of their pairs.
         bonds: Properties of the bonds.
         law: The contact law's functor.
         engines: All engines of the model.
-        material_ids: Ids of the materials of spheres and of plates.
+        plate_material: Id of the material of plates.
         ids: Body of each grain.
         cracks: Bonds that have broken.
         plates: Bodies of the plates.
@@ -64,10 +65,11 @@ class SphereModel:
     specimen: Specimen
     material: Material
     kind: SphereLaw
+    laws: Laws
     bonds: Bonds
     law: wrapper.Functor
     engines: list[wrapper.Engine]
-    material_ids: tuple[int, int]
+    plate_material: int
     ids: list[int]
     cracks: CrackWatch = field(init=False)
     plates: list[int] = field(default_factory=list)
@@ -83,6 +85,11 @@ class SphereModel:
     def name(self) -> str:
         """``jcfpm`` or ``cohfrict``."""
         return self.kind.name
+
+    @property
+    def minerals(self) -> IntArray | None:
+        """Index of each grain's mineral, or None if all grains are alike."""
+        return None if self.laws.are_alike else self.laws.minerals
 
     def run(self, steps: int) -> None:
         """Advance by `steps` and wait for the end."""
@@ -154,15 +161,18 @@ class SphereModel:
         return [self.state_of(body) for body in self.ids]
 
     def describe_material(self) -> Table:
-        """Name and parameters of the material."""
-        return {"name": self.material.name, **self.material.law(self.name)}
+        """Name and parameters of the material, of minerals also the area that they have."""
+        found = describe(self.specimen, self.material, self.name, self.minerals)
+        found.pop("joints", None)  # spheres have none
+        return found
 
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
         self.cracks.look()
         self.cracks.look_for_erased()
         # looked up anew: a pair that has parted and met again has another interaction
-        return snapshot(self.specimen, self.ids, self.bonds, self.cracks, _find_bonds(self))
+        contacts = _find_bonds(self)
+        return snapshot(self.specimen, self.ids, self.bonds, self.cracks, contacts, self.minerals)
 
     def add_plate(self, face: float, sense: int) -> int:
         """Put a fixed, frictionless, horizontal plate beside the specimen.
@@ -180,7 +190,7 @@ class SphereModel:
         plate = utils.box(
             (middle, face + sense * half_height, 0.0),
             (half_width, half_height, half_height),
-            material=yade.O.materials[self.material_ids[1]],
+            material=yade.O.materials[self.plate_material],
             fixed=True,
         )
         plate.state.isDamped = False  # else YADE counts a part of its work as damped
@@ -194,10 +204,10 @@ class SphereModel:
             plate: Body of the plate.
             tributary: Length [m] of the specimen's side that each grain carries.
         """
-        stiffness = self.material.law(self.name)["normal_stiffness"] * self.specimen.thickness
+        stiffness = self.laws.of_grains("normal_stiffness") * self.specimen.thickness
         for grain, length in tributary.items():
             contact = utils.createInteraction(plate, self.ids[grain])
-            contact.phys.kn = stiffness * length
+            contact.phys.kn = float(stiffness[grain]) * length
             self.kind.set_rest(contact, contact.geom.penetrationDepth)
 
     def press(self, plate: int, pressure: float) -> None:
@@ -206,9 +216,12 @@ class SphereModel:
         A step must have been done since :meth:`touch`: in its first step JCFpm finds the rest of a
         contact itself.
         """
-        overlap = pressure / self.material.law(self.name)["normal_stiffness"]
+        overlaps = pressure / self.laws.of_grains("normal_stiffness")
+        grains = {body: grain for grain, body in enumerate(self.ids)}
         for contact in yade.O.interactions.withBody(plate):
             if contact.isReal:
+                grain = next(grains[one] for one in (contact.id1, contact.id2) if one in grains)
+                overlap = float(overlaps[grain])
                 self.kind.set_rest(contact, contact.geom.penetrationDepth - overlap)
 
     def elastic_energy(self) -> float:
@@ -253,36 +266,56 @@ def build(
     """
     require_one_of("build: model", model, SPHERE_MODELS)
     chosen = load_material(material, model)
-    description(chosen, model)  # refuses minerals
-    law = chosen.law(model)
-    kind = LAWS[model]
-    bonds, radii = bonds_of(specimen, law, interaction_range), kind.radii(specimen)
-    # new contacts are as stiff as the mean bond
-    young = float(np.mean(bonds.normal_stiffness)) / float(np.mean(radii))
-    sphere, plate = kind.materials(law, young)
-    material_ids = (yade.O.materials.append(sphere), yade.O.materials.append(plate))
+    laws, kind = laws_of(specimen, chosen, model), LAWS[model]
+    bonds, radii = bonds_of(specimen, laws, interaction_range), kind.radii(specimen)
+    spheres, plate_material = _add_materials(kind, laws, bonds, radii)
+    rows = zip(specimen.centres.tolist(), radii.tolist(), laws.minerals.tolist(), strict=True)
     ids = [
-        yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=sphere))
-        for (x, y), radius in zip(specimen.centres.tolist(), radii.tolist(), strict=True)
+        yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=spheres[mineral]))
+        for (x, y), radius, mineral in rows
     ]
-    bounds = _touched_bounds(specimen, radii, bonds, law["normal_stiffness"], kind.bending)
+    stiffness = laws.of_grains("normal_stiffness")
+    bounds = _touched_bounds(specimen, radii, bonds, stiffness, kind.bending)
     factor = mass_margin * (1.0 + damping) / 4.0
     masses, inertias = factor * bounds[0], factor * bounds[1]
     yade.O.dt = 1.0
     if dynamic:
-        real = _real_masses(specimen, law["density"])
+        real = _real_masses(specimen, laws.of_grains("density"))
         yade.O.dt = math.sqrt(float(min(np.min(real[0] / masses), np.min(real[1] / inertias))))
         masses, inertias = real
     _set_masses(ids, masses, inertias)
     functor, engines = _engines(specimen, kind, damping)
     set_engines(engines)
-    built = SphereModel(specimen, chosen, kind, bonds, functor, engines, material_ids, ids)
+    built = SphereModel(specimen, chosen, kind, laws, bonds, functor, engines, plate_material, ids)
     built.set_threads(threads)
     return built
 
 
+def _add_materials(
+    kind: SphereLaw, laws: Laws, bonds: Bonds, radii: FloatArray
+) -> tuple[list[wrapper.Material], int]:
+    """Add YADE's materials of new contacts, which are as stiff as the mean bond of their mineral.
+
+    Returns:
+        Material of the spheres of each mineral, and the id of that of plates.
+    """
+    radius = float(np.mean(radii))
+    made = [
+        kind.materials(law, float(np.mean(law["normal_stiffness"] * bonds.areas)) / radius)
+        for law in laws.grains
+    ]
+    spheres = [sphere for sphere, _ in made]
+    if not laws.are_alike:
+        for number, sphere in enumerate(spheres):
+            sphere.label += f"-{number}"
+    for sphere in spheres:
+        yade.O.materials.append(sphere)
+    plate = max((plate for _, plate in made), key=lambda one: one.young)
+    return spheres, yade.O.materials.append(plate)
+
+
 def _touched_bounds(
-    specimen: Specimen, radii: FloatArray, bonds: Bonds, stiffness: float, bending: bool
+    specimen: Specimen, radii: FloatArray, bonds: Bonds, stiffness: FloatArray, bending: bool
 ) -> tuple[FloatArray, FloatArray]:
     """Bounds of the stiffness of each sphere that a plate may touch, too.
 
@@ -290,7 +323,7 @@ def _touched_bounds(
         specimen: The grains.
         radii: Radii of the spheres [m].
         bonds: Properties of the bonds.
-        stiffness: K_n of the material [Pa/m].
+        stiffness: K_n of each grain [Pa/m].
         bending: Whether bonds resist bending.
 
     Returns:
@@ -299,11 +332,11 @@ def _touched_bounds(
     move, turn = stiffness_bounds(specimen.centres, radii, bonds, bending)
     rim = np.unique(np.array(specimen.tessellation.boundary_edges, dtype=int)[:, 0])
     # a plate touches a sphere of the rim with about the stiffness of its diameter
-    move[rim] += 2.0 * stiffness * 2.0 * radii[rim] * specimen.thickness
+    move[rim] += 2.0 * stiffness[rim] * 2.0 * radii[rim] * specimen.thickness
     return move, turn
 
 
-def _real_masses(specimen: Specimen, density: float) -> tuple[FloatArray, FloatArray]:
+def _real_masses(specimen: Specimen, density: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Masses [kg] of the cells, and moments of inertia [kg m2] of discs of the cells' areas."""
     areas = np.array(specimen.tessellation.cell_areas)
     masses = density * areas * specimen.thickness

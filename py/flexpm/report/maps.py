@@ -7,7 +7,7 @@ Input in SI units; labels in mm.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,6 +36,8 @@ _LOOSE = "#8c8674"
 #: Minerals in their order.
 MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
 _EDGE = "#6b6455"
+#: Pairs of minerals that a legend names.
+_MOST_PAIRS = 6
 
 
 def specimen_picture(
@@ -75,6 +77,7 @@ def crack_picture(
     caption: str = "",
     minerals: Sequence[str] = (),
     notches: Sequence[int] = (),
+    by_pair: Mapping[str, Mapping[str, int]] | None = None,
 ) -> None:
     """Draw the deformed grains with their cracks; each point colours its share of a contact.
 
@@ -86,12 +89,13 @@ def crack_picture(
         caption: Line above the picture.
         minerals: Their names, for the legend.
         notches: Numbers of contacts that were cut open before the test.
+        by_pair: Cracks of each pair of minerals by mode, for the legend.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        save(crack_figure(snapshot, caption, minerals, notches), path)
+        save(crack_figure(snapshot, caption, minerals, notches, by_pair), path)
 
 
 def crack_figure(
@@ -99,6 +103,7 @@ def crack_figure(
     caption: str = "",
     minerals: Sequence[str] = (),
     notches: Sequence[int] = (),
+    by_pair: Mapping[str, Mapping[str, int]] | None = None,
 ) -> Figure:
     """The figure of `crack_picture`."""
     with rc_context(STYLE):
@@ -109,10 +114,16 @@ def crack_figure(
             Patch(facecolor=MINERALS[number % len(MINERALS)], edgecolor=_EDGE, label=label_of(name))
             for number, name in enumerate(minerals)
         ]
-        rows = math.ceil(len(handles) / 2)
+        handles += _pair_handles(by_pair or {})
+        columns = 1 if by_pair else 2  # names of pairs are long
+        rows = math.ceil(len(handles) / columns)
         figure.set_figheight(figure.get_figheight() + 0.2 * (rows - 1))
         axes.legend(
-            handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False
+            handles=handles,
+            loc="upper center",
+            bbox_to_anchor=(0.5, 0.0),
+            ncol=columns,
+            frameon=False,
         )
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
     return figure
@@ -140,6 +151,18 @@ def draw_grains(axes: Axes, snapshot: Snapshot) -> None:
     """Draw the deformed grains and a scale bar below them [mm]."""
     _draw_rock(axes, snapshot)
     draw_scale_bar(axes)
+
+
+def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:
+    """Lines of a legend without a colour: the pairs that have cracked most."""
+    order = sorted(by_pair, key=lambda pair: (-sum(by_pair[pair].values()), pair))
+    texts = [
+        f"{pair}: {', '.join(f'{number} {mode}' for mode, number in by_pair[pair].items())}"
+        for pair in order[:_MOST_PAIRS]
+    ]
+    if len(order) > _MOST_PAIRS:
+        texts.append(f"{len(order) - _MOST_PAIRS} other pairs")
+    return [Patch(alpha=0.0, label=label_of(text)) for text in texts]
 
 
 def _draw_notches(axes: Axes, snapshot: Snapshot, notches: Sequence[int]) -> list[Line2D]:

@@ -36,7 +36,8 @@ from ..results.record import Curve
 from ..runs.loading_rate import Scales, Schedule
 from ..runs.runner import Runner
 from . import sphere_ends as ends
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
+from .readings import Balance, Readings, part_of
+from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
 
 #: Rows of the record up to the reference strain.
 _ROWS = 200
@@ -118,10 +119,10 @@ class SphereRig(TestRig):
 
     def scales(self) -> Scales:
         """What the loading rate follows from, of the contacts alone."""
-        specimen, law = self.built.specimen, self.built.material.law(self.built.name)
-        strengths = law["tensile_strength"], law["cohesion"], law["friction"]
+        specimen, mean = self.built.specimen, self.built.laws.mean
+        strengths = (mean(key) for key in ("tensile_strength", "cohesion", "friction"))
         inputs = (
-            contact_modulus(law["normal_stiffness"], specimen.mean_diameter),
+            contact_modulus(mean("normal_stiffness"), specimen.mean_diameter),
             reference_strength(self.tension or self.disc, *strengths),
             in_order(state.mass for state in self.built.states()),
             specimen.thickness,

@@ -9,7 +9,9 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
+from ..files import Table
 from ..materials.material import Material
+from ..materials.mixing import description
 from .specimen import Specimen
 
 #: Keeps the draw of minerals apart from other draws with the same seed.
@@ -72,3 +74,23 @@ def area_fractions(specimen: Specimen, found: IntArray, count: int) -> list[floa
     areas = np.asarray(specimen.tessellation.cell_areas)
     found_areas = np.bincount(found, weights=areas, minlength=count)
     return [float(area) for area in found_areas / areas.sum()]
+
+
+def describe(
+    specimen: Specimen, material: Material, model: str, minerals: IntArray | None
+) -> Table:
+    """Name and parameters of a material, of minerals also the area that they have.
+
+    Args:
+        specimen: The grains.
+        material: Their material.
+        model: Name of the model.
+        minerals: Index of each grain's mineral, or None if all grains are alike.
+    """
+    found: Table = {"name": material.name, **description(material, model)}
+    if minerals is not None:
+        kinds = found["minerals"]
+        areas = area_fractions(specimen, minerals, len(kinds))
+        for kind, area in zip(kinds, areas, strict=True):
+            kind["area_fraction"] = area
+    return found

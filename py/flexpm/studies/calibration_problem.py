@@ -15,6 +15,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..files import Table, load_toml
 from ..kinds.registry import ELASTIC, KINDS, TESTS, names
+from ..materials import interface
 from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
 from ..require import (
     NOT_NEGATIVE,
@@ -31,7 +32,7 @@ from ..require import (
     require_whole,
 )
 from ..results import strength
-from ..runs import run_spec
+from ..runs import input_names
 from ..specimens.checks import require_seed
 from .study import MOST_RUNS, flat
 
@@ -59,7 +60,7 @@ _ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "c
 _DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
 #: Options of the runs; the others are the search's own.
 _OPTIONS = [
-    *(key for key in run_spec.OPTIONS if key not in ("model", "confinement", "seed")),
+    *(key for key in input_names.OPTIONS if key not in ("model", "confinement", "seed")),
     *(f"set.{key}" for key in UNITS),
 ]
 #: Confinements of an envelope [Pa].
@@ -132,7 +133,7 @@ class Calibration:
     def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
         """Targets and free keys that the elastic solve tells, or the others."""
         targets = [t for t in self.targets if (t.name in ELASTIC_MEASURES) == elastic]
-        return targets, [key for key in self.free if (key in ELASTIC_KEYS) == elastic]
+        return targets, [key for key in self.free if (_last(key) in ELASTIC_KEYS) == elastic]
 
     def tests(self, target: Target) -> list[tuple[str, float]]:
         """Tests with their confinements [Pa] that a measure needs."""
@@ -156,6 +157,11 @@ class Calibration:
             return _of_envelope(target.name, self.confinements, known)
         except InputError:  # the peaks follow no criterion
             return None
+
+
+def _last(key: str) -> str:
+    """A key without the pair that it is of."""
+    return key.rpartition(".")[2]
 
 
 def _told(name: str, found: Mapping[tuple[str, float], Table]) -> float | None:
@@ -185,7 +191,8 @@ def read(path: Path | str) -> Calibration:
     targets = [_target(name, entry) for name, entry in _table(content, "target").items()]
     free = {key: _bounds(f"[free] {key}", b) for key, b in _table(content, "free").items()}
     for key in free:
-        require_known("calibration [free] key", key, [name for name in UNITS if UNITS[name]])
+        name = _last(key) if interface.is_key(key) else key
+        require_known("calibration [free] key", name, [name for name in UNITS if UNITS[name]])
     ratios = require_tables("calibration [[ratio]]", content.get("ratio", []))
     return Calibration(
         base=path.parent,
@@ -253,7 +260,8 @@ def _runs(content: Table, name: str, seeds: Sequence[int]) -> Runs:
     chosen = _seeds(f"[{name}] seeds", options.pop("seeds", list(seeds)))
     discs = _seeds(f"[{name}] disc_seeds", options.pop("disc_seeds", chosen))
     for key in options:
-        require_known(f"{label} key", key.replace("-", "_"), _OPTIONS)
+        if not interface.is_key(key.removeprefix("set.")):
+            require_known(f"{label} key", key.replace("-", "_"), _OPTIONS)
     return Runs(options, chosen, discs)
 
 

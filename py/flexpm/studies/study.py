@@ -108,7 +108,7 @@ def run(
 
 def _require_use(asked: Sequence[Table], made: Sequence[Job]) -> None:
     """Refuse what is for models that the study does not have."""
-    keys = {key.replace("-", "_") for inputs in asked for key in inputs}
+    keys = {jobs.spelt(key) for inputs in asked for key in inputs}
     given = {key for key in keys if key.startswith("set.") or key == "interaction_range"}
     for key in sorted(given.difference(*(job.inputs for job in made))):
         raise InputError(f"study {key}, is used by no model of the study; leave it out")

@@ -187,6 +187,30 @@ TEST_CASE("A grain that has gone round to the other side does not meet the back 
     CHECK(norm(force_on_first(a)) == 0.0);
 }
 
+TEST_CASE("A crack that bears nothing once its faces have parted goes over to the discs' touch")
+{
+    const bool rigid = GENERATE(false, true);
+    Assembly a = held_pair(rigid, 1.0);
+    lead(a, { 1e-5, 0.0 }, 2000);
+    lead(a, { -2e-5, 0.0 }, 2000);  // the discs overlap
+    turn(a, 1.3, 2000);
+    REQUIRE(flexpm::parting(flexpm::bond_faces(a, 0)) == 1.0);
+    CHECK(a.contacts.bonded[0] == 1);
+    CHECK(active_contacts(a) == 1);
+    for (int p = 0; p < a.contacts.points_of(0); ++p) {
+        a.contacts.state(0, p, &flexpm::PointState::opening) = 1e-4;
+        a.contacts.state(0, p, &flexpm::PointState::shear_traction) = 0.0;
+    }
+    lead(a, {}, 20);
+    REQUIRE(a.contacts.count == 2);
+    CHECK_FALSE(flexpm::is_active(a.contacts, 0));
+    CHECK(flexpm::is_active(a.contacts, 1));
+    CHECK(a.contacts.bonded[1] == 0);
+    CHECK(norm(force_on_first(a)) == 0.0);
+    lead(a, press * flexpm::Point { -1.0, 0.0 }, 100);
+    CHECK(norm(force_on_first(a)) > 0.1 * pressing);
+}
+
 TEST_CASE("A pair that parts, slides and meets again makes no energy")
 {
     const bool rigid = GENERATE(false, true);

@@ -109,6 +109,13 @@ def test_a_script_that_is_asked_for_help_does_nothing_else(script: str, tmp_path
     assert "set -euo" not in done.stdout
 
 
+def test_the_quickstart_names_what_a_run_leaves() -> None:
+    text = (ROOT / "scripts" / "quickstart").read_text()
+    named = re.findall(r"^describe (\S+) ", text, re.MULTILINE)
+    assert named[0] == "report.html"
+    assert {"result.json", "curve.csv", "cracks.png", "fragments.png", "events.png"} <= {*named}
+
+
 def test_flexpm_is_installed_below_any_prefix_and_removed_again(
     tmp_path: Path, build_folder: Path
 ) -> None:

@@ -173,6 +173,9 @@ def test_specimen_writes_its_picture_and_statistics(capsys, tmp_path, mesh):
     assert sorted(file.name for file in folder.iterdir()) == ["specimen.json", "specimen.png"]
     output, errors = capsys.readouterr()
     assert f"{found['contacts']}" in output
+    for figure in ("area of all grains", "contact length, median", "smallest angle, fan"):
+        (line,) = (one for one in output.splitlines() if one.strip().startswith(figure))
+        assert line.split()[-1] in ("mm", "mm2", "degrees")
     assert errors == ""  # no progress bar: stderr is no terminal
 
 

@@ -4,15 +4,22 @@
 import copy
 import dataclasses
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+from yade import wrapper
 
 from flexpm.errors import InputError
 from flexpm.materials import mixing
 from flexpm.materials.interface import KEYS
 from flexpm.materials.material import Material
+from flexpm.report import maps
 from flexpm.runs.run_spec import described
+from flexpm.specimens.specimen import Specimen
 from flexpm.studies import jobs
 
 ROCK = {
@@ -152,7 +159,7 @@ def test_options_change_pairs_in_any_order_and_studies_take_them():
 def test_a_study_takes_keys_of_pairs(tmp_path):
     file = tmp_path / "rock.toml"
     minerals = "".join(
-        f"[[mineral]]\nname = '{name}'\nfraction = 0.5\n" for name in ("quartz", "mica")
+        f"[[mineral]]\nname = '{name}'\nfraction = 0.5\n" for name in ("quartz", "k-mica")
     )
     flat = "\n".join(
         f"{key} = {value}" for key, value in ROCK.items() if not isinstance(value, (dict, list))
@@ -162,9 +169,10 @@ def test_a_study_takes_keys_of_pairs(tmp_path):
         for name, own in ROCK["elastic"].items()
     )
     file.write_text(f"{flat}\n{sets}\n{minerals}")
-    key = "set.interface.mica/quartz.cohesion"
-    job = jobs.make({"test": "tension", "material": "rock.toml", key: 21e6}, tmp_path)
-    assert job.spec.material["interfaces"][0]["cohesion"] == 21e6
+    for first, second in (("k-mica", "quartz"), ("quartz", "k-mica")):
+        key = f"set.interface.{first}/{second}.tensile-strength"
+        job = jobs.make({"test": "tension", "material": "rock.toml", key: 8e6}, tmp_path)
+        assert job.spec.material["interfaces"][0]["tensile_strength"] == 8e6
 
 
 @given(
@@ -190,3 +198,95 @@ def test_a_rock_without_pairs_has_the_description_of_before():
     assert described(rock(), "flexible") == described(
         dataclasses.replace(rock({"pair": ["quartz", "biotite"]}), interfaces=()), "flexible"
     )
+
+
+def test_the_present_value_of_a_key_is_what_a_calibration_starts_from():
+    weak = rock({"pair": ["quartz", "biotite"], "cohesion": 20e6, "factor": {"friction": 0.5}})
+    value = {
+        key: mixing.value_of(weak, f"interface.{key}", "flexible")
+        for key in (
+            "biotite/quartz.cohesion",
+            "quartz/biotite.factor.friction",
+            "quartz/biotite.factor.tensile_strength",
+            "quartz/quartz.cohesion",
+        )
+    }
+    assert [*value.values()] == [20e6, 0.5, 1.0, 30e6]
+    assert mixing.value_of(weak, "cohesion", "flexible") == 30e6
+    with pytest.raises(InputError, match=r"mica"):
+        mixing.value_of(weak, "interface.quartz/mica.cohesion", "flexible")
+
+
+def test_strengths_of_contacts_multiply_last():
+    """Factors of the contacts change a pair's strengths and energies as they change a rock's."""
+    specimen = Specimen.rectangle(0.012, 0.016, 0.01, seed=3)
+    specimen = specimen.with_minerals([number % 3 for number in range(len(specimen.discs))])
+    pair = {"pair": ["quartz", "biotite"], "cohesion": 20e6, "tensile_strength": 6e6}
+    factor = 0.5
+    kept = ("tensile_fracture_energy", "shear_fracture_energy", "tensile_strength", "cohesion")
+    powers = {key: 2 if "energy" in key else 1 for key in kept}
+    halved = copy.deepcopy(ROCK) | {key: ROCK[key] * factor ** powers[key] for key in kept}
+    halved["mineral"][1]["cohesion"] *= factor
+    energies = {key: halved[key] for key in kept[:2]}
+    halved["interface"] = [{**pair, **energies, "cohesion": 10e6, "tensile_strength": 3e6}]
+    contacts = len(specimen.tessellation.shared_edges)
+    weakened = specimen.with_strengths([factor] * contacts)
+    damage = [
+        pulled(one, material).solver.energies()["damage_energy"]
+        for one, material in (
+            (weakened, rock(pair)),
+            (specimen, Material.from_dict(halved)),
+            (weakened, rock()),
+        )
+    ]
+    assert damage[0] > 0.0 and damage[0] == pytest.approx(damage[1], rel=1e-9)
+    assert damage[0] != pytest.approx(damage[2], rel=1e-3)
+
+
+def test_joints_keep_their_own_law():
+    """The one contact of two pieces of a grain is the joint's, whatever its pair has."""
+    whole = Specimen.from_polygons([[(0, 0), (0.01, 0), (0.01, 0.01), (0, 0.01)]], 0.01)
+    cut = whole.with_minerals([0]).with_joints({"weak": [(-0.001, 0.005), (0.011, 0.005)]})
+    joint = {f"joint.weak.{key}": value for key, value in JOINT.items()}
+    weak = {"pair": ["quartz", "quartz"], "cohesion": 1e6, "tensile_strength": 1e5}
+    tractions = []
+    for own in ((), [weak]):
+        built = pulled(cut, rock(*own).with_set(joint), steps=1500)
+        tractions.append(built.snapshot().point_traction)
+        assert built.solver.energies()["damage_energy"] > 0.0
+    assert np.array_equal(*tractions)
+
+
+JOINT = {
+    "normal_stiffness": 1e14,
+    "shear_stiffness": 3e13,
+    "friction": 0.3,
+    "cohesion": 2e6,
+    "tensile_strength": 1e6,
+    "tensile_fracture_energy": 5.0,
+    "shear_fracture_energy": 50.0,
+}
+
+
+def pulled(specimen, material, steps=3000):
+    """A specimen whose top is driven until points have softened."""
+    yade.O.reset()
+    built = flexpm.build(specimen, material)
+    built.add_engines(before=(wrapper.EndDisplacementController(velocity=2e-9),))
+    built.run(steps)
+    return built
+
+
+def test_a_picture_has_a_legend_of_the_cracks_of_each_pair(tmp_path, monkeypatch):
+    specimen = Specimen.rectangle(0.012, 0.016, 0.01, seed=3)
+    shown = []
+    save = maps.save
+    monkeypatch.setattr(
+        maps, "save", lambda figure, path: (shown.append(figure), save(figure, path))
+    )
+    result = flexpm.run("tension", specimen, rock(), rate=2.0, out=tmp_path, report=False)
+    texts = [text.get_text() for text in shown[0].axes[0].get_legend().get_texts()]
+    assert result.cracks_by_pair
+    for pair, counts in result.cracks_by_pair.items():
+        assert f"{pair}: {counts['tensile']} tensile, {counts['shear']} shear" in texts
+    assert {"quartz", "biotite", "k-feldspar"} <= set(texts)

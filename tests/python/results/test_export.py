@@ -132,6 +132,14 @@ def test_a_file_of_the_papers_size_takes_a_fraction_of_a_second(tmp_path):
     assert time.perf_counter() - start < 2.0  # about 0.1 s on an idle machine
 
 
+def test_what_is_no_snapshot_is_refused_in_one_line(tmp_path):
+    for path, state in ((wall(), tmp_path / "it.vtu"), (tmp_path / "it.vtu", {"positions": []})):
+        with pytest.raises(InputError, match="snapshot = .*, behind the name") as refused:
+            write_vtu(path, state)
+        assert "\n" not in str(refused.value)
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_failed_write_leaves_the_old_file(tmp_path):
     path = tmp_path / "final.vtu"
     path.write_text("old")

@@ -226,8 +226,16 @@ def outcrop_map(seed, count, width, height):
     }
 
 
-#: Maps by day, as number of traces by seed; by night there are 200.
-_MAPS = [(seed, count) for seed, count in enumerate((100, 300, 1000))]
+#: Maps as seed and number of traces: three by day, by night 200 of 100 to 3000 traces.
+_MAPS = [
+    (0, 100),
+    (1, 300),
+    (2, 1000),
+    *(
+        pytest.param(seed, round(100 * 30 ** ((seed - 3) / 196)), marks=pytest.mark.slow)
+        for seed in range(3, 200)
+    ),
+]
 
 
 @pytest.mark.parametrize(("seed", "count"), _MAPS)

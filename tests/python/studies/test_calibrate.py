@@ -16,6 +16,7 @@ import pytest
 
 from flexpm import materials
 from flexpm.errors import InputError
+from flexpm.materials.mixing import value_of
 from flexpm.studies import calibration_problem, calibration_search, jobs
 from flexpm.studies.calibration_report import picture, table_rows, write_preset
 
@@ -189,6 +190,81 @@ def test_ratios_hold_in_the_search(tmp_path, monkeypatch):
     ratios = [values["cohesion"] / values["tensile_strength"] for values in tried]
     assert len(tried) > 5 and 4.99 < min(ratios) <= max(ratios) < 6.01
     assert not all(found.met.values())  # the targets need a ratio of 3.4
+
+
+MINERALS = """
+tensile_strength = 8.5e6
+cohesion = 30e6
+friction = 0.4
+tensile_fracture_energy = 20.0
+shear_fracture_energy = 800.0
+[elastic.flexible]
+young = 50e9
+poisson = 0.2
+normal_stiffness = 1.8e14
+shear_ratio = 0.28
+[[mineral]]
+name = "quartz"
+fraction = 0.5
+[[mineral]]
+name = "biotite"
+fraction = 0.3
+[[mineral]]
+name = "k-feldspar"
+fraction = 0.2
+[[interface]]
+pair = ["quartz", "quartz"]
+cohesion = 10e6
+"""
+CALIBRATION = """
+[calibration]
+material = "rock.toml"
+evaluations = 6
+rounds = 1
+candidates = 1
+[common]
+set.interface."biotite/k-feldspar".friction = 0.3
+[screen]
+seeds = [1]
+[verify]
+seeds = [1]
+[target]
+direct_tensile_strength = 6e6
+[free]
+"interface.quartz/biotite.factor.tensile_strength" = [0.2, 1.5]
+"""
+
+
+def test_a_calibration_takes_keys_of_pairs(tmp_path, monkeypatch):
+    """The search varies the factor; the preset that it writes has it."""
+
+    class Proportional(MadeUp):
+        @staticmethod
+        def peak(inputs):
+            assert inputs["set.interface.biotite/k-feldspar.friction"] == 0.3
+            return 8e6 * inputs["set.interface.quartz/biotite.factor.tensile_strength"]
+
+    monkeypatch.setattr(calibration_search, "Pool", Proportional)
+    (tmp_path / "rock.toml").write_text(MINERALS)
+    (tmp_path / "calibration.toml").write_text(CALIBRATION)
+    plan = calibration_problem.read(tmp_path / "calibration.toml")
+    start = materials.load(plan.material_file)
+    values = {key: value_of(start, key, plan.model) for key in plan.free}
+    found = calibration_search.run(plan, tmp_path / "out", start=values)
+    preset = write_preset(tmp_path / "found.toml", start, plan, found)
+    own = {one.pair: one for one in preset.interfaces}
+    factor = own["biotite", "quartz"].factors["tensile_strength"]
+    assert factor == pytest.approx(0.75, rel=0.05)
+    assert own["quartz", "quartz"].values == {"cohesion": 1e7}
+    key = "interface.biotite/quartz.tensile_strength"
+    assert value_of(preset, key, plan.model) == pytest.approx(factor * 8.5e6)
+
+
+def test_a_calibration_refuses_a_key_that_no_pair_has(tmp_path):
+    text = CALIBRATION.replace("factor.tensile_strength", "factor.tensile_stength")
+    (tmp_path / "calibration.toml").write_text(text)
+    with pytest.raises(InputError, match="tensile_stength.*did you mean tensile_strength"):
+        calibration_problem.read(tmp_path / "calibration.toml")
 
 
 SYNTHETIC = """

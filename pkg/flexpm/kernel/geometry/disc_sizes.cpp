@@ -38,7 +38,7 @@ int disc_count(double area, double d_min, double d_max, double porosity)
     const double count = std::round(area * (1.0 - porosity) / (pi * mean_radius * mean_radius));
     if (!(count >= 1.0 && count < 1e8)) {
         refuse("disc_count: discs", count, "",
-            "must be >= 1 and < 1e8; change diameters or dimensions");
+            "must be >= 1 and < 1e8; change diameters or dimensions, which are in metres");
     }
     return static_cast<int>(count);
 }

@@ -22,7 +22,7 @@ int sphere_count(double volume, double d_min, double d_max, double porosity)
     const double count = std::round(volume * (1.0 - porosity) / (pi / 6.0 * mean_cube));
     if (!(count >= 1.0 && count < 1e8)) {
         refuse("sphere_count: spheres", count, "",
-            "must be >= 1 and < 1e8; change diameters or dimensions");
+            "must be >= 1 and < 1e8; change diameters or dimensions, which are in metres");
     }
     return static_cast<int>(count);
 }

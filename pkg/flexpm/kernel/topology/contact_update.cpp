@@ -311,7 +311,7 @@ bool has_ended(const Assembly& a, int contact)
         if (damage_of(contacts, contact, p) < 1.0) return false;
     }
     if (contacts.joint[contact] >= 0) return false;  // follow_faces() ends it
-    if (!is_apart(a, contact)) return false;
+    if (!is_apart(a, contact)) return contacts.bonded[contact] && has_parted(a, contact);
     const bool is_face = contacts.bonded[contact] && is_between_faces(contacts, contact);
     return !is_face || !is_watched(a, contact);
 }

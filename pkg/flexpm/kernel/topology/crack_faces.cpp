@@ -247,6 +247,11 @@ bool is_watched(const Assembly& a, int contact)
     return is_near(a, contact, bond_faces(a, contact), kept_within);
 }
 
+bool has_parted(const Assembly& a, int contact)
+{
+    return !presses(a.contacts, contact) && parting(bond_faces(a, contact)) == 1.0;
+}
+
 CrackChanges follow_cracks(Assembly& a, double damping, double dt)
 {
     CrackChanges changes;

@@ -31,6 +31,10 @@ bool presses(const Contacts& contacts, int contact);
 /// Whether the faces of a crack are so near that it is kept though it is open.
 bool is_watched(const Assembly& a, int contact);
 
+/// Whether a crack bears nothing and its faces have parted for good. Its points would go on at
+/// places that lie elsewhere now: the pair counts as discs.
+bool has_parted(const Assembly& a, int contact);
+
 /// What follow_cracks() has changed.
 struct CrackChanges {
     bool any = false;              ///< contacts have other normals, or have come or gone

@@ -10,9 +10,9 @@ from yade import wrapper
 
 from ...arrays import FloatArray
 from ...errors import InputError
-from ...models.grains import Model
 from ...require import NOT_NEGATIVE, quoted, require_number
 from ...results.snapshot import Snapshot
+from ..part_loads import PartLoads
 from ..parts import HeldNodes, Part, RigPart, require_part
 
 
@@ -56,15 +56,8 @@ class ElasticState(Snapshot):
         return (self.node_sets if isinstance(part, HeldNodes) else self.plates)[part.number]
 
 
-class PartStatics:
-    """What a rig of parts answers without a step."""
-
-    built: Model
-
-    @property
-    def _frame(self) -> wrapper.PartFrame:
-        """What says which parts are driven."""
-        raise NotImplementedError
+class PartStatics(PartLoads):
+    """Base of a rig of parts that answers without a step."""
 
     def elastic(
         self,
@@ -83,7 +76,7 @@ class PartStatics:
 
         Args:
             pressures: On parts [Pa], beside those that `press` has given, or in their place.
-            way: Of the driven parts from where they are, along the loading [m], or angle [rad];
+            way: How far the driven parts go from here, along the loading [m], or turn [rad];
                 1.0 gives the load of a unit way, the stiffness, where nothing opens or closes.
             load: Sum of what the driven parts push [N], or of their moments [N m], in place of a
                 way.
