@@ -152,3 +152,31 @@ def test_a_free_motion_is_named_in_one_line():
         rig.elastic({top: 1e6})
     with pytest.raises(flexpm.InputError, match="must be left out beside a load"):
         rig.elastic(way=1e-6, load=1.0)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_beam_is_as_stiff_as_when_it_is_loaded(model):
+    yade.O.reset()
+    beam = flexpm.Specimen.rectangle(0.05, 0.012, THICKNESS, seed=1)
+    rig = flexpm.PartRig(flexpm.build(beam, model=model))
+    rollers = [rig.support((x, 0.0)) for x in (0.005, 0.045)]
+    pin = rig.support((0.025, 0.012), pinned=True)
+    rig.drive(pin, (0.0, -1.0), against=rollers)
+    state = rig.elastic(way=1e-6)
+    assert state.load == pytest.approx(sum(state.force(one)[1] for one in rollers), rel=1e-9)
+    rig.strain_to(2e-7)  # a way of 0.2 um
+    slope = np.polyfit(rig.record["displacement"], rig.record["load"], 1)[0]
+    assert state.load / 1e-6 == pytest.approx(slope, rel=1e-4)
+
+
+def test_a_moment_turns_an_end_by_the_angle_that_asks_for_it():
+    rig = made()
+    base = rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
+    head = rig.hold(box=((0.0, HEIGHT - 1e-5), (WIDTH, HEIGHT)))
+    rig.turn(head)
+    state = rig.elastic(way=1e-5)
+    assert state.moment(head) == pytest.approx(state.load, rel=1e-12)
+    # a moment alone acts
+    np.testing.assert_allclose(state.force(head), 0.0, atol=1e-9 * state.load / WIDTH)
+    assert state.moment(base) == pytest.approx(-state.load, rel=1e-6)
+    assert rig.elastic(load=state.load).way == pytest.approx(1e-5, rel=1e-9)

@@ -117,7 +117,7 @@ public:
             for (int k = 0; k < plate_points(plate); ++k) {
                 const double gap = plate.opening[k]
                     + dot(plate.normal, way_of(plate_point(plate, k), moved) - plates[i]);
-                found.plates.back().push_back(gap <= none && !is_idle(plate));
+                found.plates.back().push_back(plate.bonded || (gap <= none && !is_idle(plate)));
             }
         }
         return found;
@@ -135,8 +135,7 @@ public:
     {
         for (std::size_t i = 0; i < a.plates.size(); ++i) {
             for (std::size_t k = 0; k < now.plates[i].size(); ++k) {
-                const bool holds = now.plates[i][k] || a.plates[i].bonded;
-                trial.plates[i].area[k] = (holds ? 1.0 : kept) * a.plates[i].area[k];
+                trial.plates[i].area[k] = (now.plates[i][k] ? 1.0 : kept) * a.plates[i].area[k];
             }
         }
     }
@@ -185,7 +184,7 @@ public:
         const Plate& plate = a.plates[i];
         const PlatePoint p = plate_point(trial.plates[i], k);
         const Point t = tangent_of(plate.normal);
-        const double kept = now.plates[i][k] || plate.bonded ? plate.shear_force[k] : 0.0;
+        const double kept = now.plates[i][k] ? plate.shear_force[k] : 0.0;
         return -p.stiffness * (plate.opening[k] + dot(plate.normal, way)) * plate.normal
             + (kept - p.shear_stiffness * dot(t, way)) * t;
     }
@@ -329,11 +328,22 @@ double largest(const Array<double>& displacements)
     return found;
 }
 
-/// State after a motion, with the forces of its parts.
+/// Forces after a motion, at the places from which it is linear.
+void set_forces(const Balance& balance, const Closed& closed, const Assembly& trial,
+    const Motion& m, Assembly& s)
+{
+    s.grains.force = m.force;
+    for (std::size_t i = 0; i < s.plates.size(); ++i)
+        s.plates[i].force = balance.plate_force(closed, trial, i, m.displacement, m.plates[i]);
+    update_node_sets(s, 1.0, 0.0);  // their velocities are zero: forces alone
+}
+
+/// State after a motion.
 Assembly state_after(const Assembly& a, const Balance& balance, const Closed& closed,
     const Assembly& trial, const Motion& m)
 {
     Assembly s = a;
+    set_forces(balance, closed, trial, m, s);
     balance.for_each_point([&](int c, int p) {
         const Point n = bonded_normal(a, c), way = balance.way_of(c, p, m.displacement);
         PointState state = a.contacts.point_state(c, p);
@@ -344,12 +354,8 @@ Assembly state_after(const Assembly& a, const Balance& balance, const Closed& cl
     });
     for (std::size_t i = 0; i < s.grains.displacement.size(); ++i)
         s.grains.displacement[i] += m.displacement[i];
-    s.grains.force = m.force;
-    for (std::size_t i = 0; i < s.plates.size(); ++i) {
-        s.plates[i].displacement = a.plates[i].displacement + m.plates[i];
-        s.plates[i].force = balance.plate_force(closed, trial, i, m.displacement, m.plates[i]);
-    }
-    update_node_sets(s, 1.0, 0.0);  // their velocities are zero: forces alone
+    for (std::size_t i = 0; i < s.plates.size(); ++i)
+        s.plates[i].displacement = s.plates[i].displacement + m.plates[i];
     for (std::size_t i = 0; i < s.node_sets.size(); ++i)
         s.node_sets[i].angle += m.angles[i];
     return s;
@@ -414,8 +420,11 @@ private:
             const Point force = balance.plate_force(closed, trial, i, m.displacement, m.plates[i]);
             out[row++] = a.plates[i].load - dot(a.plates[i].normal, force);
         }
-        if (loading.load)
-            out[row] = *loading.load - load_of(state_after(a, balance, closed, trial, m), loading);
+        if (loading.load) {
+            Assembly loaded = a;
+            set_forces(balance, closed, trial, m, loaded);
+            out[row] = *loading.load - load_of(loaded, loading);
+        }
         return out;
     }
 
