@@ -109,7 +109,7 @@ public:
         found.contacts.assign(static_cast<std::size_t>(a.contacts.count) * points, 0);
         for_each_point([&](int c, int p) {
             const double gap = gap_of(c, p) + dot(bonded_normal(a, c), way_of(c, p, moved));
-            found.contacts[c * points + p] = gap <= none;
+            found.contacts[c * points + p] = gap <= none || damage_of(a.contacts, c, p) <= 0.0;
         });
         for (std::size_t i = 0; i < a.plates.size(); ++i) {
             const Plate& plate = a.plates[i];
