@@ -36,8 +36,6 @@ constexpr double round_off = 1e-10;
 /// Stiffness of a plate over that of its springs which is none [-].
 constexpr double no_stiffness = 1e-9;
 
-Point tangent_of(Point normal) { return { -normal.y, normal.x }; }
-
 /// Forces of all kinds at the present displacements, of a state that stands still.
 void refresh_forces(Assembly& a)
 {
@@ -51,8 +49,8 @@ void refresh_forces(Assembly& a)
     }
     for (int b = 0; b < a.grains.blocks(); ++b)
         predict_centres(a.grains, b, 1.0, a.plan.next_centre);
-    for (int b = 0; b < a.edges.blocks(); ++b)
-        update_edge_block(a, b, 1.0);
+    for (int b = 0; b < a.facets.blocks(); ++b)
+        update_facet_block(a, b, 1.0);
     std::vector<double> loads;
     for (Plate& p : a.plates) {
         loads.push_back(p.loaded ? p.load : -1.0);
@@ -99,7 +97,7 @@ struct Closed {
 
 class Balance {
 public:
-    explicit Balance(const Assembly& a) : a(a), points(a.contacts.points) { }
+    explicit Balance(const Assembly& a) : a(a), points(a.contacts.group.points) { }
 
     /// Gaps of the present state and of displacements from it; `size` is that of these.
     Closed closed(const Array<double>& moved, const std::vector<Point>& plates, double size) const
@@ -145,9 +143,11 @@ public:
     {
         Array<double> found = a.grains.force;
         for_each_point([&](int c, int p) {
-            const Point n = bonded_normal(a, c), before = traction_of(a, c, p);
-            const Point after = traction(now, c, p, {});
-            const Point more = (after.x - before.x) * n + (after.y - before.y) * tangent_of(n);
+            const PointTraction before = traction_of(a.contacts, c, p);
+            const Point n = bonded_normal(a, c);
+            const PointTraction after = traction(now, c, p, {});
+            const Point more =
+                (after.normal - before.normal) * n + (after.shear - before.shear) * tangent_of(n);
             for (int side = 0; side < 2; ++side) {
                 const double w = a.contacts.weight(c, p, side), sign = side == 0 ? 1.0 : -1.0;
                 const double area = sign * a.contacts.area(c, p);
@@ -159,7 +159,7 @@ public:
             for (int k = 0; k < plate_points(a.plates[i]); ++k) {
                 const PlatePoint p = plate_point(a.plates[i], k);
                 const Point more = plate_force(now, trial, i, k, {}) - point_force(a.plates[i], k);
-                const auto n = a.edges.nodes(p.edge);
+                const auto n = a.facets.nodes(p.facet);
                 add(found, n[0], (1.0 - p.weight) * more);
                 add(found, n[1], p.weight * more);
             }
@@ -167,8 +167,8 @@ public:
         return found;
     }
 
-    /// Traction of a point after a way from the present state: along the normal, along the tangent.
-    Point traction(const Closed& now, int c, int p, Point way) const
+    /// Traction of a point after a way from the present state.
+    PointTraction traction(const Closed& now, int c, int p, Point way) const
     {
         const PointSpring k = spring(now, c, p, 0.0);
         const Point n = bonded_normal(a, c);
@@ -216,7 +216,7 @@ public:
     }
     Point way_of(const PlatePoint& p, const Array<double>& moved) const
     {
-        return vector_on_edge(moved, a.edges.nodes(p.edge), p.weight);
+        return vector_on_edge(moved, a.facets.nodes(p.facet), p.weight);
     }
 
 private:
@@ -349,7 +349,7 @@ Assembly state_after(const Assembly& a, const Balance& balance, const Closed& cl
         PointState state = a.contacts.point_state(c, p);
         state.opening += dot(n, way);
         state.slip += dot(tangent_of(n), way);
-        state.shear_traction = balance.traction(closed, c, p, way).y;
+        state.shear_traction = balance.traction(closed, c, p, way).shear;
         s.contacts.set_point_state(c, p, state);
     });
     for (std::size_t i = 0; i < s.grains.displacement.size(); ++i)
@@ -472,8 +472,8 @@ int count_beyond_friction(const Assembly& s, const Balance& balance)
     balance.for_each_point([&](int c, int p) {
         const LawParameters& law = s.contacts.law_of(c);
         if (damage_of(s.contacts, c, p) < 1.0) return;
-        const Point t = traction_of(s, c, p);
-        count += std::fabs(t.y) > (1.0 + round_off) * law.friction * std::max(-t.x, 0.0);
+        const PointTraction t = traction_of(s.contacts, c, p);
+        count += std::fabs(t.shear) > (1.0 + round_off) * law.friction * std::max(-t.normal, 0.0);
     });
     return count;
 }

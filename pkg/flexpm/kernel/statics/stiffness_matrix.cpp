@@ -82,7 +82,7 @@ void add_contact(const Assembly& a, int contact, const PointSprings& springs,
         const double area = a.contacts.area(contact, p);
         add_shares(share, parts_of(a.contacts, contact, p), area);
         if (springs.empty()) continue;
-        const PointSpring& k = springs[contact * a.contacts.points + p];
+        const PointSpring& k = springs[contact * a.contacts.group.points + p];
         if (k.normal != 0.0 || k.shear != 0.0)
             add_blocks(a, contact, share, spring_block(n, k.normal, k.shear), entries);
         share = {};
@@ -100,10 +100,10 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
-        const auto n = a.edges.nodes(p.edge);
-        const double part[] = { 1.0 - p.weight, p.weight };
-        for (int r = 0; r < 2; ++r) {
-            for (int c = 0; c < 2; ++c) {
+        const auto n = a.facets.nodes(p.facet);
+        const auto part = facet_parts(p.weight);
+        for (int r = 0; r < facet_nodes; ++r) {
+            for (int c = 0; c < facet_nodes; ++c) {
                 const double s = part[r] * part[c];
                 add_block(entries, n[r], n[c], { s * k.xx, s * k.xy, s * k.yx, s * k.yy });
             }

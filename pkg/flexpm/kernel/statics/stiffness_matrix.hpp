@@ -23,7 +23,7 @@ struct PointSpring {
     double shear = 0.0;
 };
 
-/// [contact * Contacts::points + point]; none: all points have their full stiffness.
+/// [contact * ContactGroup::points + point]; none: all points have their full stiffness.
 using PointSprings = std::vector<PointSpring>;
 
 /// Terms of the symmetric stiffness at the reference state, of triangles and contact points; terms

@@ -73,7 +73,7 @@ py::dict GrainSolver::counts()
 	d["nodes"]          = grains.nodes;
 	d["triangles"]      = grains.triangles;
 	d["groups"]         = a.grains.groups.size();
-	d["edges"]          = flexpm::count_edges(a);
+	d["edges"]          = flexpm::count_facets(a);
 	return d;
 }
 

@@ -11,7 +11,7 @@ namespace flexpm_bindings {
 inline boost::python::dict snapshot_dict(const flexpm::Assembly& assembly)
 {
 	const auto          s = flexpm::take_snapshot(assembly);
-	const int           p = assembly.contacts.points;
+	const int           p = assembly.contacts.group.points; // all contacts have as many: rows of (contact, point)
 	boost::python::dict d;
 	d["positions"]           = copied(s.positions, 2);
 	d["reference"]           = copied(s.reference, 2);
