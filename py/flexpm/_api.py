@@ -10,8 +10,8 @@ from .errors import InputError, SimulationError
 from .laboratory.protocols import run
 from .materials import Material
 from .models.grains import Model, build, elastic
-from .report import curves as plot
 from .report import notebook as _notebook  # noqa: F401  # what notebooks show is registered there
+from .report import plot
 from .results import strength
 from .results import vtu as export
 from .results.result import Result

@@ -134,6 +134,10 @@ class Script:
         if rig := self._parts():
             rig.press(self._picked(part), pressure)
 
+    def do_elastic(self, part: list[Any], pressure: Any, way: Any, load: Any) -> None:
+        if rig := self._parts():
+            rig.elastic({self._picked(part): pressure}, way=way, load=load)
+
     def do_move(self, part: list[Any], along: float, across: float) -> None:
         if hasattr(held := self._picked(part), "move"):
             held.move((across, along))

@@ -22,6 +22,7 @@ from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
+from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import mineral_map
 from ..specimens.specimen import Specimen, require_specimen
 from ..threads import limited
@@ -155,7 +156,14 @@ class Model:
 
     def snapshot(self) -> Snapshot:
         """The present state as plain arrays."""
-        return Snapshot(**self.solver.snapshot(), grain_mineral=self.minerals)
+        found: Table = {**self.solver.snapshot(), **self.of_snapshots}
+        return Snapshot(**found)
+
+    @property
+    def of_snapshots(self) -> Table:
+        """What snapshots tell beside the solver's arrays: minerals, and what stresses are."""
+        source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
+        return {"grain_mineral": self.minerals, "stress_source": source}
 
     def describe_material(self) -> Table:
         """Name and parameters of the material, of minerals also the area that they have."""

@@ -16,6 +16,7 @@ from yade import wrapper
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..results.snapshot import Snapshot
+from ..results.stress.point_stress import OF_GRAINS
 from ..specimens.specimen import Specimen
 from .sphere_bonds import Bonds
 from .sphere_cracks import CrackWatch, body_with
@@ -80,6 +81,7 @@ def snapshot(
         erased_crack_step=cracks.steps[erased, None],
         erased_crack_mode=cracks.modes[erased, None],
         erased_crack_position=cracks.places[erased, None],
+        stress_source=OF_GRAINS,
     )
 
 

@@ -57,7 +57,7 @@ def specimen_picture(
         joints: Ends (n, 2, 2) [m] of the contacts of each joint.
     """
     with rc_context(STYLE):
-        figure, axes = _map_figure(polygons)
+        figure, axes = map_figure(polygons)
         _draw_grains(axes, polygons)
         for number, ends in enumerate(joints):
             colour = _FRAGMENTS[-1 - number % len(_FRAGMENTS)]
@@ -66,7 +66,7 @@ def specimen_picture(
             nodes, triangles = (1e3 * np.asarray(mesh[0]), np.asarray(mesh[1]))
             lines = LineCollection(nodes[_unique_edges(triangles)], colors=_EDGE, linewidths=0.15)
             axes.add_collection(lines)
-        _draw_scale_bar(axes)
+        draw_scale_bar(axes)
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
         save(figure, path)
 
@@ -95,7 +95,19 @@ def crack_picture(
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        figure, axes = _map_figure([snapshot.positions])
+        save(crack_figure(snapshot, caption, minerals, notches, by_pair), path)
+
+
+def crack_figure(
+    snapshot: Snapshot,
+    caption: str = "",
+    minerals: Sequence[str] = (),
+    notches: Sequence[int] = (),
+    by_pair: Mapping[str, Mapping[str, int]] | None = None,
+) -> Figure:
+    """The figure of `crack_picture`."""
+    with rc_context(STYLE):
+        figure, axes = map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
         handles += _draw_notches(axes, snapshot, notches)
         handles += [
@@ -114,7 +126,7 @@ def crack_picture(
             frameon=False,
         )
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
-        save(figure, path)
+    return figure
 
 
 def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
@@ -131,14 +143,14 @@ def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
         label = f"{MODE_NAMES[mode]} ({points})"
         handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
     handles += _draw_erased(axes, snapshot)
-    _draw_scale_bar(axes)
+    draw_scale_bar(axes)
     return handles
 
 
 def draw_grains(axes: Axes, snapshot: Snapshot) -> None:
     """Draw the deformed grains and a scale bar below them [mm]."""
     _draw_rock(axes, snapshot)
-    _draw_scale_bar(axes)
+    draw_scale_bar(axes)
 
 
 def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:
@@ -188,6 +200,12 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
         return
+    with rc_context(STYLE):
+        save(fragment_figure(snapshot, caption), path)
+
+
+def fragment_figure(snapshot: Snapshot, caption: str = "") -> Figure:
+    """The figure of `fragment_picture`."""
     found = snapshot.fragments
     colours = [
         _FRAGMENTS[rank % len(_FRAGMENTS)] if grains > 1 else _LOOSE
@@ -195,14 +213,14 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
     ]
     colours[0] = _GRAIN_TINTS[0]
     with rc_context(STYLE):
-        figure, axes = _map_figure([snapshot.positions])
+        figure, axes = map_figure([snapshot.positions])
         _draw_rock(axes, snapshot, [colours[rank] for rank in found.labels])
-        _draw_scale_bar(axes)
+        draw_scale_bar(axes)
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
         lines = [line for line in (label_of(caption), text) if line]
         axes.set_title("\n".join(lines), fontsize=9.5, loc="left")
-        save(figure, path)
+    return figure
 
 
 def cell_polygons(tessellation: Tessellation) -> list[FloatArray]:
@@ -255,7 +273,8 @@ def crack_segments(snapshot: Snapshot) -> dict[int, FloatArray]:
     return {mode: pieces[modes == mode] for mode in (TENSILE, SHEAR)}
 
 
-def _map_figure(polygons: Sequence[FloatArray]) -> tuple[Figure, Axes]:
+def map_figure(polygons: Sequence[FloatArray]) -> tuple[Figure, Axes]:
+    """A figure of the size and the axes [mm] of a map, for grains with these corners [m]."""
     corners = 1e3 * np.concatenate(polygons)
     low, high = corners.min(axis=0), corners.max(axis=0)
     width, height = high - low
@@ -307,7 +326,7 @@ def _draw_grains(
     axes.add_collection(grains)
 
 
-def _draw_scale_bar(axes: Axes) -> None:
+def draw_scale_bar(axes: Axes) -> None:
     """Draw a bar of a round length, about a quarter of the width, below the lower left corner."""
     data = axes.dataLim
     quarter = data.width / 4.0

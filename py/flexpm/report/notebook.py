@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Specimens, materials and results as a notebook shows them: a picture beside a table. SI units."""
+"""Specimens, materials, results and records as a notebook shows them. SI units.
+
+Each is a picture beside a table.
+"""
 
 from __future__ import annotations
 
@@ -10,14 +13,16 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import InputError
 from ..materials.keys import ELASTIC_SET, UNITS
 from ..materials.material import Law, Material
 from ..notebook import html_of
+from ..results.record import Curve
 from ..results.result import Result
 from ..specimens.specimen import Specimen
 from ..text import label_of, name_of, words_of
-from .curves import curve_picture
+from .curves import curve_picture, fits_a_picture
 from .maps import cell_polygons, specimen_picture
 from .pages.page import rendered
 from .pages.page_run import with_unit
@@ -33,6 +38,31 @@ def _of_result(result: Result) -> str:
     picture = _picture(lambda path: curve_picture(path, result)) if len(result.curve) else ""
     title = f"{test_text(result)}; {size_text(result)}"
     return _html(title, result_rows(result), picture, result.warnings)
+
+
+@html_of.register
+def _of_curve(curve: Curve) -> str:
+    known = [name for name in curve if not np.all(np.isnan(curve[name]))]
+    rows = [
+        (name, *(f"{value:.6g}" for value in _looks(curve[name]))) for name in known if len(curve)
+    ]
+    picture = _picture(lambda path: _draw_record(path, curve)) if len(curve) else ""
+    title = f"Record, {len(curve)} rows"
+    return _html(title, [("", "first", "last", "smallest", "largest"), *rows], picture)
+
+
+def _looks(values: FloatArray) -> list[float]:
+    """First, last, smallest and largest value."""
+    return [float(one) for one in (values[0], values[-1], np.nanmin(values), np.nanmax(values))]
+
+
+def _draw_record(path: Path, curve: Curve) -> None:
+    """Draw stress over strain, if they are numbers that a picture has room for."""
+    if not fits_a_picture(curve):
+        return
+    with drawing(path, (4.4, 2.9)) as axes:
+        axes.plot(curve["axial_strain"], curve["axial_stress"], color="black")
+        axes.set(xlabel="axial_strain", ylabel="axial_stress")  # of an own test in units of its own
 
 
 @html_of.register

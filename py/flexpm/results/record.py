@@ -8,15 +8,20 @@ compression tests, narrowing in tension tests.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
+from ..notebook import Shown
 from ..require import require_known
+
+if TYPE_CHECKING:
+    import pandas
 
 #: Columns of the record: the columns of curve.csv.
 COLUMNS = (
@@ -43,8 +48,12 @@ COLUMNS = (
 INTEGERS = ("step", "tensile_cracks", "shear_cracks")
 
 
-class Curve:
-    """Rows of a running test; amortised constant time to append, columns as numpy views."""
+class Curve(Shown):
+    """Record of a test, a row for each step that was measured: ``curve["axial_stress"]``.
+
+    Amortised constant time to append, columns as numpy views. Its length is the number of rows; its
+    keys are the names of its columns, so that ``dict(curve)`` and ``"load" in curve`` work.
+    """
 
     def __init__(self, own: Sequence[str] = ()) -> None:
         """Begin an empty record.
@@ -77,6 +86,38 @@ class Curve:
         """
         require_known("record: column", column, self.columns)
         return self._data[: self._rows, self.columns.index(column)]
+
+    def keys(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return self.columns
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __repr__(self) -> str:
+        if not self._rows:
+            return f"Curve(no rows; {', '.join(self.columns)})"
+        ends = [f"{self._data[row, 0]:g}" for row in (0, self._rows - 1)]
+        return f"Curve({self._rows} rows, steps {' to '.join(ends)}; {', '.join(self.columns)})"
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The record as a table of pandas, a copy.
+
+        Raises:
+            InputError: if pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise InputError(
+                "Curve.to_pandas: pandas = not installed, must be; install python3-pandas, or take "
+                "`array` and `columns`"
+            ) from None
+        whole = dict.fromkeys(INTEGERS, np.int64)
+        return pandas.DataFrame(self.array.copy(), columns=list(self.columns)).astype(whole)
 
     @property
     def array(self) -> FloatArray:

@@ -6,13 +6,17 @@ Stress, traction and opening are positive in tension.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..require import Bounds, require_flag, require_whole
 from .fragments import Fragments, connected
+from .stress.point_stress import OF_TRIANGLES, PointStress, require_points, stress_of_points
+from .stress.tensors import means_by
 
 #: Share of a contact's area that each of its points stands for, by number of points.
 POINT_SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
@@ -54,6 +58,7 @@ class Snapshot:
     erased_crack_mode: IntArray | None = None  #: (E, P)
     erased_crack_position: FloatArray | None = None  #: (E, P, 2) [m]
     erased_crack_energy: FloatArray | None = None  #: (E, P) [J]
+    stress_source: str = OF_TRIANGLES  #: what the stress of a triangle is: its own, or its grain's
 
     @cached_property
     def fragments(self) -> Fragments:
@@ -66,6 +71,64 @@ class Snapshot:
         """Undeformed area of each grain [m2]."""
         areas = np.bincount(self.triangle_grain, weights=triangle_areas(self))
         return areas.astype(float, copy=False)
+
+    @property
+    def grain_stress(self) -> FloatArray:
+        """Mean stress of each grain, xx, yy, xy, (G, 3) [Pa]; nan of one that is erased."""
+        owners = self.triangle_grain[:, None]
+        count = int(np.max(self.triangle_grain, initial=-1)) + 1
+        return means_by(self.triangle_stress, triangle_areas(self), owners, count)
+
+    def stress_at(
+        self, points: Sequence[Sequence[float]] | FloatArray, *, moved: bool = False
+    ) -> PointStress:
+        """Stresses at points of the specimen.
+
+        Deformable grains have the stress of the triangle that a point lies in. Rigid grains and
+        spheres have none inside: theirs is the mean that the forces on a grain give it, and
+        ``source`` of what comes back says so. A point outside, in a hole or where a grain is
+        erased has nan; ``missing`` counts them.
+
+        Args:
+            points: Rows of x and y, or one point [m].
+            moved: Points are present places; else those that the grains had when bonded, where no
+                crack or overlap leaves a point between two grains or in both.
+
+        Raises:
+            InputError: for what are no points.
+        """
+        places = self.positions if require_flag("stress_at: moved", moved) else self.reference
+        asked = require_points("stress_at: points", points)
+        corners = places[self.triangles]
+        return stress_of_points(corners, self.triangle_stress, asked, self.stress_source)
+
+    def stress_along(
+        self,
+        first: Sequence[float],
+        last: Sequence[float],
+        count: int = 101,
+        *,
+        moved: bool = False,
+    ) -> PointStress:
+        """Stresses at even distances along a straight line, see `stress_at`.
+
+        Args:
+            first: x and y of its first point [m].
+            last: x and y of its last point [m].
+            count: Number of points, both ends among them.
+            moved: As for `stress_at`.
+
+        Raises:
+            InputError: for what are no points, or fewer than two.
+        """
+        ends = [
+            require_points(f"stress_along: {name}", one)[0]
+            for name, one in (("first", first), ("last", last))
+        ]
+        share = np.linspace(
+            0.0, 1.0, require_whole("stress_along: count", count, Bounds(at_least=2.0))
+        )
+        return self.stress_at(ends[0] + share[:, None] * (ends[1] - ends[0]), moved=moved)
 
     @property
     def cuts(self) -> IntArray:

@@ -31,6 +31,8 @@ from ..files import whole_file
 from ..require import quoted
 from ..text import printable
 from .snapshot import POINT_SHARES, Snapshot, triangle_areas
+from .stress.tensors import means_by
+from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
 from .vtu_reader import Arrays, Grid, grid_of, silence
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
@@ -211,13 +213,6 @@ def cell_arrays(snapshot: Snapshot) -> dict[str, Named]:
     return _joined(_grain_arrays(snapshot), _contact_arrays(snapshot))
 
 
-def principal_stresses(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Larger and smaller principal stress of the plane [Pa] from xx, yy, xy, shape (M, 3)."""
-    xx, yy, xy = np.asarray(stress, dtype=float).T
-    middle, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
-    return middle + radius, middle - radius
-
-
 def _grain_arrays(snapshot: Snapshot) -> dict[str, Named]:
     stress, tensor = snapshot.triangle_stress, _tensors(snapshot)
     largest, smallest = principal_stresses(stress)
@@ -253,14 +248,7 @@ def _mean_by(snapshot: Snapshot, owners: IntArray, count: int) -> FloatArray:
         owners: Numbers of those that each triangle belongs to, (M, K).
         count: Number of owners; one without a triangle gets nan.
     """
-    weights = triangle_areas(snapshot)
-    total = np.zeros((count, 7))
-    values = np.column_stack([_tensors(snapshot) * weights[:, None], weights])
-    for column in owners.T:
-        np.add.at(total, column, values)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        found: FloatArray = total[:, :6] / total[:, 6:]
-    return found
+    return means_by(_tensors(snapshot), triangle_areas(snapshot), owners, count)
 
 
 def _minerals(snapshot: Snapshot) -> IntArray:

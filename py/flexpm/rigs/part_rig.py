@@ -24,14 +24,14 @@ from ..runs.loading_rate import Scales, Schedule, rates_of
 from ..runs.runner import Runner
 from .grain_rig import GrainRig
 from .part_columns import PartColumns
-from .part_loads import PartLoads
 from .parts import Part, require_part
+from .statics.elastic_state import PartStatics
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9
 
 
-class PartRig(PartColumns, PartLoads, GrainRig):
+class PartRig(PartColumns, PartStatics, GrainRig):
     """A specimen of any outline between parts.
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,

@@ -210,6 +210,9 @@ class PartFrame(TestFrame):
     length: float
     strength: float
     loadingScales: list[float]
+    def elasticState(
+        self, pressed: list[int], pressures: list[float], way: float, load: float | None
+    ) -> dict[str, Any]: ...
 
 class AxialRecorder(Engine):
     frame: TestFrame | None

@@ -52,6 +52,13 @@ PARTS = st.one_of(
         st.lists(PICK, min_size=1, max_size=1),
         st.sampled_from([0.0, 1e5, -1.0, float("nan"), None]),
     ),
+    st.tuples(
+        st.just("elastic"),
+        st.lists(PICK, min_size=1, max_size=1),
+        st.sampled_from([0.0, 1e5, -1.0, float("nan"), None]),
+        st.sampled_from([0.0, 1e-6, 1.0]) | ANY,
+        st.none() | ANY,
+    ),
     st.tuples(st.just("move"), st.just([0]), ANY, ANY),
     st.tuples(st.just("again")),
     st.tuples(st.just("names"), COLUMN, COLUMN, st.lists(PICK, min_size=1, max_size=1)),

@@ -14,6 +14,7 @@ from matplotlib.image import imread
 import flexpm
 from flexpm.materials.material import preset_names
 from flexpm.notebook import Shown, html_of
+from flexpm.results.record import Curve
 from flexpm.results.result import Result
 
 
@@ -74,3 +75,16 @@ def test_a_notebook_takes_the_html_of_what_is_shown():
 def test_what_nothing_is_registered_for_is_shown_by_its_repr():
     assert html_of(3) is None
     assert Shown()._repr_html_() is None
+
+
+def test_a_record_is_shown_with_its_curve_and_the_ends_of_its_columns():
+    record = Curve(own=["load"])
+    for row in range(5):
+        record.append(**dict.fromkeys(record.keys(), float(row)) | {"lateral_strain": np.nan})
+    html = record._repr_html_()
+    assert picture_of(html).std() > 0.01
+    rows = rows_of(html)
+    assert rows["load"] == ["0", "4", "0", "4"]
+    assert "lateral_strain" not in rows
+    assert "Record, 5 rows" in html
+    assert "Record, 0 rows" in Curve()._repr_html_()

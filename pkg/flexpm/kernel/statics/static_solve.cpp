@@ -5,7 +5,6 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace flexpm {
 
@@ -25,13 +25,15 @@ using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
 constexpr double smallest_pivot = 1e-10;
 
 /// Forces on the nodes when the plates are displaced and the grains are not.
-void add_plate_loads(const Assembly& a, Array<double>& loads)
+void add_plate_loads(
+    const Assembly& a, const std::vector<Point>& displacements, Array<double>& loads)
 {
-    for (const Plate& plate : a.plates) {
+    for (std::size_t number = 0; number < a.plates.size(); ++number) {
+        const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const StiffnessBlock k = plate_springs(plate, i);
-            const Point u = plate.displacement;
+            const Point u = displacements[number];
             const auto n = a.facets.nodes(p.facet);
             const auto part = facet_parts(p.weight);
             for (int r = 0; r < facet_nodes; ++r) {
@@ -121,8 +123,7 @@ void follow_first(const Grains& grains, const NodeSet& set, int rotation, Unknow
 }
 
 /// Mark what is prescribed and number the rest, node by node; fill `u` with the given values.
-Unknowns number_unknowns(
-    const Assembly& a, const std::vector<Prescribed>& prescribed, Array<double>& u)
+Unknowns number_unknowns(const Assembly& a, const StaticCase& of, Array<double>& u)
 {
     const Grains& grains = a.grains;
     Unknowns n;
@@ -140,10 +141,10 @@ Unknowns number_unknowns(
     }
     for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
         if (!a.node_sets[s].floats) continue;
-        u[moving + s] = a.node_sets[s].angle;
+        u[moving + s] = of.angles[s];
         follow_first(grains, a.node_sets[s], static_cast<int>(moving + s), n);
     }
-    for (const Prescribed& p : prescribed) {
+    for (const Prescribed& p : of.prescribed) {
         if (!std::isfinite(p.value)) refuse_prescribed(p, "must be a finite number");
         const bool known = p.index >= 0 && p.index < static_cast<int>(grains.displacement.size())
             && n.kind[p.index] != Kind::padding;
@@ -170,30 +171,54 @@ Unknowns number_unknowns(
     return n;
 }
 
-/// Lower half of the stiffness of the unknowns; what the prescribed values pull goes into `rhs`.
-SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& n,
-    const Array<double>& u, Eigen::VectorXd& rhs)
+/// Call visit(row, column, value) for each pair of entries that a term of the stiffness acts
+/// between.
+template <class Visit>
+void for_each_pair(const Unknowns& n, const StiffnessEntry& e, const Visit& visit)
+{
+    for_each_term(n, e.row, [&](int i, double row_factor) {
+        for_each_term(n, e.column, [&](int j, double column_factor) {
+            if (n.kind[i] == Kind::unknown) visit(i, j, row_factor * column_factor * e.value);
+        });
+    });
+}
+
+/// Lower half of the stiffness of the unknowns.
+SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& n)
 {
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(entries.size());
     for (const StiffnessEntry& e : entries) {
-        for_each_term(n, e.row, [&](int i, double row_factor) {
-            for_each_term(n, e.column, [&](int j, double column_factor) {
-                if (n.kind[i] != Kind::unknown) return;
-                const int row = n.number[i], column = n.number[j];
-                const double value = row_factor * column_factor * e.value;
-                if (n.kind[j] != Kind::unknown) {
-                    rhs[row] -= value * u[j];
-                } else if (row >= column) {
-                    triplets.emplace_back(row, column, value);
-                }
-            });
+        for_each_pair(n, e, [&](int i, int j, double value) {
+            const int row = n.number[i], column = n.number[j];
+            if (n.kind[j] == Kind::unknown && row >= column)
+                triplets.emplace_back(row, column, value);
         });
     }
     const Eigen::Index size = static_cast<Eigen::Index>(n.index.size());
     SparseMatrix k(size, size);
     k.setFromTriplets(triplets.begin(), triplets.end());
     return k;
+}
+
+/// Forces on the unknowns: loads, and what the prescribed values pull.
+Eigen::VectorXd right_side(const std::vector<StiffnessEntry>& entries, const Unknowns& n,
+    const Array<double>& given, const Array<double>& of_plates, const Array<double>* loads)
+{
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
+    for (std::size_t i = 0; i < of_plates.size(); ++i) {
+        const double load = of_plates[i] + (loads ? (*loads)[i] : 0.0);
+        check_finite("solve_static: load", load, "N");
+        for_each_term(n, static_cast<int>(i), [&](int j, double factor) {
+            if (n.kind[j] == Kind::unknown) rhs[n.number[j]] += factor * load;
+        });
+    }
+    for (const StiffnessEntry& e : entries) {
+        for_each_pair(n, e, [&](int i, int j, double value) {
+            if (n.kind[j] != Kind::unknown) rhs[n.number[i]] -= value * given[j];
+        });
+    }
+    return rhs;
 }
 
 [[noreturn]] void report_free_motion(const Grains& grains, int index, double ratio)
@@ -238,42 +263,49 @@ void spread(const Unknowns& n, const Eigen::VectorXd& x, const Array<double>& gi
 
 }  // namespace
 
+std::vector<StaticSolution> solve_static_cases(
+    const Assembly& a, const std::vector<StaticCase>& cases, const PointSprings& springs)
+{
+    const std::size_t size = a.grains.displacement.size();
+    const std::vector<StiffnessEntry> entries = stiffness_entries(a, springs);
+    std::vector<StaticSolution> found;
+    Solver solver;
+    for (const StaticCase& one : cases) {
+        Array<double> given;
+        const Unknowns n = number_unknowns(a, one, given);
+        if (one.loads && one.loads->size() != size) {
+            refuse("solve_static: loads", static_cast<double>(one.loads->size()), "values",
+                "must be " + std::to_string(size) + ", one per displacement");
+        }
+        found.emplace_back();
+        StaticSolution& s = found.back();
+        s.displacement.assign(size, 0.0);
+        s.force.assign(size, 0.0);
+        add_plate_loads(a, one.plates, s.force);
+        const Eigen::VectorXd rhs = right_side(entries, n, given, s.force, one.loads);
+        const bool any = !n.index.empty();
+        if (any && found.size() == 1) {
+            // minimum degree, the default order, fills in least of those that Eigen has
+            const SparseMatrix k = reduce(entries, n);
+            solver.compute(k);
+            check_pivots(a, n, k, solver);
+        }
+        spread(n, any ? Eigen::VectorXd(solver.solve(rhs)) : rhs, given, s.displacement);
+        for (const StiffnessEntry& e : entries)
+            s.force[e.row] -= e.value * s.displacement[e.column];
+    }
+    return found;
+}
+
 StaticSolution solve_static(
     const Assembly& a, const std::vector<Prescribed>& prescribed, const Array<double>* loads)
 {
-    StaticSolution s;
-    s.displacement.assign(a.grains.displacement.size(), 0.0);
-    s.force.assign(a.grains.displacement.size(), 0.0);
-    Array<double> given;
-    const Unknowns n = number_unknowns(a, prescribed, given);
-    const std::vector<StiffnessEntry> entries = stiffness_entries(a);
-
-    if (loads && loads->size() != s.displacement.size()) {
-        refuse("solve_static: loads", static_cast<double>(loads->size()), "values",
-            "must be " + std::to_string(s.displacement.size()) + ", one per displacement");
-    }
-    add_plate_loads(a, s.force);
-    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
-    for (std::size_t i = 0; i < s.force.size(); ++i) {
-        const double load = s.force[i] + (loads ? (*loads)[i] : 0.0);
-        check_finite("solve_static: load", load, "N");
-        for_each_term(n, static_cast<int>(i), [&](int j, double factor) {
-            if (n.kind[j] == Kind::unknown) rhs[n.number[j]] += factor * load;
-        });
-    }
-    const SparseMatrix k = reduce(entries, n, given, rhs);
-    if (k.rows() > 0) {
-        // minimum degree, the default order, fills in least of those that Eigen has
-        const Solver solver(k);
-        check_pivots(a, n, k, solver);
-        spread(n, solver.solve(rhs), given, s.displacement);
-    } else {
-        spread(n, rhs, given, s.displacement);
-    }
-    for (const StiffnessEntry& e : entries) {
-        s.force[e.row] -= e.value * s.displacement[e.column];
-    }
-    return s;
+    StaticCase one { prescribed, {}, {}, loads };
+    for (const Plate& plate : a.plates)
+        one.plates.push_back(plate.displacement);
+    for (const NodeSet& set : a.node_sets)
+        one.angles.push_back(set.angle);
+    return std::move(solve_static_cases(a, { one }, {}).front());
 }
 
 }  // namespace flexpm

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <vector>
 
@@ -20,6 +21,18 @@ struct StaticSolution {
     Array<double> displacement;  ///< [m]
     Array<double> force;         ///< of triangles and contacts on the nodes [N]; reactions = -force
 };
+
+/// What acts in one of several solutions of the same assembly.
+struct StaticCase {
+    std::vector<Prescribed> prescribed;    ///< the same components in all cases
+    std::vector<Point> plates;             ///< displacement of each plate [m]
+    std::vector<double> angles;            ///< of each node set that floats [rad]
+    const Array<double>* loads = nullptr;  ///< as for solve_static()
+};
+
+/// solve_static() for several cases by one factorisation, with the springs of contacts as given.
+std::vector<StaticSolution> solve_static_cases(
+    const Assembly& a, const std::vector<StaticCase>& cases, const PointSprings& springs);
 
 /// Displacements at which the nodal forces balance `loads` wherever nothing is prescribed. Node
 /// sets that float turn by their angle, as plates have their displacement.

@@ -43,25 +43,26 @@ StiffnessBlock spring_block(Point n, double normal, double shear)
         normal * n.y * n.y + shear * n.x * n.x };
 }
 
-/// Springs k_n along the bonded normal and k_s across it, between the points of the two edges.
-void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& entries)
+/// Parts of the nodes of both edges in the relative motion of a point.
+std::array<double, 4> parts_of(const Contacts& contacts, int contact, int point)
 {
-    const Point n = bonded_normal(a, contact);
-    // share[i][j]: sum over points of area times the parts of nodes i and j in the relative motion
-    std::array<std::array<double, 4>, 4> share = {};
-    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
-        const double area = a.contacts.area(contact, p);
-        const double wa = a.contacts.weight(contact, p, 0);
-        const double wb = a.contacts.weight(contact, p, 1);
-        const std::array<double, 4> part = { wa - 1.0, -wa, 1.0 - wb, wb };
-        for (int i = 0; i < 4; ++i) {
-            for (int j = 0; j < 4; ++j)
-                share[i][j] += area * part[i] * part[j];
-        }
+    const double wa = contacts.weight(contact, point, 0), wb = contacts.weight(contact, point, 1);
+    return { wa - 1.0, -wa, 1.0 - wb, wb };
+}
+
+using Shares = std::array<std::array<double, 4>, 4>;
+
+void add_shares(Shares& share, const std::array<double, 4>& part, double area)
+{
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j)
+            share[i][j] += area * part[i] * part[j];
     }
-    const LawParameters& law = a.contacts.law_of(contact);
-    const double kn = law.normal_stiffness, ks = law.shear_stiffness;
-    const StiffnessBlock k = spring_block(n, kn, ks);
+}
+
+void add_blocks(const Assembly& a, int contact, const Shares& share, const StiffnessBlock& k,
+    std::vector<StiffnessEntry>& entries)
+{
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
             const double s = share[i][j];
@@ -69,6 +70,28 @@ void add_contact(const Assembly& a, int contact, std::vector<StiffnessEntry>& en
                 a.contacts.node(contact, j / 2, j % 2), { s * k.xx, s * k.xy, s * k.yx, s * k.yy });
         }
     }
+}
+
+/// Springs k_n along the bonded normal and k_s across it, between the points of the two edges.
+void add_contact(const Assembly& a, int contact, const PointSprings& springs,
+    std::vector<StiffnessEntry>& entries)
+{
+    const Point n = bonded_normal(a, contact);
+    Shares share = {};
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        const double area = a.contacts.area(contact, p);
+        add_shares(share, parts_of(a.contacts, contact, p), area);
+        if (springs.empty()) continue;
+        const PointSpring& k = springs[contact * a.contacts.group.points + p];
+        if (k.normal != 0.0 || k.shear != 0.0)
+            add_blocks(a, contact, share, spring_block(n, k.normal, k.shear), entries);
+        share = {};
+    }
+    if (!springs.empty()) return;
+    // alike points: one block for all
+    const LawParameters& law = a.contacts.law_of(contact);
+    add_blocks(
+        a, contact, share, spring_block(n, law.normal_stiffness, law.shear_stiffness), entries);
 }
 
 /// Springs of a plate's points to where the plate is.
@@ -96,13 +119,13 @@ StiffnessBlock plate_springs(const Plate& plate, int point)
     return spring_block(plate.normal, p.stiffness, p.shear_stiffness);
 }
 
-std::vector<StiffnessEntry> stiffness_entries(const Assembly& a)
+std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs)
 {
     std::vector<StiffnessEntry> entries;
     for (int g = 0; g < a.grains.count; ++g)
         add_grain(a.grains, g, entries);
     for (int c = 0; c < a.contacts.count; ++c)
-        add_contact(a, c, entries);
+        add_contact(a, c, springs, entries);
     for (const Plate& p : a.plates)
         add_plate(a, p, entries);
     return entries;

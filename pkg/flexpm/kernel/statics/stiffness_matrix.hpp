@@ -17,9 +17,18 @@ struct StiffnessEntry {
     double value;
 };
 
+/// Springs of a point of contact per area [Pa/m].
+struct PointSpring {
+    double normal = 0.0;
+    double shear = 0.0;
+};
+
+/// [contact * ContactGroup::points + point]; none: all points have their full stiffness.
+using PointSprings = std::vector<PointSpring>;
+
 /// Terms of the symmetric stiffness at the reference state, of triangles and contact points; terms
 /// of equal row and column are to be summed. Rows of padded lanes do not occur.
-std::vector<StiffnessEntry> stiffness_entries(const Assembly& a);
+std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs = {});
 
 /// Springs at one point of a plate: stiffness between the plate and the point [N/m].
 StiffnessBlock plate_springs(const Plate& plate, int point);

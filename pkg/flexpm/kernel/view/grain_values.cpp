@@ -45,22 +45,6 @@ double area_of(const Grains& grains, int grain)
     return polygon_shape(corners).area;
 }
 
-/// Mean stress of a grain in balance: the sum of place times force, over its volume.
-Tensor stress_by_forces(const Assembly& a, int grain)
-{
-    const Point centre = a.grains.position(a.grains.centre(grain));
-    const double volume = a.volume_of(area_of(a.grains, grain));
-    Tensor sum {};
-    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
-        const int node = a.grains.node(grain, n);
-        const Point r = a.grains.position(node) - centre, f = a.grains.force_at(node);
-        sum.xx += r.x * f.x / volume;
-        sum.yy += r.y * f.y / volume;
-        sum.xy += 0.5 * (r.x * f.y + r.y * f.x) / volume;
-    }
-    return sum;
-}
-
 Tensor stress_of_triangles(const Grains& grains, int grain)
 {
     const PlaneStiffness c = stiffness_of(grains, grain);
@@ -161,6 +145,21 @@ double single_value(const Assembly& a, int grain, GrainValue what)
 }
 
 }  // namespace
+
+Tensor stress_by_forces(const Assembly& a, int grain)
+{
+    const Point centre = a.grains.position(a.grains.centre(grain));
+    const double volume = a.volume_of(area_of(a.grains, grain));
+    Tensor sum {};
+    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
+        const int node = a.grains.node(grain, n);
+        const Point r = a.grains.position(node) - centre, f = a.grains.force_at(node);
+        sum.xx += r.x * f.x / volume;
+        sum.yy += r.y * f.y / volume;
+        sum.xy += 0.5 * (r.x * f.y + r.y * f.x) / volume;
+    }
+    return sum;
+}
 
 std::optional<GrainValue> grain_value(const std::string& name)
 {

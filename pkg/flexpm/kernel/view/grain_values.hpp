@@ -34,6 +34,10 @@ std::string scale_title(GrainValue what);
 /// Values in the unit of scale_title() over those in SI units.
 double scale_factor(GrainValue what);
 
+/// Mean stress of a rigid grain, in balance under the forces on it: the sum of place times force
+/// over its volume [Pa].
+Tensor stress_by_forces(const Assembly& a, int grain);
+
 /// One value for each grain; nan for one that is erased.
 std::vector<double> grain_values(const Assembly& a, GrainValue what);
 

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/view/snapshot.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/view/grain_values.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -13,16 +14,17 @@ namespace {
 
 void push(std::vector<double>& to, Point p) { to.insert(to.end(), { p.x, p.y }); }
 
-/// A rigid grain has no triangles: a fan without stress shows its shape.
+/// A rigid grain has no triangles: a fan shows its shape, and has its mean stress.
 void add_fan(const Assembly& a, int grain, int first, Snapshot& s)
 {
     const int corners = a.grains.vertices_of(grain);
+    const Tensor stress = stress_by_forces(a, grain);
     for (int k = 0; k < corners; ++k) {
         s.triangles.insert(
             s.triangles.end(), { first + k, first + (k + 1) % corners, first + corners });
         s.triangle_grain.push_back(a.grains.parent[grain]);
         s.triangle_particle.push_back(grain);
-        s.triangle_stress.insert(s.triangle_stress.end(), { 0.0, 0.0, 0.0 });
+        s.triangle_stress.insert(s.triangle_stress.end(), { stress.xx, stress.yy, stress.xy });
     }
 }
 

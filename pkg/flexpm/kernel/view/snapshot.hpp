@@ -21,8 +21,9 @@ struct Snapshot {
     std::vector<std::int32_t> triangles;       ///< [triangle][3] nodes
     std::vector<std::int32_t> triangle_grain;  ///< [triangle] grain of the rock
     std::vector<std::int32_t>
-        triangle_particle;                ///< [triangle] what moves: grain or inner particle
-    std::vector<double> triangle_stress;  ///< [triangle][xx, yy, xy] Cauchy [Pa]
+        triangle_particle;  ///< [triangle] what moves: grain or inner particle
+    std::vector<double>
+        triangle_stress;  ///< [triangle][xx, yy, xy] Cauchy; mean of a rigid grain by forces [Pa]
 
     std::vector<std::int32_t> contact;         ///< [contact] lasting number
     std::vector<std::int32_t> contact_grains;  ///< [contact][2] grains of the rock

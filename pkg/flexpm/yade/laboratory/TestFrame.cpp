@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/TestFrame.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+#include <flexpm/yade/solver/snapshot_dict.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/statics/elastic_state.hpp>
 
 namespace yade {
 
@@ -38,6 +43,31 @@ flexpm::TestScales DiscFrame::scales(const flexpm::Assembly& assembly, Real dt) 
 flexpm::PartGeometry PartFrame::parts() const
 {
 	return { driven, holding, { direction[0], direction[1] }, area, length, drivenSets, backSets, holdingSets, direction[2] };
+}
+
+py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Real way, py::object load) const
+{
+	if (pressed.size() != pressures.size())
+		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(pressed.size()));
+	flexpm::ElasticLoading asked { {}, driven, drivenSets, backSets, { direction[0], direction[1] }, direction[2], way, {} };
+	for (std::size_t i = 0; i < pressed.size(); ++i)
+		asked.pressures.emplace_back(pressed[i], pressures[i]);
+	if (!load.is_none()) asked.load = py::extract<Real>(load)();
+	const auto found = flexpm::find_elastic_state(GrainSolver::ofScene(*Omega::instance().getScene())->current(), asked);
+	py::list   plates, sets;
+	for (const flexpm::Plate& p : found.state.plates)
+		plates.append(py::make_tuple(p.force.x, p.force.y, p.displacement.x, p.displacement.y));
+	for (const flexpm::NodeSet& s : found.state.node_sets)
+		sets.append(py::make_tuple(s.force.x, s.force.y, s.displacement.x, s.displacement.y, s.moment));
+	py::dict d;
+	d["snapshot"]        = flexpm_bindings::snapshot_dict(found.state);
+	d["plates"]          = plates;
+	d["node_sets"]       = sets;
+	d["way"]             = found.way;
+	d["load"]            = found.load;
+	d["solutions"]       = found.solutions;
+	d["beyond_friction"] = found.beyond_friction;
+	return d;
 }
 
 flexpm::TestFrame PartFrame::frame(const flexpm::Assembly& assembly) const { return flexpm::part_frame(assembly, parts()); }

@@ -77,9 +77,10 @@ public:
 	vector<string>         columns() const override { return { "load", "displacement" }; }
 	vector<Real>           values(Real stress, Real strain) const override { return { stress * area, strain * length }; }
 	std::optional<Measure> measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
+	boost::python::dict    elasticState(vector<int> pressed, vector<Real> pressures, Real way, boost::python::object load) const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(PartFrame, TestFrame,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PartFrame, TestFrame,
 		"Plates and node sets that hold and load a specimen of any outline, as :yref:`GrainSolver` numbers them.",
 		((vector<int>, driven,,, "Plates that load it [-]."))
 		((vector<int>, holding,,, "Plates that hold it against them [-]."))
@@ -91,6 +92,9 @@ public:
 		((Real, length, 0.,, "Displacement over the record's strain [m]."))
 		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
 		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it. Those of a broken one would be others."))
+		, /* ctor */
+		, .def("elasticState", &PartFrame::elasticState, (boost::python::arg("pressed"), boost::python::arg("pressures"), boost::python::arg("way"), boost::python::arg("load")),
+			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction.")
 	);
 	// clang-format on
 

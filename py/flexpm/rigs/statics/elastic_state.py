@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The static solution of a rig of parts, as a state that can be looked at. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from yade import wrapper
+
+from ...arrays import FloatArray
+from ...errors import InputError
+from ...require import NOT_NEGATIVE, quoted, require_number
+from ...results.snapshot import Snapshot
+from ..part_loads import PartLoads
+from ..parts import HeldNodes, Part, RigPart, require_part
+
+
+@dataclass(frozen=True, eq=False)
+class ElasticState(Snapshot):
+    """Where a specimen between parts would come to rest, if no contact broke further.
+
+    It is a snapshot: displacements, stresses, maps are those of any other. Deviation D72.
+    """
+
+    way: float = 0.0  #: of the driven parts along the loading [m, or rad]
+    load: float = 0.0  #: of the driven parts on the specimen, along the loading [N, or N m]
+    solutions: int = 0  #: linear ones until no point opened or closed any more
+    #: Points of open cracks and joints that are closed here, stick, and bear more than friction.
+    beyond_friction: int = 0
+    rig: object = field(default=None, repr=False)  #: whose parts have the forces
+    plates: tuple[tuple[float, ...], ...] = ()  #: force and displacement of each, x and y
+    node_sets: tuple[tuple[float, ...], ...] = ()  #: the same, and moment
+
+    @property
+    def displacements(self) -> FloatArray:
+        """Displacement of each node since it was bonded, (N, 2) [m]."""
+        return self.positions - self.reference
+
+    def force(self, part: RigPart) -> tuple[float, float]:
+        """Force of a part on the specimen, x and y [N]."""
+        x, y = self._of(part)[:2]
+        return x, y
+
+    def displacement(self, part: RigPart) -> tuple[float, float]:
+        """Displacement of a part since it was laid, x and y [m]; of nodes that are driven alone."""
+        x, y = self._of(part)[2:4]
+        return x, y
+
+    def moment(self, part: HeldNodes) -> float:
+        """Moment of held nodes on the specimen about their place, counter-clockwise [N m]."""
+        return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[4]
+
+    def _of(self, part: RigPart) -> tuple[float, ...]:
+        part = require_part("elastic: part", self.rig, part, RigPart)
+        return (self.node_sets if isinstance(part, HeldNodes) else self.plates)[part.number]
+
+
+class PartStatics(PartLoads):
+    """Base of a rig of parts that answers without a step."""
+
+    def elastic(
+        self,
+        pressures: Mapping[Part, float] | None = None,
+        *,
+        way: float = 0.0,
+        load: float | None = None,
+    ) -> ElasticState:
+        """Where the specimen would come to rest, if no contact broke further: a static solution.
+
+        The solution is linear about the present state, so that displacements must be small beside
+        the grains. Cracks, notches, and plates that are not bonded bear pressure alone: their
+        points open and close until all agree. What is pressed together without a bond sticks;
+        ``beyond_friction`` counts points that would slide (deviation D72). Damage stays as it is.
+        Gravity acts, and so do the pressures that act now. The scene is not changed.
+
+        Args:
+            pressures: On parts [Pa], beside those that `press` has given, or in their place.
+            way: How far the driven parts go from here, along the loading [m], or turn [rad];
+                1.0 gives the load of a unit way, the stiffness, where nothing opens or closes.
+            load: Sum of what the driven parts push [N], or of their moments [N m], in place of a
+                way.
+
+        Returns:
+            A snapshot that also tells forces and displacements of the parts.
+
+        Raises:
+            InputError: for what is no part of this rig or a value out of range, and where parts
+                leave the specimen, or a piece of it, free to move: it names the motion.
+        """
+        frame = self._frame
+        way = require_number("elastic: way", way, unit="m")
+        if load is not None:
+            load = require_number("elastic: load", load, unit="N")
+            if way != 0.0:
+                raise InputError(f"elastic: way = {way:g}, must be left out beside a load")
+        if (load is not None or way != 0.0) and not (frame.driven or frame.drivenSets):
+            raise InputError("elastic: driven parts = none, must be at least 1; call drive or turn")
+        pressed = self._pressed(frame, {} if pressures is None else pressures)
+        try:
+            found = frame.elasticState(list(pressed), list(pressed.values()), way, load)
+        except (ValueError, RuntimeError) as error:
+            raise InputError(f"elastic: {error}") from None
+        return ElasticState(
+            **found.pop("snapshot"),
+            **self.built.of_snapshots,
+            rig=self,
+            plates=tuple(found.pop("plates")),
+            node_sets=tuple(found.pop("node_sets")),
+            **found,
+        )
+
+    def _pressed(self, frame: wrapper.PartFrame, pressures: object) -> dict[int, float]:
+        """Pressure of each plate that is to have one."""
+        if not isinstance(pressures, Mapping):
+            raise InputError(
+                f"elastic: pressures = {quoted(pressures)}, must be a table of parts and pressures"
+            )
+        pressed = {}
+        for part, pressure in pressures.items():
+            number = require_part("elastic: part under a pressure", self, part, Part).number
+            if number in frame.driven:
+                raise InputError(f"elastic: pressures: part = {part}, is driven, must not be")
+            label = "elastic: pressure on a part"
+            pressed[number] = require_number(label, pressure, NOT_NEGATIVE, "Pa")
+        return pressed

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The static solution of a rig of parts beside the state that it relaxes to, and closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+WIDTH, HEIGHT, THICKNESS = 0.012, 0.018, 0.01
+AREA = WIDTH * THICKNESS
+
+
+def made(model: str = "flexible", **options: object) -> flexpm.PartRig:
+    yade.O.reset()
+    specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3)
+    return flexpm.PartRig(flexpm.build(specimen, model=model, **options))
+
+
+def between_platens(model: str = "flexible", **options: object):
+    rig = made(model, **options)
+    return rig, [rig.platen(side) for side in range(4)]
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_it_is_the_state_that_the_specimen_relaxes_to_under_pressures(model):
+    rig, (floor, right, top, left) = between_platens(model)
+    asked = {top: 2e6, right: 1e6}
+    state = rig.elastic(asked)
+    for part, pressure in asked.items():
+        rig.press(part, pressure)
+    rig.built.run(4000)
+    relaxed = rig.built.snapshot()
+    moved = relaxed.positions - relaxed.reference
+    largest = np.abs(moved).max()
+    np.testing.assert_allclose(state.displacements, moved, atol=1e-3 * largest)
+    stresses = relaxed.triangle_stress
+    np.testing.assert_allclose(state.triangle_stress, stresses, atol=1e-3 * np.abs(stresses).max())
+    for part in (floor, right, top, left):
+        np.testing.assert_allclose(state.force(part), part.force, atol=1e-3 * 2e6 * AREA)
+        np.testing.assert_allclose(state.displacement(part), part.displacement, atol=1e-3 * largest)
+    # from there on nothing is left to do
+    again = rig.elastic()
+    np.testing.assert_allclose(again.displacements, moved, atol=1e-4 * largest)
+
+
+def test_forces_of_parts_are_those_asked_for_and_in_balance():
+    rig, (floor, right, top, left) = between_platens()
+    state = rig.elastic({top: 2e6, right: 1e6})
+    assert state.force(top)[1] == pytest.approx(-2e6 * AREA, rel=1e-9)
+    assert state.force(right)[0] == pytest.approx(-1e6 * HEIGHT * THICKNESS, rel=1e-9)
+    total = np.sum([state.force(part) for part in (floor, right, top, left)], axis=0)
+    np.testing.assert_allclose(total, 0.0, atol=1e-9 * 2e6 * AREA)
+    assert state.beyond_friction == 0
+    means = state.grain_areas @ state.grain_stress / (WIDTH * HEIGHT)
+    np.testing.assert_allclose(means, [-1e6, -2e6, 0.0], atol=2e3)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_way_gives_the_load_that_gives_the_way_back(model):
+    rig, (floor, _, top, _) = between_platens(model)
+    rig.drive(top, (0.0, -1.0), against=floor)
+    one = rig.elastic(way=1e-6)
+    assert one.way == 1e-6
+    assert one.load == pytest.approx(-one.force(top)[1], rel=1e-12)
+    assert one.load == pytest.approx(one.force(floor)[1], rel=1e-9)
+    back = rig.elastic(load=one.load)
+    assert back.way == pytest.approx(1e-6, rel=1e-9)
+    np.testing.assert_allclose(back.displacements, one.displacements, atol=1e-14)
+    assert rig.elastic(way=2e-6).load == pytest.approx(2.0 * one.load, rel=1e-6)
+
+
+def test_what_is_pulled_off_a_plate_bears_nothing():
+    rig = made()
+    base = rig.hold(box=((0.0, 0.0), (0.6 * WIDTH, 1e-5)))
+    right = rig.platen(1)
+    rig.drive(right, (1.0, 0.0))
+    state = rig.elastic(way=1e-6)  # it leaves
+    assert state.force(right) == (0.0, 0.0)
+    assert np.abs(state.displacements).max() == 0.0
+    pushed = rig.elastic(way=-1e-6)
+    assert pushed.force(right)[0] < 0.0
+    assert pushed.force(base)[0] == pytest.approx(-pushed.force(right)[0], rel=1e-9)
+    assert pushed.moment(base) != 0.0
+
+
+def test_weight_is_borne_by_what_holds():
+    rig = made(dynamic=True, gravity=9.81)
+    base = rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
+    density = rig.built.material.law("flexible")["density"]
+    weight = density * WIDTH * HEIGHT * THICKNESS * 9.81
+    state = rig.elastic()
+    assert state.force(base)[1] == pytest.approx(weight, rel=1e-9)
+    middle = state.stress_along((0.1 * WIDTH, 0.5 * HEIGHT), (0.9 * WIDTH, 0.5 * HEIGHT))
+    assert np.mean(middle.yy) == pytest.approx(-0.5 * weight / AREA, rel=0.1)
+
+
+def test_a_notch_opens_and_closes_as_the_load_has_it():
+    yade.O.reset()
+    line = [(0.0, 0.5 * HEIGHT), (0.5 * WIDTH, 0.5 * HEIGHT)]
+    specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3).with_joints(
+        {"notch": line}
+    )
+    material = flexpm.materials.load("augig-table7").with_set("joint.notch.open=true")
+    rig = flexpm.PartRig(flexpm.build(specimen, material))
+    rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
+    head = rig.hold(box=((0.0, HEIGHT - 1e-5), (WIDTH, HEIGHT)))
+    rig.drive(head, (0.0, 1.0))
+    pulled, pushed = rig.elastic(way=1e-6), rig.elastic(way=-1e-6)
+    cut = pulled.cuts
+    assert len(cut) > 1
+    assert np.all(pulled.point_opening[cut] > 0.0)
+    assert np.all(pulled.point_traction[cut] == 0.0)
+    assert np.mean(pushed.point_traction[cut, :, 0]) < 0.0
+    assert pulled.load < -0.9 * pushed.load
+
+
+def test_the_run_goes_on_to_the_same_bits():
+    rows = []
+    for asks in (False, True):
+        rig, (floor, right, top, _) = between_platens()
+        rig.press(right, 1e6)
+        if asks:
+            rig.elastic({top: 3e6})
+        rig.drive(top, (0.0, -1.0), against=floor)
+        if asks:
+            rig.elastic(way=1e-6)
+        rig.strain_to(2e-6)
+        if asks:
+            rig.elastic(load=100.0)
+        rig.strain_to(3e-6)
+        rows.append(rig.record.array.copy())
+    np.testing.assert_array_equal(*rows)
+
+
+def test_a_free_motion_is_named_in_one_line():
+    rig = made()
+    floor, top = rig.platen(0), rig.platen(2)
+    with pytest.raises(flexpm.InputError, match="along x.*hold nodes") as refused:
+        rig.elastic({top: 1e6})
+    assert "\n" not in str(refused.value)
+    with pytest.raises(flexpm.InputError, match="driven parts = none"):
+        rig.elastic(way=1e-6)
+    with pytest.raises(flexpm.InputError, match="pressure on a part = -1"):
+        rig.elastic({top: -1.0})
+    with pytest.raises(flexpm.InputError, match="must be a table"):
+        rig.elastic([top])
+    rig.drive(top, (0.0, -1.0), against=floor)
+    with pytest.raises(flexpm.InputError, match="is driven, must not be"):
+        rig.elastic({top: 1e6})
+    with pytest.raises(flexpm.InputError, match="must be left out beside a load"):
+        rig.elastic(way=1e-6, load=1.0)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_beam_is_as_stiff_as_when_it_is_loaded(model):
+    yade.O.reset()
+    beam = flexpm.Specimen.rectangle(0.05, 0.012, THICKNESS, seed=1)
+    rig = flexpm.PartRig(flexpm.build(beam, model=model))
+    rollers = [rig.support((x, 0.0)) for x in (0.005, 0.045)]
+    pin = rig.support((0.025, 0.012), pinned=True)
+    rig.drive(pin, (0.0, -1.0), against=rollers)
+    state = rig.elastic(way=1e-6)
+    assert state.load == pytest.approx(sum(state.force(one)[1] for one in rollers), rel=1e-9)
+    rig.strain_to(2e-7)  # a way of 0.2 um
+    slope = np.polyfit(rig.record["displacement"], rig.record["load"], 1)[0]
+    assert state.load / 1e-6 == pytest.approx(slope, rel=1e-4)
+
+
+def test_a_moment_turns_an_end_by_the_angle_that_asks_for_it():
+    rig = made()
+    base = rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
+    head = rig.hold(box=((0.0, HEIGHT - 1e-5), (WIDTH, HEIGHT)))
+    rig.turn(head)
+    state = rig.elastic(way=1e-5)
+    assert state.moment(head) == pytest.approx(state.load, rel=1e-12)
+    # a moment alone acts
+    np.testing.assert_allclose(state.force(head), 0.0, atol=1e-9 * state.load / WIDTH)
+    assert state.moment(base) == pytest.approx(-state.load, rel=1e-6)
+    assert rig.elastic(load=state.load).way == pytest.approx(1e-5, rel=1e-9)
