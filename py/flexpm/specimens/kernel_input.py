@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import ParamSpec, TypeVar
 
@@ -40,6 +40,16 @@ def checksum(given: FloatArray | IntArray | Circle) -> str:
     plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
     values = np.ascontiguousarray(plain, dtype=float)
     return hashlib.sha256(values.tobytes()).hexdigest()[:16]
+
+
+def checksums_of_starts(given: IntArray, least: int) -> Iterator[str]:
+    """`checksum` of the first numbers, of `least` of them and of each more."""
+    values = np.ascontiguousarray(given, dtype=float)
+    digest = hashlib.sha256(values[:least].tobytes())
+    yield digest.hexdigest()[:16]
+    for value in values[least:]:
+        digest.update(value.tobytes())
+        yield digest.hexdigest()[:16]
 
 
 def cells_checksum(cells: Tessellation) -> str:
