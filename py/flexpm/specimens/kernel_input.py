@@ -52,9 +52,11 @@ def checksums_of_starts(given: IntArray, least: int) -> Iterator[str]:
         yield digest.hexdigest()[:16]
 
 
-def cells_checksum(cells: Tessellation) -> str:
-    """Short hash of the shapes of all cells."""
-    parts = (cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices)
+def cells_checksum(cells: Tessellation, grains: IntArray | None = None) -> str:
+    """Short hash of the shapes of all cells, and of the grains that they are pieces of."""
+    parts = [cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices]
+    if grains is not None:
+        parts.append(grains)
     return checksum(np.concatenate(parts).astype(float))
 
 

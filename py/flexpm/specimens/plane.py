@@ -164,9 +164,9 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
         except InputError:
             if fill == FILLS[-1]:
                 raise
-    made = _of_cells(tiling, rings, thickness)
     grains = found.grains[tiling.origin].astype(np.int32)
     grains.setflags(write=False)
+    made = _of_cells(tiling, rings, thickness, grains)
     if found.minerals is None:
         return replace(made, grains=grains, regions=found.counts)
     minerals = mineral_indices(found.minerals[grains], len(grains))
@@ -174,12 +174,14 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
     return replace(made, grains=grains, minerals=minerals, spec=spec, regions=found.counts)
 
 
-def _of_cells(tiling: Tiling, rings: list[FloatArray], thickness: float) -> Filling:
+def _of_cells(
+    tiling: Tiling, rings: list[FloatArray], thickness: float, grains: IntArray | None = None
+) -> Filling:
     """Fill an outline with cells that the kernel has taken."""
     checksums = {
         "discs": checksum(tiling.discs),
         "outline": checksum(np.vstack(rings)),
-        "cells": cells_checksum(tiling.tessellation),
+        "cells": cells_checksum(tiling.tessellation, grains),
     }
     spec = _given_spec(rings[0], thickness, 0.0, checksums)
     return _of_tiling(tiling, rings[0], rings[1:], spec)

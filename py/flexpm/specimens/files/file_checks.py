@@ -281,7 +281,8 @@ def _require_cells(found: Table) -> None:
     cut = spec.joints is not None
     if spec.discs is not None and not cut and spec.discs != checksum(discs):
         raise refuse("discs = others, must be those that spec names")
-    if spec.cells is not None and not cut and spec.cells != cells_checksum(cells):
+    pieces = found.get("grains")
+    if spec.cells is not None and not cut and spec.cells != cells_checksum(cells, pieces):
         raise refuse("cells = others, must be those that spec names")
     sawn = spec.kind == "half-disc" or (spec.outline is not None and spec.discs is None)
     if not (cut or sawn or spec.cells is not None):
