@@ -37,15 +37,17 @@ nitpick_ignore_regex = [("py:(class|exc|obj)", ".*")]
 
 
 class CommandHelp(Directive):
-    """The help text of a command, as the command itself prints it."""
+    """The help texts of the command and of those within it, as they print them."""
 
-    required_arguments = 0
-    optional_arguments = 1
+    required_arguments = 1
     final_argument_whitespace = True
 
     def run(self) -> list[nodes.Node]:
-        """Run the command and quote its output."""
-        command = " ".join(self.arguments).split()
+        """Run each of the commands, which commas part, and quote its output."""
+        return [self._help(command.split()[1:]) for command in self.arguments[0].split(",")]
+
+    @staticmethod
+    def _help(command: list[str]) -> nodes.Node:
         text = subprocess.run(
             [sys.executable, "-P", "-m", "flexpm", *command, "--help"],
             env={**os.environ, "PYTHONPATH": str(PACKAGE), "FLEXPM_DEFER": "1", "COLUMNS": "80"},
@@ -53,7 +55,7 @@ class CommandHelp(Directive):
             capture_output=True,
             text=True,
         ).stdout
-        return [nodes.literal_block(text, text, language="none")]
+        return nodes.literal_block(text, text, language="none")
 
 
 class PresetTable(Directive):

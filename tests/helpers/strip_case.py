@@ -22,7 +22,8 @@ from yade import wrapper
 
 from flexpm.arrays import FloatArray
 from flexpm.results.snapshot import POINT_SHARES, Snapshot
-from flexpm.rigs.part_rig import HeldNodes, PartRig
+from flexpm.rigs.part_rig import PartRig
+from flexpm.rigs.parts import HeldNodes
 from flexpm.runs.loading_rate import Loading
 
 GRAIN, THICKNESS = 3e-3, 0.01  # mean diameter, and out of plane [m]

@@ -50,12 +50,11 @@ def require_no_flight(seed: int) -> None:
     assert abs(lateral) < kinked(axial) or result.loose_grains
     kinetic, work = result.curve["kinetic_energy"], result.curve["boundary_work"]
     assert kinetic[-1] < doubts.LARGEST_KINETIC_SHARES["at the end under a pressure"] * work[-1]
-    # Loose grains may hit others at 2 um a step, forty times the opening at which a contact
-    # softens; the work of such a step is booked by its ends alone. Status and a warning say so.
-    told = result.status != "ok" and any("energy_error" in line for line in result.warnings)
-    assert result.energy_error < 1e-3 or told
+    assert result.energy_error < 1e-3
     assert result.largest_parting == parting["any"] / diameter
-    assert not any("kinetic" in line or "largest_parting" in line for line in result.warnings)
+    assert not any("kinetic" in line for line in result.warnings)
+    flown = any("largest_parting" in line for line in result.warnings)
+    assert not flown or result.loose_grains  # one that nothing presses may be squeezed out
 
 
 @pytest.mark.long

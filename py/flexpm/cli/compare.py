@@ -17,7 +17,7 @@ from ..materials.material import COMPARED
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
-from ..runs.run_spec import OWN_OPTIONS, ranges
+from ..runs.input_names import OWN_OPTIONS, ranges
 from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options

@@ -16,8 +16,9 @@ from ..materials.keys import is_used
 from ..materials.material import Material, load
 from ..materials.mixing import description
 from ..results import doubts
+from ..runs.input_names import PACKING, SIZE_NAMES, UNUSED, shape_of, with_unit
 from ..runs.output import refuse_other_kind
-from ..runs.run_spec import PACKING, SIZE_NAMES, UNUSED, RunSpec, shape_of, with_unit
+from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
 from ..specimens.spec import SIZES, SpecimenSpec
 from . import signals, terminal

@@ -15,9 +15,10 @@ from ..kinds.registry import KINDS, names, options
 from ..kinds.test_kind import TestKind
 from ..models.options import MESHES, MODELS, POINTS, RANGE
 from ..require import NOT_NEGATIVE, POSITIVE, Bounds
+from ..runs.input_names import STARTS
 from ..runs.loading_rate import LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
-from ..runs.run_spec import STARTS, RunSpec
+from ..runs.run_spec import RunSpec
 from ..specimens.spec import SIZES, SpecimenSpec
 from .parameters import Count, Name, Quantity, Range, Seeds
 

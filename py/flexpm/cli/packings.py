@@ -11,7 +11,7 @@ import click
 from ..errors import InputError, SimulationError
 from ..files import Table, load_json
 from ..results import doubts
-from ..runs import run_spec
+from ..runs import input_names
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from . import inputs, terminal
@@ -77,7 +77,7 @@ def carry_out(
 
 def _given(options: Table) -> Table:
     """Options of a run that differ from their defaults, by name; the material as in a study."""
-    names = (*run_spec.OPTIONS, "material")
+    names = (*input_names.OPTIONS, "material")
     found = {name: options[name] for name in names if name in options and _is_given(name)}
     if options["material"] is not None:
         found["material"] = options["material"]  # also that of a comparison, which none has given

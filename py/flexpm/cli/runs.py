@@ -173,16 +173,17 @@ def _simulate(
     """
     output = Output(options["report"], options["frames"], options["film"])
     inputs.load_yade()
-    from ..laboratory import protocols
+    from ..laboratory.carrying_out import carry_out
+    from ..laboratory.plan import plan_run
     from ..rigs import frames
     from ..runs import checkpoint
 
     if options["discard_checkpoint"] and (why := checkpoint.discard_unusable(folder, spec)):
         terminal.say(f"starts again: {why}")
     with terminal.Progress(options["quiet"]) as progress:
-        plan = protocols.plan_run(spec, make(progress), chosen, folder, output=output)
+        plan = plan_run(spec, make(progress), chosen, folder, output=output)
         foresee = None if options["quiet"] else progress.foresee
-        result = protocols.carry_out(
+        result = carry_out(
             plan,
             threads=options["threads"],
             progress=progress,

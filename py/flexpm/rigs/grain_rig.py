@@ -24,7 +24,8 @@ from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from ..runs.loading_rate import SLOWEST_WAIT, Scales, Schedule
 from ..runs.runner import Runner
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
+from .readings import Balance, Readings, part_of
+from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
 #: the rate constant's part of the reference strain meanwhile.

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import yade
+from yade import wrapper
 
 from ..errors import InputError
 from ..models.grains import Model
@@ -35,6 +36,7 @@ class PartLayout:
     """
 
     built: Model
+    _recorder: wrapper.AxialRecorder
 
     def _begin_layout(self) -> None:
         """See which parts the scene has already: the calls of its script find them again."""
@@ -176,6 +178,11 @@ class PartLayout:
             )
         found.remove(number)
         return number
+
+    @property
+    def _begun(self) -> bool:
+        """Whether the record has begun, here or in the scene that was taken up."""
+        return self.built.engine(wrapper.AxialRecorder) is not None
 
     def _require_scene(self, what: str) -> None:
         """Refuse to go on in another scene than that of the rig."""

@@ -36,7 +36,8 @@ from ..results.record import Curve
 from ..runs.loading_rate import Scales, Schedule
 from ..runs.runner import Runner
 from . import sphere_ends as ends
-from .rig import BOTTOM, LEFT, RIGHT, TOP, Balance, Readings, TestRig, part_of
+from .readings import Balance, Readings, part_of
+from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
 
 #: Rows of the record up to the reference strain.
 _ROWS = 200

@@ -21,7 +21,8 @@ from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
 from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
-from .run_spec import INPUT_UNITS, UNUSED, RunSpec, described
+from .input_names import INPUT_UNITS, UNUSED
+from .run_spec import RunSpec, described
 
 if TYPE_CHECKING:
     from ..results.result import Result

@@ -148,7 +148,6 @@ class PlaneShapes(ABC):
         minerals: Mapping[int, int | None] | None = None,
         edge: float | None = None,
         smallest: int = 4,
-        smoothed: bool = True,
     ) -> Self:
         """Make a specimen of an image whose pixels have the labels of grains, or of phases.
 
@@ -167,19 +166,12 @@ class PlaneShapes(ABC):
                 mean diameter of the grains if left out.
             smallest: Regions with fewer pixels go to the neighbour with the longest shared line,
                 of the same mineral first [-].
-            smoothed: Whether boundaries are smoothed; else they keep to the edges of pixels.
 
         Raises:
             InputError: for labels that are no whole numbers, a label without a mineral, an image
                 of one region or of holes alone, and more than 20 million pixels.
         """
-        options = {
-            "pixel": pixel,
-            "minerals": minerals,
-            "edge": edge,
-            "smallest": smallest,
-            "smoothed": smoothed,
-        }
+        options = {"pixel": pixel, "minerals": minerals, "edge": edge, "smallest": smallest}
         return cls._of(plane.from_labels(labels, thickness, options))
 
     @classmethod

@@ -32,7 +32,7 @@ from ..require import (
     require_whole,
 )
 from ..results import strength
-from ..runs import run_spec
+from ..runs import input_names
 from ..specimens.checks import require_seed
 from .study import MOST_RUNS, flat
 
@@ -60,7 +60,7 @@ _ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "c
 _DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
 #: Options of the runs; the others are the search's own.
 _OPTIONS = [
-    *(key for key in run_spec.OPTIONS if key not in ("model", "confinement", "seed")),
+    *(key for key in input_names.OPTIONS if key not in ("model", "confinement", "seed")),
     *(f"set.{key}" for key in UNITS),
 ]
 #: Confinements of an envelope [Pa].

@@ -15,7 +15,8 @@ from typing import Any, TypeVar
 from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..kinds.registry import kind_of
-from ..laboratory import protocols
+from ..laboratory.carrying_out import carry_out
+from ..laboratory.plan import plan_run
 from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
@@ -26,8 +27,9 @@ from ..report.words import Shown, words_of_test
 from ..results.result import Result
 from ..results.strength import Envelope
 from ..runs.checkpoint import INTERVAL
+from ..runs.input_names import ranges
 from ..runs.output import Output
-from ..runs.run_spec import RunSpec, described, ranges, split
+from ..runs.run_spec import RunSpec, described, split
 from ..specimens.specimen import Specimen, require_specimen
 from ..text import name_of
 from .jobs import place_of
@@ -163,13 +165,13 @@ def compare(
     if folder is not None:
         _give_folders(cases, folder)
     plans = [
-        protocols.plan_run(case.spec, specimen, case.material, case.folder, interval, output)
+        plan_run(case.spec, specimen, case.material, case.folder, interval, output)
         for case in cases
     ]
     for number, (case, plan) in enumerate(zip(cases, plans, strict=True), 1):
         show = _named(progress, f"{number}/{len(cases)} {case.name}")
         try:
-            case.result = protocols.carry_out(plan, threads=threads, progress=show)
+            case.result = carry_out(plan, threads=threads, progress=show)
         except SimulationError as error:
             case.error = str(error)
     found = Comparison(test, cases, _envelopes(cases))

@@ -21,7 +21,7 @@ from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
 from ..require import require_known, require_text
-from ..runs import run_spec
+from ..runs import input_names
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
@@ -36,7 +36,7 @@ _FILES = ("specimen", "joints")
 #: Keys of what a run writes beside its results; they are no inputs of it.
 _OUTPUTS = ("frames", "film")
 #: Keys of a packing.
-_PACKED = (*run_spec.SIZE_NAMES, *run_spec.PACKING)
+_PACKED = (*input_names.SIZE_NAMES, *input_names.PACKING)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
 NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
 #: Exit codes of a job that would end the same way again.
@@ -113,7 +113,7 @@ def make(inputs: Table, base: Path) -> Job:
     for key in used:
         name = key.removeprefix("set.")
         if not (joint.is_key(name) or interface.is_key(name)):
-            require_known("study key", key, [*run_spec.OPTIONS, "material", *_FILES, *_CHANGES])
+            require_known("study key", key, [*input_names.OPTIONS, "material", *_FILES, *_CHANGES])
     for key in ("material", *_FILES):
         if key in used:
             require_text(f"study {key}", used[key])
@@ -138,9 +138,9 @@ def has_use(key: str, test: str, model: object) -> bool:
     """Whether an option, or ``set.KEY``, means something for a test on a model."""
     known = isinstance(model, str) and model in ELASTIC_SET  # what is not known is refused later
     if key == "interaction_range":
-        return not known or run_spec.takes_range(model)
+        return not known or input_names.takes_range(model)
     if not key.startswith("set.") or joint.is_key(key.removeprefix("set.")):
-        return key not in run_spec.UNUSED[test]
+        return key not in input_names.UNUSED[test]
     return not known or is_used(key, str(model))
 
 

@@ -198,6 +198,39 @@ TEST_CASE("uniform strain leaves no force on the inner node of a grain", "[tetra
     CHECK(largest < 1e-10 * 1e-3 * 25.8e9 * 9e-6);
 }
 
+TEST_CASE("second moments of tetrahedra are those of the body that they fill", "[tetrahedron]")
+{
+    const double a = 2.0, b = 3.0, c = 5.0, six = a * b * c;
+    const SpaceTensor corner = second_moments({}, { a, 0, 0 }, { 0, b, 0 }, { 0, 0, c });
+    CHECK(corner.xx == Approx(six * a * a / 60.0));
+    CHECK(corner.yz == Approx(six * b * c / 120.0));
+    CHECK(corner.xz == Approx(six * a * c / 120.0));
+
+    const double w = 0.015, d = 0.0175, h = 0.02, volume = w * d * h;
+    const Solid solid = Solid::box(w, d, h);
+    const Polyhedra cells = polyhedra(packed_spheres(solid, 200, 1), solid, { 3e-4, false });
+    const FanMeshes meshes = fan_meshes(cells);
+    SpaceTensor sum {};
+    for (int g = 0; g < cells.cells(); ++g) {
+        const auto place = [&](int node) {
+            const int vertex = meshes.node_vertices[meshes.node_offsets[g] + node];
+            return vertex < 0 ? cells.centres[g] : cells.vertices[vertex];
+        };
+        for (auto e = meshes.element_offsets[g]; e < meshes.element_offsets[g + 1]; ++e) {
+            const auto& n = meshes.elements[e];
+            const SpaceTensor m =
+                second_moments(place(n[0]), place(n[1]), place(n[2]), place(n[3]));
+            sum = { sum.xx + m.xx, sum.yy + m.yy, sum.zz + m.zz, sum.yz + m.yz, sum.xz + m.xz,
+                sum.xy + m.xy };
+        }
+    }
+    CHECK(sum.xx == Approx(volume * w * w / 3.0).epsilon(1e-12));
+    CHECK(sum.yz == Approx(volume * d * h / 4.0).epsilon(1e-12));
+    const SpaceTensor i = inertia_of(sum);
+    CHECK(i.zz == Approx(volume * (w * w + d * d) / 3.0).epsilon(1e-12));
+    CHECK(i.xy == Approx(-volume * w * d / 4.0).epsilon(1e-12));
+}
+
 TEST_CASE("a turned tetrahedron is refused", "[tetrahedron]")
 {
     CHECK_THROWS_WITH(tetrahedron_shape({ 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Points of faces against closed forms and against the moments of random polygons.
 #include <flexpm/kernel/space/face_points.hpp>
+#include <flexpm/kernel/space/face_triangles.hpp>
 
 #include "space/face_moments.hpp"
 
@@ -43,8 +44,12 @@ TEST_CASE("points of triangles and parallelograms have the weights of the closed
             CHECK(found.points[k].area == Approx(found.area / 12.0).epsilon(1e-12));
         CHECK(found.points[n].area
             == Approx(found.area * (n == 3 ? 3.0 / 4.0 : 2.0 / 3.0)).epsilon(1e-12));
-        for (double share : found.points[n].shares)
-            CHECK(share == Approx(1.0 / static_cast<double>(n)).epsilon(1e-12));
+        // two elements of the parallelogram meet at each end of one diagonal
+        for (std::size_t k = 0; k < n; ++k) {
+            const double share = found.points[n].shares[k];
+            const double expected = n == 3 ? 1.0 / 3.0 : (share > 0.25 ? 3.0 : 1.0) / 8.0;
+            CHECK(share == Approx(expected).epsilon(1e-12));
+        }
     }
 }
 
@@ -76,6 +81,66 @@ TEST_CASE("corners alone are too stiff against bending, one point is not stiff",
     CHECK(moment(FacePointRule::corners) == Approx(3.0 / 12.0));
     CHECK(moment(FacePointRule::one) == Approx(0.0).margin(1e-30));
     CHECK(moment(FacePointRule::corners_and_inner) == Approx(1.0 / 12.0));
+}
+
+TEST_CASE("regular faces have the weights of the closed forms, with noise too", "[space]")
+{
+    Random random(11);
+    const auto check = [&](std::vector<Vector> corners, double corner, double close) {
+        const FacePoints found = face_points(corners, FacePointRule::corners_and_inner);
+        REQUIRE_FALSE(found.fallback);
+        require_exact(corners, found, 2);
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            CHECK(found.points[k].area / found.area == Approx(corner).margin(close));
+    };
+    for (const double noise : { 0.0, 1e-15, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-3 }) {
+        for (int draw = 0; draw < 10; ++draw) {
+            const auto shaken = [&](std::vector<Vector> corners) {
+                for (Vector& c : corners) {
+                    const double x = random.next(), y = random.next();
+                    c = c + noise * Vector { x, y, 0.0 };
+                }
+                return corners;
+            };
+            const double close = 1e-12 + 10.0 * noise;
+            check(shaken({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.3, 0.9, 0 } }), 1.0 / 12.0, close);
+            check(
+                shaken({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }), 1.0 / 12.0, close);
+            check(
+                shaken({ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 0, 1, 0 } }), 1.0 / 12.0, close);
+            check(shaken({ { 0, 0, 0 }, { 1, 0, 0 }, { 1.5, 1, 0 }, { 0.5, 1, 0 } }), 1.0 / 12.0,
+                close);
+        }
+    }
+}
+
+TEST_CASE("a uniform traction puts on each corner what the elements there ask for", "[space]")
+{
+    Random random(12);
+    for (int draw = 0; draw < 300; ++draw) {
+        const auto corners = random_polygon(random, 3 + draw % 6);
+        std::vector<int> all;
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            all.push_back(static_cast<int>(k));
+        for (const auto rule : { FacePointRule::corners_and_inner, FacePointRule::one,
+                 FacePointRule::three, FacePointRule::four, FacePointRule::corners }) {
+            const FacePoints found = face_points(corners, rule);
+            std::vector<double> loads(corners.size(), 0.0);
+            for (const auto& [a, b, c] : face_triangles(corners, all)) {
+                const double third =
+                    dot(found.normal, cross(corners[b] - corners[a], corners[c] - corners[a]))
+                    / 6.0;
+                for (int k : { a, b, c })
+                    loads[k] += third;
+            }
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                double load = 0.0;
+                for (const FacePoint& p : found.points)
+                    load += p.area * p.shares[k];
+                REQUIRE(std::abs(load - loads[k]) < 1e-12 * found.area);
+            }
+        }
+    }
 }
 
 TEST_CASE("a face without a rule of corners and one point has equal ones, which is told", "[space]")

@@ -14,7 +14,8 @@ import flexpm
 from flexpm.materials.keys import JOINT_UNITS, UNITS
 from flexpm.models.options import MESHES, MODELS, POINTS
 from flexpm.results.result import Result
-from flexpm.runs.run_spec import ELASTIC, OWN_OPTIONS, STARTS, TESTS, RunSpec
+from flexpm.runs.input_names import OWN_OPTIONS, STARTS
+from flexpm.runs.run_spec import ELASTIC, TESTS, RunSpec
 from flexpm.specimens.spec import SIZES, SpecimenSpec
 
 ROOT = Path(__file__).resolve().parents[3]

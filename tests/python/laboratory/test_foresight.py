@@ -8,7 +8,8 @@ import pytest
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.cli.terminal import duration
-from flexpm.laboratory.protocols import carry_out, plan_run
+from flexpm.laboratory.carrying_out import carry_out
+from flexpm.laboratory.plan import plan_run
 from flexpm.runs import runner
 from flexpm.runs.run_spec import RunSpec, described
 

@@ -10,7 +10,8 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
 from flexpm.errors import InputError
-from flexpm.rigs.part_rig import HeldNodes, PartRig
+from flexpm.rigs.part_rig import PartRig
+from flexpm.rigs.parts import HeldNodes
 from flexpm.runs.loading_rate import Loading
 
 LENGTH, HEIGHT, END = 0.04, 0.012, 0.004

@@ -15,12 +15,12 @@ import yade
 
 from flexpm.errors import InputError
 from flexpm.kinds import toughness
-from flexpm.laboratory import protocols
 from flexpm.laboratory.part_tests import notch_depth, prepared
 from flexpm.report import tables
-from flexpm.rigs.part_rig import Part, PartRig
+from flexpm.rigs.part_rig import PartRig
+from flexpm.rigs.parts import Part
 from flexpm.runs.checkpoint import Checkpoint
-from flexpm.runs.run_spec import RunSpec, described
+from flexpm.runs.run_spec import TESTS, RunSpec, described
 
 HEIGHT = 0.012
 SPAN = 0.048
@@ -344,7 +344,7 @@ def test_bending_is_for_flexible_and_rigid_grains_and_has_its_own_options(beam):
     wide = RunSpec.from_options("bending", {"width": 0.3}, flexpm.materials.load(None))
     assert wide.specimen.width == 0.3
     assert RunSpec.from_json(spec_of(beam, "rigid", span=SPAN).to_json()).span == SPAN
-    assert "bending" in protocols.TESTS
+    assert "bending" in TESTS
 
 
 def test_a_rig_of_parts_refuses_a_model_or_a_test_without_a_rate(beam):

@@ -12,7 +12,8 @@ import flexpm  # isort: skip  (first: it tells Python where YADE is)
 
 from flexpm.cli.main import main
 from flexpm.errors import InputError
-from flexpm.laboratory import protocols
+from flexpm.laboratory.carrying_out import carry_out
+from flexpm.laboratory.plan import plan_run
 from flexpm.runs.run_spec import RunSpec
 
 WIDTH, HEIGHT, THICKNESS = 0.04, 0.024, 0.01
@@ -36,7 +37,7 @@ def punched(specimen: flexpm.Specimen, model: str, law: dict[str, float], **opti
     material = flexpm.materials.load("augig-table7").with_set(values)
     options = {"model": model, "notch": NOTCH, "distance": DISTANCE} | options
     spec = RunSpec.from_options("punch", options, material, specimen.spec)
-    return protocols.carry_out(protocols.plan_run(spec, specimen, material))
+    return carry_out(plan_run(spec, specimen, material))
 
 
 def bridges(result: flexpm.Result) -> float:

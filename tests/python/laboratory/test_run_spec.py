@@ -21,15 +21,13 @@ from flexpm.models.options import GRAIN_MODELS, MESHES, MODELS, POINTS, SPHERE_M
 from flexpm.models.sphere_laws import LAWS
 from flexpm.results.measures import PEAK_DROP
 from flexpm.runs import run_spec
+from flexpm.runs.input_names import UNUSED, models_of, shape_of
 from flexpm.runs.loading_rate import LARGEST_STOP_RATIO, LOADINGS
 from flexpm.runs.run_spec import (
     ELASTIC,
     TESTS,
-    UNUSED,
     RunSpec,
     described,
-    models_of,
-    shape_of,
 )
 from flexpm.specimens.spec import SIZES, SpecimenSpec
 

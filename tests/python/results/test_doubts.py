@@ -10,13 +10,8 @@ import pytest
 from flexpm.cli import main as cli
 from flexpm.materials import material as materials
 from flexpm.results import doubts
-from flexpm.runs.run_spec import (
-    TESTS,
-    RunSpec,
-    described,
-    models_of,
-    shape_of,
-)
+from flexpm.runs.input_names import models_of, shape_of
+from flexpm.runs.run_spec import TESTS, RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
 SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"

@@ -12,7 +12,7 @@ from pathlib import Path
 import pandas
 import pytest
 
-from flexpm.runs.run_spec import OPTIONS
+from flexpm.runs.input_names import OPTIONS
 from flexpm.studies import jobs, study
 
 SCRIPTS = Path(__file__).parents[3] / "scripts"

@@ -25,7 +25,7 @@ from flexpm.cli import inputs, main
 from flexpm.errors import InputError
 from flexpm.joints import lines as joint_lines
 from flexpm.kinds.registry import kind_of
-from flexpm.runs import run_spec
+from flexpm.runs import input_names, run_spec
 from flexpm.studies import figures, jobs, pool, study, tables
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -282,7 +282,7 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
     names = {option.name for option in main.command.commands["run"].params}
     inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
     inert |= {"seeds", "workers", "report", "specimen_file", "joints_file", "frames", "film"}
-    assert names - inert == {*run_spec.OPTIONS, "material"}
+    assert names - inert == {*input_names.OPTIONS, "material"}
 
 
 def test_frames_are_no_inputs_and_need_the_run_again(tmp_path):

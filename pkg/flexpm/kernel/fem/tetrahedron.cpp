@@ -30,6 +30,26 @@ SpaceTensor cauchy_stress(
         ratio * dot(p.x, fz), ratio * dot(p.x, fy) };
 }
 
+SpaceTensor second_moments(Vector p0, Vector p1, Vector p2, Vector p3)
+{
+    const double factor = triple(p1 - p0, p2 - p0, p3 - p0) / 120.0;
+    SpaceTensor sum { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+    for (const Vector& r : { p0, p1, p2, p3, p0 + p1 + p2 + p3 }) {
+        sum.xx += factor * r.x * r.x;
+        sum.yy += factor * r.y * r.y;
+        sum.zz += factor * r.z * r.z;
+        sum.yz += factor * r.y * r.z;
+        sum.xz += factor * r.x * r.z;
+        sum.xy += factor * r.x * r.y;
+    }
+    return sum;
+}
+
+SpaceTensor inertia_of(const SpaceTensor& m)
+{
+    return { m.yy + m.zz, m.xx + m.zz, m.xx + m.yy, -m.yz, -m.xz, -m.xy };
+}
+
 SpaceGradient stiffness_block(const TetrahedronShape& s, const PlaneStiffness& c, int a, int b)
 {
     const std::array<Vector, 4> g = { -(s.g1 + s.g2 + s.g3), s.g1, s.g2, s.g3 };

@@ -84,6 +84,13 @@ FLEXPM_INLINE double tetrahedron_energy(
 SpaceTensor cauchy_stress(
     const TetrahedronShape& s, const PlaneStiffness& c, Vector u0, Vector u1, Vector u2, Vector u3);
 
+/// Second moments of its volume about the origin, the integral of r r^T [m^5], of a tetrahedron
+/// with these corners. Its sign is that of the volume.
+SpaceTensor second_moments(Vector p0, Vector p1, Vector p2, Vector p3);
+
+/// Tensor of inertia of a body with these second moments of its mass: trace less moments [kg m^2].
+SpaceTensor inertia_of(const SpaceTensor& moments);
+
 /// 3x3 block of the linear stiffness between nodes a and b (0..3) at the reference shape [N/m], by
 /// rows: the force of the element on node a is minus the block times the displacement of node b.
 SpaceGradient stiffness_block(const TetrahedronShape& s, const PlaneStiffness& c, int a, int b);

@@ -2,8 +2,11 @@
 /// @file  Moments of a polygon in its plane, and weights that reproduce them.
 #include <flexpm/kernel/space/face_points.hpp>
 
+#include <flexpm/kernel/space/face_triangles.hpp>
+
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace flexpm {
 namespace {
@@ -28,7 +31,8 @@ struct PlaneFace {
     double area = 0.0;
     Vector normal;
     std::vector<Point> corners;
-    Moments second {};  ///< of the area
+    Moments second {};          ///< of the area
+    std::vector<double> loads;  ///< per corner: what a uniform traction puts on it
 };
 
 /// A point and its share of the area.
@@ -77,6 +81,15 @@ PlaneFace plane_face(const std::vector<Vector>& corners)
         add(face.second, factor, moments_of(b));
         add(face.second, factor, moments_of(a + b));
     }
+    // a third of each of the triangles that the grains' elements have there
+    face.loads.assign(n, 0.0);
+    std::vector<int> all(n);
+    std::iota(all.begin(), all.end(), 0);
+    for (const FaceTriangle& t : face_triangles(corners, all)) {
+        const Point a = face.corners[t[0]], b = face.corners[t[1]], c = face.corners[t[2]];
+        for (int k : t)
+            face.loads[k] += cross(b - a, c - a) / 6.0;
+    }
     return face;
 }
 
@@ -117,55 +130,85 @@ std::vector<PlanePoint> equal_points(const PlaneFace& face, int count)
     return {};
 }
 
-/// Shares of the corners in a place: those of least deviation from equal ones, with the sum 1 and
-/// the place as their mean.
-std::vector<double> shares_of(const PlaneFace& face, Point p)
+/// Shares of the corners in a place: those of least deviation from `nearly`, whose sum is 1, with
+/// the sum 1 and the place as their mean.
+std::vector<double> shares_of(const PlaneFace& face, Point p, const std::vector<double>& nearly)
 {
-    const double equal = 1.0 / static_cast<double>(face.corners.size());
+    const std::size_t n = face.corners.size();
     // about the mean of the corners, so that the sum is 1 whatever the multipliers are
-    Point mean;
-    for (Point c : face.corners)
-        mean = mean + equal * c;
+    Point mean, now;
+    for (std::size_t k = 0; k < n; ++k) {
+        mean = mean + (1.0 / static_cast<double>(n)) * face.corners[k];
+        now = now + nearly[k] * face.corners[k];
+    }
     Moments m {};
     for (Point c : face.corners)
         add(m, 1.0, moments_of(c - mean));
-    const Point to = p - mean;
+    const Point to = p - now;
     const double det = m[0] * m[2] - m[1] * m[1];
     const Point multiplier { (m[2] * to.x - m[1] * to.y) / det, (m[0] * to.y - m[1] * to.x) / det };
     std::vector<double> shares;
-    for (Point c : face.corners)
-        shares.push_back(equal + dot(multiplier, c - mean));
+    for (std::size_t k = 0; k < n; ++k)
+        shares.push_back(nearly[k] + dot(multiplier, face.corners[k] - mean));
     return shares;
 }
 
-/// Weights of the corners alone: a third of each of the triangles to the centroid, and what the
-/// centroid would have shared among them.
+/// Shares of the corners in all points of a rule, so that a uniform traction puts on each corner
+/// what it puts on the elements there: grains under uniform stress stay so at their contacts.
+std::vector<std::vector<double>> shares_of(
+    const PlaneFace& face, const std::vector<PlanePoint>& points)
+{
+    const std::size_t n = face.corners.size();
+    // what points in the corners leave for the others
+    std::vector<double> left = face.loads;
+    std::vector<bool> is_corner;
+    double weight = 1.0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Point at = points[k].place;
+        is_corner.push_back(k < n && at.x == face.corners[k].x && at.y == face.corners[k].y);
+        if (!is_corner[k]) continue;
+        left[k] -= points[k].weight;
+        weight -= points[k].weight;
+    }
+    for (double& l : left)
+        l /= weight;
+    std::vector<std::vector<double>> shares;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        if (is_corner[k]) {
+            shares.emplace_back(n, 0.0);
+            shares.back()[k] = 1.0;
+        } else {
+            shares.push_back(shares_of(face, points[k].place, left));
+        }
+    }
+    return shares;
+}
+
+/// Points in the corners alone, with what a uniform traction puts on them.
 std::vector<PlanePoint> corner_points(const PlaneFace& face)
 {
-    const std::vector<double> shares = shares_of(face, {});
     std::vector<PlanePoint> points;
-    const std::size_t n = face.corners.size();
-    for (std::size_t k = 0; k < n; ++k)
-        points.push_back({ face.corners[k], shares[k] / 3.0 });
-    for (std::size_t k = 0; k < n; ++k) {
-        const double third = cross(face.corners[k], face.corners[(k + 1) % n]) / 6.0;
-        points[k].weight += third;
-        points[(k + 1) % n].weight += third;
-    }
+    for (std::size_t k = 0; k < face.corners.size(); ++k)
+        points.push_back({ face.corners[k], face.loads[k] });
     return points;
 }
 
-/// Solve for a symmetric matrix of three rows, in place of the right side.
-bool solve(std::array<std::array<double, 3>, 3> m, Moments& right)
+/// Solve for a symmetric matrix of three rows, none of whose eigenvalues is below zero, in place of
+/// the right side. Rows that say the same as others count once: the moments xx and yy of the
+/// corners of a square are one number.
+void solve(std::array<std::array<double, 3>, 3> m, Moments& right)
 {
+    constexpr double rounding = 1e-14;
+    const double same = rounding * std::max({ m[0][0], m[1][1], m[2][2] });
+    std::array<bool, 3> counts {};
     for (int i = 0; i < 3; ++i) {
         int pivot = i;
         for (int k = i + 1; k < 3; ++k)
             if (std::abs(m[k][i]) > std::abs(m[pivot][i])) pivot = k;
         std::swap(m[i], m[pivot]);
         std::swap(right[i], right[pivot]);
-        if (m[i][i] == 0.0) return false;
-        for (int k = i + 1; k < 3; ++k) {
+        counts[i] = std::abs(m[i][i]) > same;
+        for (int k = i + 1; counts[i] && k < 3; ++k) {
             const double factor = m[k][i] / m[i][i];
             for (int l = i; l < 3; ++l)
                 m[k][l] -= factor * m[i][l];
@@ -175,9 +218,8 @@ bool solve(std::array<std::array<double, 3>, 3> m, Moments& right)
     for (int i = 2; i >= 0; --i) {
         for (int l = i + 1; l < 3; ++l)
             right[i] -= m[i][l] * right[l];
-        right[i] /= m[i][i];
+        right[i] = counts[i] ? right[i] / m[i][i] : 0.0;
     }
-    return true;
 }
 
 /// The point that takes what the corners leave: of the area and of the first moments.
@@ -227,7 +269,7 @@ std::vector<PlanePoint> corners_and_inner(const PlaneFace& face)
             points.push_back(inner);
             break;
         }
-        if (!solve(matrix, missing)) return {};
+        solve(matrix, missing);
         for (std::size_t k = 0; k < n; ++k) {
             const Moments by = moments_of(points[k].place - inner.place);
             points[k].weight +=
@@ -271,17 +313,9 @@ FacePoints face_points(const std::vector<Vector>& corners, FacePointRule rule)
         refuse("face_points: corners", static_cast<double>(n), "",
             "must bound a face with room for its points; move the spheres beside it");
     }
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        const Point at = places[k].place;
-        std::vector<double> shares(n, 0.0);
-        const bool is_corner =
-            k < corners.size() && at.x == face.corners[k].x && at.y == face.corners[k].y;
-        if (is_corner)
-            shares[k] = 1.0;
-        else
-            shares = shares_of(face, at);
-        result.points.push_back({ places[k].weight * face.area, std::move(shares) });
-    }
+    auto shares = shares_of(face, places);
+    for (std::size_t k = 0; k < places.size(); ++k)
+        result.points.push_back({ places[k].weight * face.area, std::move(shares[k]) });
     return result;
 }
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ...arrays import BoolArray, FloatArray, IntArray
 from ...errors import InputError
-from ...require import Bounds, require_flag, require_number, require_whole
+from ...require import Bounds, require_number, require_whole
 from ..checks import require_length
 from . import regions
 from .chains import Network
@@ -66,11 +66,20 @@ def divide(
     smoothed: bool = True,
     least_fill: float = FILLS[0],
 ) -> Division:
-    """Divide an image of labels into pieces of grains, see `Specimen.from_labels`."""
+    """Divide an image of labels into pieces of grains, see `Specimen.from_labels`.
+
+    Args:
+        labels: As there.
+        pixel: As there [m].
+        minerals: As there.
+        edge: As there [m].
+        smallest: As there.
+        smoothed: Whether boundaries are smoothed; else they keep to the edges of pixels.
+        least_fill: Least part of its convex hull that a piece fills [-].
+    """
     image = _checked(labels)
     require_length(_WHERE, "pixel", pixel)
     require_whole(f"{_WHERE}: smallest", smallest, Bounds(at_least=1, at_most=MOST_PIXELS))
-    require_flag(f"{_WHERE}: smooth", smoothed)
     kinds = None if minerals is None else _minerals(minerals, image)
     found = regions.find(image, _holes(image, kinds), smallest, _phases(kinds))
     if found.number > MOST_GRAINS:

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Doing a run: its scene, its rig, the stages of its test, its files. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import yade
+
+from ..kinds.test_kind import Rig, Stage
+from ..models.grains import Model, build
+from ..models.spheres import SphereModel
+from ..progress import Progress
+from ..results.result import Result
+from ..results.vtu import write_vtu
+from ..rigs.fitting import rig as rig_of
+from ..rigs.frames import STATE, FrameWriter
+from ..rigs.rig import TestRig
+from ..rigs.wave_rig import WaveRig
+from ..runs.asked import write_report
+from ..runs.loading_rate import Loading
+from ..runs.output import Output
+from ..runs.run_spec import RunSpec
+from ..runs.runner import Foresee, Runner
+from ..runs.written import about, write_files
+from ..specimens.files import given
+from .outcome import outcome
+from .part_tests import part_rig, prepared
+from .plan import Plan
+
+
+def carry_out(
+    plan: Plan,
+    *,
+    threads: int = 1,
+    progress: Progress | None = None,
+    foresee: Foresee | None = None,
+) -> Result:
+    """Do a run; arguments and outcome as for ``run``.
+
+    Args:
+        plan: The run.
+        threads: Threads of a step.
+        progress: Called with (steps done, steps expected, text).
+        foresee: Called once, as soon as steps of the loading have been timed, with the steps that
+            the run will probably have and the wall time of those that are left [s].
+    """
+    spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
+    output = plan.output
+    if folder is not None:
+        given.save(folder, plan.specimen)
+    yade.O.reset()
+    specimen, material = prepared(spec, plan.specimen, plan.material)
+    built = build(
+        specimen,
+        material,
+        spec.model,
+        points=spec.points,
+        mesh=spec.mesh,
+        damping=spec.settling_damping,
+        dynamic=spec.dynamic,
+        gravity=spec.gravity,
+        interaction_range=spec.interaction_range,
+        threads=threads,
+    )
+    if checkpoint is not None and checkpoint.found:
+        checkpoint.restore()
+        built.rebind()
+        built.set_threads(threads)
+    elif folder is not None:
+        write_vtu(folder / "specimen.vtu", built.snapshot(), about(spec.to_json()))
+    runner = Runner(checkpoint, progress, foresee)
+    rig = _rig_of(built, spec, runner)
+    if folder is not None and output.frames:
+        resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
+        rig.watch = FrameWriter(folder, output.frames, about(spec.to_json()), resumed_at)
+    for stage in spec.kind.stages:
+        _STAGES[stage](rig, spec)
+    rig.finish()
+    result = outcome(rig, spec)
+    result.step_time = runner.step_time
+    result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
+    if folder is not None:
+        write_files(folder, result)
+        _write_others(folder, result, output, rig)
+    return result
+
+
+def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRig:
+    if spec.kind.rig is Rig.PARTS and isinstance(built, Model):
+        return part_rig(built, spec, runner)
+    if spec.kind.rig is Rig.WAVE and isinstance(built, Model):
+        return WaveRig(built, spec.wave or "", runner=runner)
+    return rig_of(built, tension=spec.kind.pulls, runner=runner)
+
+
+def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) -> None:
+    """Write what can be left out: the page, the last frame, the film."""
+    if output.report:
+        write_report(folder, result)
+    if isinstance(rig.watch, FrameWriter):
+        rig.watch.finish(rig)
+        from ..report import film, paraview  # take long to load
+
+        frames = rig.watch.frames
+        files = [folder / one.file for one in frames]
+        steps, stresses = [one.step for one in frames], [one.axial_stress for one in frames]
+        paraview.write_state(folder / STATE, result, [*zip(files, steps, stresses, strict=True)])
+        if output.film:
+            strains = [one.axial_strain for one in frames]
+            shown = [*zip(files, strains, stresses, strict=True)]
+            film.write_film(folder / f"film.{output.film}", result, shown)
+
+
+def _confine(rig: TestRig, spec: RunSpec) -> None:
+    rig.confine(spec.confinement)
+    rig.built.damping = spec.local_damping
+
+
+def _load(rig: TestRig, spec: RunSpec) -> None:
+    static = spec.start == "static"
+    control = spec.kind.controls[spec.control] if spec.control else ""
+    rig.load(Loading(spec.rate, spec.loading, static, spec.max_strain, spec.stop_ratio, control))
+
+
+def _press(rig: TestRig, spec: RunSpec) -> None:
+    pressure = spec.pressure
+    if pressure > 0.0:
+        rig.confine(pressure)
+    rig.built.damping = spec.local_damping
+
+
+def _slide(rig: TestRig, spec: RunSpec) -> None:
+    """Go on to the largest displacement, whatever the stress does."""
+    way = spec.max_displacement
+    strain = None if way is None else way / rig.scales().height
+    rig.load(Loading(spec.rate, spec.loading, max_strain=strain, stop_ratio=0.0))
+
+
+def _send(rig: TestRig, _: RunSpec) -> None:
+    assert isinstance(rig, WaveRig)
+    rig.send()
+
+
+_STAGES: dict[Stage, Callable[[TestRig, RunSpec], None]] = {
+    Stage.CONFINE: _confine,
+    Stage.PRESS: _press,
+    Stage.LOAD: _load,
+    Stage.SLIDE: _slide,
+    Stage.SEND: _send,
+}

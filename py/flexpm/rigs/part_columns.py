@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Columns of the record that a rig of parts has beside the usual ones: gauges, ways, names. SI."""
+
+from __future__ import annotations
+
+import numpy as np
+from yade import wrapper
+
+from ..errors import InputError
+from ..require import require_flag, require_known
+from ..results.record import COLUMNS, Curve
+from .layout import PartLayout
+from .parts import HeldNodes, RigPart, require_part
+from .places import Place, require_column, require_direction, require_vector
+
+
+class PartColumns(PartLayout):
+    """Base of a rig of parts that records what its test wants to see."""
+
+    def _begin_columns(self) -> None:
+        self._same: dict[str, str] = {}
+
+    def gauge(
+        self,
+        name: str,
+        first: Place,
+        second: Place,
+        *,
+        along: Place | None = None,
+        strain: bool = False,
+    ) -> None:
+        """Record how far two points move apart, in a column of this name.
+
+        Args:
+            name: Name of the column.
+            first: x and y of a point; the nearest node of the grains on its side is taken [m].
+            second: The other one.
+            along: x and y of the direction in which the second one moves away from the first one;
+                None for that from the first to the second place.
+            strain: Record the strain between them [-] instead of the opening [m].
+        """
+        label = f"gauge {self._gauge_name(name)}"
+        one, two = (
+            require_vector(f"{label}: first", first),
+            require_vector(f"{label}: second", second),
+        )
+        strain = require_flag(f"{label}: strain", strain)
+        try:
+            node, other, length = self.built.solver.gaugePoints(one, two)
+        except ValueError as error:
+            raise InputError(f"{label}: {error}") from None
+        if strain and not length > 0.0:
+            raise InputError(f"{label}: length = 0 m, must be above 0; take points further off")
+        apart = (two[0] - one[0], two[1] - one[1])
+        direction = require_direction(label, apart if along is None else along)
+        base = length if strain else 0.0
+        self._add_gauge(
+            name,
+            wrapper.Gauge(first=node, second=other, direction=direction, length=base),
+        )
+
+    def way_of(self, name: str, part: RigPart, direction: Place) -> None:
+        """Record how far a part moves along a direction [m], in a column of this name.
+
+        The way of held nodes is their mean.
+        """
+        label = f"gauge {self._gauge_name(name)}"
+        part = require_part(f"{label}: part", self, part, RigPart)
+        gauge = wrapper.Gauge(direction=require_direction(label, direction))
+        if isinstance(part, HeldNodes):
+            gauge.nodes = part.nodes
+        else:
+            gauge.plate = part.number
+        self._add_gauge(name, gauge)
+
+    def also(self, name: str, column: str) -> None:
+        """Give a column of the record a second name, which the test is known by."""
+        there = self._columns()
+        require_known("also: column", column, there)
+        self._same[require_column("also", name, (*there, "set_point"))] = column
+
+    @property
+    def record(self) -> Curve:
+        """The record so far, with the columns of the parts and gauges."""
+        names, rows = list(self._recorder.names), self._recorder.rows
+        for name, column in self._same.items():
+            rows = np.column_stack([rows, rows[:, names.index(column)]])
+            names.append(name)
+        own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
+        return Curve.from_columns(names, rows, own)
+
+    def _columns(self) -> tuple[str, ...]:
+        """All that a name of a column may not be, and that may have a second name."""
+        names = (*COLUMNS, *self._recorder.names, "load", "displacement", *self._same)
+        return tuple(name for name in dict.fromkeys(names) if name != "initial_energy")
+
+    def _gauge_name(self, name: object) -> str:
+        """Name that a new gauge may have, or that of one in a record that has begun."""
+        there = [one.name for one in self._recorder.gauges]
+        if self._begun and isinstance(name, str) and name in there:
+            return name
+        taken = (*self._columns(), "initial_energy", "set_point")
+        text = require_column("gauge", name, taken)
+        if self._begun:
+            raise InputError(
+                f"gauge = {text!r}, must be one with which the record has begun: {there}"
+            )
+        return text
+
+    def _add_gauge(self, name: str, gauge: wrapper.Gauge) -> None:
+        """Add a gauge, or find it in the record that has begun."""
+        self._require_scene(f"gauge {name}")
+        recorder = self._recorder
+        if not self._begun:
+            gauge.name = name
+            recorder.addGauge(gauge)
+            return
+        there = next(one for one in recorder.gauges if one.name == name)
+        for trait in ("first", "second", "plate", "nodes", "direction", "length"):
+            now, asked = getattr(there, trait), getattr(gauge, trait)
+            if now != asked and name not in recorder.lostGauges():
+                raise InputError(
+                    f"gauge {name}: {trait} = {asked}, must be as the record has begun, {now}"
+                )
+
+    def _measures(self) -> tuple[str, ...]:
+        own = [name for name in self._recorder.names if name not in COLUMNS]
+        return tuple(name for name in own if name not in ("initial_energy", "displacement"))

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which parts of a rig load the specimen, and what its load and strain are then. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from yade import wrapper
+
+from ..errors import InputError
+from ..require import NOT_NEGATIVE, POSITIVE, require_number
+from .layout import PartLayout
+from .parts import HeldNodes, Part, RigPart, numbers, require_apart, require_parts
+from .places import Place, require_direction, require_vector
+
+
+class PartLoads(PartLayout):
+    """Base of a rig of parts that says which of them move the specimen, and which hold it."""
+
+    def drive(
+        self,
+        parts: RigPart | Sequence[RigPart],
+        direction: Place,
+        *,
+        against: RigPart | Sequence[RigPart] = (),
+        area: float = 1.0,
+        length: float = 1.0,
+        strength: float = 0.0,
+    ) -> None:
+        """Say which parts load the specimen, and what its stress and strain are.
+
+        The record has the columns ``load`` and ``displacement`` of these parts. Its stress is the
+        load over `area`, its strain the displacement over `length`: with the defaults they are the
+        load and the displacement themselves. A part that is pressed is taken over as it is loaded:
+        its pressure ends there, and its force goes on from there.
+
+        Args:
+            parts: They move alike.
+            direction: x and y of the loading.
+            against: Parts that hold the specimen against the load: the load is then the mean of
+                both sides', and their difference is recorded.
+            area: Load over stress [m2].
+            length: Displacement over strain [m].
+            strength: Stress that the specimen will bear, roughly [Pa], which sets the loading rate;
+                0: twice that at which the first contact point softens.
+
+        Raises:
+            InputError: for what is no part of this rig or is there twice, nodes that are not held
+                along the direction, or a size out of range; in a scene whose record has begun, for
+                anything else than it began with.
+        """
+        unit = require_direction("drive", direction)
+        moved = require_parts("drive: part", self, parts, RigPart)
+        held = require_parts("drive: part against", self, against, RigPart)
+        if not moved:
+            raise InputError("drive: parts = none, must be at least 1")
+        require_apart("drive: part", moved, held)
+        for part in moved:
+            if isinstance(part, HeldNodes):
+                _require_along(part, unit)
+        self._require_fixed("drive")
+        self._load_by(
+            "drive",
+            driven=numbers(moved, Part),
+            drivenSets=numbers(moved, HeldNodes),
+            backSets=[],
+            holding=numbers(held, Part),
+            holdingSets=numbers(held, HeldNodes),
+            direction=unit,
+            area=require_number("drive: area", area, POSITIVE, "m2"),
+            length=require_number("drive: length", length, POSITIVE, "m"),
+            strength=require_number("drive: strength", strength, NOT_NEGATIVE, "Pa"),
+        )
+
+    def turn(
+        self,
+        parts: HeldNodes | Sequence[HeldNodes],
+        back: HeldNodes | Sequence[HeldNodes] = (),
+        *,
+        about: Place | None = None,
+        area: float = 1.0,
+        length: float = 1.0,
+        strength: float = 0.0,
+    ) -> None:
+        """Load the specimen by turning held nodes, each set like a rigid body.
+
+        The record's ``load`` is the sum of their moments [N m], its ``displacement`` the angle of
+        each [rad]; stress and strain are these over `area` and `length`, as with `drive`.
+
+        Args:
+            parts: Sets that turn counter-clockwise.
+            back: Sets that turn clockwise by the same angle.
+            about: x and y of the point that all turn about [m]. None: each turns about the mean of
+                its places and is free to move with it, so that a moment alone acts (deviation D53).
+            area: Load over stress [N m / Pa].
+            length: Displacement over strain [-].
+            strength: As for `drive`.
+
+        Raises:
+            InputError: as `drive`.
+        """
+        sets = require_parts("turn: part", self, parts, HeldNodes)
+        others = require_parts("turn: part back", self, back, HeldNodes)
+        if not sets:
+            raise InputError("turn: parts = none, must be at least 1")
+        require_apart("turn: part", sets, others)
+        pivot = None if about is None else require_vector("turn: about", about)
+        self._require_fixed("turn", () if about is not None else (*sets, *others))
+        self._load_by(
+            "turn",
+            driven=[],
+            drivenSets=numbers(sets, HeldNodes),
+            backSets=numbers(others, HeldNodes),
+            holding=[],
+            holdingSets=[],
+            direction=(0.0, 0.0, 1.0),
+            area=require_number("turn: area", area, POSITIVE, "N m/Pa"),
+            length=require_number("turn: length", length, POSITIVE),
+            strength=require_number("turn: strength", strength, NOT_NEGATIVE, "Pa"),
+        )
+        for part in (*sets, *others):
+            self._turn_about(part, pivot)
+
+    def _new_frame(self) -> wrapper.PartFrame:
+        return wrapper.PartFrame()
+
+    @property
+    def _frame(self) -> wrapper.PartFrame:
+        """What tells the record which parts hold and load, and along which direction."""
+        frame = self._recorder.frame
+        if not isinstance(frame, wrapper.PartFrame):
+            raise InputError(
+                f"part rig: frame of the scene's record = {type(frame).__name__}, must be a "
+                "PartFrame; build the specimen anew"
+            )
+        return frame
+
+    def _load_by(self, call: str, **asked: object) -> None:
+        """Give the record's frame what loads, or compare it with what the record has begun with."""
+        self._require_scene(call)
+        frame = self._frame
+        for name, value in asked.items():
+            now = getattr(frame, name)
+            same = [*now] == [*value] if isinstance(value, list | tuple) else now == value
+            if self._begun and not same:
+                raise InputError(
+                    f"{call}: {name} = {value}, must be as the record has begun, {now}; make the "
+                    "same calls, or a new rig"
+                )
+        if not self._begun:
+            for name, value in asked.items():
+                setattr(frame, name, value)
+
+    def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
+        """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""
+        sets = self.built.solver.nodeSets()
+        floating = {number for number, one in enumerate(sets) if one["floats"]}
+        if not self._begun and floating - {part.number for part in free}:
+            raise InputError(
+                f"{call}: parts = others after turn, must be given once; make a new rig"
+            )
+
+    def _turn_about(self, part: HeldNodes, pivot: tuple[float, float, float] | None) -> None:
+        if not self._begun:
+            self.built.solver.turnNodeSet(part.number, pivot)
+            return
+        now = self.built.solver.nodeSets()[part.number]
+        place = np.subtract(now["place"], now["displacement"])
+        if now["floats"] != (pivot is None) or not (pivot is None or np.allclose(place, pivot[:2])):
+            raise InputError(f"turn: about = {pivot}, must be as the record has begun")
+
+
+def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> None:
+    """Refuse nodes that are free along a part of the way on which they are to be driven."""
+    for axis, way in zip("xy", direction[:2], strict=True):
+        if way != 0.0 and axis not in part.axes:
+            raise InputError(
+                f"drive: part = {part}, held along {part.axes} alone, must be held along {axis}; "
+                "hold them so or turn the direction"
+            )

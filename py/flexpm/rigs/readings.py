@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What every rig tells of its specimen: stress and strain, record, doubts, balance. SI units.
+
+Stress and axial strain are positive in the sense of the loading: compression, or tension where the
+rig pulls. The lateral strain is positive as Poisson's effect.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import yade
+
+from ..kinds.registry import of_ends
+from ..models.grains import Model
+from ..models.spheres import SphereModel
+from ..results import doubts, measures
+from ..results.record import Curve
+from ..runs.loading_rate import Loading, Scales, Schedule, schedule
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What a specimen fails to bear of a pressure, each as a part of it, not negative [-].
+
+    A wave that runs through many grains leaves each of them nearly in balance: it shows here.
+    """
+
+    reaction: float  #: of a pressing force, in what bears it
+    stress: float  #: of the mean stress that the pressing forces would give
+    #: part of the stress, as waves swing: root of the kinetic energy over the elastic one. The mean
+    #: stress of a wave passes through its place of rest; its motion is fastest there.
+    motion: float
+
+    @property
+    def largest(self) -> float:
+        """The largest of them; nan where one is."""
+        return float(np.max([self.reaction, self.stress, self.motion]))
+
+
+def part_of(part: float, whole: float) -> float:
+    """Ratio of two sizes that are not negative; of nothing 0, of what has no whole infinite."""
+    if part == 0.0:
+        return 0.0
+    return float(part / whole) if whole != 0.0 else math.inf
+
+
+class Readings(Protocol):
+    """What the last row of a record says."""
+
+    @property
+    def stress(self) -> float: ...  # noqa: D102
+    @property
+    def strain(self) -> float: ...  # noqa: D102
+    @property
+    def peak(self) -> float: ...  # noqa: D102
+    @property
+    def state(self) -> int: ...  # noqa: D102
+
+
+class RigReadings(ABC):
+    """What can be read of a specimen between what loads it.
+
+    Attributes:
+        built: The specimen and its model.
+        tension: The ends pull; else they press.
+        disc: The specimen is a disc between two plates.
+    """
+
+    def __init__(self, built: Model | SphereModel, *, tension: bool = False) -> None:
+        """Take a specimen that has just been built, or whose scene has been loaded."""
+        self.built, self.tension = built, tension
+        self.disc = built.specimen.kind == "disc"
+
+    @property
+    def kind(self) -> str:
+        """Name of the test that has the same ends, whose loading rate is taken."""
+        shape, confined = self.built.specimen.kind, self.confinement is not None
+        return of_ends(shape, pulls=self.tension, confined=confined)
+
+    @property
+    def reference_strain(self) -> float:
+        """Strain of the reference strength, at about which a brittle specimen fails [-]."""
+        return self._schedule(Loading()).reference_strain
+
+    @property
+    def stress(self) -> float:
+        """Axial stress of the last row of the record [Pa]."""
+        return self._readings.stress
+
+    @property
+    def strain(self) -> float:
+        """Axial strain of the last row of the record [-]."""
+        return self._readings.strain
+
+    @property
+    @abstractmethod
+    def record(self) -> Curve:
+        """The record so far."""
+
+    def to_yade_plot(self) -> None:
+        """Give ``yade.plot`` the record so far, each column under its name; call it again later."""
+        from yade import plot  # takes long to load
+
+        record = self.record
+        plot.data.update({name: record[name].tolist() for name in record.columns})
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful, one line each.
+
+        Load and reactions that differ, a bad energy balance, numbers that are none, sizes that are
+        surely in other units; of grains also
+        a joint that bends, a set point that is missed, a gauge whose grain is gone.
+        """
+        record = self.record
+        error = measures.energy_error(record, self.initial_energy)
+        mismatch = measures.median_end_mismatch(record)
+        specimen = self.built.specimen
+        lines = [doubts.of_divergence(yade.O.iter)] if self.diverged else []
+        lines += doubts.of_specimen({**specimen.dimensions, "thickness": specimen.thickness})
+        return lines + doubts.of_result("", error, mismatch, None)
+
+    @property
+    @abstractmethod
+    def confinement(self) -> float | None:
+        """Lateral pressure that was asked for [Pa], None without."""
+
+    @property
+    @abstractmethod
+    def diverged(self) -> bool:
+        """Whether a number is not finite any more."""
+
+    @property
+    def may_fail_at_once(self) -> bool:
+        """Whether the specimen may fail along a plane of which no crack tells before."""
+        return False
+
+    @property
+    def initial_energy(self) -> float | None:
+        """Energy when the work began to count [J], None if that is not known."""
+        return None
+
+    @property
+    def contact_width(self) -> float | None:
+        """Mean width on which the plates touch a disc [m], None if that is not known."""
+        return None
+
+    @abstractmethod
+    def scales(self) -> Scales:
+        """What the loading rate follows from, of the specimen as it is."""
+
+    @abstractmethod
+    def unbalanced(self) -> float:
+        """Largest unbalanced force over the mean contact force [-]."""
+
+    @abstractmethod
+    def balance(self) -> Balance:
+        """What the specimen fails to bear of the pressure on it now."""
+
+    @property
+    @abstractmethod
+    def _readings(self) -> Readings: ...
+
+    def _schedule(self, loading: Loading) -> Schedule:
+        pressure, dt = self.confinement or 0.0, yade.O.dt
+        scales = self.scales()
+        return schedule(self.kind, self.built.name, loading, scales, confinement=pressure, dt=dt)

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names of what can be asked of a run, which test has a use for which, and their units.
+
+Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..errors import InputError
+from ..kinds.registry import KINDS, kind_of, options
+from ..kinds.test_kind import TestKind
+from ..models.options import SPHERE_MODELS
+from ..require import quoted
+from ..specimens.spec import SIZES
+
+#: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
+#: where the first contact point is about to leave its elastic branch.
+STARTS = ("rest", "static")
+#: Sizes of all shapes.
+_SIZES = tuple(dict.fromkeys(name for sizes in SIZES.values() for name in sizes))
+
+
+def _unused(kind: TestKind) -> tuple[str, ...]:
+    """Options that a test has no use for."""
+    others = [name for name in options() if not kind.has(name)]
+    renamed = [one.size for one in kind.options if one.size]
+    sizes = [name for name in _SIZES if name not in SIZES[kind.shape] or name in renamed]
+    pressure = () if kind.confined else ("confinement",)
+    start = () if kind.static_models else ("start",)
+    return tuple(dict.fromkeys((*sizes, *pressure, *start, *kind.without, *others)))
+
+
+#: Options that a test has no use for.
+UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
+#: Units of inputs that have one.
+INPUT_UNITS = {
+    **dict.fromkeys((*_SIZES, "thickness", "diameters"), "m"),
+    **{name: one.unit for name, of in options().items() for one in of.values() if one.unit},
+    "confinement": "Pa",
+    "gravity": "m/s2",
+}
+#: Options of how a specimen is packed.
+PACKING = ("thickness", "diameters", "porosity", "seed")
+#: Options of a run that not all tests have, and those that are other names of sizes.
+OWN_OPTIONS = tuple(name for name, of in options().items() if not any(o.size for o in of.values()))
+_OTHER_NAMES = tuple(name for name in options() if name not in OWN_OPTIONS)
+#: Options of what is done with it.
+SIMULATION = (
+    *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
+    *("dynamic", "gravity", "damping", "start", "loading"),
+    *OWN_OPTIONS,
+    "interaction_range",
+)
+#: Options that are sizes of the specimen.
+SIZE_NAMES = (*_SIZES, *_OTHER_NAMES)
+#: Options of the command by their names.
+OPTIONS = (*SIZE_NAMES, *PACKING, *SIMULATION)
+
+
+def with_unit(name: str, value: object) -> str:
+    """An input and its value with its unit, for a message."""
+    shown = value if isinstance(value, str) and len(value) < 80 else quoted(value)
+    return f"{name} = {shown} {INPUT_UNITS.get(name, '')}".rstrip()
+
+
+def models_of(test: str) -> tuple[str, ...]:
+    """Models that a test is for."""
+    return kind_of(test).models
+
+
+def takes_range(model: object) -> bool:
+    """Whether a model can have an interaction range."""
+    return model in SPHERE_MODELS
+
+
+def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, float | None]:
+    """Interaction range of each model; only YADE's spheres have one.
+
+    Raises:
+        InputError: if it is given and none of the models can have it.
+    """
+    if interaction_range is not None and not any(map(takes_range, models)):
+        raise InputError(
+            f"compare: interaction_range = {interaction_range}, must not be given for "
+            f"{', '.join(models)}; it is for YADE's spheres"
+        )
+    return {model: interaction_range if takes_range(model) else None for model in models}
+
+
+def shape_of(test: str) -> str:
+    """Shape of the specimen that a test needs."""
+    return kind_of(test).shape

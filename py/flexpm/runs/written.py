@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the result of a run leaves in its folder: numbers, record, cracks, state and pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .._version import __version__
+from ..files import Table
+from ..kinds.registry import kind_of
+from ..kinds.test_kind import Rig
+from ..report.curves import curve_picture
+from ..report.emission import emission_picture
+from ..report.maps import crack_picture, fragment_picture
+from ..report.tables import size_text
+from ..report.waves import wave_picture
+from ..results.result import Result
+from ..results.vtu import read_vtu, write_vtu
+
+
+def write_files(folder: Path, result: Result) -> None:
+    """Write numbers, record, cracks, final state and pictures of a result into `folder`."""
+    result.write(folder)
+    draw = wave_picture if kind_of(result.test).rig is Rig.WAVE else curve_picture
+    draw(folder / "curve.png", result)
+    if result.snapshot is not None:
+        write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
+        minerals = [kind["name"] for kind in result.material.get("minerals", ())]
+        caption = size_text(result)
+        cut = bool(result.material.get("joints"))
+        notches = _notches(folder / "specimen.vtu") if cut else []
+        broken = result.cracks_by_pair
+        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches, broken)
+        fragment_picture(folder / "fragments.png", result.snapshot, caption)
+        emission_picture(folder / "events.png", result, caption)
+
+
+def about(inputs: Table | None) -> Table:
+    """What a file for ParaView says of its run."""
+    if inputs is None:
+        return {}
+    specimen, material = inputs["specimen"], inputs["material"]
+    about = {name: inputs[name] for name in ("test", "model", "confinement")}
+    return {**about, "material": material["name"], "seed": specimen["seed"], "flexpm": __version__}
+
+
+def _notches(specimen: Path) -> list[int]:
+    """Numbers of the contacts that are cut open in the file of a specimen before its test."""
+    before = read_vtu(specimen)
+    return [int(number) for number in before.contact[before.cuts]]
