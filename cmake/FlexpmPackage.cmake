@@ -38,7 +38,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${YADE_LIBDIR})
 string(JOIN ", " CPACK_DEBIAN_PACKAGE_DEPENDS
     "yade (>= ${yade_version})" "yade (<< ${yade_version}.0~)" python3
-    python3-numpy python3-scipy python3-matplotlib python3-vtk9 python3-click python3-tqdm
+    python3-numpy python3-scipy python3-matplotlib python3-pil python3-vtk9 python3-click
+    python3-tqdm
     python3-dask python3-distributed python3-pandas python3-tomli-w
     python3-jinja2 libjs-chart.js)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA

@@ -31,6 +31,7 @@ from ..require import nearest
 from ..runs.output import ROSE
 from ..text import name_of
 from . import compare as cli_compare
+from . import images as cli_images
 from . import inputs, runs, signals, terminal
 from . import options as cli_options
 from . import solids as cli_solids
@@ -111,6 +112,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     _describe(made, folder, mesh)
 
 
+specimen.add_command(cli_images.image)
 specimen.add_command(cli_solids.box)
 specimen.add_command(cli_solids.cylinder)
 

@@ -71,6 +71,36 @@ def specimen_picture(
         save(figure, path)
 
 
+def grain_picture(
+    path: Path | str,
+    polygons: Sequence[FloatArray],
+    kinds: Sequence[int] | IntArray,
+    names: Sequence[str] = (),
+    caption: str = "",
+) -> None:
+    """Draw cells in the colour of their mineral, or of their grain.
+
+    Args:
+        path: Picture to write.
+        polygons: Corners (V, 2) of each cell [m].
+        kinds: Index of the mineral of each cell, or number of its grain.
+        names: Names of the minerals, for a legend; none: `kinds` are grains.
+        caption: Line above the picture.
+    """
+    tints = _tints(kinds) if not names else [MINERALS[kind % len(MINERALS)] for kind in kinds]
+    with rc_context(STYLE):
+        figure, axes = _map_figure(polygons)
+        _draw_grains(axes, polygons, tints)
+        _draw_scale_bar(axes)
+        handles = _mineral_handles(names)
+        if handles:
+            figure.set_figheight(figure.get_figheight() + 0.2 * len(handles))
+            place = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0)}
+            axes.legend(handles=handles, ncol=1, frameon=False, **place)
+        axes.set_title(label_of(caption), fontsize=9.5, loc="left")
+        save(figure, path)
+
+
 def crack_picture(
     path: Path | str,
     snapshot: Snapshot,
@@ -110,10 +140,7 @@ def crack_figure(
         figure, axes = map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
         handles += _draw_notches(axes, snapshot, notches)
-        handles += [
-            Patch(facecolor=MINERALS[number % len(MINERALS)], edgecolor=_EDGE, label=label_of(name))
-            for number, name in enumerate(minerals)
-        ]
+        handles += _mineral_handles(minerals)
         handles += _pair_handles(by_pair or {})
         columns = 1 if by_pair else 2  # names of pairs are long
         rows = math.ceil(len(handles) / columns)
@@ -151,6 +178,13 @@ def draw_grains(axes: Axes, snapshot: Snapshot) -> None:
     """Draw the deformed grains and a scale bar below them [mm]."""
     _draw_rock(axes, snapshot)
     draw_scale_bar(axes)
+
+
+def _mineral_handles(names: Sequence[str]) -> list[Patch]:
+    return [
+        Patch(facecolor=MINERALS[number % len(MINERALS)], edgecolor=_EDGE, label=label_of(name))
+        for number, name in enumerate(names)
+    ]
 
 
 def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import ParamSpec, TypeVar
 
@@ -42,9 +42,21 @@ def checksum(given: FloatArray | IntArray | Circle) -> str:
     return hashlib.sha256(values.tobytes()).hexdigest()[:16]
 
 
-def cells_checksum(cells: Tessellation) -> str:
-    """Short hash of the shapes of all cells."""
-    parts = (cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices)
+def checksums_of_starts(given: IntArray, least: int) -> Iterator[str]:
+    """`checksum` of the first numbers, of `least` of them and of each more."""
+    values = np.ascontiguousarray(given, dtype=float)
+    digest = hashlib.sha256(values[:least].tobytes())
+    yield digest.hexdigest()[:16]
+    for value in values[least:]:
+        digest.update(value.tobytes())
+        yield digest.hexdigest()[:16]
+
+
+def cells_checksum(cells: Tessellation, grains: IntArray | None = None) -> str:
+    """Short hash of the shapes of all cells, and of the grains that they are pieces of."""
+    parts = [cells.vertices.ravel(), cells.cell_offsets, cells.cell_vertices]
+    if grains is not None:
+        parts.append(grains)
     return checksum(np.concatenate(parts).astype(float))
 
 

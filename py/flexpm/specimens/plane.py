@@ -6,22 +6,32 @@ Grains are the Laguerre cells of packed discs, cells sawn out of a packing, or c
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TypedDict, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from .._flexpm import PolygonOutline, Tessellation, Tiling, cells_in_outline, cells_of_polygons
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
 from ..progress import Progress
 from ..require import require_flag
 from . import packed, packing
 from .checks import require_diameters, require_length, require_short_edge
-from .kernel_input import Circle, call, cells_checksum, checksum, columns, disc_rows, ring
+from .kernel_input import (
+    Circle,
+    call,
+    cells_checksum,
+    checksum,
+    columns,
+    disc_rows,
+    mineral_indices,
+    ring,
+)
+from .labels.given import FILLS, divide
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
@@ -64,6 +74,9 @@ class Filling:
     spec: SpecimenSpec
     removed_discs: int = 0
     holes: tuple[FloatArray, ...] = ()
+    grains: IntArray | None = None
+    minerals: IntArray | None = None
+    regions: Mapping[str, int] = field(default_factory=dict)
 
 
 def packing_of(name: str, in_order: Sequence[object], named: Packing) -> Packing:
@@ -136,11 +149,39 @@ def from_polygons(polygons: Sequence[npt.ArrayLike], thickness: float, holes: bo
     require_length(where, "thickness", thickness)
     require_flag(f"{where}: holes", holes)
     given = [ring(f"{where}: polygon {number}", one) for number, one in enumerate(polygons)]
-    tiling, rings = call(cells_of_polygons, given, holes)
+    return _of_cells(*call(cells_of_polygons, given, holes), thickness)
+
+
+def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Filling:
+    """Fill an outline with the grains of an image, see `Specimen.from_labels`."""
+    require_length("Specimen.from_labels", "thickness", thickness)
+    for fill in FILLS:
+        found = divide(labels, **options, least_fill=fill)
+        polygons = [np.ascontiguousarray(one) for one in found.polygons]
+        try:
+            tiling, rings = call(cells_of_polygons, polygons, found.has_holes)
+            break
+        except InputError:
+            if fill == FILLS[-1]:
+                raise
+    grains = found.grains[tiling.origin].astype(np.int32)
+    grains.setflags(write=False)
+    made = _of_cells(tiling, rings, thickness, grains)
+    if found.minerals is None:
+        return replace(made, grains=grains, regions=found.counts)
+    minerals = mineral_indices(found.minerals[grains], len(grains))
+    spec = replace(made.spec, minerals=checksum(minerals))
+    return replace(made, grains=grains, minerals=minerals, spec=spec, regions=found.counts)
+
+
+def _of_cells(
+    tiling: Tiling, rings: list[FloatArray], thickness: float, grains: IntArray | None = None
+) -> Filling:
+    """Fill an outline with cells that the kernel has taken."""
     checksums = {
         "discs": checksum(tiling.discs),
         "outline": checksum(np.vstack(rings)),
-        "cells": cells_checksum(tiling.tessellation),
+        "cells": cells_checksum(tiling.tessellation, grains),
     }
     spec = _given_spec(rings[0], thickness, 0.0, checksums)
     return _of_tiling(tiling, rings[0], rings[1:], spec)

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Self, Unpack
+
+import numpy.typing as npt
 
 from ..arrays import FloatArray
 from ..progress import Progress
@@ -135,6 +137,42 @@ class PlaneShapes(ABC):
             InputError: for cells that cross themselves, overlap, or leave a gap.
         """
         return cls._of(plane.from_polygons(polygons, thickness, holes))
+
+    @classmethod
+    def from_labels(
+        cls,
+        labels: npt.ArrayLike,
+        pixel: float,
+        thickness: float,
+        *,
+        minerals: Mapping[int, int | None] | None = None,
+        edge: float | None = None,
+        smallest: int = 4,
+    ) -> Self:
+        """Make a specimen of an image whose pixels have the labels of grains, or of phases.
+
+        A grain is a region of equal labels that hangs together by edges of pixels. Boundaries are
+        smoothed, both neighbours keeping one line, at most a pixel off; areas stay those of the
+        pixels (D73). Grains that go round others, or are far from convex, are cut into cells,
+        which know their grain (``grains``).
+
+        Args:
+            labels: Whole numbers, rows of pixels, the first row on top.
+            pixel: Side of a pixel [m].
+            thickness: Out of plane [m].
+            minerals: For each label an index into the minerals of the material, None for a hole;
+                left out: no holes, and minerals are drawn.
+            edge: Way from corner to corner of a boundary [m], two pixels or more; a quarter of the
+                mean diameter of the grains if left out.
+            smallest: Regions with fewer pixels go to the neighbour with the longest shared line,
+                of the same mineral first [-].
+
+        Raises:
+            InputError: for labels that are no whole numbers, a label without a mineral, an image
+                of one region or of holes alone, and more than 20 million pixels.
+        """
+        options = {"pixel": pixel, "minerals": minerals, "edge": edge, "smallest": smallest}
+        return cls._of(plane.from_labels(labels, thickness, options))
 
     @classmethod
     def from_discs(

@@ -44,7 +44,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     """Bonded grains that fill an outline.
 
     Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
-    ``from_polygons`` or ``load``.
+    ``from_polygons``, ``from_labels`` or ``load``.
 
     Attributes:
         discs: Rows x, y, radius [m], one per grain: centre of its disc, or the point from which
@@ -58,7 +58,9 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
         joints: Lines of each joint as they were asked for, by its name [m].
         joint_cuts: What came of the lines of each joint, by its name.
-        grains: Per cell the grain before joints cut it; None: each cell is a grain.
+        regions: How many regions and pixels of an image went another way, by what happened; not
+            saved.
+        grains: Per cell the grain before it was cut, by joints or to be meshed; None: each is one.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
     """
 
@@ -74,6 +76,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     strengths: FloatArray | None = None
     joints: Lines = field(default_factory=dict)
     joint_cuts: dict[str, Cut] = field(default_factory=dict)
+    regions: dict[str, int] = field(default_factory=dict)
 
     @classmethod
     def _of(cls, made: Filling) -> Specimen:
@@ -84,6 +87,9 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             made.spec,
             removed_discs=made.removed_discs,
             holes=made.holes,
+            grains=made.grains,
+            minerals=made.minerals,
+            regions=dict(made.regions),
         )
 
     @classmethod

@@ -25,10 +25,10 @@ VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --po
     --thickness --diameters --points --gravity --diameter --length --span --notch --distance
     --normal-stress
     --max-displacement --network-seed --seeds --frames --workers --damping
-    --interaction-range""".split()
+    --interaction-range --pixel --edge --smallest""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
-    --joints --network""".split()
+    --joints --network --phases""".split()
 OPTIONS = st.one_of(
     st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
     st.tuples(st.sampled_from(NAMED), WORDS),
@@ -41,6 +41,7 @@ COMMANDS = st.sampled_from(
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
         *(("run", test) for test in ("bending", "scb", "shear", "punch", "sonic")),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box")),
+        *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
     ]

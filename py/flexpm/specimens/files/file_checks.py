@@ -286,7 +286,8 @@ def _require_cells(found: Table) -> None:
     cut = spec.joints is not None
     if spec.discs is not None and not cut and spec.discs != checksum(discs):
         raise refuse("discs = others, must be those that spec names")
-    if spec.cells is not None and not cut and spec.cells != cells_checksum(cells):
+    pieces = found.get("grains")
+    if spec.cells is not None and not cut and spec.cells != cells_checksum(cells, pieces):
         raise refuse("cells = others, must be those that spec names")
     sawn = spec.kind == "half-disc" or (spec.outline is not None and spec.discs is None)
     if not (cut or sawn or spec.cells is not None):
@@ -332,7 +333,10 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
         from ...joints.network import Network
 
         [*map(Network.of, spec.networks)]
-    if (spec.joints is None) is not (grains is None) or bool(names) is (spec.joints is None):
+    of_image = spec.joints is None and spec.cells is not None  # its grains may have pieces, too
+    if (spec.joints is None) is not (grains is None) and not (of_image and not names):
+        raise refuse("joints, joint_names and grains = some, must be all there or none")
+    if bool(names) is (spec.joints is None):
         raise refuse("joints, joint_names and grains = some, must be all there or none")
     if grains is not None:
         count = int(np.max(grains)) + 1
@@ -341,7 +345,8 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
         # what a cut has parted meets at the cut, but for the few cells that had to be split
         pairs = found["tessellation"].shared_edges[:, :2]
         parted = grains[pairs[:, 0]] == grains[pairs[:, 1]]
-        if 2 * np.count_nonzero(parted & (tiling.edge_joints >= 0)) < np.count_nonzero(parted):
+        cut = np.count_nonzero(parted & (tiling.edge_joints >= 0))
+        if spec.cells is None and 2 * cut < np.count_nonzero(parted):
             raise refuse("grains = others, must be parted by joints alone")
     used = tiling.edge_joints[tiling.edge_joints >= 0]
     cuts = found["joint_cuts"]  # lines of a joint may cut nothing
@@ -379,7 +384,7 @@ def _checksums(lines: Lines) -> Iterable[str]:
 def _require_factors(found: Table) -> None:
     """Strengths and minerals are those that the spec names."""
     from .. import strengths as contact_strengths
-    from ..kernel_input import checksum
+    from ..kernel_input import checksum, checksums_of_starts
 
     spec, strengths, minerals = found["spec"], found.get("strengths"), found.get("minerals")
     if (spec.strengths is None) is not (strengths is None):
@@ -391,7 +396,8 @@ def _require_factors(found: Table) -> None:
     if (spec.minerals is None) is not (minerals is None):
         raise refuse("minerals = some, must be there if spec names them")
     if minerals is not None:
+        # those of the cells that joints have cut, which were grains, or pieces of an image's grains
         grains = found.get("grains")
-        whole = minerals if grains is None else minerals[: int(grains.max()) + 1]
-        if spec.minerals not in (checksum(minerals), checksum(whole)):
+        least = len(minerals) if grains is None else int(grains.max()) + 1
+        if spec.minerals not in checksums_of_starts(minerals, least):
             raise refuse("minerals = others, must be those that spec names")

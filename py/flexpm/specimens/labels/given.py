@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grains from an array of labels: what is asked for, checked, and the cells that come of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...arrays import BoolArray, FloatArray, IntArray
+from ...errors import InputError
+from ...require import Bounds, require_number, require_whole
+from ..checks import require_length
+from . import regions
+from .chains import Network
+from .loops import divided
+from .smoothing import smooth
+
+_WHERE = "Specimen.from_labels"
+#: Pixels of an image; one takes about 200 bytes.
+MOST_PIXELS = 20_000_000
+#: Grains of an image.
+MOST_GRAINS = 100_000
+#: Default spacing of corners over the mean diameter of the grains [-], and the least one [pixels].
+_EDGE, LEAST_EDGE = 0.25, 2.0
+#: Least parts of their convex hulls that pieces fill [-]: the next one if no mesh fits the pieces.
+FILLS = (0.6, 0.75, 0.9)
+
+
+@dataclass(frozen=True)
+class Division:
+    """Pieces of grains that an image is divided into.
+
+    Attributes:
+        polygons: Corners of each piece, counter-clockwise, (n, 2) [m]; the first of each grain
+            first, in the order of the grains.
+        grains: Grain of each piece.
+        labels: Label of each grain.
+        pixels: Number of pixels of each grain.
+        minerals: Index of each grain's mineral; None if none were named.
+        edge: Spacing of corners [m].
+        has_holes: Whether pixels are of no grain.
+        counts: How many regions and pixels went another way, by what happened.
+    """
+
+    polygons: list[FloatArray]
+    grains: IntArray
+    labels: IntArray
+    pixels: IntArray
+    minerals: IntArray | None
+    edge: float
+    has_holes: bool
+    counts: dict[str, int]
+
+
+def divide(
+    labels: npt.ArrayLike,
+    pixel: float,
+    *,
+    minerals: Mapping[int, int | None] | None = None,
+    edge: float | None = None,
+    smallest: int = 4,
+    smoothed: bool = True,
+    least_fill: float = FILLS[0],
+) -> Division:
+    """Divide an image of labels into pieces of grains, see `Specimen.from_labels`.
+
+    Args:
+        labels: As there.
+        pixel: As there [m].
+        minerals: As there.
+        edge: As there [m].
+        smallest: As there.
+        smoothed: Whether boundaries are smoothed; else they keep to the edges of pixels.
+        least_fill: Least part of its convex hull that a piece fills [-].
+    """
+    image = _checked(labels)
+    require_length(_WHERE, "pixel", pixel)
+    require_whole(f"{_WHERE}: smallest", smallest, Bounds(at_least=1, at_most=MOST_PIXELS))
+    kinds = None if minerals is None else _minerals(minerals, image)
+    found = regions.find(image, _holes(image, kinds), smallest, _phases(kinds))
+    if found.number > MOST_GRAINS:
+        raise InputError(
+            f"{_WHERE}: grains = {found.number}, must be <= {MOST_GRAINS}; raise smallest or cut "
+            "the image"
+        )
+    pieces, grains = divided(found, least_fill)
+    sizes: IntArray = np.bincount(found.image[found.image >= 0])
+    asked = (
+        None
+        if edge is None
+        else require_number(f"{_WHERE}: edge", edge, Bounds(at_least=LEAST_EDGE * pixel), "m")
+    )
+    mean = float(np.mean(np.sqrt(4.0 / math.pi * sizes)))
+    spacing = max(LEAST_EDGE, _EDGE * mean) if asked is None else asked / pixel
+    network = Network.of(pieces)
+    lines = smooth(network, spacing) if smoothed else [one.raster for one in network.chains]
+    return Division(
+        [pixel * polygon for polygon in network.polygons(lines)],
+        grains,
+        found.labels,
+        sizes,
+        None if kinds is None else np.array([kinds[v] for v in found.labels.tolist()], np.int32),
+        spacing * pixel,
+        bool((found.image < 0).any()),
+        found.counts,
+    )
+
+
+def _checked(labels: npt.ArrayLike) -> IntArray:
+    """Labels as whole numbers, the lowest row first."""
+    given = np.asarray(labels)
+    if given.ndim != 2 or given.dtype.kind not in "biuf" or min(given.shape, default=0) < 2:
+        raise InputError(
+            f"{_WHERE}: labels = {given.dtype} array of shape {given.shape}, must be rows of whole "
+            "numbers, two or more of each; correct it"
+        )
+    if given.size > MOST_PIXELS:
+        raise InputError(
+            f"{_WHERE}: labels = {given.shape[0]} x {given.shape[1]} pixels, must be <= "
+            f"{MOST_PIXELS} in all; cut the image or take coarser pixels"
+        )
+    if given.dtype.kind == "f":
+        wrong = ~np.isfinite(given) | (given != np.floor(given)) | (np.abs(given) > 2.0**53)
+        if wrong.any():
+            row, column = np.argwhere(wrong)[0].tolist()
+            raise InputError(
+                f"{_WHERE}: labels = {given[row, column]} at row {row}, column {column}, must be "
+                "whole numbers; round them"
+            )
+    if given.dtype.kind == "u" and given.max() > np.iinfo(np.int64).max:
+        raise InputError(f"{_WHERE}: labels = {given.max()}, must be below 2^63; renumber them")
+    whole = given.astype(np.int64)
+    if whole.min() == np.iinfo(np.int64).min:  # one less stands for holes
+        raise InputError(f"{_WHERE}: labels = {whole.min()}, must be above -2^63; renumber them")
+    flipped: IntArray = np.ascontiguousarray(whole[::-1])
+    return flipped
+
+
+def _minerals(minerals: object, image: IntArray) -> dict[int, int | None]:
+    """Mineral of each label; None for holes."""
+    if not isinstance(minerals, Mapping):
+        raise InputError(f"{_WHERE}: minerals = {minerals!r}, must be indices by label, or None")
+    found: dict[int, int | None] = {}
+    for label, mineral in minerals.items():
+        if mineral is not None:
+            require_whole(f"{_WHERE}: minerals[{label}]", mineral, Bounds(at_least=0, at_most=99))
+        found[label] = mineral
+    values, first, counts = np.unique(image, return_index=True, return_counts=True)
+    for value, at, count in zip(values.tolist(), first.tolist(), counts.tolist(), strict=True):
+        if value not in found:
+            row, column = divmod(at, image.shape[1])
+            raise InputError(
+                f"{_WHERE}: minerals of label {value} are missing, which {count} pixels have, one "
+                f"at row {image.shape[0] - 1 - row}, column {column}; name it, None for a hole"
+            )
+    return found
+
+
+def _holes(image: IntArray, kinds: Mapping[int, int | None] | None) -> BoolArray:
+    empty = [label for label, kind in (kinds or {}).items() if kind is None]
+    holes: BoolArray = np.isin(image, empty)
+    return holes
+
+
+def _phases(kinds: Mapping[int, int | None] | None) -> dict[int, int] | None:
+    if kinds is None:
+        return None
+    return {label: kind for label, kind in kinds.items() if kind is not None}

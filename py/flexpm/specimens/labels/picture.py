@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Images of labels, read from files, and the phases that their labels stand for."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...arrays import IntArray
+from ...errors import InputError
+from ...files import Table, load_toml
+from ...require import quoted, require_text
+from .given import MOST_PIXELS
+
+#: What a phase is called that is no rock.
+HOLE_NAME = "hole"
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Labels of pixels, the first row on top."""
+
+    labels: IntArray
+    has_colours: bool = False  #: whether a label is a colour, red * 65536 + green * 256 + blue
+
+    def name_of(self, label: int) -> str:
+        """A label as a file of phases has it."""
+        return f"#{label:06x}" if self.has_colours else str(label)
+
+
+def read(path: Path) -> Picture:
+    """Read labels from PNG, TIFF or NPY.
+
+    A palette is read as its indices; a channel of opacity must be full.
+
+    Raises:
+        InputError: for a file that cannot be read, has several pages, more pixels than are taken,
+            or values that are no whole numbers.
+    """
+    if path.suffix.lower() == ".npy":
+        return _from_array(path)
+    from PIL import Image
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # large images are refused below
+            image = Image.open(path, formats=("PNG", "TIFF"))
+        with image:
+            if image.width * image.height > MOST_PIXELS:
+                raise InputError(
+                    f"image = {image.width} x {image.height} pixels, must be <= {MOST_PIXELS} in "
+                    "all; cut it or take coarser pixels"
+                )
+            pages = getattr(image, "n_frames", 1)
+            if pages > 1:
+                raise InputError(f"image = {pages} pages, must be one; save the page that is meant")
+            return _from_image(image.mode, np.asarray(image))
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        raise InputError(
+            f"image = {quoted(str(path))}, must be a PNG, TIFF or NPY file: {_short(error)}"
+        ) from None
+
+
+def _short(error: Exception) -> str:
+    return str(error).splitlines()[0] if str(error) else type(error).__name__
+
+
+def _from_array(path: Path) -> Picture:
+    """An array, of which only the head is read before its size is known."""
+    try:
+        found = np.load(path, mmap_mode="r", allow_pickle=False)
+    except (OSError, ValueError, EOFError, SyntaxError, OverflowError) as error:
+        raise InputError(
+            f"image = {quoted(str(path))}, must be an array of numbers: {_short(error)}"
+        ) from None
+    if not isinstance(found, np.ndarray) or found.ndim not in (2, 3) or found.size > MOST_PIXELS:
+        shape = getattr(found, "shape", "several arrays")
+        raise InputError(
+            f"image = {quoted(str(path))} of shape {shape}, must be rows of labels, at most "
+            f"{MOST_PIXELS}"
+        )
+    if found.ndim == 3:
+        raise InputError(f"image = array of shape {found.shape}, must have one page of labels")
+    return Picture(np.array(found))
+
+
+def _from_image(mode: str, values: IntArray) -> Picture:
+    if mode in ("LA", "RGBA"):
+        clear = values[..., -1] != 255
+        if clear.any():
+            row, column = np.argwhere(clear)[0].tolist()
+            raise InputError(
+                f"image opacity = {int(values[row, column, -1])} of 255 at row {row}, column "
+                f"{column}, must be full; save it without transparency"
+            )
+        values = values[..., :-1]
+        mode = mode[:-1]
+        values = values[..., 0] if mode == "L" else values
+    if mode == "RGB":
+        red, green, blue = (values[..., k].astype(np.int64) for k in range(3))
+        return Picture(65536 * red + 256 * green + blue, has_colours=True)
+    if values.ndim != 2:
+        raise InputError(f"image mode = {mode}, must be grey, a palette or RGB; convert it")
+    return Picture(values)
+
+
+def read_phases(path: Path, picture: Picture) -> dict[int, str]:
+    """Name of the mineral, or ``hole``, of each label.
+
+    Args:
+        path: A TOML file: labels, or colours ``#rrggbb``, and the phase of each.
+        picture: The labels.
+
+    Raises:
+        InputError: for a key that is no label, and a label that no key names.
+    """
+    content: Table = load_toml(path, "phases")
+    found: dict[int, str] = {}
+    for key, name in content.items():
+        found[_label(key, picture)] = require_text(f"phases {quoted(key)}", name)
+    if not found:
+        raise InputError(f"phases = {quoted(str(path))}, is empty; give label = mineral")
+    _require_all(found, picture, path)
+    return found
+
+
+def _label(key: str, picture: Picture) -> int:
+    rule = "a colour #rrggbb" if picture.has_colours else "a whole number"
+    if picture.has_colours and _COLOUR.fullmatch(key):
+        return int(key[1:], 16)
+    if not picture.has_colours and re.fullmatch(r"-?[0-9]{1,18}", key):
+        return int(key)
+    raise InputError(f"phases key = {quoted(key)}, must be {rule}, as the image has")
+
+
+def _require_all(found: Mapping[int, str], picture: Picture, path: Path) -> None:
+    """Refuse labels without a phase, by the first of them and their number."""
+    labels = picture.labels
+    values, first, counts = np.unique(labels, return_index=True, return_counts=True)
+    missing = [row for row, value in enumerate(values.tolist()) if value not in found]
+    if missing:
+        row, column = divmod(int(first[missing[0]]), labels.shape[1])
+        name = picture.name_of(int(values[missing[0]]))
+        others = f"; so are {len(missing) - 1} others" if len(missing) > 1 else ""
+        raise InputError(
+            f"image {'colour' if picture.has_colours else 'label'} = {name} of "
+            f"{int(counts[missing[0]])} pixels, one at row {row}, column {column}, is missing in "
+            f"{path}{others}; name it there"
+        )
+
+
+def indices(phases: Mapping[int, str]) -> tuple[list[str], dict[int, int | None]]:
+    """Names of the minerals in the order of the file, and the index of each label's."""
+    names = [name for name in dict.fromkeys(phases.values()) if name != HOLE_NAME]
+    return names, {
+        label: None if name == HOLE_NAME else names.index(name) for label, name in phases.items()
+    }

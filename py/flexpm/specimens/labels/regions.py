@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Regions of an image of labels: what hangs together by edges of pixels. Lengths in pixels.
+
+Rows go upwards here: row 0 is the lowest one. A hole has the number -1.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import BoolArray, IntArray
+from ...errors import InputError
+
+HOLE = -1
+#: Holes below this share of a mean grain are filled [-]; smaller ones count as gaps of cells.
+_LEAST_HOLE = 0.03
+
+
+@dataclass(frozen=True)
+class Regions:
+    """Grains of an image.
+
+    Attributes:
+        image: Number of the grain of each pixel, `HOLE` where there is none.
+        labels: Label of each grain.
+        counts: How many regions and pixels went another way, by what happened.
+    """
+
+    image: IntArray
+    labels: IntArray
+    counts: dict[str, int]
+
+    @property
+    def number(self) -> int:
+        """Number of grains."""
+        return len(self.labels)
+
+
+@dataclass(frozen=True)
+class Cuts:
+    """Where pixels of one value do not hang together."""
+
+    beside: BoolArray  #: with the one to the right, (rows, columns - 1)
+    above: BoolArray  #: with the one above, (rows - 1, columns)
+
+    @classmethod
+    def none(cls, image: IntArray) -> Cuts:
+        """No cut."""
+        rows, columns = image.shape
+        return cls(
+            np.zeros((rows, columns - 1), dtype=bool), np.zeros((rows - 1, columns), dtype=bool)
+        )
+
+
+def connected(image: IntArray, cuts: Cuts | None = None) -> IntArray:
+    """Number of the connected region of equal values that each pixel is in, in reading order.
+
+    Args:
+        image: Values of the pixels.
+        cuts: Where pixels do not hang together though they are equal.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    index = np.arange(image.size).reshape(image.shape)
+    beside = image[:, :-1] == image[:, 1:]
+    above = image[:-1] == image[1:]
+    if cuts is not None:
+        beside &= ~cuts.beside
+        above &= ~cuts.above
+    first = np.concatenate((index[:, :-1][beside], index[:-1][above]))
+    second = np.concatenate((index[:, 1:][beside], index[1:][above]))
+    ones = np.ones(len(first), dtype=np.int8)
+    graph = coo_array((ones, (first, second)), shape=(image.size, image.size))
+    found: IntArray = connected_components(graph, directed=False)[1].reshape(image.shape)
+    return found
+
+
+def find(
+    labels: IntArray, holes: BoolArray, smallest: int, phases: Mapping[int, int] | None = None
+) -> Regions:
+    """Grains of an image of labels.
+
+    Args:
+        labels: Label of each pixel.
+        holes: Whether a pixel is of a hole.
+        smallest: Regions with fewer pixels go to a neighbour.
+        phases: Phase of each label; None: each label is one of its own.
+
+    Raises:
+        InputError: if all is hole, or one region is left.
+    """
+    marked = np.where(holes, labels.min() - 1, labels)
+    regions = connected(marked)
+    values = np.empty(regions.max() + 1, dtype=np.int64)
+    values[regions] = marked
+    is_hole = np.zeros(len(values), dtype=bool)
+    is_hole[regions[holes]] = True
+    kinds = values if phases is None else np.array([phases.get(v, v) for v in values.tolist()])
+    counts = {"regions": int(np.count_nonzero(~is_hole))}
+    if not counts["regions"]:
+        raise InputError("labels = all hole, must have grains; name another phase hole")
+    small = _Merging(regions, is_hole, kinds)
+    counts["small_regions"] = small.merge(smallest, holes=False)
+    rock = int(np.count_nonzero(~holes))
+    least = max(smallest, int(_LEAST_HOLE * rock / max(small.grains, 1)) + 1)
+    counts["small_holes"] = small.merge(least, holes=True)
+    image = np.where(is_hole[small.target], HOLE, small.target)[regions]
+    if not (image >= 0).any():
+        raise InputError("labels = all hole but small regions, must have grains; lower smallest")
+    counts["loose_pixels"] = _drop_loose(image)
+    counts["filled_pixels"] = _fill_touching(image)
+    kept, numbers = np.unique(image[image >= 0], return_inverse=True)
+    if len(kept) < 2:
+        raise InputError("labels = one region, must be two grains or more; give a larger image")
+    image[image >= 0] = numbers
+    return Regions(image, values[kept], counts)
+
+
+class _Merging:
+    """Regions that go to their neighbours, smallest first."""
+
+    def __init__(self, regions: IntArray, is_hole: BoolArray, kinds: IntArray) -> None:
+        self.target = np.arange(len(is_hole))  #: region that each one has gone to, once settled
+        self._is_hole, self._kinds = is_hole.tolist(), kinds.tolist()
+        self._sizes = np.bincount(regions.ravel()).tolist()
+        self._lines: list[dict[int, int]] = [{} for _ in self._sizes]
+        pairs = np.concatenate(
+            [
+                np.stack((one[one != other], other[one != other]))
+                for one, other in (
+                    (regions[:, :-1], regions[:, 1:]),
+                    (regions[:-1], regions[1:]),
+                )
+            ],
+            axis=1,
+        )
+        found, lengths = np.unique(np.sort(pairs, axis=0), axis=1, return_counts=True)
+        for a, b, length in zip(*found.tolist(), lengths.tolist(), strict=True):
+            self._lines[a][b] = self._lines[b][a] = length
+
+    @property
+    def grains(self) -> int:
+        """Regions that are left and are no holes."""
+        there = self.target == np.arange(len(self.target))
+        return int(np.count_nonzero(there & ~np.array(self._is_hole)))
+
+    def merge(self, smallest: int, *, holes: bool) -> int:
+        """Let holes, or the others, with fewer pixels go; returns how many went."""
+        queue = [
+            (size, region)
+            for region, size in enumerate(self._sizes)
+            if size < smallest and self._is_hole[region] is holes and self.target[region] == region
+        ]
+        heapq.heapify(queue)
+        gone = 0
+        while queue:
+            size, region = heapq.heappop(queue)
+            if self.target[region] != region or size != self._sizes[region]:
+                continue
+            if not self._lines[region]:
+                break  # the whole image
+            into = max(self._lines[region], key=lambda other: self._rank(region, other))
+            self._join(region, into)
+            gone += 1
+            if self._sizes[into] < smallest and self._is_hole[into] is holes:
+                heapq.heappush(queue, (self._sizes[into], into))
+        self._settle()
+        return gone
+
+    def _rank(self, region: int, other: int) -> tuple[bool, bool, int, int]:
+        """Grains before holes, the same phase, the longest line, the first one."""
+        alike = self._kinds[region] == self._kinds[other]
+        return (not self._is_hole[other], alike, self._lines[region][other], -other)
+
+    def _join(self, region: int, into: int) -> None:
+        self.target[region] = into
+        self._sizes[into] += self._sizes[region]
+        for other, length in self._lines[region].items():
+            del self._lines[other][region]
+            if other != into:
+                whole = self._lines[into].get(other, 0) + length
+                self._lines[into][other] = self._lines[other][into] = whole
+        self._lines[region] = {}
+
+    def _settle(self) -> None:
+        while np.any(self.target != self.target[self.target]):
+            self.target = self.target[self.target]
+
+
+def _drop_loose(image: IntArray) -> int:
+    """Make holes of all grains that do not hang together with most of the rock."""
+    parts = connected((image >= 0).astype(np.int8))
+    sizes = np.bincount(parts[image >= 0])
+    loose = (image >= 0) & (parts != int(np.argmax(sizes)))
+    image[loose] = HOLE
+    return int(np.count_nonzero(loose))
+
+
+def _fill_touching(image: IntArray) -> int:
+    """Give a pixel to a grain wherever holes touch at a corner; returns how many."""
+    filled = 0
+    while True:
+        low_left, low_right = image[:-1, :-1] < 0, image[:-1, 1:] < 0
+        top_left, top_right = image[1:, :-1] < 0, image[1:, 1:] < 0
+        rising = low_left & top_right & ~low_right & ~top_left
+        falling = low_right & top_left & ~low_left & ~top_right
+        places = np.argwhere(rising | falling)
+        if not len(places):
+            return filled
+        for y, x in places.tolist():
+            ways = ((y, x, y, x + 1), (y, x + 1, y, x))
+            for row, column, from_row, from_column in ways:
+                if image[row, column] < 0 <= image[from_row, from_column]:
+                    image[row, column] = image[from_row, from_column]
+                    filled += 1
+                    break

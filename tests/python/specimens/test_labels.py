@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Specimens from images of labels: areas, lines and neighbours of the raster; what is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from PIL import Image
+from scipy.ndimage import gaussian_filter
+from scipy.spatial import cKDTree
+
+import flexpm
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.specimens.labels.given import divide
+from flexpm.specimens.specimen import Specimen
+
+PIXEL, THICKNESS = 5e-5, 0.01
+
+
+def made(labels, **options):
+    return Specimen.from_labels(labels, PIXEL, THICKNESS, **options)
+
+
+def voronoi(size, grains, seed):
+    y, x = np.mgrid[:size, :size] + 0.5
+    places = np.random.default_rng(seed).random((grains, 2)) * size
+    nearest = cKDTree(places).query(np.column_stack((x.ravel(), y.ravel())))[1]
+    return nearest.reshape(size, size)
+
+
+def circles(size, labels, count, seed):
+    """Discs drawn over an image, some of them over others."""
+    draw = np.random.default_rng(seed)
+    y, x = np.mgrid[:size, :size] + 0.5
+    for number in range(count):
+        (a, b), radius = draw.random(2) * size, draw.uniform(1.0, 8.0)
+        labels[(x - a) ** 2 + (y - b) ** 2 < radius**2] = 1000 + number
+    return labels
+
+
+def drawn(seed, most=128):
+    """Images of six kinds: grains, islands, patches, checkerboards, noise and single pixels."""
+    draw = np.random.default_rng(seed)
+    size, kind = int(draw.integers(24, most)), seed % 6
+    if kind == 0:
+        return voronoi(size, int(draw.integers(3, 60)), seed)
+    if kind == 1:
+        return circles(size, voronoi(size, 12, seed), 10, seed)
+    if kind == 2:
+        field = gaussian_filter(draw.random((size, size)), draw.uniform(1.0, 4.0))
+        return np.digitize(field, np.quantile(field, [0.3, 0.6]))
+    if kind == 3:
+        side = int(draw.integers(2, 9))
+        y, x = np.mgrid[:size, :size] // side
+        return (x + y) % 2
+    if kind == 4:
+        return draw.integers(0, 3, (size // 2, size))
+    labels = voronoi(size, 25, seed)
+    labels[draw.random((size, size)) < 0.02] = 77
+    return labels
+
+
+def area_of(polygon):
+    x, y = polygon.T
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def neighbours(grains, pairs, least):
+    """Pairs of grains that meet at least so often."""
+    met = np.sort(grains[pairs], axis=1)
+    met = met[met[:, 0] != met[:, 1]]
+    found, counts = np.unique(met, axis=0, return_counts=True)
+    return set(map(tuple, found[counts >= least].tolist()))
+
+
+def raster_pairs(polygons):
+    """Pieces on both sides of each edge of a pixel."""
+    sides = {}
+    for piece, polygon in enumerate(polygons):
+        corners = list(map(tuple, np.round(polygon / PIXEL).astype(int).tolist()))
+        for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+            sides[start, end] = piece
+    return np.array([(one, sides[e, s]) for (s, e), one in sides.items() if (e, s) in sides])
+
+
+def require_as_the_raster(labels, **options):
+    found = divide(labels, PIXEL, **options)
+    specimen = made(labels, **options)
+    cells = specimen.tessellation
+    areas = np.bincount(specimen.grains, cells.cell_areas)
+    # the kernel takes corners within 1e-6 mean diameters as one
+    assert areas == pytest.approx(found.pixels * PIXEL**2, rel=1e-5)
+    assert areas.sum() == pytest.approx(found.pixels.sum() * PIXEL**2, rel=1e-9)
+    assert len(cells.cell_areas) >= len(found.polygons)
+    staircase = divide(labels, PIXEL, **options, smoothed=False)
+    stairs = np.bincount(staircase.grains, [area_of(one) for one in staircase.polygons])
+    assert stairs == pytest.approx(found.pixels * PIXEL**2, rel=1e-12)
+    pairs = raster_pairs(staircase.polygons)
+    met = neighbours(specimen.grains, cells.shared_edges[:, :2], 1)
+    # each edge of a pixel is there from both sides
+    assert neighbours(staircase.grains, pairs, 6) <= met <= neighbours(staircase.grains, pairs, 2)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_drawn_images_keep_areas_and_neighbours(seed):
+    require_as_the_raster(drawn(seed, 40), smallest=(1, 4, 9)[seed % 3])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(100))
+def test_more_drawn_images(seed):
+    require_as_the_raster(drawn(seed), smallest=(1, 4, 9)[seed % 3])
+
+
+def test_a_circle():
+    y, x = np.mgrid[:64, :64] + 0.5
+    for seed in range(5):
+        a, b = 32.0 + np.random.default_rng(seed).random(2)
+        specimen = made(((x - a) ** 2 + (y - b) ** 2 < 400.0).astype(int))
+        cells, grains = specimen.tessellation, specimen.grains
+        pairs = cells.shared_edges
+        ends = cells.vertices[pairs[:, 2:]]
+        rim = grains[pairs[:, 0]] != grains[pairs[:, 1]]
+        length = np.hypot(*(ends[rim, 1] - ends[rim, 0]).T).sum()
+        inside = cells.cell_areas[grains == grains[pairs[rim][0, :2]].max()].sum()
+        assert inside == pytest.approx(math.pi * 400.0 * PIXEL**2, rel=0.005)
+        assert length == pytest.approx(40.0 * math.pi * PIXEL, rel=0.02)
+        radii = np.hypot(*(ends[rim].reshape(-1, 2) / PIXEL - (a, 64.0 - b)).T)
+        assert np.abs(radii - 20.0).max() < 1.5
+
+
+def test_straight_layers_stay_straight_and_their_corners_are_an_edge_apart():
+    labels = np.repeat(np.arange(4), 10)[:, None] * np.ones(40, dtype=int)
+    specimen = made(labels, edge=5 * PIXEL)
+    lines = specimen.tessellation.vertices[specimen.tessellation.shared_edges[:, 2:]]
+    assert np.all(lines[:, 0, 1] == lines[:, 1, 1])
+    assert np.hypot(*(lines[:, 1] - lines[:, 0]).T) == pytest.approx(5 * PIXEL)
+    # row 0 is the top
+    top = specimen.centres[specimen.grains == specimen.grains[np.argmax(specimen.centres[:, 1])]]
+    assert specimen.dimensions == {"width": 40 * PIXEL, "height": 40 * PIXEL}
+    assert divide(labels, PIXEL).labels[specimen.grains[np.argmax(specimen.centres[:, 1])]] == 0
+    assert len(top) == 1
+
+
+def test_small_regions_go_to_the_longest_line_and_to_their_own_mineral_first():
+    labels = np.zeros((12, 12), dtype=int)
+    labels[:, 6:] = 1
+    labels[4, 5:8] = 2  # one pixel in 0, two in 1: 4 sides to 1, 4 to 0 with the end
+    labels[9, 2] = 3
+    found = divide(labels, PIXEL, smallest=4)
+    assert found.counts["small_regions"] == 2
+    assert sorted(found.labels.tolist()) == [0, 1]
+    assert found.pixels.sum() == 144
+    by_length = found.pixels[found.labels.tolist().index(1)]
+    assert by_length == 72 + 1  # the longer line is that to 1: five sides to three
+    alike = divide(labels, PIXEL, smallest=4, minerals={0: 0, 1: 1, 2: 0, 3: 1})
+    assert alike.pixels[alike.labels.tolist().index(0)] == 72 + 2
+
+
+def test_holes_and_what_is_loose():
+    labels = voronoi(60, 12, 1)
+    labels[20:30, 25:40] = 99
+    labels[23:26, 30:34] = 50  # a grain in the hole
+    minerals = {label: 0 for label in np.unique(labels).tolist()} | {99: None}
+    specimen = made(labels, minerals=minerals)
+    assert len(specimen.holes) == 1
+    assert specimen.regions["loose_pixels"] == 12
+    area = (3600 - 150) * PIXEL**2
+    assert specimen.tessellation.cell_areas.sum() == pytest.approx(area, rel=1e-9)
+    flexpm.elastic(specimen.with_minerals(specimen.minerals), mineral_rock())
+
+
+def mineral_rock():
+    base = {"young": 50e9, "poisson": 0.2, "normal_stiffness": 1e14, "shear_ratio": 0.3}
+    strengths = {"tensile_strength": 8e6, "cohesion": 30e6, "friction": 0.4, "softening": "brittle"}
+    kinds = [{"name": name, "fraction": 0.5} for name in ("quartz", "mica")]
+    return {**strengths, "elastic": {"flexible": base}, "mineral": kinds}
+
+
+def test_a_specimen_of_an_image_is_saved_cut_and_run(tmp_path):
+    labels = circles(40, voronoi(40, 9, 2), 3, 2)
+    kinds = {label: label % 2 for label in np.unique(labels).tolist()}
+    specimen = made(labels, minerals=kinds)
+    assert specimen.grains.max() + 1 < len(specimen.discs)  # some go round others
+    cut = specimen.with_joints({"one": [(-1e-3, 1.03e-3), (1e-2, 1.09e-3)]})
+    for number, one in enumerate((specimen, cut)):
+        one.save(tmp_path / f"{number}.json")
+        again = Specimen.load(tmp_path / f"{number}.json")
+        assert again.spec == one.spec
+        assert np.array_equal(again.grains, one.grains)
+        assert np.array_equal(again.minerals, one.minerals)
+    result = flexpm.run("tension", specimen, mineral_rock(), rate=4.0, max_strain=1e-4)
+    assert result.grains == len(specimen.discs)
+
+
+WRONG = [
+    (np.zeros((4, 4), int), {}, "one region"),
+    (np.zeros(4, int), {}, "must be rows of whole numbers"),
+    (np.full((4, 4), 0.5), {}, "labels = 0.5 at row 0, column 0, must be whole numbers"),
+    (np.full((4, 4), np.nan), {}, "labels = nan"),
+    (np.array([["a", "b"], ["c", "d"]]), {}, "must be rows of whole numbers"),
+    (np.eye(8, dtype=int), {"minerals": {0: None, 1: None}}, "all hole"),
+    (np.eye(8, dtype=int), {"minerals": {0: 0}}, "minerals of label 1 are missing, which 8 pixels"),
+    (np.eye(8, dtype=int), {"minerals": {0: 0, 1: -1}}, r"minerals\[1\] = -1"),
+    (np.eye(8, dtype=int), {"minerals": 3}, "minerals = 3, must be indices by label"),
+    (np.eye(8, dtype=int), {"smallest": 0}, "smallest = 0"),
+    (np.eye(8, dtype=int), {"edge": PIXEL}, "edge = 5e-05"),
+    (np.broadcast_to(np.int8(1), (30_000, 30_000)), {}, "30000 x 30000 pixels, must be <="),
+]
+
+
+@pytest.mark.parametrize(("labels", "options", "words"), WRONG)
+def test_wrong_labels_are_refused_in_one_line(labels, options, words):
+    with pytest.raises(InputError, match=words) as error:
+        made(labels, **options)
+    assert "\n" not in str(error.value)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    arrays.arrays(
+        st.sampled_from([np.uint8, np.int64, np.float64, bool]),
+        st.tuples(st.integers(1, 14), st.integers(1, 14)),
+        elements=st.integers(0, 1),
+    )
+    | arrays.arrays(np.int8, st.tuples(st.integers(2, 14), st.integers(2, 14))),
+    st.sampled_from([1, 2, 4]),
+    st.booleans(),
+)
+def test_any_image_gives_a_specimen_or_one_line(labels, smallest, with_hole):
+    kinds = {label: 0 for label in np.unique(labels.astype(int)).tolist()}
+    if with_hole:
+        kinds[min(kinds)] = None
+    try:
+        specimen = made(labels, smallest=smallest, minerals=kinds)
+    except InputError as error:
+        assert "\n" not in str(error)
+    else:
+        assert specimen.grains.max() >= 1
+
+
+COLOURS = np.array([(255, 0, 0), (0, 255, 0), (0, 0, 255)], dtype=np.uint8)
+PHASES = '"#ff0000" = "quartz"\n"#00ff00" = "mica"\n"#0000ff" = "hole"\n'
+
+
+def command(folder, file, *options):
+    given = [str(folder / file), "--pixel", "5e-5", "--out", str(folder / "out")]
+    return cli.main(["specimen", "image", *given, "--quiet", *options])
+
+
+def test_the_command_reads_colours_and_tells_figures(tmp_path, capsys):
+    kinds = np.digitize(gaussian_filter(np.random.default_rng(5).random((60, 60)), 4), [0.5])
+    kinds[20:34, 20:34] = 2
+    Image.fromarray(COLOURS[kinds]).save(tmp_path / "thin.png")
+    (tmp_path / "phases.toml").write_text(PHASES)
+    assert command(tmp_path, "thin.png", "--phases", str(tmp_path / "phases.toml")) == 0
+    found = json.loads((tmp_path / "out/specimen.json").read_text())
+    assert sum(found["area_share"].values()) == pytest.approx(1.0)
+    by_pair = found["boundary_length_by_pair"]
+    assert sum(by_pair.values()) == pytest.approx(found["boundary_length"])
+    specimen = Specimen.load(tmp_path / "out/grains.json")
+    assert len(specimen.holes) == 1 and specimen.minerals is not None
+    assert "in this order: quartz, mica" in capsys.readouterr().out
+
+
+def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
+    (tmp_path / "phases.toml").write_text(PHASES.replace('"#0000ff" = "hole"\n', ""))
+    picture = COLOURS[np.arange(100).reshape(10, 10) // 34]
+    Image.fromarray(picture).save(tmp_path / "colours.png")
+    pages = [Image.fromarray(picture[..., 0]) for _ in range(2)]
+    pages[0].save(tmp_path / "pages.tif", save_all=True, append_images=pages[1:])
+    clear = np.dstack((picture, np.full((10, 10), 100, np.uint8)))
+    Image.fromarray(clear).save(tmp_path / "clear.png")
+    np.save(tmp_path / "objects.npy", np.array([{}, []], dtype=object), allow_pickle=True)
+    np.save(tmp_path / "fractions.npy", np.full((5, 5), 0.25))
+    (tmp_path / "none.png").write_bytes(b"no image")
+    for file, words in {
+        "colours.png": "image colour = #0000ff of 32 pixels, one at row 6, column 8, is missing",
+        "pages.tif": "image = 2 pages, must be one",
+        "clear.png": "image opacity = 100 of 255 at row 0, column 0, must be full",
+        "objects.npy": "must be an array of numbers",
+        "fractions.npy": "labels = 0.25 at row 0, column 0, must be whole numbers",
+        "none.png": "must be a PNG, TIFF or NPY file",
+        "nowhere.png": "must be a PNG, TIFF or NPY file",
+    }.items():
+        phases = ["--phases", str(tmp_path / "phases.toml")] if file == "colours.png" else []
+        assert command(tmp_path, file, *phases) == 2, file
+        lines = capsys.readouterr().err.strip().splitlines()
+        assert len(lines) == 1 and words in lines[0], lines
+
+
+def test_a_palette_is_its_indices(tmp_path):
+    labels = voronoi(30, 5, 3).astype(np.uint8)
+    image = Image.fromarray(labels, mode="P")
+    image.putpalette(list(range(255, -1, -1)) * 3)
+    image.save(tmp_path / "palette.png")
+    assert command(tmp_path, "palette.png") == 0
+    found = json.loads((tmp_path / "out/specimen.json").read_text())
+    assert found["grains"] == divide(labels, PIXEL).pixels.size
+
+
+@pytest.mark.long
+def test_a_million_pixels_take_seconds():
+    import time
+
+    labels = voronoi(1000, 2000, 1)
+    start = time.perf_counter()
+    specimen = made(labels)
+    assert time.perf_counter() - start < 20.0
+    assert specimen.grains.max() > 1900
