@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""YADE's CohFrict on flexpm's discs and bonds: the mapping of one bond, and the tests."""
+"""YADE's CohFrict on flexpm's discs and bonds: all of them together, and the tests."""
 
 import bonded_pair
 import numpy as np
@@ -14,42 +14,11 @@ from flexpm.runs.loading_rate import Loading
 from flexpm.specimens.specimen import Specimen
 
 MODEL = "cohfrict"
-GAP, TOUCH, OVERLAP = 0.9, 1.0, 1.05  # overlapping discs are shrunk until they touch
 
 
 @pytest.fixture(scope="module")
 def rectangle():
     return Specimen.rectangle(0.02, 0.04, 0.01, seed=2)
-
-
-@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
-def test_a_bond_has_the_stiffness_of_its_edge(radius_share):
-    assert bonded_pair.stiffnesses(MODEL, radius_share) == pytest.approx(1.0, rel=1e-4)
-
-
-@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
-def test_a_bond_resists_bending_as_its_edge_does(radius_share):
-    assert bonded_pair.bending(radius_share) == pytest.approx(1.0, rel=1e-4)
-
-
-@pytest.mark.parametrize("radius_share", [GAP, TOUCH, OVERLAP])
-def test_a_bond_breaks_at_the_tensile_strength_of_its_edge(radius_share):
-    largest, promised, rest = bonded_pair.pull_until_broken(MODEL, radius_share)
-    assert (1.0 - 2e-3) * promised < largest <= (1.0 + 1e-9) * promised  # one step is 1.5e-3
-    assert rest == 0.0
-
-
-@pytest.mark.parametrize("pressure", [0.0, 20e6, 80e6])
-def test_a_bond_breaks_at_cohesion_and_friction_of_its_edge(pressure):
-    largest, promised, rest, friction = bonded_pair.shear_until_broken(MODEL, pressure)
-    assert largest == pytest.approx(promised, rel=2e-3)
-    assert rest == pytest.approx(friction, rel=1e-3, abs=1e-6 * promised)
-
-
-@pytest.mark.parametrize("radius_share", [TOUCH, OVERLAP])
-def test_a_torn_pair_is_not_flung_apart(radius_share):
-    largest, bound = bonded_pair.close_again(MODEL, radius_share)
-    assert largest <= bound
 
 
 def test_discs_are_shrunk_until_none_overlap(rectangle):

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 from .layout import Frame, Layout, Lines, Opening, Plate
 from .option import control_of
-from .words import CRACKS, Words, strain, stress
+from .part_measures import work
+from .words import CRACKS, Columns, Words, strain, stress
 
 CONTROLS = {"displacement": "", "cmod": "cmod"}
 CONTROL = control_of(*CONTROLS)
@@ -49,3 +52,21 @@ def on_rollers(frame: Frame) -> Layout:
         strength=frame.tensile_strength,
         openings={"cmod": mouth},
     )
+
+
+def measured(
+    frame: Frame, record: Columns, peak: float | None, toughness: Callable[[float], float | None]
+) -> Mapping[str, float | None]:
+    """Load, work and, of a notch, `toughness` of the largest load."""
+    notch = frame.notch_depth
+    found: dict[str, float | None] = {"notch_depth": notch}
+    if peak is None:
+        return found
+    load = float(record["load"].max())
+    found |= {
+        "peak_load": load,
+        "fracture_energy": work(record) / (frame.thickness * (frame.height - notch)),
+    }
+    if notch > 0.0:
+        found["fracture_toughness"] = toughness(load)
+    return found

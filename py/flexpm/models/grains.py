@@ -7,43 +7,30 @@ per step, and only slow loading means anything.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TypeVar, Unpack
 
 import numpy as np
 import yade
 from yade import wrapper
 
-from .._flexpm import AssemblyInput, InnerCells, Tessellation, set_engines
-from ..arrays import FloatArray, IntArray
+from .._flexpm import set_engines
+from ..arrays import IntArray
 from ..errors import InputError, SimulationError
 from ..files import Table
-from ..materials.joint import require_joints
 from ..materials.material import Material
 from ..materials.material import load as load_material
-from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
-from ..specimens import inner_particles, mineral_map
+from ..specimens import mineral_map
 from ..specimens.specimen import Specimen, require_specimen
 from ..threads import limited
 from . import spheres
+from .assembly import assembled, constants, fitted, grains_of
 from .collider import collider
-from .options import (
-    GRAIN_MODELS,
-    INNER_MODELS,
-    MESHES,
-    POINTS,
-    SPHERE_MODELS,
-    check_options,
-    local_damping,
-)
+from .options import GRAIN_MODELS, SPHERE_MODELS, Motion, check_options, local_damping, motion_of
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
-
-#: Keys of a law that a GrainMat takes in another form, or not at all.
-_OTHERWISE = {"name", "plane", "softening", "open", "shear_stiffness", "dilation_angle"}
 
 
 @dataclass
@@ -185,11 +172,9 @@ def build(
     *,
     points: int = 3,
     mesh: str = "refined",
-    damping: float | None = None,
-    dynamic: bool = False,
-    gravity: float = 0.0,
     interaction_range: float | None = None,
     threads: int = 1,
+    **motion: Unpack[Motion],
 ) -> Model | spheres.SphereModel:
     """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
 
@@ -202,14 +187,19 @@ def build(
             ``cohfrict``.
         points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have one.
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
-        damping: Local damping alpha [-], 0 <= alpha < 1; None: 0.7 with scaled masses, 0 with real
-            ones. What moves freely under gravity g gains (1 - alpha) g.
-        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
-        gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         interaction_range: For ``jcfpm`` and ``cohfrict``: pairs of discs nearer than this multiple
             of the sum of their radii are bonded, too, 1 to 2 [-] (deviation D61); None: only those
             whose cells share an edge.
         threads: Threads of a step; results do not depend on it.
+        motion: How the grains move, by these names:
+
+            - ``damping``: local damping alpha [-], 0 <= alpha < 1; None, the default: 0.7 with
+              scaled masses, 0 with real ones. What moves freely under gravity g gains
+              (1 - alpha) g.
+            - ``dynamic``: real masses and a time step in seconds instead of scaled masses and unit
+              steps; default False.
+            - ``gravity``: acceleration downwards [m/s2]; other than 0, the default, with
+              ``dynamic`` only.
 
     Returns:
         The model; ``yade.O`` holds its bodies and engines.
@@ -217,6 +207,7 @@ def build(
     Raises:
         InputError: for an argument or a material property out of range.
     """
+    damping, dynamic, gravity = motion_of(motion)
     check_options(
         model,
         points=points,
@@ -242,9 +233,9 @@ def build(
         )
     if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
-    grains = _grains(specimen, model, points, mesh)
-    chosen = _fitted(specimen, grains, load_material(material, model), model)
-    solver = _assembled(grains, chosen)
+    grains = grains_of(specimen, model, points, mesh)
+    chosen = fitted(specimen, grains, load_material(material, model), model)
+    solver = assembled(grains, chosen)
     solver.damping = damping
     solver.addToScene()
     mean_diameter = 2.0 * float(np.mean(grains.discs[:, 2]))
@@ -283,137 +274,11 @@ def elastic(
     """
     require_one_of("build: model", model, GRAIN_MODELS)
     require_specimen("elastic", specimen)
-    grains = _grains(specimen, model, points, mesh)
-    chosen = _fitted(specimen, grains, load_material(material, model), model)
-    solver = _assembled(grains, chosen)
-    modulus, ratio = _constants(solver)
+    grains = grains_of(specimen, model, points, mesh)
+    chosen = fitted(specimen, grains, load_material(material, model), model)
+    solver = assembled(grains, chosen)
+    modulus, ratio = constants(solver)
     return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
-
-
-@dataclass
-class _Grains:
-    """What the solver assembles: cells, their discs (rows x, y, radius [m]) and the model."""
-
-    specimen: Specimen
-    model: str
-    tessellation: Tessellation
-    discs: FloatArray
-    points: int
-    mesh: str
-    inner: InnerCells | None = None  #: of the inner particles that the cells are
-
-
-def _grains(specimen: Specimen, model: str, points: int, mesh: str) -> _Grains:
-    """The grains of a specimen, or the inner particles of all of them."""
-    require_one_of("build: points", points, POINTS)
-    require_one_of("build: mesh", mesh, MESHES)
-    if model not in INNER_MODELS:
-        discs = np.asarray(specimen.discs, dtype=float)
-        return _Grains(specimen, model, specimen.tessellation, discs, points, mesh)
-    specimen.spec.require_alike(model)
-    cells = inner_particles.cells(specimen)
-    return _Grains(specimen, model, cells.tessellation, cells.discs, 1, mesh, cells)
-
-
-def _fitted(specimen: Specimen, grains: _Grains, chosen: Material, model: str) -> Material:
-    """The material, with the stiffness of inner particles fitted to the rock's."""
-    if model not in INNER_MODELS:
-        return chosen
-    description(chosen, model)  # refuses a material without the set
-    if specimen.kind == "disc":  # no test of it gives a modulus
-        like = inner_particles.rectangle_like(specimen)
-        grains = _grains(like, model, POINTS[0], MESHES[0])
-    return inner_particles.fitted(chosen, lambda tried: _constants(_assembled(grains, tried)))
-
-
-def _constants(solver: wrapper.GrainSolver) -> tuple[float, float]:
-    """Young's modulus [Pa] and Poisson's ratio [-] of an assembled rectangle."""
-    try:
-        return solver.elasticConstants()
-    except (ValueError, RuntimeError) as error:
-        raise InputError(f"elastic: {error}") from error
-
-
-def _assembled(grains: _Grains, chosen: Material) -> wrapper.GrainSolver:
-    """Make the solver with the packed arrays of the bonded, unloaded grains."""
-    description(chosen, grains.model)  # refuses minerals that do not go together
-    solver = wrapper.GrainSolver()
-    materials = [_grain_material(kind, grains.model) for kind in mineral_materials(chosen)]
-    try:
-        cells = _input(grains)
-        pairs = _tell_minerals(cells, grains, chosen)
-        joints = _tell_joints(cells, grains, chosen)
-        solver.assemble(cells, materials, pairs, joints)
-    except (ValueError, RuntimeError) as error:
-        raise InputError(f"build: {error}") from error
-    return solver
-
-
-def _input(grains: _Grains) -> AssemblyInput:
-    """Cells and how they are bonded, but for what the material says."""
-    cells = AssemblyInput(
-        grains.tessellation,
-        np.ascontiguousarray(grains.discs[:, :2]),
-        np.ascontiguousarray(grains.discs[:, 2]),
-        float(grains.specimen.thickness),
-    )
-    cells.rigid = grains.model != "flexible"
-    cells.mesh = grains.mesh
-    cells.points = grains.points
-    if grains.inner is not None:
-        inner_particles.tell(cells, grains.inner, grains.model)
-    return cells
-
-
-def _tell_minerals(
-    cells: AssemblyInput, grains: _Grains, chosen: Material
-) -> list[wrapper.GrainMat]:
-    """Set the mineral of each grain; returns the materials of the contacts of each two minerals."""
-    found = mineral_map.minerals_of(grains.specimen, chosen)
-    if found is None:
-        return []
-    cells.minerals = found
-    return [_grain_material(pair, grains.model) for pair in pair_materials(chosen, grains.model)]
-
-
-def _tell_joints(cells: AssemblyInput, grains: _Grains, chosen: Material) -> list[wrapper.GrainMat]:
-    """Set strengths and joints of the contacts; returns the materials of the joints."""
-    specimen = grains.specimen
-    if specimen.strengths is not None:
-        cells.edge_strengths = np.ascontiguousarray(specimen.strengths)
-    if specimen.edge_joints is None:
-        return []
-    laws = {law["name"]: law for law in chosen.joint_laws(grains.model)}
-    names = specimen.spec.joint_names or ()
-    require_joints(names, list(laws))
-    cells.edge_joints = np.ascontiguousarray(specimen.edge_joints, dtype=np.int32)
-    return [_joint_material(laws[name]) for name in names]
-
-
-def _joint_material(law: Table) -> wrapper.GrainMat:
-    return wrapper.GrainMat(
-        label=law["name"],
-        shearRatio=law["shear_stiffness"] / law["normal_stiffness"],
-        dilation=math.tan(math.radians(law["dilation_angle"])),
-        **_numbers(law),
-    )
-
-
-def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
-    law = chosen.law(model)
-    return wrapper.GrainMat(
-        label=chosen.name, planeStrain=law["plane"] == "strain", **_numbers({**law})
-    )
-
-
-def _numbers(law: Table) -> dict[str, float]:
-    """Numbers of a law as a GrainMat spells their names; 0 where it has none, as rigid grains."""
-    return {_spelt(key): value or 0.0 for key, value in law.items() if key not in _OTHERWISE}
-
-
-def _spelt(key: str) -> str:
-    first, *others = key.split("_")
-    return first + "".join(word.capitalize() for word in others)
 
 
 def _idle_newton() -> wrapper.Engine:

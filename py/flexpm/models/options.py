@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import TypedDict
+
 from ..errors import InputError
 from ..kinds.model_names import GRAIN_MODELS, INNER_MODELS, MODELS, SPHERE_MODELS
 from ..require import (
@@ -25,6 +27,26 @@ DAMPING = 0.7
 #: Distances up to which spheres are bonded, over the sum of their radii [-].
 RANGE = Bounds(at_least=1.0, at_most=2.0)
 _DAMPING = Bounds(at_least=0.0, below=1.0)
+
+
+class Motion(TypedDict, total=False):
+    """How grains move, as `build` takes it by these names; each may be left out."""
+
+    damping: float | None  #: local damping alpha [-]; None: see `local_damping`
+    dynamic: bool  #: real masses and time instead of scaled masses and unit steps
+    gravity: float  #: acceleration downwards [m/s2]
+
+
+def motion_of(given: Motion) -> tuple[float | None, bool, float]:
+    """Damping, whether with real masses, and gravity, as given or by default.
+
+    Raises:
+        TypeError: for another name, as Python does for a keyword that a function has not.
+    """
+    for name in given:
+        if name not in Motion.__annotations__:
+            raise TypeError(f"build() got an unexpected keyword argument {name!r}")
+    return given.get("damping"), given.get("dynamic", False), given.get("gravity", 0.0)
 
 
 def local_damping(damping: float | None, *, dynamic: bool) -> float:

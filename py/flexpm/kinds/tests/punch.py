@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...require import NOT_NEGATIVE, Bounds
+from .. import slid
 from ..layout import LEFT, RIGHT, Frame, Layout, Lines, Plate
 from ..model_names import BLOCK_MODELS
 from ..option import Asked, Option, Value
 from ..part_measures import residual, work
-from ..rates import Rates
 from ..test_kind import Rig, Stage, TestKind
-from ..words import CRACKS, Columns, Drawn, Words, stress
+from ..words import CRACKS, Columns, Words, stress
 
 #: Depth of a notch over the height, distance of the pairs over the width, unless given [-].
 _NOTCH, _DISTANCE = 0.2, 0.4
@@ -39,10 +39,7 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
         "notch": notch,
         "distance": asked.number("distance", _DISTANCE * width, bounds),
     }
-    if asked.values.get("max_displacement") is not None:
-        bounds = Bounds(above=0.0, below=height)
-        found["max_displacement"] = asked.number("max_displacement", 0.0, bounds)
-    return found
+    return found | slid.way(asked, height)
 
 
 def _places(frame: Frame) -> tuple[float, float]:
@@ -134,13 +131,7 @@ KIND = TestKind(
             default="0.2 of the height",
         ),
         Option("distance", "Distance of the pairs of notches", "m", default="0.4 of the width"),
-        Option(
-            "max_displacement",
-            "Displacement at which the test ends",
-            "m",
-            default="8 times that of the reference strength",
-            open="by the reference strength",
-        ),
+        slid.WAY,
     ),
     without=("stop_ratio", "max_strain"),
     settle=_settle,
@@ -151,17 +142,13 @@ KIND = TestKind(
     notch_law=_SLOT,
     ligament=lambda frame: min(_bridges(frame)),
     layout=_punched,
-    # those of direct shear
-    rates={
-        "flexible": Rates(0.01, 0.01, (0.06, 0.1), 0.04, waiting_constant=0.04),
-        "rigid": Rates(0.01, 0.01, (0.09, 0.1), 0.04, waiting_constant=0.04),
-    },
+    rates=slid.RATES,
     slides=True,
     needs_peak=False,
     no_constants=("youngs_modulus",),
     measure=_measure,
     words=Words(
-        Drawn("displacement", "displacement", 1e6, "µm"),
+        slid.DRAWN,
         stress("shear stress of the bridges"),
         "peak shear stress",
         ("peak_stress", "residual_strength", "fracture_energy", *CRACKS),

@@ -10,7 +10,6 @@ from .. import bent
 from ..layout import Frame
 from ..model_names import BLOCK_MODELS
 from ..option import Asked, Option, Value
-from ..part_measures import work
 from ..rates import Rates
 from ..test_kind import Rig, TestKind
 from ..toughness import half_disc_toughness, require_half_disc
@@ -30,24 +29,16 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
 
 
 def _measure(frame: Frame, record: Columns, peak: float | None) -> Mapping[str, float | None]:
-    notch = frame.notch_depth
-    found: dict[str, float | None] = {"notch_depth": notch}
-    if peak is None:
-        return found
-    load = float(record["load"].max())
-    found |= {
-        "peak_load": load,
-        "fracture_energy": work(record) / (frame.thickness * (frame.height - notch)),
-    }
-    if notch > 0.0:
-        found["fracture_toughness"] = half_disc_toughness(
+    def toughness(load: float) -> float | None:
+        return half_disc_toughness(
             load,
             span=frame.number("span"),
             radius=0.5 * frame.width,
             thickness=frame.thickness,
-            notch=notch,
+            notch=frame.notch_depth,
         )
-    return found
+
+    return bent.measured(frame, record, peak, toughness)
 
 
 KIND = TestKind(

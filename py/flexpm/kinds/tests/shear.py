@@ -5,27 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...require import Bounds
+from .. import slid
 from ..layout import BOTTOM, TOP, Frame, Layout, Opening, Plate
 from ..model_names import BLOCK_MODELS
 from ..option import PRESSURE, Asked, Option, Value
 from ..part_measures import residual
-from ..rates import Rates
 from ..test_kind import Rig, Stage, TestKind
-from ..words import CRACKS, Columns, Drawn, Words, stress
+from ..words import CRACKS, Columns, Words, stress
 
 #: On the upper half unless it is given [Pa].
 _NORMAL_STRESS = 1e6
 
 
 def _settle(asked: Asked) -> Mapping[str, Value]:
-    found: dict[str, Value] = {
-        "normal_stress": asked.number("normal_stress", _NORMAL_STRESS, PRESSURE, "Pa")
-    }
-    if asked.values.get("max_displacement") is not None:
-        bounds = Bounds(above=0.0, below=asked.sizes["width"])
-        found["max_displacement"] = asked.number("max_displacement", 0.0, bounds)
-    return found
+    pressure = asked.number("normal_stress", _NORMAL_STRESS, PRESSURE, "Pa")
+    return {"normal_stress": pressure, **slid.way(asked, asked.sizes["width"])}
 
 
 def _between_boxes(frame: Frame) -> Layout:
@@ -68,13 +62,7 @@ KIND = TestKind(
     results=dict.fromkeys(BLOCK_MODELS, 3),
     options=(
         Option("normal_stress", "On the upper half", "Pa", default="1e6"),
-        Option(
-            "max_displacement",
-            "Displacement at which the test ends",
-            "m",
-            default="8 times that of the reference strength",
-            open="by the reference strength",
-        ),
+        slid.WAY,
     ),
     without=("stop_ratio", "max_strain"),
     settle=_settle,
@@ -83,17 +71,13 @@ KIND = TestKind(
     stages=(Stage.PRESS, Stage.SLIDE),
     pressure="normal_stress",
     layout=_between_boxes,
-    # at 0.16 a joint that begins to slide has carried 3 % too much; brittle ones are not measured
-    rates={
-        "flexible": Rates(0.01, 0.01, (0.06, 0.1), 0.04, waiting_constant=0.04),
-        "rigid": Rates(0.01, 0.01, (0.09, 0.1), 0.04, waiting_constant=0.04),
-    },
+    rates=slid.RATES,
     slides=True,
     needs_peak=False,
     no_constants=("youngs_modulus",),  # the slope of a box
     measure=_measure,
     words=Words(
-        Drawn("displacement", "displacement", 1e6, "µm"),
+        slid.DRAWN,
         stress("shear stress"),
         "peak shear stress",
         ("peak_stress", "residual_strength", *CRACKS),

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What tests have in common in which one part slides along another. Deviations D46 and D65."""
+
+from __future__ import annotations
+
+from ..require import Bounds
+from .option import Asked, Option, Value
+from .rates import Rates
+from .words import Drawn
+
+WAY = Option(
+    "max_displacement",
+    "Displacement at which the test ends",
+    "m",
+    default="8 times that of the reference strength",
+    open="by the reference strength",
+)
+#: At 0.16 a joint that begins to slide has carried 3 % too much; brittle ones are not measured.
+RATES = {
+    "flexible": Rates(0.01, 0.01, (0.06, 0.1), 0.04, waiting_constant=0.04),
+    "rigid": Rates(0.01, 0.01, (0.09, 0.1), 0.04, waiting_constant=0.04),
+}
+DRAWN = Drawn("displacement", "displacement", 1e6, "µm")
+
+
+def way(asked: Asked, size: float) -> dict[str, Value]:
+    """The displacement at which the test ends, if it is given, below a size of the specimen [m]."""
+    if asked.values.get(WAY.name) is None:
+        return {}
+    return {WAY.name: asked.number(WAY.name, 0.0, Bounds(above=0.0, below=size))}
