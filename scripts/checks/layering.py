@@ -20,8 +20,6 @@ from pathlib import Path
 TABLE = "scripts/checks/layers.toml"
 TREES = {"kernel": "pkg/flexpm/kernel", "yade": "pkg/flexpm/yade", "python": "py/flexpm"}
 MOST_MODULES = 14
-# Folders that wait to be split, with the modules that they have at most till then.
-CROWDED = {"pkg/flexpm/kernel/assembly": 16}
 # Folders of the kernel's tests that mirror no room of the kernel.
 TEST_FOLDERS = {"bench", "bits", "fuzz", "reference", "support"}
 # What the kernel must not use of the standard library: it does not print, read files or clocks.
@@ -198,13 +196,12 @@ def check_rooms(rooms: Rooms, paths: list[Path], uses: list[Use]) -> Iterator[st
             yield f"{use.path}:{use.line}: uses {there}; {here} may not, see {TABLE}"
 
 
-def check_size(root: Path, paths: list[Path]) -> Iterator[str]:
+def check_size(paths: list[Path]) -> Iterator[str]:
     """Yield folders with too many modules; header and source of one name are one module."""
     for folder in sorted({path.parent for path in paths}):
         count = len({path.stem for path in paths if path.parent == folder} - {"__init__"})
-        most = CROWDED.get(folder.relative_to(root).as_posix(), MOST_MODULES)
-        if count > most:
-            yield f"{folder}: {count} modules, must be <= {most}; split the folder"
+        if count > MOST_MODULES:
+            yield f"{folder}: {count} modules, must be <= {MOST_MODULES}; split the folder"
 
 
 def check_ring(paths: list[Path], uses: list[Use]) -> Iterator[str]:
@@ -222,7 +219,7 @@ def check_tree(rooms: Rooms, tree: str, paths: list[Path], uses: list[Use]) -> I
     """Yield what breaks the rules that all trees share."""
     if rooms.listed(tree):
         yield from check_rooms(rooms, paths, uses)
-        yield from check_size(rooms.root, paths)
+        yield from check_size(paths)
         yield from check_ring([path for path in paths if path.suffix != ".cpp"], uses)
 
 
@@ -310,7 +307,7 @@ def check_tests(rooms: Rooms) -> Iterator[str]:
             local = (folder / name).exists() or (path.parent / name).exists()
             if not (known or local or "/" not in name):
                 yield f"{path}:{number}: includes {name}; kernel, Catch2, Eigen, voro++ are allowed"
-    yield from check_size(rooms.root, paths)
+    yield from check_size(paths)
 
 
 def hidden_imports(tree: ast.AST) -> Iterator[tuple[int, str]]:

@@ -81,7 +81,8 @@ TEST_CASE("Each saved part lists all its members")
 {
     check_members(flexpm::Grains());
     check_members(flexpm::Contacts());
-    check_members(flexpm::BoundaryEdges());
+    check_members(flexpm::ContactGroup());
+    check_members(flexpm::Facets());
     check_members(flexpm::EnergyLedger());
     check_members(flexpm::Layout());
     check_members(flexpm::MeshGroup());
@@ -102,7 +103,7 @@ TEST_CASE("Each saved part comes back from the members that it lists")
     const Assembly a = used();
     check_round_trip(a.grains);
     check_round_trip(a.contacts);
-    check_round_trip(a.edges);
+    check_round_trip(a.facets);
     check_round_trip(a.plates.front());
     check_round_trip(a.ledger);
 }

@@ -157,8 +157,8 @@ TEST_CASE("A crack is recorded once, with its step, place and tensile mode")
         }
         CHECK(a.contacts.crack_steps[index] == static_cast<int>(std::ceil(uc / rate)));
         CHECK(a.contacts.crack_modes[index] == flexpm::tensile_crack);
-        CHECK(a.contacts.crack_position(0, p).x == Approx(size).epsilon(1e-12));
-        CHECK(a.contacts.crack_position(0, p).y
+        CHECK(a.contacts.crack(0, p).position.x == Approx(size).epsilon(1e-12));
+        CHECK(a.contacts.crack(0, p).position.y
             == Approx(0.5 * size + points[p].place).margin(1e-12 * size));
         CHECK(a.contacts.crack_energies[index]
             == Approx(points[p].area * m.tensile_fracture_energy).epsilon(1e-12));

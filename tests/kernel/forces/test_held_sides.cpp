@@ -31,9 +31,9 @@ Assembly squares(bool rigid)
 /// Velocity of the middle of the edge of a square on a side [m/s].
 Point edge_velocity(const Assembly& a, int side, int grain)
 {
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.grain[e] != grain || !is_on_side(a, e, side)) continue;
-        const auto [from, to] = a.edges.nodes(e);
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (a.facets.grain[e] != grain || !is_on_side(a, e, side)) continue;
+        const auto [from, to] = a.facets.nodes(e);
         return 0.5 * (vector_at(a.grains.velocity, from) + vector_at(a.grains.velocity, to));
     }
     throw std::logic_error("the grain has no edge there");
@@ -42,8 +42,8 @@ Point edge_velocity(const Assembly& a, int side, int grain)
 /// Grain of the first edge on a side.
 int grain_on(const Assembly& a, int side)
 {
-    for (int e = 0; e < a.edges.count; ++e)
-        if (is_on_side(a, e, side)) return a.edges.grain[e];
+    for (int e = 0; e < a.facets.count; ++e)
+        if (is_on_side(a, e, side)) return a.facets.grain[e];
     throw std::logic_error("no grain lies there");
 }
 

@@ -104,9 +104,9 @@ TEST_CASE("boundary nodes of deformable grains carry their tributary length", "[
     driven::hold_all(a);
     flexpm::set_velocity(a, plate, { 0.0, -1e-9 });
     run(a, 1);
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] != flexpm::top_side) continue;
-        for (int node : a.edges.nodes(e)) {
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (a.facets.side[e] != flexpm::top_side) continue;
+        for (int node : a.facets.nodes(e)) {
             const double force = stiffness * 0.5 * size * specimens::thickness * 1e-9;
             CHECK(a.grains.force[component(node, 1)] == Approx(-force).epsilon(1e-9));
         }

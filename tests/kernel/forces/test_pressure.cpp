@@ -25,8 +25,8 @@ Assembly pressed(const specimens::Specimen& s, int sides)
 
 Point edge_force(const Assembly& a, int edge, int end)
 {
-    const int first = flexpm::BoundaryEdges::force_index(edge, flexpm::EdgeRow::of_pressure);
-    return vector_at(a.edges.forces, first + end * flexpm::node_stride);
+    const int first = flexpm::Facets::force_index(edge, flexpm::FacetRow::of_pressure);
+    return vector_at(a.facets.forces, first + end * flexpm::node_stride);
 }
 
 struct Resultant {
@@ -36,9 +36,9 @@ struct Resultant {
 Resultant resultant_of_edges(const Assembly& a)
 {
     Resultant r;
-    for (int e = 0; e < a.edges.count; ++e) {
+    for (int e = 0; e < a.facets.count; ++e) {
         for (int end : { 0, 1 }) {
-            const Point f = edge_force(a, e, end), p = a.grains.position(a.edges.nodes(e)[end]);
+            const Point f = edge_force(a, e, end), p = a.grains.position(a.facets.nodes(e)[end]);
             r.x += f.x;
             r.y += f.y;
             r.moment += p.x * f.y - p.y * f.x;
@@ -51,8 +51,8 @@ Resultant resultant_of_edges(const Assembly& a)
 double area(const Assembly& a)
 {
     double twice = 0.0;
-    for (int e = 0; e < a.edges.count; ++e) {
-        const auto n = a.edges.nodes(e);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const auto n = a.facets.nodes(e);
         const Point p = a.grains.position(n[0]), q = a.grains.position(n[1]);
         twice += p.x * q.y - p.y * q.x;
     }
@@ -93,8 +93,8 @@ TEST_CASE("Pressure follows the deformed edge: pressure times its present length
 {
     Assembly a = pressed(specimens::hexagon(), 6);
     move_to(a, 1.0);
-    for (int e = 0; e < a.edges.count; ++e) {
-        const auto n = a.edges.nodes(e);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const auto n = a.facets.nodes(e);
         const Point p =
             moved({ a.grains.reference[n[0]], a.grains.reference[component(n[0], 1)] }, 1.0);
         const Point q =

@@ -48,7 +48,7 @@ Covered covered(const Assembly& a, const Plate& plate)
     Covered sum;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const Point x = vector_on_edge(a.grains.reference, a.edges.nodes(p.edge), p.weight);
+        const Point x = vector_on_edge(a.grains.reference, a.facets.nodes(p.facet), p.weight);
         sum.area += plate.area[i];
         sum.centre += plate.area[i] * x.x;
     }

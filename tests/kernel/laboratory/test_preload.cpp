@@ -26,7 +26,7 @@ double utilisation(const Assembly& a)
     double largest = 0.0;
     for (int c = 0; c < a.contacts.count; ++c) {
         const LawParameters& law = a.contacts.law_of(c);
-        for (int p = 0; p < a.contacts.points; ++p) {
+        for (int p = 0; p < a.contacts.group.points; ++p) {
             const PointState s = a.contacts.point_state(c, p);
             const double normal = law.normal_stiffness * s.opening;
             largest = std::max(largest, normal / law.tensile_strength);

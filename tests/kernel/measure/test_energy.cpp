@@ -170,7 +170,7 @@ double axial_miss(const flexpm::ContactMaterial& m, double velocity, double way,
 template <class Each> void for_each_point(Assembly& a, Each each)
 {
     for (int c = 0; c < a.contacts.count; ++c) {
-        for (int p = 0; p < a.contacts.points; ++p)
+        for (int p = 0; p < a.contacts.group.points; ++p)
             each(c, p, a.contacts.point_state(c, p));
     }
 }
@@ -259,7 +259,7 @@ TEST_CASE("energies of blocks are those of their grains and points")
     double stored = 0.0, softened = 0.0;
     flexpm::ContactLoss lost;
     for (int c = 0; c < a.contacts.count; ++c) {
-        for (int p = 0; p < a.contacts.points; ++p) {
+        for (int p = 0; p < a.contacts.group.points; ++p) {
             const flexpm::PointState s = a.contacts.point_state(c, p);
             const double area = a.contacts.area(c, p);
             stored += area * flexpm::law::elastic_energy(a.contacts.law_of(c), s);

@@ -305,11 +305,12 @@ TEST_CASE("energy of breaking rigid grains is accounted for", "[rigid][energy]")
     Assembly a =
         rigid(specimens::random_grains(9e-3, 12e-3, 3e-3, 9), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7);
-    for (int e = 0; e < a.edges.count; ++e) {
-        const int c = a.grains.centre(a.edges.grain[e]);
-        if (a.edges.side[e] == 0 || a.edges.side[e] == 2) a.grains.prescribed[component(c, 1)] = 1;
-        if (a.edges.side[e] == 2)
-            flexpm::set_motion(a.grains, a.edges.grain[e], { 0.0, 2e-9 }, 0.0, 1.0);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const int c = a.grains.centre(a.facets.grain[e]);
+        if (a.facets.side[e] == 0 || a.facets.side[e] == 2)
+            a.grains.prescribed[component(c, 1)] = 1;
+        if (a.facets.side[e] == 2)
+            flexpm::set_motion(a.grains, a.facets.grain[e], { 0.0, 2e-9 }, 0.0, 1.0);
     }
     flexpm::reset_energy_balance(a);
     double work = 0.0, error = 0.0;

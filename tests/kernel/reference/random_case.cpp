@@ -183,7 +183,7 @@ Assembly draw_assembly(Random& random, std::string& name)
 
 int sides_of(const Assembly& a)
 {
-    return 1 + *std::max_element(a.edges.side.begin(), a.edges.side.end());
+    return 1 + *std::max_element(a.facets.side.begin(), a.facets.side.end());
 }
 
 bool is_straight(const Assembly& a) { return sides_of(a) > 1; }
@@ -191,10 +191,10 @@ bool is_straight(const Assembly& a) { return sides_of(a) > 1; }
 /// Normal of a random edge of the outline, inwards; of any length.
 Point draw_inward(Random& random, const Assembly& a)
 {
-    int edge = below(random, a.edges.count);
-    while (a.edges.side[edge] < 0)
-        edge = below(random, a.edges.count);
-    const auto nodes = a.edges.nodes(edge);
+    int edge = below(random, a.facets.count);
+    while (a.facets.side[edge] < 0)
+        edge = below(random, a.facets.count);
+    const auto nodes = a.facets.nodes(edge);
     const Point along = flexpm::vector_at(a.grains.reference, nodes[1])
         - flexpm::vector_at(a.grains.reference, nodes[0]);
     return { -along.y, along.x };

@@ -89,9 +89,10 @@ Contact read_contact(const Assembly& a, int c, const Numbers& number)
         point.area = contacts.area(c, p);
         point.state = contacts.point_state(c, p);
         point.paired_slip = contacts.paired_slip(c, p);
-        point.crack_step = contacts.crack_steps[contacts.point_index(c, p)];
-        point.crack_mode = contacts.crack_modes[contacts.point_index(c, p)];
-        point.crack_place = contacts.crack_position(c, p);
+        const flexpm::PointCrack crack = contacts.crack(c, p);
+        point.crack_step = crack.step;
+        point.crack_mode = crack.mode;
+        point.crack_place = crack.position;
         contact.points.push_back(point);
     }
     return contact;
@@ -115,7 +116,7 @@ Plate read_plate(const Assembly& a, std::size_t place, const Numbers& number)
     plate.force = from.force;
     for (int i = 0; i < flexpm::plate_points(from); ++i) {
         const flexpm::PlatePoint p = flexpm::plate_point(from, i);
-        const auto nodes = a.edges.nodes(p.edge);
+        const auto nodes = a.facets.nodes(p.facet);
         plate.points.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, p.weight,
             from.area[i], from.gap[i], from.shear_force[i] });
     }
@@ -219,9 +220,9 @@ Specimen read_state(const Assembly& a)
         read_grain(a, g, s, number);
     for (int c = 0; c < a.contacts.count; ++c)
         s.contacts.push_back(read_contact(a, c, number));
-    for (int e = 0; e < a.edges.count; ++e) {
-        const auto nodes = a.edges.nodes(e);
-        s.edges.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, a.edges.pressure[e] });
+    for (int e = 0; e < a.facets.count; ++e) {
+        const auto nodes = a.facets.nodes(e);
+        s.edges.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, a.facets.pressure[e] });
     }
     for (std::size_t p = 0; p < a.plates.size(); ++p)
         s.plates.push_back(read_plate(a, p, number));

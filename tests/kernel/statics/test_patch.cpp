@@ -63,8 +63,8 @@ double largest(const Tensor& s)
 Array<double> edge_loads(const Assembly& a, const Tensor& s)
 {
     Array<double> f(a.grains.displacement.size(), 0.0);
-    for (int e = 0; e < a.edges.count; ++e) {
-        const auto n = a.edges.nodes(e);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const auto n = a.facets.nodes(e);
         const double half = 0.5 * a.thickness;
         const double nx = half
             * (a.grains.reference[component(n[1], 1)] - a.grains.reference[component(n[0], 1)]);

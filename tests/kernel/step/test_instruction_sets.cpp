@@ -100,7 +100,7 @@ TEST_CASE("The runs that are compared crack, soften, slide and touch")
         CAPTURE(cracks.tensile, cracks.shear, e.damage, e.friction, e.kinetic);
         CHECK(flexpm::find_bad_number(a).empty());
         CHECK(cracks.tensile + cracks.shear > 3);
-        CHECK(cracks.tensile + cracks.shear < a.contacts.count * a.contacts.points);
+        CHECK(cracks.tensile + cracks.shear < a.contacts.count * a.contacts.group.points);
         CHECK(e.damage > 0.0);
         CHECK(e.friction > 0.0);
         touches += static_cast<int>(

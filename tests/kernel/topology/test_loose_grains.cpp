@@ -48,9 +48,9 @@ void part(Assembly& a, int contact) { flexpm::change_contacts(a, { contact }, {}
 double pressed_force(const Assembly& a)
 {
     double sum = 0.0;
-    for (int e = 0; e < a.edges.count; ++e)
+    for (int e = 0; e < a.facets.count; ++e)
         sum += std::fabs(
-            a.edges.forces[flexpm::BoundaryEdges::force_index(e, flexpm::EdgeRow::of_pressure)]);
+            a.facets.forces[flexpm::Facets::force_index(e, flexpm::FacetRow::of_pressure)]);
     return sum;
 }
 

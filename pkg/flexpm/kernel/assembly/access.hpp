@@ -125,11 +125,21 @@ inline GrainCount count_grains(const Grains& grains)
     return count;
 }
 
-/// Number of boundary edges of grains that are there.
-inline int count_edges(const Assembly& a)
+/// Number of facets of grains that are there.
+inline int count_facets(const Assembly& a)
 {
-    return static_cast<int>(std::count_if(a.edges.grain.begin(), a.edges.grain.end(),
+    return static_cast<int>(std::count_if(a.facets.grain.begin(), a.facets.grain.end(),
         [&](int grain) { return a.grains.erased[grain] == 0; }));
+}
+
+/// A facet of the boundary where it was bonded, and its area [m^2].
+inline FacetPlace facet_place(const Assembly& a, int facet)
+{
+    return facet_place(a.grains, a.facets, facet);
+}
+inline double facet_area(const Assembly& a, int facet)
+{
+    return a.area_of(facet_place(a, facet).length());
 }
 
 /// Place of the contact with a lasting number; -1 if there is none, or none any more.
@@ -157,12 +167,91 @@ inline BondStiffness bond_stiffness(const Contacts& contacts, int contact)
     return { law.normal_stiffness * area, law.shear_stiffness * area };
 }
 
+// what the state of a point means: all that is no lane reads it by these
+
+/// Opening of a point [m], relative to the bonded state; compression < 0.
+inline double opening_of(const Contacts& contacts, int contact, int point)
+{
+    return contacts.state(contact, point, &PointState::opening);
+}
+
+/// Its opening less what dilation has made of it [m].
+inline double gap_of(const Contacts& contacts, int contact, int point)
+{
+    return law::gap(contacts.law_of(contact), contacts.point_state(contact, point));
+}
+
+/// Slip of a point along the tangent [m], relative to the bonded state.
+inline double slip_of(const Contacts& contacts, int contact, int point)
+{
+    return contacts.state(contact, point, &PointState::slip);
+}
+
+/// Distance along the tangent between its places on the two edges [m].
+inline double apart_along(const Contacts& contacts, int contact, int point)
+{
+    return slip_of(contacts, contact, point) - contacts.paired_slip(contact, point);
+}
+
+inline double damage_of(const Contacts& contacts, int contact, int point)
+{
+    const PointState s = contacts.point_state(contact, point);
+    return law::damage(contacts.law_of(contact), s.max_opening, s.shear_damage);
+}
+
+/// Normal and shear traction of a point, tension positive.
+struct PointTraction {
+    double normal = 0.0;  ///< [Pa]
+    double shear = 0.0;   ///< along the tangent [Pa]
+};
+
+/// The traction that its law gives to the state of a point, also of a contact that has ended.
+inline PointTraction traction_of_state(const Contacts& contacts, int contact, int point)
+{
+    const PointState s = contacts.point_state(contact, point);
+    const LawParameters& law = contacts.law_of(contact);
+    const double damage = law::damage(law, s.max_opening, s.shear_damage);
+    return { law::normal_traction(law, law::gap(law, s), s.max_opening, damage), s.shear_traction };
+}
+
+/// The traction of a point; 0 of a contact that has ended.
+inline PointTraction traction_of(const Contacts& contacts, int contact, int point)
+{
+    if (contacts.area(contact, point) == 0.0) return {};
+    return traction_of_state(contacts, contact, point);
+}
+
+/// What a point stores and has dissipated [J/m^2].
+struct PointEnergy {
+    double elastic = 0.0, damage = 0.0, friction = 0.0;
+};
+
+inline PointEnergy energy_of(const Contacts& contacts, int contact, int point)
+{
+    const PointState s = contacts.point_state(contact, point);
+    return { law::elastic_energy(contacts.law_of(contact), s), s.damage_energy, s.friction_energy };
+}
+
+/// Let a point have dissipated so much.
+inline void set_dissipated(
+    Contacts& contacts, int contact, int point, double damage, double friction)
+{
+    contacts.state(contact, point, &PointState::damage_energy) = damage;
+    contacts.state(contact, point, &PointState::friction_energy) = friction;
+}
+
+/// Leave no strength to a point that a load could take: it never counts as a crack.
+inline void take_strength(Contacts& contacts, int contact, int point)
+{
+    contacts.state(contact, point, &PointState::shear_damage) = 1.0;
+}
+
 /// Mean opening of a contact's points, weighted by their areas [m]; 0 of one that has none.
 inline double mean_opening(const Contacts& contacts, int contact)
 {
     double sum = 0.0, area = 0.0;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        sum += contacts.area(contact, p) * contacts.state(contact, p, &PointState::opening);
+        sum += contacts.area(contact, p) * opening_of(contacts, contact, p);
         area += contacts.area(contact, p);
     }
     return area > 0.0 ? sum / area : 0.0;
@@ -172,17 +261,9 @@ inline double mean_opening(const Contacts& contacts, int contact)
 inline Point contact_force(const Contacts& contacts, int contact)
 {
     Point sum;
-    for (int end = 0; end < 2; ++end) {
-        const double* force = &contacts.forces[Contacts::force_index(contact, 1, end)];
-        sum = sum + Point { force[0], force[1] };
-    }
+    for (int corner = 0; corner < contacts.corners_of(contact); ++corner)
+        sum = sum + contacts.force(contact, 1, corner);
     return sum;
-}
-
-inline double damage_of(const Contacts& contacts, int contact, int point)
-{
-    const PointState s = contacts.point_state(contact, point);
-    return law::damage(contacts.law_of(contact), s.max_opening, s.shear_damage);
 }
 
 /// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
@@ -192,35 +273,13 @@ inline Point relative_velocity(
     Point sum;
     for (int side = 0; side < 2; ++side) {
         const double sign = side == 0 ? -1.0 : 1.0;
-        const double w = contacts.weight(contact, point, side);
-        for (int end = 0; end < 2; ++end) {
-            const double part = sign * (end == 0 ? 1.0 - w : w);
-            sum = sum + part * vector_at(velocity, contacts.node(contact, side, end));
+        const auto parts = facet_parts(contacts.weight(contact, point, side));
+        for (int corner = 0; corner < contacts.corners_of(contact); ++corner) {
+            const double part = sign * parts[corner];
+            sum = sum + part * vector_at(velocity, contacts.node(contact, side, corner));
         }
     }
     return sum;
-}
-
-/// Opening of a point [m], relative to the bonded state; compression < 0.
-inline double opening_of(const Assembly& a, int contact, int point)
-{
-    return a.contacts.state(contact, point, &PointState::opening);
-}
-
-/// Slip of a point along the tangent [m], relative to the bonded state.
-inline double slip_of(const Assembly& a, int contact, int point)
-{
-    return a.contacts.state(contact, point, &PointState::slip);
-}
-
-/// Normal and shear traction of a point [Pa], tension positive; 0 of a contact that has ended.
-inline Point traction_of(const Assembly& a, int contact, int point)
-{
-    if (a.contacts.area(contact, point) == 0.0) return {};
-    const PointState s = a.contacts.point_state(contact, point);
-    const LawParameters& law = a.contacts.law_of(contact);
-    const double damage = damage_of(a.contacts, contact, point);
-    return { law::normal_traction(law, law::gap(law, s), s.max_opening, damage), s.shear_traction };
 }
 
 /// Shares of an edge's second node between which a contact acts: the whole edge, but a part where

@@ -3,9 +3,9 @@
 /// step. SI units, tension positive.
 #pragma once
 
-#include <flexpm/kernel/assembly/boundary_edges.hpp>
 #include <flexpm/kernel/assembly/contacts.hpp>
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
+#include <flexpm/kernel/assembly/facets.hpp>
 #include <flexpm/kernel/assembly/grains.hpp>
 #include <flexpm/kernel/assembly/loading_motion.hpp>
 #include <flexpm/kernel/assembly/parts.hpp>
@@ -20,7 +20,7 @@ struct Assembly {
     // saved: all that continues a run to the same bits
     Grains grains;
     Contacts contacts;
-    BoundaryEdges edges;
+    Facets facets;
     std::vector<Plate> plates;
     std::vector<NodeSet> node_sets;
     std::vector<HeldEdge> held_edges;
@@ -52,7 +52,7 @@ struct Assembly {
     {
         visit("grains", s.grains);
         visit("contacts", s.contacts);
-        visit("edges", s.edges);
+        visit("facets", s.facets);
         visit("plates", s.plates);
         visit("node_sets", s.node_sets);
         visit("held_edges", s.held_edges);

@@ -19,6 +19,14 @@ using GrainPair = std::array<int, 2>;  ///< two grains, the smaller number first
 /// How a point of contact lost its bond; one that a script has erased did not crack.
 enum CrackMode : std::uint8_t { intact = 0, tensile_crack = 1, shear_crack = 2, erased_point = 3 };
 
+/// When, how and where a point has lost its bond, and what its damage had taken until then.
+struct PointCrack {
+    int step = -1;  ///< of the crack or the erasure, -1 while intact
+    CrackMode mode = intact;
+    Point position;       ///< [m]
+    double energy = 0.0;  ///< [J]
+};
+
 /// Rows of a point: a member of PointState or LawParameters each.
 constexpr int point_rows = row_count<PointState>;
 constexpr int law_rows = row_count<LawParameters>;
@@ -29,13 +37,25 @@ struct NodeRow {
     enum : int { a0, a1, b0, b1, centre_a, centre_b, count };
 };
 
+/// Contacts with faces of as many corners, which act at as many points: in the plane all of them.
+struct ContactGroup {
+    int corners = 2;  ///< nodes of each grain's face, which is an edge in the plane
+    int points = 3;   ///< 1, 2 or 3
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("corners", s.corners);
+        visit("points", s.points);
+    }
+};
+
 /// Contacts in the order of their grain pair. Arrays named in the plural are laid out
 /// [block][row][lane]; the function in the singular is one value of one contact.
 struct Contacts {
     static constexpr int force_values = 4 * dimension;  ///< components on the nodes a0, a1, b0, b1
 
     int count = 0;
-    int points = 3;  ///< of a contact: 1, 2 or 3; read it by points_of() and points_in()
+    ContactGroup group;  ///< of all of them; read it by group_in() and group_of()
     std::vector<LawParameters> laws;
     std::vector<GrainPair> pairs;
     std::vector<int> id;     ///< lasting number: a place in the arrays changes, this does not
@@ -70,20 +90,29 @@ struct Contacts {
     Array<double> forces;
 
     int blocks() const { return blocks_of(count); }
-    int points_in(int /*block*/) const { return points; }
-    int points_of(int contact) const { return points_in(contact / lanes); }
+    const ContactGroup& group_in(int /*block*/) const { return group; }
+    const ContactGroup& group_of(int contact) const { return group_in(contact / lanes); }
+    int points_in(int block) const { return group_in(block).points; }
+    int points_of(int contact) const { return group_of(contact).points; }
+    int corners_of(int contact) const { return group_of(contact).corners; }
 
     const LawParameters& law_of(int contact) const { return laws[law[contact]]; }
 
     /// Index of a value of a point in an array with `rows` rows for each point.
     int point_index(int contact, int point, int row = 0, int rows = 1) const
     {
-        return row_index(contact, point * rows + row, points * rows);
+        return row_index(contact, point * rows + row, points_of(contact) * rows);
     }
 
-    /// Offset of a node: an end (0, 1) of the edge of a side (0: grain a, 1: grain b).
-    int& node(int contact, int side, int end) { return nodes[node_index(contact, side, end)]; }
-    int node(int contact, int side, int end) const { return nodes[node_index(contact, side, end)]; }
+    /// Offset of a node: a corner of the face of a side (0: grain a, 1: grain b).
+    int& node(int contact, int side, int corner)
+    {
+        return nodes[node_index(contact, side, corner)];
+    }
+    int node(int contact, int side, int corner) const
+    {
+        return nodes[node_index(contact, side, corner)];
+    }
 
     /// Both nodes of the edge of a side.
     std::array<int, 2> edge(int contact, int side) const
@@ -143,19 +172,32 @@ struct Contacts {
     void set_branch(int contact, Point p) { set_vector(branches, vector_index(contact), p); }
     Point normal(int contact) const { return vector_at(normals, vector_index(contact)); }
     void set_normal(int contact, Point p) { set_vector(normals, vector_index(contact), p); }
-    Point crack_position(int contact, int point) const
+
+    PointCrack crack(int contact, int point) const
     {
-        return vector_at(crack_positions, point_index(contact, point, 0, dimension));
+        const int index = point_index(contact, point);
+        return { crack_steps[index], static_cast<CrackMode>(crack_modes[index]),
+            vector_at(crack_positions, point_index(contact, point, 0, dimension)),
+            crack_energies[index] };
     }
-    void set_crack_position(int contact, int point, Point p)
+    void set_crack(int contact, int point, const PointCrack& crack)
     {
-        set_vector(crack_positions, point_index(contact, point, 0, dimension), p);
+        const int index = point_index(contact, point);
+        crack_steps[index] = crack.step;
+        crack_modes[index] = crack.mode;
+        set_vector(crack_positions, point_index(contact, point, 0, dimension), crack.position);
+        crack_energies[index] = crack.energy;
     }
 
     /// Index of the x component of the force on a node, as node() has them; y follows.
-    static int force_index(int contact, int side, int end)
+    static int force_index(int contact, int side, int corner)
     {
-        return contact * force_values + (2 * side + end) * dimension;
+        return contact * force_values + (2 * side + corner) * dimension;
+    }
+    Point force(int contact, int side, int corner) const
+    {
+        const double* first = &forces[force_index(contact, side, corner)];
+        return { first[0], first[1] };
     }
 
     /// The same of a force of zero behind all others: it stands for no contact.
@@ -167,17 +209,18 @@ struct Contacts {
     template <class Self, class Visitor> static void visit_rows(Self& s, Visitor&& visit)
     {
         visit(s.nodes, static_cast<int>(NodeRow::count), row_index);
-        visit(s.weights, 2 * s.points, row_index);
-        visit(s.areas, s.points, row_index);
+        const int points = s.group.points;
+        visit(s.weights, 2 * points, row_index);
+        visit(s.areas, points, row_index);
         visit(s.branches, dimension, row_index);
         visit(s.inverse_edge_lengths, 2, row_index);
         visit(s.normals, dimension, row_index);
-        visit(s.states, s.points * point_rows, row_index);
-        visit(s.paired_slips, s.points, row_index);
-        visit(s.crack_steps, s.points, row_index);
-        visit(s.crack_modes, s.points, row_index);
-        visit(s.crack_positions, s.points * dimension, row_index);
-        visit(s.crack_energies, s.points, row_index);
+        visit(s.states, points * point_rows, row_index);
+        visit(s.paired_slips, points, row_index);
+        visit(s.crack_steps, points, row_index);
+        visit(s.crack_modes, points, row_index);
+        visit(s.crack_positions, points * dimension, row_index);
+        visit(s.crack_energies, points, row_index);
         visit(s.forces, force_values, record_index);
     }
 
@@ -185,7 +228,7 @@ struct Contacts {
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
         visit("count", s.count);
-        visit("points", s.points);
+        visit("group", s.group);
         visit("laws", s.laws);
         visit("pairs", s.pairs);
         visit("id", s.id);
@@ -211,9 +254,9 @@ struct Contacts {
     }
 
 private:
-    static int node_index(int contact, int side, int end)
+    int node_index(int contact, int side, int corner) const
     {
-        return row_index(contact, 2 * side + end, NodeRow::count);
+        return row_index(contact, corners_of(contact) * side + corner, NodeRow::count);
     }
     static int vector_index(int contact) { return row_index(contact, 0, dimension); }
 };

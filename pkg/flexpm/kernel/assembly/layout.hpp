@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Layout of the packed arrays: the values of `lanes` grains, contacts or edges lie side by
+/// @file  Layout of the packed arrays: the values of `lanes` grains, contacts or facets lie side by
 /// side, one in each lane, row after row and block after block. Lanes that nothing fills repeat a
 /// real one, without effect.
 #pragma once
@@ -52,7 +52,7 @@ constexpr int node_stride = plane_layout.node_stride;
 constexpr int component(int node, int axis) { return plane_layout.component(node, axis); }
 constexpr int scalar_index(int node) { return plane_layout.scalar_index(node); }
 
-/// Index of a value of an item (grain's slot, contact, boundary edge) in an array with `rows` rows
+/// Index of a value of an item (grain's slot, contact, facet) in an array with `rows` rows
 /// per block.
 constexpr int row_index(int item, int row, int rows)
 {

@@ -11,8 +11,8 @@ namespace flexpm {
 
 /// A straight plate that loads grains through one-point contacts. It does not turn; its normal
 /// points into the specimen, and forces are positive along it. Its contacts are the middles of
-/// boundary edges of rigid grains, or both ends of those of deformable grains, each with half of
-/// the edge: a boundary node then carries its tributary length. Contacts are elastic and only
+/// facets of rigid grains, or both ends of those of deformable grains, each with half of the facet:
+/// a boundary node then carries its tributary length. Contacts are elastic and only
 /// press, unless the plate is bonded.
 struct Plate {
     // what it is
@@ -24,7 +24,7 @@ struct Plate {
     double shear_stiffness = 0.0;  ///< [Pa/m], of frictional contacts
     double friction = 0.0;         ///< coefficient [-]; 0: smooth
     bool bonded = false;           ///< pulls as well as it presses
-    int points = 1;                ///< per edge: 1 in the middle, 2 at the ends
+    int points = 1;                ///< per facet: 1 in the middle, 2 at the ends
 
     // what drives it
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
@@ -34,12 +34,12 @@ struct Plate {
 
     // state
     Point displacement;           ///< [m]
-    std::vector<int> edges;       ///< boundary edges that may touch it
-    std::vector<double> gap;      ///< [edge][point] at the reference [m]
-    std::vector<double> area;     ///< [edge][point] [m^2]
-    std::vector<double> opening;  ///< [edge][point] gap at the last step [m]
+    std::vector<int> facets;      ///< of the boundary, which may touch it
+    std::vector<double> gap;      ///< [facet][point] at the reference [m]
+    std::vector<double> area;     ///< [facet][point] [m^2]
+    std::vector<double> opening;  ///< [facet][point] gap at the last step [m]
     std::vector<double>
-        shear_force;  ///< [edge][point] on the grain along (-normal.y, normal.x) [N]
+        shear_force;  ///< [facet][point] on the grain along (-normal.y, normal.x) [N]
     Point force;      ///< on the specimen at the last step [N]
 
     // energy [J]
@@ -71,7 +71,7 @@ struct Plate {
         visit("mass", s.mass);
         visit("displacement_x", s.displacement.x);
         visit("displacement_y", s.displacement.y);
-        visit("edges", s.edges);
+        visit("facets", s.facets);
         visit("gap", s.gap);
         visit("area", s.area);
         visit("opening", s.opening);
@@ -90,7 +90,7 @@ struct Plate {
     }
 };
 
-/// Place of point `point` along its edge, 0 to 1.
+/// Place of point `point` along its facet, 0 to 1.
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
 
 /// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid

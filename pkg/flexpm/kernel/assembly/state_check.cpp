@@ -190,7 +190,8 @@ void check_contacts(const Assembly& a)
 {
     const Contacts& contacts = a.contacts;
     check_index("contacts", contacts.count, most);
-    check_index("points of a contact", contacts.points, 4, 1);
+    check_equal("corners of a contact", contacts.group.corners, facet_nodes);
+    check_index("points of a contact", contacts.group.points, 4, 1);
     for (std::size_t size : { contacts.pairs.size(), contacts.id.size(), contacts.law.size(),
              contacts.joint.size(), contacts.bonded.size(), contacts.erased.size() }) {
         check_size("values of contacts", size, contacts.count);
@@ -215,31 +216,31 @@ void check_contacts(const Assembly& a)
     check_indices("mode of a crack", contacts.crack_modes, erased_point + 1);
 }
 
-void check_edges(const Assembly& a)
+void check_facets(const Assembly& a)
 {
-    const BoundaryEdges& edges = a.edges;
-    check_index("boundary edges", edges.count, most);
-    for (std::size_t size : { edges.grain.size(), edges.side.size(), edges.pressure.size() })
-        check_size("values of boundary edges", size, edges.count);
-    const std::int64_t padded = std::int64_t { edges.blocks() } * lanes;
-    check_size("nodes of boundary edges", edges.node_offsets.size(), 2 * padded);
-    check_size("forces of boundary edges", edges.forces.size(), EdgeRow::count * padded);
-    check_indices("grain of a boundary edge", edges.grain, a.grains.count);
-    for (int e = 0; e < edges.count; ++e) {
-        for (int node : edges.nodes(e))
-            check_node(a.grains, edges.grain[e], node);
+    const Facets& facets = a.facets;
+    check_index("boundary edges", facets.count, most);
+    for (std::size_t size : { facets.grain.size(), facets.side.size(), facets.pressure.size() })
+        check_size("values of boundary edges", size, facets.count);
+    const std::int64_t padded = std::int64_t { facets.blocks() } * lanes;
+    check_size("nodes of boundary edges", facets.node_offsets.size(), facet_nodes * padded);
+    check_size("forces of boundary edges", facets.forces.size(), FacetRow::count * padded);
+    check_indices("grain of a boundary edge", facets.grain, a.grains.count);
+    for (int f = 0; f < facets.count; ++f) {
+        for (int node : facets.nodes(f))
+            check_node(a.grains, facets.grain[f], node);
     }
 }
 
-void check_plate(const Plate& plate, int edges)
+void check_plate(const Plate& plate, int facets)
 {
     check_index("points of a plate", plate.points, 3, 1);
-    check_index("edges of a plate", static_cast<std::int64_t>(plate.edges.size()), most);
-    check_indices("edge of a plate", plate.edges, edges);
+    check_index("edges of a plate", static_cast<std::int64_t>(plate.facets.size()), most);
+    check_indices("edge of a plate", plate.facets, facets);
     for (std::size_t size :
         { plate.gap.size(), plate.area.size(), plate.opening.size(), plate.shear_force.size() }) {
         check_size("values of a plate", size,
-            static_cast<std::int64_t>(plate.edges.size()) * plate.points);
+            static_cast<std::int64_t>(plate.facets.size()) * plate.points);
     }
 }
 
@@ -268,10 +269,10 @@ void check_state(const Assembly& a)
 {
     check_grains(a.grains);
     check_contacts(a);
-    check_edges(a);
+    check_facets(a);
     check_index("plates", static_cast<std::int64_t>(a.plates.size()), most);
     for (const Plate& plate : a.plates)
-        check_plate(plate, a.edges.count);
+        check_plate(plate, a.facets.count);
     check_index("node sets", static_cast<std::int64_t>(a.node_sets.size()), most);
     for (const NodeSet& set : a.node_sets)
         check_node_set(a.grains, set);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  What a step derives from the saved state, for speed. prepare_step() builds it after an
-/// assembly was made or loaded and after contacts or edges have changed; no step builds any of it.
+/// assembly was made or loaded and after contacts or facets have changed; no step builds any of it.
 #pragma once
 
 #include <flexpm/kernel/core/array.hpp>
@@ -13,18 +13,18 @@ namespace flexpm {
 
 /// A force and the node that it acts on.
 struct ForceSource {
-    int force;  ///< index of its x component in Contacts::forces or BoundaryEdges::forces
+    int force;  ///< index of its x component in Contacts::forces or Facets::forces
     int node;   ///< offset of the node from the first of its block of grains
 };
 
 /// Forces on the nodes of each block of grains. A node sums its contacts in their order, then its
-/// boundary edges.
+/// facets.
 struct ForceSources {
     /// Contacts::force_index() of the first two contacts of each node, or Contacts::no_force(),
     /// laid out [block][node][first, second][lane].
     std::vector<int> pairs;
     Lists<ForceSource> contacts;  ///< of each block: all further contacts
-    Lists<ForceSource> edges;     ///< of each block
+    Lists<ForceSource> facets;    ///< of each block
 };
 
 /// Order of a step: contacts tile by tile, each followed by the grains that have no contact left.

@@ -2,6 +2,8 @@
 /// @file  Points that crack.
 #include <flexpm/kernel/forces/crack_record.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
+
 namespace flexpm {
 
 namespace {
@@ -24,8 +26,7 @@ Point point_position(const Assembly& a, int contact, int point, double dt)
 /// What a point that is about to lose its bond has dissipated by damage.
 double point_damage_energy(const Contacts& contacts, int contact, int point)
 {
-    return contacts.area(contact, point)
-        * contacts.state(contact, point, &PointState::damage_energy);
+    return contacts.area(contact, point) * energy_of(contacts, contact, point).damage;
 }
 
 }  // namespace
@@ -37,13 +38,10 @@ void record_cracks(Assembly& a, int block, double dt, const std::uint8_t* cracke
         for (int l = 0; l < lanes; ++l) {
             const int contact = block * lanes + l;
             if (!cracked[p * lanes + l] || contact >= contacts.count) continue;
-            const int index = contacts.point_index(contact, p);
-            const bool opens =
-                law::gap(contacts.law_of(contact), contacts.point_state(contact, p)) > 0.0;
-            contacts.crack_steps[index] = static_cast<int>(a.step + 1);
-            contacts.crack_modes[index] = opens ? tensile_crack : shear_crack;
-            contacts.set_crack_position(contact, p, point_position(a, contact, p, dt));
-            contacts.crack_energies[index] = point_damage_energy(contacts, contact, p);
+            const bool opens = gap_of(contacts, contact, p) > 0.0;
+            contacts.set_crack(contact, p,
+                { static_cast<int>(a.step + 1), opens ? tensile_crack : shear_crack,
+                    point_position(a, contact, p, dt), point_damage_energy(contacts, contact, p) });
         }
     }
 }
@@ -52,13 +50,11 @@ void record_erasure(Assembly& a, int contact)
 {
     Contacts& contacts = a.contacts;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const int index = contacts.point_index(contact, p);
-        if (contacts.crack_modes[index] != intact) continue;
-        contacts.crack_steps[index] = static_cast<int>(a.step);
-        contacts.crack_modes[index] = erased_point;
-        contacts.set_crack_position(contact, p, point_position(a, contact, p, 0.0));
-        contacts.crack_energies[index] = point_damage_energy(contacts, contact, p);
-        contacts.state(contact, p, &PointState::shear_damage) = 1.0;  // nothing is left to crack
+        if (contacts.crack(contact, p).mode != intact) continue;
+        contacts.set_crack(contact, p,
+            { static_cast<int>(a.step), erased_point, point_position(a, contact, p, 0.0),
+                point_damage_energy(contacts, contact, p) });
+        take_strength(contacts, contact, p);
     }
 }
 

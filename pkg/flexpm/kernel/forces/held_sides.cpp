@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/forces/held_sides.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
@@ -17,10 +18,9 @@ namespace {
 bool runs_along(const Assembly& a, int side, int axis)
 {
     double along = 0.0, across = 0.0;
-    for (int e = 0; e < a.edges.count; ++e) {
+    for (int e = 0; e < a.facets.count; ++e) {
         if (!is_on_side(a, e, side)) continue;
-        const auto [from, to] = a.edges.nodes(e);
-        const Point way = vector_at(a.grains.reference, to) - vector_at(a.grains.reference, from);
+        const Point way = facet_place(a, e).way();
         along += std::fabs(axis == 0 ? way.x : way.y);
         across += std::fabs(axis == 0 ? way.y : way.x);
     }
@@ -31,10 +31,10 @@ bool runs_along(const Assembly& a, int side, int axis)
 std::map<int, std::set<int>> nodes_of_grains(const Assembly& a, int side)
 {
     std::map<int, std::set<int>> nodes;
-    for (int e = 0; e < a.edges.count; ++e) {
+    for (int e = 0; e < a.facets.count; ++e) {
         if (!is_on_side(a, e, side)) continue;
-        for (int n : a.edges.nodes(e))
-            nodes[a.edges.grain[e]].insert(n);
+        for (int n : a.facets.nodes(e))
+            nodes[a.facets.grain[e]].insert(n);
     }
     return nodes;
 }

@@ -10,7 +10,7 @@ namespace flexpm {
 /// the centres where the axis runs across the side, and the edges where it runs along it. Deviation
 /// D48: held by its centre there, a grain would carry the half of its mass that lies outwards
 /// without the shear stress that moves it.
-/// @throws std::invalid_argument  if no boundary edge lies on the side
+/// @throws std::invalid_argument  if no facet lies on the side
 void hold_side(Assembly& a, int side, int axis);
 
 /// Push on the edges of rigid grains that are held, so that they stand still over the coming step

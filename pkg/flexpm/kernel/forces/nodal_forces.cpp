@@ -31,9 +31,9 @@ void add_contacts(const Grains& grains, const Contacts& contacts, ForceSources& 
     for (int c = 0; c < contacts.count; ++c) {
         for (int side = 0; side < 2; ++side) {
             const int block = grains.block_of(contacts.pairs[c][side]);
-            for (int end = 0; end < 2; ++end) {
-                const int node = contacts.node(c, side, end);
-                const int force = Contacts::force_index(c, side, end);
+            for (int corner = 0; corner < contacts.corners_of(c); ++corner) {
+                const int node = contacts.node(c, side, corner);
+                const int force = Contacts::force_index(c, side, corner);
                 int *first = &sources.pairs[node], *second = first + lanes;
                 if (*first == none) {
                     *first = force;
@@ -48,30 +48,28 @@ void add_contacts(const Grains& grains, const Contacts& contacts, ForceSources& 
     sources.contacts = Lists<ForceSource>(further);
 }
 
-void add_edges(const Grains& grains, const BoundaryEdges& edges, ForceSources& sources)
+void add_facets(const Grains& grains, const Facets& facets, ForceSources& sources)
 {
     std::vector<std::vector<ForceSource>> lists(grains.blocks());
-    for (int e = 0; e < edges.count; ++e) {
-        const int block = grains.block_of(edges.grain[e]);
+    for (int e = 0; e < facets.count; ++e) {
+        const int block = grains.block_of(facets.grain[e]);
         const int origin = grains.block_nodes[block];
-        const auto [n0, n1] = edges.nodes(e);
-        for (int row : { EdgeRow::of_pressure, EdgeRow::of_plates }) {
-            const int force = BoundaryEdges::force_index(e, row);
-            lists[block].push_back({ force, n0 - origin });
-            lists[block].push_back({ force + node_stride, n1 - origin });
+        const auto nodes = facets.nodes(e);
+        for (int row : { FacetRow::of_pressure, FacetRow::of_plates }) {
+            for (int n = 0; n < facet_nodes; ++n)
+                lists[block].push_back({ Facets::force_index(e, row, n), nodes[n] - origin });
         }
     }
-    sources.edges = Lists<ForceSource>(lists);
+    sources.facets = Lists<ForceSource>(lists);
 }
 
 }  // namespace
 
-ForceSources find_sources(
-    const Grains& grains, const Contacts& contacts, const BoundaryEdges& edges)
+ForceSources find_sources(const Grains& grains, const Contacts& contacts, const Facets& facets)
 {
     ForceSources sources;
     add_contacts(grains, contacts, sources);
-    add_edges(grains, edges, sources);
+    add_facets(grains, facets, sources);
     return sources;
 }
 
@@ -80,7 +78,7 @@ void sum_forces(Assembly& a, int block)
     const ForceSources& sources = a.plan.sources;
     const int first = a.grains.block_nodes[block];
     const MeshGroup& group = a.grains.group(block);
-    const double *contact = a.contacts.forces.data(), *edge = a.edges.forces.data();
+    const double *contact = a.contacts.forces.data(), *facet = a.facets.forces.data();
     double* force = a.grains.force.data() + first;
     const auto sum_pairs = variant_of<sum_lanes<false>, sum_lanes<true>>();
     sum_pairs(contact, sources.pairs.data() + first, force, group.vertices);
@@ -89,9 +87,9 @@ void sum_forces(Assembly& a, int block)
         force[component(s.node, 0)] += contact[s.force];
         force[component(s.node, 1)] += contact[s.force + 1];
     }
-    for (const ForceSource& s : sources.edges[block]) {
-        force[component(s.node, 0)] += edge[component(s.force, 0)];
-        force[component(s.node, 1)] += edge[component(s.force, 1)];
+    for (const ForceSource& s : sources.facets[block]) {
+        force[component(s.node, 0)] += facet[component(s.force, 0)];
+        force[component(s.node, 1)] += facet[component(s.force, 1)];
     }
 }
 

@@ -134,13 +134,13 @@ void integrate_floating(const Assembly& a, NodeSet& set, Point undamped, double 
     set.unbalanced = sums.largest[0];
 }
 
-bool lies_on(const Assembly& a, const NodeSet& set, int edge)
+bool lies_on(const Assembly& a, const NodeSet& set, int facet)
 {
-    const auto nodes = a.edges.nodes(edge);
+    const auto nodes = a.facets.nodes(facet);
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
-        if (set.grains[i] != a.edges.grain[edge]) continue;
+        if (set.grains[i] != a.facets.grain[facet]) continue;
         const bool rigid = a.grains.is_rigid(set.grains[i]);
-        if (rigid || set.nodes[i] == nodes[0] || set.nodes[i] == nodes[1]) return true;
+        if (rigid || std::count(nodes.begin(), nodes.end(), set.nodes[i]) != 0) return true;
     }
     return false;
 }
@@ -149,9 +149,9 @@ bool lies_on(const Assembly& a, const NodeSet& set, int edge)
 void require_apart(const Assembly& a, const NodeSet& set, const Plate& plate)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
-        const int edge = plate.edges[i / plate.points];
-        if (plate.gap[i] != 0.0 || plate.area[i] == 0.0 || !lies_on(a, set, edge)) continue;
-        refuse("node of a set", place(vector_at(a.grains.reference, a.edges.nodes(edge)[0])),
+        const int facet = plate.facets[i / plate.points];
+        if (plate.gap[i] != 0.0 || plate.area[i] == 0.0 || !lies_on(a, set, facet)) continue;
+        refuse("node of a set", place(vector_at(a.grains.reference, a.facets.nodes(facet)[0])),
             "lies on a plate, must not; take another region or another place");
     }
 }

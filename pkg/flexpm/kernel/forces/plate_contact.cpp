@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Plates against boundary edges.
+/// @file  Plates against facets.
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -12,14 +12,13 @@ namespace flexpm {
 
 namespace {
 
-Point tangent_of(const Plate& p) { return { -p.normal.y, p.normal.x }; }
-
-void add_force(BoundaryEdges& edges, const PlatePoint& p, Point force)
+void add_force(Facets& facets, const PlatePoint& p, Point force)
 {
-    const int first = BoundaryEdges::force_index(p.edge, EdgeRow::of_plates);
-    const int second = first + node_stride;
-    set_vector(edges.forces, first, vector_at(edges.forces, first) + (1.0 - p.weight) * force);
-    set_vector(edges.forces, second, vector_at(edges.forces, second) + p.weight * force);
+    const auto parts = facet_parts(p.weight);
+    for (int n = 0; n < facet_nodes; ++n) {
+        const int at = Facets::force_index(p.facet, FacetRow::of_plates, n);
+        set_vector(facets.forces, at, vector_at(facets.forces, at) + parts[n] * force);
+    }
 }
 
 /// Shear force after a slip of the grain along the plate [m], within friction; what rubs off counts
@@ -41,11 +40,11 @@ double normal_force(const Plate& plate, const PlatePoint& p, double gap)
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
 Point touch(Assembly& a, Plate& plate, double dt)
 {
-    const Point tangent = tangent_of(plate);
+    const Point tangent = tangent_of(plate.normal);
     Point total;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const auto nodes = a.edges.nodes(p.edge);
+        const auto nodes = a.facets.nodes(p.facet);
         const Point u = vector_on_edge(a.grains.displacement, nodes, p.weight);
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Point way = u + dt * v - plate.displacement;
@@ -58,7 +57,7 @@ Point touch(Assembly& a, Plate& plate, double dt)
         }
         const double shear = plate.shear_force[i];
         const Point force = normal * plate.normal + shear * tangent;
-        add_force(a.edges, p, force);
+        add_force(a.facets, p, force);
         total = total + force;
     }
     return total;
@@ -67,8 +66,8 @@ Point touch(Assembly& a, Plate& plate, double dt)
 /// Whether a plate lies before a grain that is not loose.
 bool bears_any(const Assembly& a, const Plate& plate)
 {
-    return std::any_of(plate.edges.begin(), plate.edges.end(),
-        [&](int e) { return !a.grains.loose[a.edges.grain[e]]; });
+    return std::any_of(plate.facets.begin(), plate.facets.end(),
+        [&](int f) { return !a.grains.loose[a.facets.grain[f]]; });
 }
 
 /// A loaded plate answers to its load and to the specimen along its normal. Deviation D57: with
@@ -125,7 +124,7 @@ void press(Assembly& a, int plate, double pressure)
         refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
     }
     a.plates[plate].loaded = true;
-    a.plates[plate].load = pressure * a.plates[plate].width * a.thickness;
+    a.plates[plate].load = a.area_of(pressure * a.plates[plate].width);
 }
 
 void set_velocity(Assembly& a, int plate, Point velocity)
@@ -143,27 +142,28 @@ void set_velocity(Assembly& a, int plate, Point velocity)
     p.velocity = velocity;
 }
 
-int plate_points(const Plate& p) { return static_cast<int>(p.edges.size()) * p.points; }
+int plate_points(const Plate& p) { return static_cast<int>(p.facets.size()) * p.points; }
 
 PlatePoint plate_point(const Plate& p, int index)
 {
-    return { p.edges[index / p.points], plate_weight(p, index % p.points),
+    return { p.facets[index / p.points], plate_weight(p, index % p.points),
         p.stiffness * p.area[index], p.friction > 0.0 ? p.shear_stiffness * p.area[index] : 0.0 };
 }
 
 Point point_force(const Plate& p, int index)
 {
     const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
-    return normal * p.normal + p.shear_force[index] * tangent_of(p);
+    return normal * p.normal + p.shear_force[index] * tangent_of(p.normal);
 }
 
 void update_plates(Assembly& a, double dt, double damping)
 {
     for (const Plate& plate : a.plates) {
-        for (int edge : plate.edges) {
-            const int first = BoundaryEdges::force_index(edge, EdgeRow::of_plates);
-            set_vector(a.edges.forces, first, {});
-            set_vector(a.edges.forces, first + node_stride, {});
+        for (int facet : plate.facets) {
+            for (int n = 0; n < facet_nodes; ++n) {
+                const int at = Facets::force_index(facet, FacetRow::of_plates, n);
+                set_vector(a.facets.forces, at, {});
+            }
         }
     }
     for (std::size_t i = 0; i < a.plates.size(); ++i)
@@ -203,13 +203,13 @@ Point plate_force(const Assembly& a, int side)
 double contact_width(const Assembly& a, int plate)
 {
     const Plate& p = a.plates.at(plate);
-    const Point tangent = tangent_of(p);
+    const Point tangent = tangent_of(p.normal);
     double first = 0.0, last = 0.0;
     bool any = false;
     for (int i = 0; i < plate_points(p); ++i) {
         if (p.opening[i] >= 0.0) continue;
         const PlatePoint point = plate_point(p, i);
-        const auto nodes = a.edges.nodes(point.edge);
+        const auto nodes = a.facets.nodes(point.facet);
         const Point x = vector_on_edge(a.grains.reference, nodes, point.weight)
             + vector_on_edge(a.grains.displacement, nodes, point.weight);
         const double place = dot(tangent, x);

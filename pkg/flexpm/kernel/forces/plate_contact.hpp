@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Plates against the boundary edges of grains: one-point contacts, their forces, work and
+/// @file  Plates against the facets of the boundary: one-point contacts, their forces, work and
 /// energy, paper Sec. 4.1. SI units; openings are positive, forces of a plate on the specimen are
 /// positive along its normal.
 /// Deviation D20: a plate's contact has the stiffness K_n of the grains' contacts times its
@@ -27,8 +27,8 @@ void update_plates(Assembly& a, double dt, double damping);
 
 /// One-point contact of a plate, for sums.
 struct PlatePoint {
-    int edge;                ///< boundary edge
-    double weight;           ///< of the edge's second node [-]
+    int facet;
+    double weight;           ///< of the facet's second node, see facet_parts() [-]
     double stiffness;        ///< normal [N/m]
     double shear_stiffness;  ///< [N/m], 0 if smooth
 };

@@ -28,27 +28,21 @@ void need_deformable(const Assembly& a, const std::vector<int>& nodes)
 
 }  // namespace
 
-double edge_length(const Assembly& a, int edge)
-{
-    const auto n = a.edges.nodes(edge);
-    return norm(vector_at(a.grains.reference, n[1]) - vector_at(a.grains.reference, n[0]));
-}
-
 void require_side(const Assembly& a, int side)
 {
-    const auto& sides = a.edges.side;
+    const auto& sides = a.facets.side;
     if (side >= 0 && std::find(sides.begin(), sides.end(), side) != sides.end()) return;
     refuse("side", side, "", "has no boundary edges; name a side of the outline");
 }
 
-bool is_on_side(const Assembly& a, int edge, int side)
+bool is_on_side(const Assembly& a, int facet, int side)
 {
-    return a.edges.side[edge] == side && !a.grains.erased[a.edges.grain[edge]];
+    return a.facets.side[facet] == side && !a.grains.erased[a.facets.grain[facet]];
 }
 
-bool has_edges(const Assembly& a, int side)
+bool has_facets(const Assembly& a, int side)
 {
-    for (int e = 0; e < a.edges.count; ++e) {
+    for (int e = 0; e < a.facets.count; ++e) {
         if (is_on_side(a, e, side)) return true;
     }
     return false;
@@ -58,9 +52,9 @@ std::vector<int> side_nodes(const Assembly& a, int side)
 {
     require_side(a, side);
     std::vector<int> nodes;
-    for (int e = 0; e < a.edges.count; ++e) {
+    for (int e = 0; e < a.facets.count; ++e) {
         if (!is_on_side(a, e, side)) continue;
-        for (int n : a.edges.nodes(e))
+        for (int n : a.facets.nodes(e))
             nodes.push_back(n);
     }
     std::sort(nodes.begin(), nodes.end());
@@ -108,10 +102,10 @@ double reaction(const Assembly& a, const std::vector<int>& nodes, int axis)
 double side_displacement(const Assembly& a, int side, int axis, const Array<double>& moved)
 {
     double moment = 0.0, length = 0.0;
-    for (int e = 0; e < a.edges.count; ++e) {
+    for (int e = 0; e < a.facets.count; ++e) {
         if (!is_on_side(a, e, side)) continue;
-        const auto [n0, n1] = a.edges.nodes(e);
-        const double l = edge_length(a, e);
+        const auto [n0, n1] = a.facets.nodes(e);
+        const double l = facet_place(a, e).length();
         moment += 0.5 * l * (moved[component(n0, axis)] + moved[component(n1, axis)]);
         length += l;
     }
@@ -121,8 +115,8 @@ double side_displacement(const Assembly& a, int side, int axis, const Array<doub
 double side_length(const Assembly& a, int side)
 {
     double length = 0.0;
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] == side) length += edge_length(a, e);
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (a.facets.side[e] == side) length += facet_place(a, e).length();
     }
     return length;
 }
@@ -131,45 +125,43 @@ void set_pressure(Assembly& a, int side, double pressure)
 {
     require_side(a, side);
     check_not_negative("pressure", pressure, "Pa");
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (is_on_side(a, e, side)) a.edges.pressure[e] = pressure;
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (is_on_side(a, e, side)) a.facets.pressure[e] = pressure;
     }
 }
 
 namespace {
 
-/// Whether pressure acts on an edge, or has acted until the last step.
-bool is_pressed(const BoundaryEdges& edges, int edge)
+/// Whether pressure acts on a facet, or has acted until the last step.
+bool is_pressed(const Facets& facets, int facet)
 {
-    const Point f = vector_at(edges.forces, BoundaryEdges::force_index(edge, EdgeRow::of_pressure));
-    return edges.pressure[edge] != 0.0 || f.x != 0.0 || f.y != 0.0;
+    const Point f = vector_at(facets.forces, Facets::force_index(facet, FacetRow::of_pressure));
+    return facets.pressure[facet] != 0.0 || f.x != 0.0 || f.y != 0.0;
 }
 
-/// Update the forces of the pressure on an edge; returns their work [J].
-double press_edge(Assembly& a, int edge, double dt)
+/// Update the forces of the pressure on a facet; returns their work [J].
+double press_facet(Assembly& a, int facet, double dt)
 {
-    const auto [n0, n1] = a.edges.nodes(edge);
+    const auto [n0, n1] = a.facets.nodes(facet);
     const Point v0 = vector_at(a.grains.velocity, n0), v1 = vector_at(a.grains.velocity, n1);
-    const Point along = (a.grains.position(n1) - a.grains.position(n0)) + dt * (v1 - v0);
-    // the outward normal of a counter-clockwise edge is (y, -x) / length
+    const Point way = (a.grains.position(n1) - a.grains.position(n0)) + dt * (v1 - v0);
     // what has come loose lies no more in the skin that the pressure acts on, deviation D57
-    const double pressure = a.grains.loose[a.edges.grain[edge]] ? 0.0 : a.edges.pressure[edge];
-    const double half = 0.5 * pressure * a.thickness;
-    const Point now = { -half * along.y, half * along.x };
-    const int first = BoundaryEdges::force_index(edge, EdgeRow::of_pressure);
-    const double work = 0.5 * dt * dot(vector_at(a.edges.forces, first) + now, v0 + v1);
-    set_vector(a.edges.forces, first, now);
-    set_vector(a.edges.forces, first + node_stride, now);
+    const double pressure = a.grains.loose[a.facets.grain[facet]] ? 0.0 : a.facets.pressure[facet];
+    const Point now = across_facet(way, a.area_of(0.5 * pressure));
+    const int first = Facets::force_index(facet, FacetRow::of_pressure);
+    const double work = 0.5 * dt * dot(vector_at(a.facets.forces, first) + now, v0 + v1);
+    set_vector(a.facets.forces, first, now);
+    set_vector(a.facets.forces, first + node_stride, now);
     return work;
 }
 
 }  // namespace
 
-double update_edge_block(Assembly& a, int block, double dt)
+double update_facet_block(Assembly& a, int block, double dt)
 {
     double work = 0.0;
-    for (int e = block * lanes; e < std::min((block + 1) * lanes, a.edges.count); ++e) {
-        if (is_pressed(a.edges, e)) work += press_edge(a, e, dt);
+    for (int e = block * lanes; e < std::min((block + 1) * lanes, a.facets.count); ++e) {
+        if (is_pressed(a.facets, e)) work += press_facet(a, e, dt);
     }
     return work;
 }

@@ -12,14 +12,14 @@ namespace flexpm {
 /// Sides of a rectangle, in the order of its outline.
 enum RectangleSide { bottom_side = 0, right_side = 1, top_side = 2, left_side = 3 };
 
-/// @throws std::invalid_argument  if no boundary edge of the specimen as built lies on the side
+/// @throws std::invalid_argument  if no facet of the specimen as built lies on the side
 void require_side(const Assembly& a, int side);
 
-/// Whether an edge lies on a side, its grain not erased.
-bool is_on_side(const Assembly& a, int edge, int side);
+/// Whether a facet lies on a side, its grain not erased.
+bool is_on_side(const Assembly& a, int facet, int side);
 
 /// Whether any does.
-bool has_edges(const Assembly& a, int side);
+bool has_facets(const Assembly& a, int side);
 
 /// Offsets of the nodes on one side of the outline, ascending, each once; not those of erased
 /// grains.
@@ -39,24 +39,21 @@ void release(Assembly& a, const std::vector<int>& nodes, int axis);
 /// Force that the holder exerts on the nodes [N]: minus the sum of the nodal forces.
 double reaction(const Assembly& a, const std::vector<int>& nodes, int axis);
 
-/// Mean displacement of a side, weighted by edge length, where nodes move so, in the layout of
+/// Mean displacement of a side, weighted by length of facets, where nodes move so, in the layout of
 /// Grains::displacement [m].
 double side_displacement(const Assembly& a, int side, int axis, const Array<double>& moved);
 
-/// Reference length of a boundary edge [m].
-double edge_length(const Assembly& a, int edge);
-
-/// Reference length of a side, with the edges of erased grains: stresses refer to the whole
+/// Reference length of a side, with the facets of erased grains: stresses refer to the whole
 /// specimen [m].
 double side_length(const Assembly& a, int side);
 
-/// Pressure on a side, on the deformed edges, compressive positive [Pa]. It acts on grains that are
-/// not loose.
-/// @throws std::invalid_argument  if no boundary edge lies on the side, or the pressure is below 0
+/// Pressure on a side, on the deformed facets, compressive positive [Pa]. It acts on grains that
+/// are not loose.
+/// @throws std::invalid_argument  if no facet lies on the side, or the pressure is below 0
 void set_pressure(Assembly& a, int side, double pressure);
 
-/// Update the pressure forces on block `block` of boundary edges, at the positions reached at the
+/// Update the pressure forces on block `block` of facets, at the positions reached at the
 /// end of the step `dt`; returns their work [J].
-double update_edge_block(Assembly& a, int block, double dt);
+double update_facet_block(Assembly& a, int block, double dt);
 
 }  // namespace flexpm

@@ -18,7 +18,7 @@ constexpr int lateral = 0, axial = 1;
 void need_sides(const Assembly& a)
 {
     for (int side : { bottom_side, right_side, top_side, left_side }) {
-        if (has_edges(a, side)) continue;
+        if (has_facets(a, side)) continue;
         refuse("edges of side " + std::to_string(side), 0.0, "",
             "an axial test needs a rectangle of four sides; use another outline");
     }

@@ -27,8 +27,8 @@ int middle_of(const Assembly& a, int side)
         middle += a.grains.reference[n] / static_cast<double>(nodes.size());
     int nearest = a.grains.centre(0);
     double least = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < a.edges.count; ++e) {
-        const int c = a.grains.centre(a.edges.grain[e]);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const int c = a.grains.centre(a.facets.grain[e]);
         if (!is_on_side(a, e, side) || !(std::fabs(a.grains.reference[c] - middle) < least))
             continue;
         least = std::fabs(a.grains.reference[c] - middle);
@@ -43,11 +43,10 @@ Point velocity_before(const Assembly& a, const Plate& plate, const Array<double>
     double sum = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const auto n = a.edges.nodes(p.edge);
-        for (int end = 0; end < 2; ++end) {
-            const double part = end == 0 ? 1.0 - p.weight : p.weight;
-            sum += part * dot(plate.normal, vector_at(velocity, n[end]));
-        }
+        const auto n = a.facets.nodes(p.facet);
+        const auto parts = facet_parts(p.weight);
+        for (int k = 0; k < facet_nodes; ++k)
+            sum += parts[k] * dot(plate.normal, a.grains.vector_at(velocity, n[k]));
     }
     const double mean = sum / plate_points(plate);
     return mean * plate.normal;
@@ -147,7 +146,7 @@ void note_rates(Assembly& a, const StaticSolution& found, double sense)
         const int first = set.nodes.front();
         const Point arm = vector_at(grains.reference, first) - pivot;
         const Point v =
-            sense * vector_at(found.displacement, first) - set.spin * Point { -arm.y, arm.x };
+            sense * vector_at(found.displacement, first) - velocity_of_spin(set.spin, arm);
         given.velocity = { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0 };
     }
 }
@@ -290,7 +289,7 @@ Array<double> loading_field(const Assembly& a)
         for (int k = 0; k < grains.nodes_of(g); ++k) {
             const int n = grains.node(g, k);
             const Point arm = grains.position(n) - middle;
-            set_vector(field, n, velocity + spin * Point { -arm.y, arm.x });
+            set_vector(field, n, velocity + velocity_of_spin(spin, arm));
         }
     }
     return field;

@@ -82,7 +82,7 @@ RigidStiffness rigid_stiffness(const Assembly& a)
     for (const Plate& plate : a.plates) {
         for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const auto n = a.edges.nodes(p.edge);
+            const auto n = a.facets.nodes(p.facet);
             const StiffnessBlock springs = plate_springs(plate, i);
             k.add(grains.vector_on_edge(grains.reference, n, p.weight), springs);
             stiffest = std::max(stiffest, springs.xx + springs.yy);
@@ -189,7 +189,7 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const Point v = a.grains.vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
+            const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
             const Point way = plate.velocity - v;
             const StiffnessBlock k = plate_springs(plate, i);
             const Point force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };

@@ -26,14 +26,10 @@ constexpr double begun = 0.1;
 /// specimen [-].
 constexpr double few = 0.05;
 
-/// Normal and shear traction of a point [Pa], or what they grow by in a unit of time.
-struct Tractions {
-    double normal = 0.0;
-    double shear = 0.0;
-};
-
-/// Growth of a point's tractions along its elastic branch at a velocity of all nodes.
-Tractions growth_of(const Contacts& contacts, const Array<double>& velocity, int c, int p, Point n)
+/// Growth of a point's tractions along its elastic branch at a velocity of all nodes, in a unit of
+/// time.
+PointTraction growth_of(
+    const Contacts& contacts, const Array<double>& velocity, int c, int p, Point n)
 {
     const LawParameters& law = contacts.law_of(c);
     const Point v = relative_velocity(contacts, c, p, velocity);
@@ -61,7 +57,7 @@ Approach earlier(const Approach& one, const Approach& other)
 
 /// How a point comes to its strengths at a steady growth of its tractions: to that in tension or,
 /// in either sense, to |shear| = c - mu normal.
-Approach approach(const Strengths& left, const Tractions& now, const Tractions& growth)
+Approach approach(const Strengths& left, const PointTraction& now, const PointTraction& growth)
 {
     Approach first;
     if (growth.normal > 0.0 && left.tensile > 0.0) {
@@ -83,15 +79,14 @@ Approach approach_of(const Assembly& a, const Array<double>& velocity, int c, in
 {
     const Contacts& contacts = a.contacts;
     const LawParameters& law = contacts.law_of(c);
-    const PointState s = contacts.point_state(c, p);
-    const double damage = law::damage(law, s.max_opening, s.shear_damage);
-    const double normal = law::normal_traction(law, law::gap(law, s), s.max_opening, damage);
-    const bool slides = !(std::fabs(s.shear_traction) < -sliding_share * law.friction * normal);
+    const double damage = damage_of(contacts, c, p);
+    const PointTraction now = traction_of_state(contacts, c, p);
+    const bool slides = !(std::fabs(now.shear) < -sliding_share * law.friction * now.normal);
     const double most = contacts.joint[c] < 0 ? 0.0 : begun;
     if (damage >= 1.0 ? slides : damage > most) return {};
     const double whole = 1.0 - damage;
     const Strengths left = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
-    return approach(left, { normal, s.shear_traction }, growth_of(contacts, velocity, c, p, n));
+    return approach(left, now, growth_of(contacts, velocity, c, p, n));
 }
 
 /// Call `use(contact, point, normal)` for each point that is there.
@@ -123,7 +118,7 @@ double elastic_time(const Assembly& a, const Array<double>& velocity)
     for_each_point(a.contacts, a, [&](int c, int p, Point n) {
         if (damage_of(a.contacts, c, p) >= 1.0) return;
         const LawParameters& law = a.contacts.law_of(c);
-        const Tractions growth = growth_of(a.contacts, velocity, c, p, n);
+        const PointTraction growth = growth_of(a.contacts, velocity, c, p, n);
         const Strengths whole = { law.tensile_strength, law.cohesion, law.friction };
         least = std::min(least, approach(whole, {}, growth).time);
     });

@@ -28,8 +28,8 @@ double lateral_pressure(const Assembly& a, double height)
         const double squeeze = plate_force(a, left_side).x - plate_force(a, right_side).x;
         return 0.5 * squeeze / a.area_of(height);
     }
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (is_on_side(a, e, right_side)) return a.edges.pressure[e];
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (is_on_side(a, e, right_side)) return a.facets.pressure[e];
     }
     return 0.0;
 }

@@ -2,6 +2,7 @@
 /// @file  Sums over an assembly.
 #include <flexpm/kernel/measure/energy_balance.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
@@ -150,9 +151,10 @@ void reset_energy_balance(Assembly& a)
     Contacts& contacts = a.contacts;
     for (int c = 0; c < contacts.count; ++c) {
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            for (auto member : { &PointState::damage_energy, &PointState::friction_energy })
-                contacts.state(c, p, member) = 0.0;
-            contacts.crack_energies[contacts.point_index(c, p)] = 0.0;
+            set_dissipated(contacts, c, p, 0.0, 0.0);
+            PointCrack crack = contacts.crack(c, p);
+            crack.energy = 0.0;
+            contacts.set_crack(c, p, crack);
         }
     }
     // before the first step there is no work but that of the elastic start, which stays

@@ -66,14 +66,13 @@ void add_contacts(const Assembly& a, Virial& total)
     for (int c = 0; c < contacts.count; ++c) {
         if (contacts.erased[c]) continue;
         for (int side = 0; side < 2; ++side) {
-            for (int end = 0; end < 2; ++end) {
-                const double* force = &contacts.forces[Contacts::force_index(c, side, end)];
-                const Point on = { force[0], force[1] };
-                total.add(Point {} - on, a.grains.position(contacts.node(c, side, end)));
+            for (int corner = 0; corner < contacts.corners_of(c); ++corner) {
+                total.add(Point {} - contacts.force(c, side, corner),
+                    a.grains.position(contacts.node(c, side, corner)));
             }
         }
         for (int p = 0; p < contacts.points_of(c); ++p) {
-            const double gap = opening_of(a, c, p);
+            const double gap = opening_of(contacts, c, p);
             total.volume += contacts.area(c, p) * std::min(gap, 0.0);
         }
     }

@@ -80,8 +80,7 @@ double closed_area(const Assembly& a, int contact)
 {
     double sum = 0.0;
     for (int p = 0; p < a.contacts.points_of(contact); ++p) {
-        const PointState s = a.contacts.point_state(contact, p);
-        sum -= a.contacts.area(contact, p) * std::min(law::gap(a.contacts.law_of(contact), s), 0.0);
+        sum -= a.contacts.area(contact, p) * std::min(gap_of(a.contacts, contact, p), 0.0);
     }
     return a.length_of(sum);
 }

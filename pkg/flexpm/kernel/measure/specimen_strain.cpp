@@ -12,8 +12,9 @@ namespace {
 std::vector<SideShare> shares_of(const Assembly& a, int side)
 {
     std::vector<SideShare> shares;
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (is_on_side(a, e, side)) shares.push_back({ a.edges.grain[e], edge_length(a, e) });
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (is_on_side(a, e, side))
+            shares.push_back({ a.facets.grain[e], facet_place(a, e).length() });
     }
     return shares;
 }

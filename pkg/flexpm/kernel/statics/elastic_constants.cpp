@@ -25,7 +25,7 @@ Point static_force(const Assembly& a, const Plate& plate)
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
-        const auto n = a.edges.nodes(p.edge);
+        const auto n = a.facets.nodes(p.facet);
         const Point u =
             plate.displacement - a.grains.vector_on_edge(a.grains.displacement, n, p.weight);
         sum.x += k.xx * u.x + k.xy * u.y;
@@ -48,7 +48,7 @@ std::vector<Prescribed> hold_ends(Assembly& a, double height)
         int held = 0;
         while (!is_on_side(a, held, bottom_side))
             ++held;
-        return { { a.grains.centre(a.edges.grain[held]), 0.0 } };
+        return { { a.grains.centre(a.facets.grain[held]), 0.0 } };
     }
     std::vector<Prescribed> prescribed { { bottom.front(), 0.0 } };
     for (int n : bottom)
@@ -64,7 +64,7 @@ ElasticConstants elastic_constants(const Assembly& a)
 {
     for (int side = 0; side < 4; ++side) {
         check_positive("elastic_constants: length of side " + std::to_string(side),
-            has_edges(a, side) ? side_length(a, side) : 0.0, "m");
+            has_facets(a, side) ? side_length(a, side) : 0.0, "m");
     }
     const double width = side_length(a, bottom_side), height = side_length(a, left_side);
     Assembly solved = a;

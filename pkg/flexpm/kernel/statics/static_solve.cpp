@@ -32,9 +32,9 @@ void add_plate_loads(const Assembly& a, Array<double>& loads)
             const PlatePoint p = plate_point(plate, i);
             const StiffnessBlock k = plate_springs(plate, i);
             const Point u = plate.displacement;
-            const auto n = a.edges.nodes(p.edge);
-            const double part[] = { 1.0 - p.weight, p.weight };
-            for (int r = 0; r < 2; ++r) {
+            const auto n = a.facets.nodes(p.facet);
+            const auto part = facet_parts(p.weight);
+            for (int r = 0; r < facet_nodes; ++r) {
                 loads[n[r]] += part[r] * (k.xx * u.x + k.xy * u.y);
                 loads[a.grains.component(n[r], 1)] += part[r] * (k.yx * u.x + k.yy * u.y);
             }

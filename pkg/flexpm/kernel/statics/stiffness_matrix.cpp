@@ -77,10 +77,10 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
-        const auto n = a.edges.nodes(p.edge);
-        const double part[] = { 1.0 - p.weight, p.weight };
-        for (int r = 0; r < 2; ++r) {
-            for (int c = 0; c < 2; ++c) {
+        const auto n = a.facets.nodes(p.facet);
+        const auto part = facet_parts(p.weight);
+        for (int r = 0; r < facet_nodes; ++r) {
+            for (int c = 0; c < facet_nodes; ++c) {
                 const double s = part[r] * part[c];
                 add_block(entries, n[r], n[c], { s * k.xx, s * k.xy, s * k.yx, s * k.yy });
             }

@@ -29,8 +29,7 @@ constexpr double loosened = std::numeric_limits<double>::max();
 /// they stuck.
 double pressure_of(const Contacts& contacts, int contact, int point)
 {
-    const LawParameters& law = contacts.law_of(contact);
-    return -law.normal_stiffness * law::gap(law, contacts.point_state(contact, point));
+    return -contacts.law_of(contact).normal_stiffness * gap_of(contacts, contact, point);
 }
 
 /// Whether all of a contact is cracked and its faces slide past each other.
@@ -38,11 +37,11 @@ bool slides(const Contacts& contacts, int contact)
 {
     const LawParameters& law = contacts.law_of(contact);
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const PointState s = contacts.point_state(contact, p);
+        const double shear = traction_of_state(contacts, contact, p).shear;
         const double pressure = pressure_of(contacts, contact, p);
         const double limit = sliding_share * law.friction * pressure;
         if (damage_of(contacts, contact, p) < softened) return false;
-        if (pressure > 0.0 && std::fabs(s.shear_traction) < limit) return false;
+        if (pressure > 0.0 && std::fabs(shear) < limit) return false;
     }
     return true;
 }
@@ -95,7 +94,7 @@ bool loosen_plates(Assembly& a, const Array<double>& velocity)
         if (plate.bonded) continue;
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const Point v = vector_on_edge(velocity, a.edges.nodes(p.edge), p.weight);
+            const Point v = vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
             const bool leaves = dot(plate.normal, v - plate.displacement) > 0.0;
             if (plate.opening[i] < 0.0 || !leaves || plate.opening[i] == loosened) continue;
             plate.area[i] *= loose;

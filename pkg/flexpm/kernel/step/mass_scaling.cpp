@@ -89,7 +89,7 @@ void add_contact(const Assembly& a, int contact, StiffnessBound& bound)
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const double area = contacts.area(contact, p);
         for (const auto& [direction, stiffness] : { std::pair { n, law.normal_stiffness },
-                 std::pair { Point { -n.y, n.x }, law.shear_stiffness } }) {
+                 std::pair { tangent_of(n), law.shear_stiffness } }) {
             SpringSide sides[2];
             for (int s = 0; s < 2; ++s) {
                 sides[s] = spring_side(a.grains, contacts.pairs[contact][s],
@@ -110,10 +110,10 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
     const Point n = plate.normal;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        for (const auto& [direction, stiffness] : { std::pair { n, p.stiffness },
-                 std::pair { Point { -n.y, n.x }, p.shear_stiffness } }) {
+        for (const auto& [direction, stiffness] :
+            { std::pair { n, p.stiffness }, std::pair { tangent_of(n), p.shear_stiffness } }) {
             const SpringSide s = spring_side(
-                a.grains, a.edges.grain[p.edge], a.edges.nodes(p.edge), p.weight, direction);
+                a.grains, a.facets.grain[p.facet], a.facets.nodes(p.facet), p.weight, direction);
             const double k = stiffness * (s.size() + 1.0);
             add_spring(a.grains, s, k, bound);
             own += k;
@@ -128,7 +128,7 @@ void complete_rigid(const Assembly& a, int grain, StiffnessBound& bound)
 {
     if (!a.grains.is_rigid(grain) || a.grains.erased[grain]) return;
     const double r = a.grains.radius[grain];
-    const double least = a.contacts.laws.front().normal_stiffness * r * a.thickness;
+    const double least = a.area_of(a.contacts.laws.front().normal_stiffness * r);
     double& node = bound.node[a.grains.scalar_index(a.grains.centre(grain))];
     if (node == 0.0) node = least;
     double& rotation = bound.rotation[a.grains.slot[grain]];
@@ -158,7 +158,7 @@ void scale_plates(Assembly& a, double damping, double dt)
 {
     StiffnessBound unused = stiffness_bound(a);
     for (Plate& p : a.plates) {
-        if (!p.edges.empty()) p.mass = mass_for(add_plate(a, p, unused), damping, dt);
+        if (!p.facets.empty()) p.mass = mass_for(add_plate(a, p, unused), damping, dt);
     }
 }
 

@@ -117,8 +117,8 @@ void update_boundary(Assembly& a, const StepOptions& options)
 {
     a.ledger.erased += a.ledger.erased_next;
     a.ledger.erased_next = 0.0;
-    for (int b = 0; b < a.edges.blocks(); ++b)
-        a.ledger.pressure_work += update_edge_block(a, b, options.dt);
+    for (int b = 0; b < a.facets.blocks(); ++b)
+        a.ledger.pressure_work += update_facet_block(a, b, options.dt);
     update_plates(a, options.dt, options.damping);
 }
 

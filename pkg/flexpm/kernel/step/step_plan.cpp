@@ -51,7 +51,7 @@ std::vector<int> sort_by_id(const Contacts& contacts)
 void prepare_step(Assembly& a)
 {
     StepPlan& plan = a.plan;
-    plan.sources = find_sources(a.grains, a.contacts, a.edges);
+    plan.sources = find_sources(a.grains, a.contacts, a.facets);
     plan.tiles = make_tiles(a.grains, a.contacts);
     plan.prefetch = list_prefetches(a.grains, a.contacts);
     plan.whole_edges = find_whole_edges(a.contacts);

@@ -4,9 +4,9 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/geometry/disc_checks.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
-#include <flexpm/kernel/topology/edge_points.hpp>
 #include <flexpm/kernel/topology/joint_sides.hpp>
 
 #include <algorithm>
@@ -256,7 +256,7 @@ int law_of_edge(Assembly& a, const SharedEdge& e, int edge, const AssemblyOption
 void crack_from_start(Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p)
-        contacts.state(contact, p, &PointState::shear_damage) = 1.0;
+        take_strength(contacts, contact, p);
 }
 
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
@@ -264,7 +264,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
 {
     a.contacts.count = static_cast<int>(t.shared_edges.size());
     size_contacts(a.contacts);
-    EdgePoints points = edge_points(a.contacts.points);
+    EdgePoints points = edge_points(a.contacts.group.points);
     for (int c = 0; c < a.contacts.blocks() * lanes; ++c) {
         const SharedEdge& e = t.shared_edges[std::min(c, a.contacts.count - 1)];
         if (options.on_centre_line) {
@@ -287,17 +287,18 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
     }
 }
 
-void lay_out_edges(Assembly& a, const Tessellation& t, const std::vector<MeshedGrain>& grains)
+void lay_out_facets(Assembly& a, const Tessellation& t, const std::vector<MeshedGrain>& grains)
 {
-    a.edges.count = static_cast<int>(t.boundary_edges.size());
-    a.edges.resize_rows();
-    a.edges.pressure.assign(a.edges.count, 0.0);
-    for (int i = 0; i < a.edges.count; ++i) {
+    a.facets.count = static_cast<int>(t.boundary_edges.size());
+    a.facets.resize_rows();
+    a.facets.pressure.assign(a.facets.count, 0.0);
+    for (int i = 0; i < a.facets.count; ++i) {
         const BoundaryEdge& e = t.boundary_edges[i];
-        a.edges.grain.push_back(e.cell);
-        a.edges.side.push_back(e.side);
-        a.edges.set_nodes(i, node_of_vertex(a.grains, grains, e.cell, e.vertex_0),
-            node_of_vertex(a.grains, grains, e.cell, e.vertex_1));
+        a.facets.grain.push_back(e.cell);
+        a.facets.side.push_back(e.side);
+        a.facets.set_nodes(i,
+            { node_of_vertex(a.grains, grains, e.cell, e.vertex_0),
+                node_of_vertex(a.grains, grains, e.cell, e.vertex_1) });
     }
 }
 
@@ -367,7 +368,7 @@ Assembly make_assembly(
     check(t, options);
     Assembly a;
     a.grains.count = t.cells();
-    a.contacts.points = options.points;
+    a.contacts.group.points = options.points;
     a.thickness = options.thickness;
     a.grains.elastic = options.elastic;
     a.grains.material = options.grain_material;
@@ -392,7 +393,7 @@ Assembly make_assembly(
     for (int slot = 0; slot < a.grains.blocks() * lanes; ++slot)
         fill_slot(a, slot, grains);
     bond(a, t, discs, grains, options);
-    lay_out_edges(a, t, grains);
+    lay_out_facets(a, t, grains);
     prepare_step(a);
     find_close_pairs(a, t);
     part_sides_of_joints(a, t);

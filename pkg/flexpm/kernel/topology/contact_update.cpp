@@ -47,8 +47,8 @@ void fill_face(Assembly& a, int c, const FaceContact& face)
     Contacts& contacts = a.contacts;
     const int centre_rows[] = { NodeRow::centre_a, NodeRow::centre_b };
     for (int side = 0; side < 2; ++side) {
-        for (int end = 0; end < 2; ++end)
-            contacts.node(c, side, end) = face.edges[side][end];
+        for (int corner = 0; corner < contacts.corners_of(c); ++corner)
+            contacts.node(c, side, corner) = face.edges[side][corner];
         contacts.nodes[row_index(c, centre_rows[side], NodeRow::count)] =
             a.grains.centre_place(face.pair[side]);
         contacts.inverse_edge_length(c, side) = face.inverse_edge_length[side];
@@ -113,8 +113,8 @@ void fill_new(Assembly& a, int c, const NewContact& made)
 {
     Contacts& contacts = a.contacts;
     for (int p = 0; p < contacts.points_of(c); ++p) {
-        contacts.crack_steps[contacts.point_index(c, p)] = -1;
-        contacts.state(c, p, &PointState::shear_damage) = 1.0;
+        contacts.set_crack(c, p, {});
+        take_strength(contacts, c, p);
     }
     if (made.face)
         fill_face(a, c, *made.face);
@@ -165,7 +165,9 @@ void pad_contacts(Contacts& contacts)
         });
         for (int p = 0; p < contacts.points_of(c); ++p) {
             contacts.area(c, p) = 0.0;
-            contacts.crack_modes[contacts.point_index(c, p)] = intact;
+            PointCrack crack = contacts.crack(c, p);
+            crack.mode = intact;
+            contacts.set_crack(c, p, crack);
         }
     }
 }
@@ -176,15 +178,15 @@ struct ContactEnergy {
     double area = 0.0;  ///< [m^2]
 };
 
-ContactEnergy energy_of(const Contacts& contacts, int contact)
+ContactEnergy sum_energy(const Contacts& contacts, int contact)
 {
     ContactEnergy sum;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const double area = contacts.area(contact, p);
-        const PointState s = contacts.point_state(contact, p);
-        sum.elastic += area * law::elastic_energy(contacts.law_of(contact), s);
-        sum.damage += area * s.damage_energy;
-        sum.friction += area * s.friction_energy;
+        const PointEnergy energy = energy_of(contacts, contact, p);
+        sum.elastic += area * energy.elastic;
+        sum.damage += area * energy.damage;
+        sum.friction += area * energy.friction;
         sum.area += area;
     }
     return sum;
@@ -198,10 +200,9 @@ void keep_energy(Assembly& a, const std::vector<int>& ended)
     for (int c : ended) {
         for (int p = 0; p < a.contacts.points_of(c); ++p) {
             const double area = a.contacts.area(c, p);
-            const PointState s = a.contacts.point_state(c, p);
-            a.ledger.removed_damage += area * s.damage_energy;
-            a.ledger.removed_friction +=
-                area * (s.friction_energy + law::elastic_energy(a.contacts.law_of(c), s));
+            const PointEnergy energy = energy_of(a.contacts, c, p);
+            a.ledger.removed_damage += area * energy.damage;
+            a.ledger.removed_friction += area * (energy.friction + energy.elastic);
         }
     }
 }
@@ -236,12 +237,12 @@ void replace(Assembly& a, const std::vector<int>& ended, const std::vector<NewCo
 void shift_contact(Assembly& a, const FaceContact& face)
 {
     Contacts& contacts = a.contacts;
-    const ContactEnergy before = energy_of(contacts, face.contact);
+    const ContactEnergy before = sum_energy(contacts, face.contact);
     fill_face(a, face.contact, face);
-    const ContactEnergy now = energy_of(contacts, face.contact);
+    const ContactEnergy now = sum_energy(contacts, face.contact);
     for (int p = 0; p < contacts.points_of(face.contact); ++p) {
-        contacts.state(face.contact, p, &PointState::damage_energy) = before.damage / now.area;
-        contacts.state(face.contact, p, &PointState::friction_energy) = before.friction / now.area;
+        set_dissipated(
+            contacts, face.contact, p, before.damage / now.area, before.friction / now.area);
     }
     a.ledger.removed_friction += before.elastic - now.elastic;
 }
@@ -378,7 +379,7 @@ std::vector<GrainPair> follow_faces(Assembly& a, double damping, double dt)
     if (dt > 0.0) raise_masses(a, damping, dt);
     for (int c = 0; c < a.contacts.count; ++c)
         if (a.contacts.id[c] >= first_new)
-            a.ledger.removed_friction -= energy_of(a.contacts, c).elastic;
+            a.ledger.removed_friction -= sum_energy(a.contacts, c).elastic;
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     return changed;

@@ -2,9 +2,9 @@
 #include <flexpm/kernel/topology/crack_faces.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/forces/bond_faces.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
-#include <flexpm/kernel/topology/edge_points.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +30,7 @@ double elastic_energy(const Contacts& contacts, int contact)
 {
     double sum = 0.0;
     for (int p = 0; p < contacts.points_of(contact); ++p)
-        sum += contacts.area(contact, p)
-            * law::elastic_energy(contacts.law_of(contact), contacts.point_state(contact, p));
+        sum += contacts.area(contact, p) * energy_of(contacts, contact, p).elastic;
     return sum;
 }
 
@@ -42,8 +41,6 @@ Point turned(Point p, double angle)
     const double c = std::cos(angle), s = std::sin(angle);
     return { c * p.x - s * p.y, s * p.x + c * p.y };
 }
-
-Point tangent_of(Point normal) { return { -normal.y, normal.x }; }
 
 /// State of a point that bears nothing, at its place between the faces. Where these lie on each
 /// other already it begins to bear there.
@@ -237,7 +234,7 @@ double bonded_distance(const Grains& grains, GrainPair pair)
 bool presses(const Contacts& contacts, int contact)
 {
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        if (law::gap(contacts.law_of(contact), contacts.point_state(contact, p)) < 0.0) return true;
+        if (gap_of(contacts, contact, p) < 0.0) return true;
     }
     return false;
 }

@@ -53,10 +53,9 @@ double power_of(const Assembly& a, int contact)
 {
     double power = 0.0;
     for (int side = 0; side < 2; ++side) {
-        for (int end = 0; end < 2; ++end) {
-            const double* f = &a.contacts.forces[Contacts::force_index(contact, side, end)];
-            const Point v = a.grains.velocity_at(a.contacts.node(contact, side, end));
-            power += f[0] * v.x + f[1] * v.y;
+        for (int corner = 0; corner < a.contacts.corners_of(contact); ++corner) {
+            power += dot(a.contacts.force(contact, side, corner),
+                a.grains.velocity_at(a.contacts.node(contact, side, corner)));
         }
     }
     return power;

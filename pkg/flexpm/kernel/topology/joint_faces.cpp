@@ -2,8 +2,8 @@
 #include <flexpm/kernel/topology/joint_faces.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
-#include <flexpm/kernel/topology/edge_points.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -64,8 +64,7 @@ bool has_moved(const Contacts& contacts, int contact)
 {
     if (!is_active(contacts, contact)) return true;
     for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const double way =
-            contacts.state(contact, p, &PointState::slip) - contacts.paired_slip(contact, p);
+        const double way = apart_along(contacts, contact, p);
         for (int side = 0; side < 2; ++side) {
             const double part = way * contacts.inverse_edge_length(contact, side);
             if (std::fabs(part) > small_part) return true;
@@ -245,8 +244,8 @@ struct Handed {
 Handed value_at(const Contacts& contacts, int contact, int side, double share)
 {
     const auto value = [&](int p) {
-        const PointState s = contacts.point_state(contact, p);
-        return Handed { s.shear_traction, s.slip };
+        return Handed { traction_of_state(contacts, contact, p).shear,
+            slip_of(contacts, contact, p) };
     };
     const int last = contacts.points_of(contact) - 1;
     if (last == 0) return value(0);
@@ -323,8 +322,9 @@ FaceContact contact_of(const Assembly& a, const Joint& joint, int number, const 
     auto acting = acting_on(a.contacts, joint, *o.first);
     const bool of_first = !acting.empty();
     if (!of_first) acting = acting_on(a.contacts, joint, *o.second);
-    const EdgePoints places = edge_points(a.contacts.points);
-    for (int p = 0; p < a.contacts.points; ++p) {
+    const EdgePoints places = edge_points(a.contacts.group.points);
+    made.points.resize(a.contacts.group.points);
+    for (int p = 0; p < a.contacts.group.points; ++p) {
         FaceContact::Place& point = made.points[p];
         for (int side = 0; side < 2; ++side)
             point.weight[side] = o.on[side].at(places.weight[p]);

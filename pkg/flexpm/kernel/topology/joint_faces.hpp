@@ -32,7 +32,7 @@ struct FaceContact {
         double area = 0.0;                ///< [m^2]
         PointState state;
     };
-    std::array<Place, 3> points {};
+    std::vector<Place> points;
 };
 
 /// What has to change on the joints of an assembly.

@@ -36,7 +36,7 @@ private:
 
 bool presses_any(const Assembly& a)
 {
-    const auto& pressure = a.edges.pressure;
+    const auto& pressure = a.facets.pressure;
     return std::any_of(pressure.begin(), pressure.end(), [](double p) { return p != 0.0; })
         || std::any_of(a.plates.begin(), a.plates.end(), [](const Plate& p) { return p.loaded; });
 }
@@ -53,7 +53,7 @@ void mark_touching(const Assembly& a, const Plate& plate, std::vector<std::uint8
 {
     for (std::size_t i = 0; i < plate.opening.size(); ++i) {
         if (plate.area[i] > 0.0 && (plate.bonded || plate.opening[i] <= 0.0))
-            marked[a.edges.grain[plate.edges[i / plate.points]]] = 1;
+            marked[a.facets.grain[plate.facets[i / plate.points]]] = 1;
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Plates find the edges they may touch and where these begin to.
+/// @file  Plates find the facets they may touch and where these begin to.
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -20,19 +20,6 @@ namespace flexpm {
 
 namespace {
 
-/// Start and end of a boundary edge, the grain on its left.
-struct Edge {
-    Point start, end;
-    double length() const { return norm(end - start); }
-    Point inward() const { return { (start.y - end.y) / length(), (end.x - start.x) / length() }; }
-};
-
-Edge edge_of(const Assembly& a, int edge)
-{
-    const auto n = a.edges.nodes(edge);
-    return { a.grains.reference_at(n[0]), a.grains.reference_at(n[1]) };
-}
-
 double along(Point direction, Point p) { return direction.x * p.x + direction.y * p.y; }
 
 Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
@@ -52,26 +39,24 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
     return p;
 }
 
-/// Points that touch a plate on each edge: grains of either kind, all of one kind.
-int points_on_edge(const Assembly& a, const Plate& p)
+/// Points that touch a plate on each facet: grains of either kind, all of one kind.
+int points_on_facet(const Assembly& a, const Plate& p)
 {
-    return a.grains.is_rigid(a.edges.grain[p.edges.front()]) ? 1 : 2;
+    return a.grains.is_rigid(a.facets.grain[p.facets.front()]) ? 1 : 2;
 }
 
 /// Gaps and tributary areas of the plate's points; the state at the reference.
 void lay(const Assembly& a, Plate& p)
 {
-    for (int e : p.edges) {
-        const Edge edge = edge_of(a, e);
+    for (int e : p.facets) {
+        const FacetPlace facet = facet_place(a, e);
         for (int i = 0; i < p.points; ++i) {
-            const double w = plate_weight(p, i);
-            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
-                (1.0 - w) * edge.start.y + w * edge.end.y };
+            const Point x = facet.at(plate_weight(p, i));
             // a bonded point is unloaded where it is; a point of the face itself has no gap
             const double gap = along(p.normal, x) - along(p.normal, p.position);
-            const bool on_face = p.bonded || std::fabs(gap) < 1e-9 * edge.length();
+            const bool on_face = p.bonded || std::fabs(gap) < 1e-9 * facet.length();
             p.gap.push_back(on_face ? 0.0 : gap);
-            p.area.push_back(a.area_of(edge.length()) / p.points);
+            p.area.push_back(facet_area(a, e) / p.points);
         }
     }
     p.opening = p.gap;
@@ -85,91 +70,92 @@ Point unit(Point normal)
     return { normal.x / size, normal.y / size };
 }
 
-/// Least cosine between the normals of a plate and of an edge that faces it.
+/// Least cosine between the normals of a plate and of a facet that faces it.
 constexpr double facing = 0.5;
 
-/// Part of an edge before a patch, between 0 at its start and 1 at its end.
-struct CoveredEdge {
+/// Part of a facet before a patch, between 0 at its start and 1 at its end.
+struct CoveredFacet {
     double first, last;
     double gap;  ///< from the patch's place to the middle of the part, along the normal [m]
 };
 
-CoveredEdge covered_part(const Edge& edge, Point normal, const Patch& patch)
+CoveredFacet covered_part(const FacetPlace& facet, Point normal, const Patch& patch)
 {
-    const Point tangent = { -normal.y, normal.x };
-    const double start = along(tangent, edge.start - patch.place);
-    const double way = along(tangent, edge.end - patch.place) - start;
+    const Point tangent = tangent_of(normal);
+    const double start = along(tangent, facet.start - patch.place);
+    const double way = along(tangent, facet.end - patch.place) - start;
     const double half = 0.5 * patch.length;
-    // the edge faces the plate, so it goes on along it
+    // the facet faces the plate, so it goes on along it
     const double one = (-half - start) / way, other = (half - start) / way;
-    CoveredEdge part = { std::clamp(std::min(one, other), 0.0, 1.0),
+    CoveredFacet part = { std::clamp(std::min(one, other), 0.0, 1.0),
         std::clamp(std::max(one, other), 0.0, 1.0), 0.0 };
     const double middle = 0.5 * (part.first + part.last);
-    part.gap = along(normal, edge.start + middle * (edge.end - edge.start) - patch.place);
+    part.gap = along(normal, facet.start + middle * (facet.end - facet.start) - patch.place);
     return part;
 }
 
-/// Inward normal of the edge of the outline whose middle is nearest to a place.
+/// Normal of the facet of the outline whose middle is nearest to a place.
 Point normal_near(const Assembly& a, Point place)
 {
     double nearest = std::numeric_limits<double>::infinity();
     Point found = { 0.0, 1.0 };
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.side[e] < 0 || a.grains.erased[a.edges.grain[e]]) continue;
-        const Edge edge = edge_of(a, e);
-        const double distance = norm(edge.start + 0.5 * (edge.end - edge.start) - place);
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (a.facets.side[e] < 0 || a.grains.erased[a.facets.grain[e]]) continue;
+        const FacetPlace facet = facet_place(a, e);
+        const double distance = norm(facet.start + 0.5 * (facet.end - facet.start) - place);
         if (!(distance < nearest)) continue;
         nearest = distance;
-        found = edge.inward();
+        found = facet.normal();
     }
     return found;
 }
 
-/// Make boundary edges of those that grains share, too; they lie on no side.
-void list_inner_edges(Assembly& a)
+/// Make facets of the edges that grains share, too; they lie on no side.
+void list_inner_facets(Assembly& a)
 {
     std::set<int> known;  // first nodes
-    for (int e = 0; e < a.edges.count; ++e)
-        known.insert(a.edges.nodes(e)[0]);
+    for (int e = 0; e < a.facets.count; ++e)
+        known.insert(a.facets.nodes(e)[0]);
     for (int g = 0; g < a.grains.count; ++g) {
         const int corners = a.grains.vertices_of(g);
         for (int k = 0; k < corners; ++k) {
             if (known.count(a.grains.node(g, k)) != 0) continue;
-            const int e = a.edges.count++;
-            a.edges.grain.push_back(g);
-            a.edges.side.push_back(-1);
-            a.edges.pressure.push_back(0.0);
-            a.edges.resize_rows();
-            a.edges.set_nodes(e, a.grains.node(g, k), a.grains.node(g, (k + 1) % corners));
+            const int e = a.facets.count++;
+            a.facets.grain.push_back(g);
+            a.facets.side.push_back(-1);
+            a.facets.pressure.push_back(0.0);
+            a.facets.resize_rows();
+            a.facets.set_nodes(e, { a.grains.node(g, k), a.grains.node(g, (k + 1) % corners) });
         }
     }
     prepare_step(a);
 }
 
-/// Part of its edge that a plate takes, its first and last place, 0 at the edge's start.
-std::pair<double, double> taken_part(const Assembly& a, const Plate& p, std::size_t edge)
+/// Part of its facet that a plate takes, its first and last place, 0 at the facet's start.
+std::pair<double, double> taken_part(const Assembly& a, const Plate& p, std::size_t facet)
 {
     double area = 0.0, middle = 0.0;
     for (int i = 0; i < p.points; ++i) {
-        const double part = p.area[edge * p.points + i];
+        const double part = p.area[facet * p.points + i];
         area += part;
-        middle += plate_weight(p, i) * part / a.area_of(edge_of(a, p.edges[edge]).length());
+        middle += plate_weight(p, i) * part / facet_area(a, p.facets[facet]);
     }
-    const double taken = area / a.area_of(edge_of(a, p.edges[edge]).length());
+    const double taken = area / facet_area(a, p.facets[facet]);
     middle = taken > 0.0 ? middle / taken : 0.0;
     return { middle - 0.5 * taken, middle + 0.5 * taken };
 }
 
-/// Least part of an edge that counts as lain on twice; less is round-off.
+/// Least part of a facet that counts as lain on twice; less is round-off.
 constexpr double lain_on = 1e-9;
 
-/// Whether two plates take a part of an edge both. Walls and plates that touch a point take none.
+/// Whether two plates take a part of a facet both. Walls and plates that touch a point take none.
 bool overlap(const Assembly& a, const Plate& p, const Plate& q)
 {
     if (p.width == 0.0 || q.width == 0.0) return false;
-    for (std::size_t e = 0; e < p.edges.size(); ++e) {
-        const auto other = std::find(q.edges.begin(), q.edges.end(), p.edges[e]) - q.edges.begin();
-        if (other == static_cast<std::ptrdiff_t>(q.edges.size())) continue;
+    for (std::size_t e = 0; e < p.facets.size(); ++e) {
+        const auto other =
+            std::find(q.facets.begin(), q.facets.end(), p.facets[e]) - q.facets.begin();
+        if (other == static_cast<std::ptrdiff_t>(q.facets.size())) continue;
         const auto one = taken_part(a, p, e), two = taken_part(a, q, other);
         if (std::min(one.second, two.second) - std::max(one.first, two.first) > lain_on)
             return true;
@@ -203,7 +189,7 @@ int find_like(const Assembly& a, const Plate& p)
 {
     for (std::size_t i = 0; i < a.plates.size(); ++i) {
         const Plate& q = a.plates[i];
-        const bool alike = q.side == p.side && q.edges == p.edges && q.area == p.area
+        const bool alike = q.side == p.side && q.facets == p.facets && q.area == p.area
             && q.normal.x == p.normal.x && q.normal.y == p.normal.y && q.friction == p.friction
             && q.bonded == p.bonded;
         if (alike) return static_cast<int>(i);
@@ -211,29 +197,29 @@ int find_like(const Assembly& a, const Plate& p)
     return -1;
 }
 
-/// Distance of a support's place from the outline, over the length of the edge there, that is none:
-/// an arc is made of chords [-].
+/// Distance of a support's place from the outline, over the length of the facet there, that is
+/// none: an arc is made of chords [-].
 constexpr double off_outline = 0.05;
 
-double distance_to(const Edge& edge, Point place)
+double distance_to(const FacetPlace& facet, Point place)
 {
-    const Point along_edge = edge.end - edge.start;
-    const double part = dot(place - edge.start, along_edge) / dot(along_edge, along_edge);
-    return norm(edge.start + std::clamp(part, 0.0, 1.0) * along_edge - place);
+    const Point way = facet.way();
+    const double part = dot(place - facet.start, way) / dot(way, way);
+    return norm(facet.start + std::clamp(part, 0.0, 1.0) * way - place);
 }
 
 /// @throws std::invalid_argument  unless a support lies on the outline, with half of its length or
 ///         more, and ends on it
 void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
 {
-    const Point tangent = { -p.normal.y, p.normal.x };
+    const Point tangent = tangent_of(p.normal);
     double off = std::numeric_limits<double>::infinity(), length = 0.0, first = off, last = -off;
-    for (int e : p.edges) {
-        const Edge edge = edge_of(a, e);
-        const double distance = distance_to(edge, patch.place);
-        if (distance < off) length = edge.length();
+    for (int e : p.facets) {
+        const FacetPlace facet = facet_place(a, e);
+        const double distance = distance_to(facet, patch.place);
+        if (distance < off) length = facet.length();
         off = std::min(off, distance);
-        for (Point x : { edge.start, edge.end }) {
+        for (Point x : { facet.start, facet.end }) {
             first = std::min(first, along(tangent, x - patch.place));
             last = std::max(last, along(tangent, x - patch.place));
         }
@@ -257,16 +243,16 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
 {
     if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
     require_side(a, side);
-    std::vector<int> edges;
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (is_on_side(a, e, side)) edges.push_back(e);
+    std::vector<int> facets;
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (is_on_side(a, e, side)) facets.push_back(e);
     }
-    if (edges.empty()) refuse("edges of a side", 0.0, "", "must be at least 1; all are erased");
-    const Point normal = edge_of(a, edges.front()).inward();
-    const Point direction = { -normal.y, normal.x };
+    if (facets.empty()) refuse("edges of a side", 0.0, "", "must be at least 1; all are erased");
+    const Point normal = facet_place(a, facets.front()).normal();
+    const Point direction = tangent_of(normal);
     double first = std::numeric_limits<double>::infinity(), last = -first;
-    for (int e : edges) {
-        for (Point p : { edge_of(a, e).start, edge_of(a, e).end }) {
+    for (int e : facets) {
+        for (Point p : { facet_place(a, e).start, facet_place(a, e).end }) {
             first = std::min(first, along(direction, p));
             last = std::max(last, along(direction, p));
         }
@@ -277,18 +263,18 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
         Plate p = plate_of(a, normal, contact);
         p.side = side;
         p.width = width;
-        p.position = edge_of(a, edges.front()).start;
-        for (int e : edges) {
-            const Edge edge = edge_of(a, e);
+        p.position = facet_place(a, facets.front()).start;
+        for (int e : facets) {
+            const FacetPlace facet = facet_place(a, e);
             const double middle =
-                0.5 * (along(direction, edge.start) + along(direction, edge.end)) - first;
+                0.5 * (along(direction, facet.start) + along(direction, facet.end)) - first;
             if (std::clamp(static_cast<int>(middle / width), 0, pieces - 1) == i)
-                p.edges.push_back(e);
+                p.facets.push_back(e);
         }
-        if (p.edges.empty()) {
+        if (p.facets.empty()) {
             refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
         }
-        p.points = points_on_edge(a, p);
+        p.points = points_on_facet(a, p);
         lay(a, p);
         plates.push_back(p);
     }
@@ -302,15 +288,15 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     const bool given = patch.normal.x != 0.0 || patch.normal.y != 0.0;
     Plate p = plate_of(a, given ? unit(patch.normal) : normal_near(a, patch.place), contact);
     p.points = 2;  // the ends of edges, those of rigid grains, too
-    std::vector<CoveredEdge> covered;
-    for (int e = 0; e < a.edges.count; ++e) {
-        const Edge edge = edge_of(a, e);
-        const bool outer = a.edges.side[e] >= 0 && !a.grains.erased[a.edges.grain[e]];
-        if (!outer || !(along(p.normal, edge.inward()) > facing)) continue;
-        const CoveredEdge part = covered_part(edge, p.normal, patch);
+    std::vector<CoveredFacet> covered;
+    for (int e = 0; e < a.facets.count; ++e) {
+        const FacetPlace facet = facet_place(a, e);
+        const bool outer = a.facets.side[e] >= 0 && !a.grains.erased[a.facets.grain[e]];
+        if (!outer || !(along(p.normal, facet.normal()) > facing)) continue;
+        const CoveredFacet part = covered_part(facet, p.normal, patch);
         if (part.last > part.first && std::fabs(part.gap) < patch.length) {
             covered.push_back(part);
-            p.edges.push_back(e);
+            p.facets.push_back(e);
         }
     }
     if (covered.empty()) {
@@ -320,10 +306,10 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     p.position = patch.place;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < covered.size(); ++i) {
-        const Edge edge = edge_of(a, p.edges[i]);
+        const FacetPlace facet = facet_place(a, p.facets[i]);
         p.width +=
-            (covered[i].last - covered[i].first) * edge.length() * along(p.normal, edge.inward());
-        for (const Point x : { edge.start, edge.end }) {
+            (covered[i].last - covered[i].first) * facet.length() * along(p.normal, facet.normal());
+        for (const Point x : { facet.start, facet.end }) {
             if (along(p.normal, x) < nearest) p.position = x;
             nearest = std::min(nearest, along(p.normal, x));
         }
@@ -332,7 +318,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     for (std::size_t i = 0; i < covered.size(); ++i) {
         const double part = covered[i].last - covered[i].first;
         const double middle = 0.5 * (covered[i].first + covered[i].last);
-        const double area = a.area_of(part * edge_of(a, p.edges[i]).length());
+        const double area = a.area_of(part * facet_place(a, p.facets[i]).length());
         p.area[2 * i] = (1.0 - middle) * area;
         p.area[2 * i + 1] = middle * area;
     }
@@ -366,20 +352,18 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
 {
     Plate p = plate_of(a, unit(normal), contact);
     double nearest = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < a.edges.count; ++e) {
-        const Edge edge = edge_of(a, e);
-        const bool outer = a.edges.side[e] >= 0;
-        if (outer && along(p.normal, edge.inward()) > facing) p.edges.push_back(e);
+    for (int e = 0; e < a.facets.count; ++e) {
+        const FacetPlace facet = facet_place(a, e);
+        const bool outer = a.facets.side[e] >= 0;
+        if (outer && along(p.normal, facet.normal()) > facing) p.facets.push_back(e);
     }
-    if (p.edges.empty())
+    if (p.facets.empty())
         refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
-    p.points = points_on_edge(a, p);
-    for (int e : p.edges) {
-        const Edge edge = edge_of(a, e);
+    p.points = points_on_facet(a, p);
+    for (int e : p.facets) {
+        const FacetPlace facet = facet_place(a, e);
         for (int i = 0; i < p.points; ++i) {
-            const double w = plate_weight(p, i);
-            const Point x = { (1.0 - w) * edge.start.x + w * edge.end.x,
-                (1.0 - w) * edge.start.y + w * edge.end.y };
+            const Point x = facet.at(plate_weight(p, i));
             if (along(p.normal, x) < nearest) p.position = x;
             nearest = std::min(nearest, along(p.normal, x));
         }
@@ -396,10 +380,10 @@ void fix_tangential(Assembly& a, int plate)
     if (p.gap.empty()) refuse("edges at the plate", 0.0, "", "must be at least 1; all are erased");
     const auto first =
         static_cast<int>(std::min_element(p.gap.begin(), p.gap.end()) - p.gap.begin());
-    const int edge = p.edges[first / p.points], grain = a.edges.grain[edge];
+    const int facet = p.facets[first / p.points], grain = a.facets.grain[facet];
     const int node = a.grains.is_rigid(grain)
         ? a.grains.centre(grain)
-        : a.edges.nodes(edge)[plate_weight(p, first % p.points) > 0.5];
+        : a.facets.nodes(facet)[plate_weight(p, first % p.points) > 0.5];
     const int axis = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
     a.grains.prescribed[a.grains.component(node, axis)] = 1;
     a.grains.velocity[a.grains.component(node, axis)] = 0.0;
@@ -409,9 +393,9 @@ int add_wall(Assembly& a, Point position, Point normal, const PlateContact& cont
 {
     Plate p = plate_of(a, unit(normal), contact);
     p.position = position;
-    list_inner_edges(a);
-    for (int e = 0; e < a.edges.count; ++e)
-        p.edges.push_back(e);
+    list_inner_facets(a);
+    for (int e = 0; e < a.facets.count; ++e)
+        p.facets.push_back(e);
     p.points = 2;  // rigid grains, too, rest on their corners
     lay(a, p);
     const double least = *std::min_element(p.gap.begin(), p.gap.end());

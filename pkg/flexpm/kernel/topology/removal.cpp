@@ -18,16 +18,16 @@ void remove_contact(Contacts& contacts, int contact)
 
 namespace {
 
-/// Take the points on the edges of a grain from a plate, and the force that they passed on.
-void forget_edges(const Assembly& a, int grain, Plate& plate)
+/// Take the points on the facets of a grain from a plate, and the force that they passed on.
+void forget_facets(const Assembly& a, int grain, Plate& plate)
 {
     Plate kept = plate;
     for (auto* values : { &kept.gap, &kept.area, &kept.opening, &kept.shear_force })
         values->clear();
-    kept.edges.clear();
-    for (std::size_t e = 0; e < plate.edges.size(); ++e) {
-        const bool stays = a.edges.grain[plate.edges[e]] != grain;
-        if (stays) kept.edges.push_back(plate.edges[e]);
+    kept.facets.clear();
+    for (std::size_t e = 0; e < plate.facets.size(); ++e) {
+        const bool stays = a.facets.grain[plate.facets[e]] != grain;
+        if (stays) kept.facets.push_back(plate.facets[e]);
         for (int p = 0; p < plate.points; ++p) {
             const int i = static_cast<int>(e) * plate.points + p;
             if (!stays) {
@@ -91,14 +91,14 @@ void remove_grain(Assembly& a, int grain)
     stop(a.grains, grain);
     a.plan.element_bound.clear();
     for (Plate& plate : a.plates)
-        forget_edges(a, grain, plate);
+        forget_facets(a, grain, plate);
     for (NodeSet& set : a.node_sets)
         forget_nodes(grain, set);
-    for (int e = 0; e < a.edges.count; ++e) {
-        if (a.edges.grain[e] != grain) continue;
-        a.edges.pressure[e] = 0.0;
-        for (int row = 0; row < EdgeRow::count; ++row)
-            a.edges.forces[row_index(e, row, EdgeRow::count)] = 0.0;
+    for (int e = 0; e < a.facets.count; ++e) {
+        if (a.facets.grain[e] != grain) continue;
+        a.facets.pressure[e] = 0.0;
+        for (int row = 0; row < FacetRow::count; ++row)
+            a.facets.forces[row_index(e, row, FacetRow::count)] = 0.0;
     }
 }
 

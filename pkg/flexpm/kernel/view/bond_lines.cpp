@@ -2,18 +2,15 @@
 #include <flexpm/kernel/view/bond_lines.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/view/grain_values.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace flexpm {
 
 namespace {
-
-/// Where the parts of one, two and three points end along the edge: Lobatto's weights, Table 2 of
-/// Sec. 2.4.
-constexpr double parts[3][4] = { { 0.0, 1.0, 1.0, 1.0 }, { 0.0, 0.5, 1.0, 1.0 },
-    { 0.0, 1.0 / 6.0, 5.0 / 6.0, 1.0 } };
 
 /// End of the part of the edges on which a contact acts, in the middle between both grains.
 Point drawn_end(const Assembly& a, int contact, int end, double factor)
@@ -36,8 +33,9 @@ Line point_line(const Assembly& a, int contact, int point, double factor)
 {
     const Point start = drawn_end(a, contact, 0, factor);
     const Point along = drawn_end(a, contact, 1, factor) - start;
-    const double* ends = parts[a.contacts.points_of(contact) - 1];
-    return { start + ends[point] * along, start + ends[point + 1] * along };
+    const auto share = edge_points(a.contacts.points_of(contact)).share;
+    const double from = std::accumulate(share.begin(), share.begin() + point, 0.0);
+    return { start + from * along, start + (from + share[point]) * along };
 }
 
 Line branch_line(const Assembly& a, int contact, double factor)

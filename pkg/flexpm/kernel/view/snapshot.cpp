@@ -67,12 +67,12 @@ void add_place(const Assembly& a, int contact, std::vector<std::int32_t>& number
 void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
     std::vector<std::int32_t>& mode, std::vector<double>& position, std::vector<double>& energy)
 {
-    for (int p = 0; p < a.contacts.points; ++p) {
-        const int index = a.contacts.point_index(contact, p);
-        step.push_back(a.contacts.crack_steps[index]);
-        mode.push_back(a.contacts.crack_modes[index]);
-        energy.push_back(a.contacts.crack_energies[index]);
-        push(position, a.contacts.crack_position(contact, p));
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        const PointCrack crack = a.contacts.crack(contact, p);
+        step.push_back(crack.step);
+        mode.push_back(crack.mode);
+        energy.push_back(crack.energy);
+        push(position, crack.position);
     }
 }
 
@@ -80,11 +80,12 @@ void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
     add_place(a, contact, s.contact, s.contact_grains, s.contact_ends);
     add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position, s.crack_energy);
-    for (int p = 0; p < a.contacts.points; ++p) {
-        s.point_opening.push_back(opening_of(a, contact, p));
-        s.point_slip.push_back(slip_of(a, contact, p));
+    for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        s.point_opening.push_back(opening_of(a.contacts, contact, p));
+        s.point_slip.push_back(slip_of(a.contacts, contact, p));
         s.point_damage.push_back(damage_of(a.contacts, contact, p));
-        push(s.point_traction, traction_of(a, contact, p));
+        const PointTraction traction = traction_of(a.contacts, contact, p);
+        s.point_traction.insert(s.point_traction.end(), { traction.normal, traction.shear });
     }
 }
 

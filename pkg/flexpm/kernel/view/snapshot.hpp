@@ -10,8 +10,8 @@
 
 namespace flexpm {
 
-/// Nodes grain after grain, triangles grain after grain, contacts in their order. Of what has been
-/// erased only the record is left.
+/// Nodes grain after grain, triangles grain after grain, contacts in their order, points contact
+/// after contact. Of what has been erased only the record is left.
 struct Snapshot {
     std::vector<double> positions;   ///< [node][x, y] [m]
     std::vector<double> reference;   ///< [node][x, y] [m]
@@ -27,25 +27,24 @@ struct Snapshot {
     std::vector<std::int32_t> contact;         ///< [contact] lasting number
     std::vector<std::int32_t> contact_grains;  ///< [contact][2] grains of the rock
     std::vector<double> contact_ends;          ///< [contact][start, end][x, y] [m]
-    std::vector<double> point_opening;         ///< [contact][point] [m]
-    std::vector<double> point_slip;            ///< [contact][point] [m]
-    std::vector<double> point_damage;          ///< [contact][point] [-]
-    std::vector<double> point_traction;        ///< [contact][point][normal, shear] [Pa]
-    std::vector<std::int32_t> crack_step;      ///< [contact][point], -1 while intact
-    std::vector<std::int32_t> crack_mode;      ///< [contact][point] CrackMode
-    std::vector<double> crack_position;        ///< [contact][point][x, y] [m]
-    std::vector<double> crack_energy;          ///< [contact][point] damage until it cracked [J]
+    std::vector<double> point_opening;         ///< [point] [m]
+    std::vector<double> point_slip;            ///< [point] [m]
+    std::vector<double> point_damage;          ///< [point] [-]
+    std::vector<double> point_traction;        ///< [point][normal, shear] [Pa]
+    std::vector<std::int32_t> crack_step;      ///< [point], -1 while intact
+    std::vector<std::int32_t> crack_mode;      ///< [point] CrackMode
+    std::vector<double> crack_position;        ///< [point][x, y] [m]
+    std::vector<double> crack_energy;          ///< [point] damage until it cracked [J]
 
     std::vector<std::int32_t> erased_contact;  ///< [erased bond] lasting number
     std::vector<std::int32_t>
         erased_grains;  ///< [erased bond][2] grains of the rock, erased or not
     std::vector<double>
         erased_ends;  ///< [erased bond][start, end][x, y] now, nan if a grain is gone [m]
-    std::vector<std::int32_t>
-        erased_crack_step;  ///< [erased bond][point] of the crack or the erasure
-    std::vector<std::int32_t> erased_crack_mode;  ///< [erased bond][point] CrackMode
-    std::vector<double> erased_crack_position;    ///< [erased bond][point][x, y] [m]
-    std::vector<double> erased_crack_energy;      ///< [erased bond][point] damage until then [J]
+    std::vector<std::int32_t> erased_crack_step;  ///< [erased point] of the crack or the erasure
+    std::vector<std::int32_t> erased_crack_mode;  ///< [erased point] CrackMode
+    std::vector<double> erased_crack_position;    ///< [erased point][x, y] [m]
+    std::vector<double> erased_crack_energy;      ///< [erased point] damage until then [J]
 };
 
 Snapshot take_snapshot(const Assembly& a);

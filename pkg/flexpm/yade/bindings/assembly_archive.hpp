@@ -29,8 +29,9 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::NodeSet& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::HeldEdge& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::Grains& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::ContactGroup& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::Contacts& part, unsigned) { archiveMembers(archive, part); }
-	template <class Archive> void serialize(Archive& archive, flexpm::BoundaryEdges& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::Facets& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::EnergyLedger& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::GrainMotion& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::PartMotion& part, unsigned) { archiveMembers(archive, part); }

@@ -65,7 +65,7 @@ namespace {
 	{
 		const auto& contacts = assembly.contacts;
 		for (int p = 0; p < contacts.points_of(place); ++p) {
-			const int mode = contacts.crack_modes[contacts.point_index(place, p)];
+			const auto mode = contacts.crack(place, p).mode;
 			if (mode != flexpm::tensile_crack && mode != flexpm::shear_crack) continue;
 			if (mode == flexpm::tensile_crack)
 				glColor3d(0., .447, .698);

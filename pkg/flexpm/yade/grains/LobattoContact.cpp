@@ -30,9 +30,9 @@ namespace {
 	}
 
 	/// The same of a number of each point, read by that function.
-	py::object numbersOf(int contact, double (*read)(const flexpm::Assembly&, int, int))
+	py::object numbersOf(int contact, double (*read)(const flexpm::Contacts&, int, int))
 	{
-		return pointCopy<double>(contact, 0, [read](const auto& a, int place, int p, auto& all) { all.push_back(read(a, place, p)); });
+		return pointCopy<double>(contact, 0, [read](const auto& a, int place, int p, auto& all) { all.push_back(read(a.contacts, place, p)); });
 	}
 
 	Vector3r vector(flexpm::Point p) { return Vector3r(p.x, p.y, 0); }
@@ -144,20 +144,16 @@ py::object LobattoPhys::area() const
 
 py::object LobattoPhys::cracked() const
 {
-	return pointCopy<std::uint8_t>(
-	        contact, 0, [](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.crack_modes[a.contacts.point_index(place, p)]); });
+	return pointCopy<std::uint8_t>(contact, 0, [](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.crack(place, p).mode); });
 }
 
-py::object LobattoPhys::damage() const
-{
-	return pointCopy<double>(contact, 0, [](const auto& a, int place, int p, auto& all) { all.push_back(flexpm::damage_of(a.contacts, place, p)); });
-}
+py::object LobattoPhys::damage() const { return numbersOf(contact, flexpm::damage_of); }
 
 py::object LobattoPhys::traction() const
 {
 	return pointCopy<double>(contact, 2, [](const auto& a, int place, int p, auto& all) {
-		const auto t = flexpm::traction_of(a, place, p);
-		all.insert(all.end(), { t.x, t.y });
+		const auto t = flexpm::traction_of(a.contacts, place, p);
+		all.insert(all.end(), { t.normal, t.shear });
 	});
 }
 

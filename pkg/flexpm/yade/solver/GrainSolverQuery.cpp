@@ -73,7 +73,7 @@ py::dict GrainSolver::counts()
 	d["nodes"]          = grains.nodes;
 	d["triangles"]      = grains.triangles;
 	d["groups"]         = a.grains.groups.size();
-	d["edges"]          = flexpm::count_edges(a);
+	d["edges"]          = flexpm::count_facets(a);
 	return d;
 }
 
@@ -127,7 +127,7 @@ py::object GrainSolver::sideNodes(int side)
 py::dict GrainSolver::snapshot()
 {
 	const auto s = flexpm::take_snapshot(current());
-	const int  p = assembly.contacts.points;
+	const int  p = assembly.contacts.group.points; // all contacts have as many: rows of (contact, point)
 	py::dict   d;
 	d["positions"]           = copied(s.positions, 2);
 	d["reference"]           = copied(s.reference, 2);
