@@ -24,6 +24,7 @@ from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import mineral_map
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen, require_specimen
 from ..threads import limited
 from . import spheres
@@ -39,6 +40,7 @@ from .options import (
     local_damping,
     motion_of,
 )
+from .solids import elastic_of_solid
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
 
@@ -275,29 +277,37 @@ def build(
 
 
 def elastic(
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     material: Material | str | None = None,
     model: str = "flexible",
     *,
     points: int = 3,
     mesh: str = "refined",
 ) -> dict[str, float]:
-    """Elastic constants of a rectangular specimen by one sparse solve, without a simulation.
+    """Elastic constants of a rectangle or a solid by one static solve, without a simulation.
 
     Args:
-        specimen: A rectangle.
+        specimen: A rectangle, or a box or cylinder of flexible grains, which is pulled along z.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``.
-        points: Contact points per contact; inner particles have one.
-        mesh: ``refined`` or ``fan``.
+        points: Contact points per contact; inner particles have one. Not of solids.
+        mesh: ``refined`` or ``fan``. Not of solids.
 
     Returns:
         ``youngs_modulus`` [Pa], ``poissons_ratio`` [-] and the counts of the model.
 
     Raises:
-        InputError: for an argument out of range or a specimen that is no rectangle.
+        InputError: for an argument out of range or a specimen that is no rectangle or solid.
+        SimulationError: if the forces of a solid do not come to balance.
     """
     require_one_of("build: model", model, GRAIN_MODELS)
+    if isinstance(specimen, SolidSpecimen):
+        if (points, mesh) != (POINTS[-1], MESHES[0]):
+            raise InputError(
+                f"elastic: points, mesh = {points}, {mesh}, must be left out for a solid, whose "
+                "contacts have their corners and an inner point, and whose meshes are fans"
+            )
+        return elastic_of_solid(specimen, load_material(material, model), model)
     require_specimen("elastic", specimen)
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)

@@ -3,6 +3,8 @@
 /// against closed forms.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/statics/solid_constants.hpp>
+
 #include "reference/solid_samples.hpp"
 
 using namespace solid_samples;
@@ -10,6 +12,14 @@ using namespace solid_samples;
 namespace {
 
 constexpr double damping = 0.7;
+
+/// The granite as the static solve takes it.
+flexpm::SolidElasticity elasticity(double normal_stiffness = 1.8e14)
+{
+    const auto grain = specimens::granite();
+    const auto contact = specimens::strong_contact(normal_stiffness);
+    return { grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio };
+}
 
 /// Constants of a specimen pulled between ends without friction.
 struct Constants {
@@ -158,4 +168,39 @@ TEST_CASE("Any rotation of a solid leaves no force", "[solids]")
             CHECK(resultant(s).largest < 1e-9);
         }
     }
+}
+
+TEST_CASE("The static solve has the constants of the plain step at rest", "[solids]")
+{
+    const auto grain = specimens::granite();
+    const auto contact = specimens::strong_contact();
+    const double edge = side * std::cbrt(0.6 * 25);
+    const auto solid = flexpm::Solid::box(edge, edge, edge);
+    const auto cells = packing(25, 2);
+    const auto found = flexpm::solid_constants(cells, solid, elasticity());
+    CHECK(found.residual < 1e-10);
+    Specimen s = make_specimen(cells, grain, contact, {});
+    const Constants relaxed = pull(s, { edge, edge, edge }, 1e-7, 1e-9);
+    CHECK(relaxed.young == Approx(found.youngs_modulus).epsilon(1e-6));
+    // there the mean over nodes, here over area
+    CHECK(relaxed.poisson == Approx(found.poissons_ratio).epsilon(0.02));
+}
+
+TEST_CASE("The static solve has springs in series and tends to the grains' constants", "[solids]")
+{
+    const auto grain = specimens::granite();
+    const auto contact = specimens::strong_contact();
+    const auto solid = flexpm::Solid::box(2.0 * side, side, 3.0 * side);
+    const auto found = flexpm::solid_constants(brick(2, 1, 3), solid, elasticity());
+    const double compliance = 1.0 / grain.young + 2.0 / (3.0 * side * contact.normal_stiffness);
+    CHECK(found.youngs_modulus * compliance == Approx(1.0).epsilon(1e-9));
+    CHECK(found.poissons_ratio
+        == Approx(grain.poisson * found.youngs_modulus / grain.young).epsilon(1e-9));
+
+    flexpm::Solid core = flexpm::Solid::cylinder(4.0 * side, 5.0 * side, side);
+    const auto cells =
+        flexpm::polyhedra(flexpm_test::packed_spheres(core, 90, 1), core, { 0.1 * side, false });
+    const auto stiff = flexpm::solid_constants(cells, core, elasticity(1.8e16));
+    CHECK(stiff.youngs_modulus == Approx(grain.young).epsilon(2e-3));
+    CHECK(stiff.poissons_ratio == Approx(grain.poisson).epsilon(2e-3));
 }

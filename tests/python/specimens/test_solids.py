@@ -143,7 +143,6 @@ def test_wrong_input_is_refused_in_one_line(make, message):
     [
         lambda solid: flexpm.run("uniaxial", solid),
         lambda solid: flexpm.build(solid),
-        lambda solid: flexpm.elastic(solid),
         lambda solid: flexpm.compare("uniaxial", solid),
     ],
 )

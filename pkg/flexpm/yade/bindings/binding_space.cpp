@@ -7,6 +7,7 @@
 #include <flexpm/kernel/space/fan_meshes.hpp>
 #include <flexpm/kernel/space/sphere_insertion.hpp>
 #include <flexpm/kernel/space/sphere_sizes.hpp>
+#include <flexpm/kernel/statics/solid_constants.hpp>
 
 #include <array>
 #include <memory>
@@ -99,6 +100,12 @@ namespace {
 		return py::make_tuple(points, fallbacks);
 	}
 
+	py::tuple solidConstants(const Polyhedra& cells, const Solid& solid, double young, double poisson, double normalStiffness, double shearRatio)
+	{
+		const auto found = flexpm::solid_constants(cells, solid, { young, poisson, normalStiffness, shearRatio });
+		return py::make_tuple(found.youngs_modulus, found.poissons_ratio, found.iterations, found.residual);
+	}
+
 	void registerPolyhedra()
 	{
 		using P = Polyhedra;
@@ -155,6 +162,10 @@ void register_space_bindings()
 	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden")),
 	        "Laguerre cells of rows x, y, z, radius.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
+	py::def("solid_constants",
+	        solidConstants,
+	        (py::arg("cells"), py::arg("solid"), py::arg("young"), py::arg("poisson"), py::arg("normal_stiffness"), py::arg("shear_ratio")),
+	        "Young's modulus [Pa], Poisson's ratio, iterations and residual of a static solve.");
 	py::def("face_point_counts", facePointCounts, py::arg("cells"), "Points of all contacts, and contacts with equal points instead of the rule's.");
 }
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..._flexpm import (
     FanMeshes,
     Polyhedra,
+    Solid,
     disc_radii,
     face_point_counts,
     polyhedra,
@@ -53,17 +54,24 @@ def cells_of(
 ) -> tuple[FloatArray, Polyhedra]:
     """Spheres and their cells; hidden spheres, which have no cell, are dropped or refused."""
     while True:
-        mean = 2.0 * float(np.mean(spheres[:, 3])) if len(spheres) else 0.0
-        grain = 0.5 * sum(spec.diameters) if spec.diameters is not None else mean
-        solid = (
-            SolidFrame.of(spec, grain).solid() if mean > 0.0 else SolidFrame.of(spec, 1.0).solid()
-        )
-        cells = call(polyhedra, spheres, solid, spec.short_edge * mean, drop_hidden)
+        short = spec.short_edge * _mean_diameter(spheres)
+        cells = call(polyhedra, spheres, outline_of(spheres, spec), short, drop_hidden)
         if len(cells.hidden_spheres) == 0:
             break
         spheres = np.ascontiguousarray(np.delete(spheres, cells.hidden_spheres, axis=0))
     spheres.setflags(write=False)
     return spheres, cells
+
+
+def outline_of(spheres: FloatArray, spec: SolidSpec) -> Solid:
+    """What the cells fill; the facets of a cylinder follow the size of the grains."""
+    mean = _mean_diameter(spheres)
+    grain = 0.5 * sum(spec.diameters) if spec.diameters is not None else mean
+    return SolidFrame.of(spec, grain if mean > 0.0 else 1.0).solid()
+
+
+def _mean_diameter(spheres: FloatArray) -> float:
+    return 2.0 * float(np.mean(spheres[:, 3])) if len(spheres) else 0.0
 
 
 def sphere_rows(given: npt.ArrayLike | Path | str) -> FloatArray:

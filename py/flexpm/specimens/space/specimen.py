@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..._flexpm import FanMeshes, Polyhedra, fan_meshes
+from ..._flexpm import FanMeshes, Polyhedra, Solid, fan_meshes
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
@@ -135,6 +135,10 @@ class SolidSpecimen:
     def mean_diameter(self) -> float:
         """Mean diameter of the spheres [m]."""
         return 2.0 * float(np.mean(self.spheres[:, 3]))
+
+    def outline(self) -> Solid:
+        """What the cells fill, with the walls that their outer faces lie on."""
+        return of_spheres.outline_of(self.spheres, self.spec)
 
     def meshes(self) -> FanMeshes:
         """Mesh the grains: tetrahedra between the triangles of each face and the grain's centre.
