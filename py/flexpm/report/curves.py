@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stress-strain curve of a test (paper Figs. 8, 15). Input in SI units; labels in MPa and %."""
+"""Curves of tests: stress over strain (paper Figs. 8, 15), the pulse of a sonic test over time.
+
+Input in SI units; labels in MPa and %, µs and µm/s.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +15,19 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..files import remove_earlier
-from ..results import measures
+from ..results import measures, waves
 from ..results.cracks import SHEAR, TENSILE
 from ..results.record import Curve
 from ..results.result import Result
 from ..text import label_of
-from .style import COLOURS, MODE_NAMES, STYLE, save
-from .tables import size_text
+from .style import COLOURS, CYCLE, MODE_NAMES, STYLE, save
+from .tables import scaled, size_text, test_text
 from .words import words_of_test
 
+#: What the sections are called, the lower one first.
+SECTIONS = ("lower section", "upper section")
+#: Factors of a picture's units.
+MICRO = 1e6
 #: Strains [-] and stresses [Pa] beyond this are not drawn.
 _LARGEST = 1e30
 
@@ -124,3 +131,32 @@ def _caption(result: Result) -> str:
     if result.status != "ok":
         caption += f" ({result.status.replace('_', ' ')})"
     return f"{caption}\n{size_text(result)}"
+
+
+def wave_picture(path: Path | str, result: Result) -> None:
+    """Draw the velocities of both sections and when the centre of the pulse passes each."""
+    record = result.curve
+    if len(record) < 3:
+        remove_earlier(path)
+        return
+    with rc_context(STYLE):
+        figure = Figure(figsize=(5.6, 3.9), layout="constrained")
+        axes = figure.add_subplot()
+        time = record[waves.TIME]
+        drawn = zip(SECTIONS, waves.velocities(record), waves.DISPLACEMENTS, CYCLE, strict=False)
+        for label, velocity, column, colour in drawn:
+            axes.plot(MICRO * time, MICRO * velocity, color=colour, lw=1.4, label=label)
+            middle = waves.centre(time, record[column])
+            axes.axvline(MICRO * middle, color=colour, lw=1.0, ls=(0, (5, 3)))
+        axes.set_xlabel("time [µs]")
+        axes.set_ylabel("mean velocity [µm/s]")
+        axes.set_xlim(left=0.0)
+        axes.legend(frameon=False, loc="upper center", title=speed_text(result))
+        axes.set_title(f"{test_text(result)}\n{size_text(result)}", fontsize=9.5, loc="left")
+        save(figure, path)
+
+
+def speed_text(result: Result) -> str:
+    """Speed of the wave of a sonic test, for a picture."""
+    name, speed = ("v_p", result.vp) if result.vs is None else ("v_s", result.vs)
+    return f"${name}$ = {scaled(speed, 1.0, 'm/s', 5)}"

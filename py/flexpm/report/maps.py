@@ -89,9 +89,9 @@ def grain_picture(
     """
     tints = _tints(kinds) if not names else [MINERALS[kind % len(MINERALS)] for kind in kinds]
     with rc_context(STYLE):
-        figure, axes = _map_figure(polygons)
+        figure, axes = map_figure(polygons)
         _draw_grains(axes, polygons, tints)
-        _draw_scale_bar(axes)
+        draw_scale_bar(axes)
         handles = _mineral_handles(names)
         if handles:
             figure.set_figheight(figure.get_figheight() + 0.2 * len(handles))

@@ -10,11 +10,10 @@ from .._version import __version__
 from ..files import Table
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Rig
-from ..report.curves import curve_picture
+from ..report.curves import curve_picture, wave_picture
 from ..report.emission import emission_picture
 from ..report.maps import crack_picture, fragment_picture
 from ..report.tables import size_text
-from ..report.waves import wave_picture
 from ..results.result import Result
 from ..results.vtu import read_vtu, write_vtu
 from ..specimens.files import given

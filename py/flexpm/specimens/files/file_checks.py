@@ -326,17 +326,14 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     import numpy as np
 
     from ...joints.bend import largest_bend
+    from ...joints.network import Network
 
     spec, lines, grains = found["spec"], found["joints"], found.get("grains")
     names = spec.joint_names or ()
-    if spec.networks is not None:
-        from ...joints.network import Network
-
-        [*map(Network.of, spec.networks)]
+    [*map(Network.of, spec.networks or ())]
     of_image = spec.joints is None and spec.cells is not None  # its grains may have pieces, too
-    if (spec.joints is None) is not (grains is None) and not (of_image and not names):
-        raise refuse("joints, joint_names and grains = some, must be all there or none")
-    if bool(names) is (spec.joints is None):
+    some = (spec.joints is None) is not (grains is None) and not (of_image and not names)
+    if some or bool(names) is (spec.joints is None):
         raise refuse("joints, joint_names and grains = some, must be all there or none")
     if grains is not None:
         count = int(np.max(grains)) + 1
