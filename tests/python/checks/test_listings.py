@@ -84,10 +84,10 @@ def test_the_listings_of_the_page_on_specimens():
     scope = {}
     exec(code_after("doc/specimens.rst", "out of a packed block (D31)::"), scope)
     assert len(scope["beam"].discs) > 20
-    exec(code_after("doc/specimens.rst", "of a neighbour (D34)::"), scope)
+    exec(code_after("doc/specimens.rst", "a neighbour (D34)::"), scope)
     assert len(scope["wall"].discs) == 3
     scope["specimen"] = flexpm.Specimen.rectangle(0.02, 0.04, 0.01)
-    exec(code_after("doc/specimens.rst", "each other are one line::"), scope)
+    exec(code_after("doc/specimens.rst", "does the same::"), scope)
     assert len(scope["cut"].discs) > len(scope["specimen"].discs)
     assert {0, 1} <= set(scope["cut"].edge_joints)
 
