@@ -155,12 +155,12 @@ def test_what_can_be_done_goes_on(forks, snippet):
     assert ending == Ending(signal=0), ending
 
 
-#: A call with a value of each type that the signature in its documentation names; a list of whole
+#: A call with a value of each type that the signature in its documentation names; a list of
 #: numbers is an object there.
 CALLS = """
 kinds = {"float": FLOAT, "int": INT, "bool": True, "Vector3": (FLOAT, FLOAT, 0.0), "object": None,
          "list": [], "dict": {}, "tuple": (), "str": "x"}
-lists = {"nodes": [INT]}
+lists = {"nodes": [INT], "pressed": [INT], "pressures": [FLOAT]}
 def arguments(method):
     signature = method.__doc__.split("->")[0].split("(", 1)[1]
     found = re.findall(r"\\((?:[\\w.]*[.])?(\\w+)\\)(\\w+)", signature)[1:]
