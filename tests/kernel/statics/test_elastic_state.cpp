@@ -2,6 +2,7 @@
 /// @file  Static solutions of several cases at once, and of a specimen between plates. SI units.
 #include "support/same_bits.hpp"
 #include "support/specimens.hpp"
+#include "support/statics.hpp"
 
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
@@ -17,26 +18,7 @@
 #include <cmath>
 
 using namespace flexpm;
-
-namespace {
-
-Assembly random_assembly()
-{
-    return specimens::assemble(specimens::random_grains(0.02, 0.04, 3e-3, 11),
-        specimens::options(specimens::strong_contact(1.80e14)));
-}
-
-std::vector<Prescribed> hold_sides(const Assembly& a, double top_displacement)
-{
-    std::vector<Prescribed> p { { side_nodes(a, 0).front(), 0.0 } };
-    for (int n : side_nodes(a, 0))
-        p.push_back({ component(n, 1), 0.0 });
-    for (int n : side_nodes(a, 2))
-        p.push_back({ component(n, 1), top_displacement });
-    return p;
-}
-
-}  // namespace
+using namespace statics;
 
 TEST_CASE("Several cases of one factorisation are those of each alone", "[elastic]")
 {

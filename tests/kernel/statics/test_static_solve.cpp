@@ -3,6 +3,7 @@
 /// SI units.
 #include "support/dense.hpp"
 #include "support/specimens.hpp"
+#include "support/statics.hpp"
 
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
@@ -17,14 +18,9 @@
 #include <string>
 
 using namespace flexpm;
+using namespace statics;
 
 namespace {
-
-Assembly random_assembly()
-{
-    return specimens::assemble(specimens::random_grains(0.02, 0.04, 3e-3, 11),
-        specimens::options(specimens::strong_contact(1.80e14)));
-}
 
 /// Two grains side by side that nothing bonds.
 Assembly two_loose_grains()
@@ -32,16 +28,6 @@ Assembly two_loose_grains()
     auto s = specimens::grid(2, 1, 2e-3);
     s.cells.shared_edges.clear();
     return specimens::assemble(s, specimens::options());
-}
-
-std::vector<Prescribed> hold_sides(const Assembly& a, double top_displacement)
-{
-    std::vector<Prescribed> p { { side_nodes(a, 0).front(), 0.0 } };
-    for (int n : side_nodes(a, 0))
-        p.push_back({ component(n, 1), 0.0 });
-    for (int n : side_nodes(a, 2))
-        p.push_back({ component(n, 1), top_displacement });
-    return p;
 }
 
 /// Largest difference over largest value of `b`.

@@ -120,21 +120,8 @@ def write_page(
         warnings=[*result.warnings, *missing],
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         maps=maps,
-        tables=[
-            one
-            for one in (
-                _networks_table(result),
-                _pairs_table(result),
-                emission_table(result),
-                inputs_table(inputs),
-            )
-            if one
-        ],
-        pictures=[
-            Picture(title, folder / name)
-            for name, title in _PICTURES.items()
-            if (folder / name).is_file()
-        ],
+        tables=_tables(result, inputs, _networks_table(result)),
+        pictures=_pictures(folder, _PICTURES),
         commands=commands,
         cite=cite(result.flexpm),
     )
@@ -163,26 +150,25 @@ def write_own_page(folder: Path, result: Result, inputs: Iterable[Input]) -> Pat
         results=Rows("Result", ("quantity", "value"), known, _reading(result)),
         warnings=result.warnings,
         charts=[chart, _energy_chart(result)] if len(rows) else [],
-        tables=[
-            one
-            for one in (
-                *_told_tables(result.inputs or {}),
-                _pairs_table(result),
-                emission_table(result),
-                inputs_table(inputs),
-            )
-            if one
-        ],
-        pictures=[
-            Picture(title, folder / name)
-            for name, title in {**_OWN_PICTURES, **_PICTURES}.items()
-            if (folder / name).is_file()
-        ],
+        tables=_tables(result, inputs, *_told_tables(result.inputs or {})),
+        pictures=_pictures(folder, {**_OWN_PICTURES, **_PICTURES}),
         commands=[],
         cite=cite(result.flexpm),
     )
     write(folder / FILE, page)
     return folder / FILE
+
+
+def _tables(result: Result, inputs: Iterable[Input], *first: Rows | None) -> list[Rows]:
+    """Tables of a page, those that have rows: its own ones first, then what each page has."""
+    others = (_pairs_table(result), emission_table(result), inputs_table(inputs))
+    return [one for one in (*first, *others) if one]
+
+
+def _pictures(folder: Path, titles: Mapping[str, str]) -> list[Picture]:
+    """Pictures of a page: those that its folder has."""
+    there = {folder / name: title for name, title in titles.items()}
+    return [Picture(title, file) for file, title in there.items() if file.is_file()]
 
 
 def _told_tables(inputs: Table) -> Iterator[Rows]:
