@@ -60,7 +60,8 @@ def rose_picture(path: Path | str, specimen: Specimen) -> None:
         for number, (name, one) in enumerate(sets.items()):
             axes = figure.add_subplot(up, across, number + 1, projection="polar")
             traces = np.array(specimen.joints.get(name, none)).reshape(-1, 2, 2)
-            _draw(axes, one, traces, ends.get(name, none), area)
+            # traces lie in the window about the specimen: those within count
+            _draw(axes, one, (traces, found[name]["drawn"]), ends.get(name, none), area)
             numbers = ", ".join(f"{key} {value:.3g}" for key, value in found[name].items())
             axes.set_title(f"{label_of(name)}\nP21 {numbers} 1/m", fontsize=8.5)
         handles = [
@@ -73,12 +74,17 @@ def rose_picture(path: Path | str, specimen: Specimen) -> None:
 
 
 def _draw(
-    axes: PolarAxes, one: TraceSet, traces: FloatArray, contacts: FloatArray, area: float
+    axes: PolarAxes,
+    one: TraceSet,
+    drawn_of: tuple[FloatArray, float],
+    contacts: FloatArray,
+    area: float,
 ) -> None:
-    """Draw one rose: petals over both senses of an angle."""
+    """Draw one rose: petals over both senses of an angle; of traces and their P21 in all."""
     edges = np.arange(-90.0, 90.0 + _WIDTH, _WIDTH)
     around = np.radians(np.concatenate((edges, edges[1:] + 180.0)))
-    cut, drawn = (_petals(ends, edges) / area for ends in (contacts, traces))
+    cut, drawn = _petals(contacts, edges) / area, _petals(drawn_of[0], edges)
+    drawn *= drawn_of[1] / max(drawn.sum(), np.finfo(float).tiny)
     axes.bar(
         around[:-1],
         np.tile(cut, 2),

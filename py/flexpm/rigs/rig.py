@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
+import numpy as np
 import yade
 from yade import EnumClass_TestState as TestState
 
@@ -67,6 +68,7 @@ class TestRig(RigReadings):
         done = yade.O.iter  # what came before is not known
         #: What has been done so far, as plain values: each stage, and the steps at its ends.
         self.stages: list[Table] = [{"stage": "found", "last_step": done}] if done else []
+        self._coming: Table | None = None  # the stage that has been asked for, until it begins
         #: Called after each step.
         self.watch: Callable[[TestRig], None] | None = None
 
@@ -252,12 +254,16 @@ class TestRig(RigReadings):
         return {}
 
     def _tell(self, stage: str, **values: object) -> None:
-        self.stages.append({"stage": stage, **values, "first_step": yade.O.iter})
+        plain = {k: v.item() if isinstance(v, np.generic) else v for k, v in values.items()}
+        self._coming = {"stage": stage, **plain}
 
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
         """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
         if self.diverged or not self._runner.enter(begin):
             return False
+        if self._coming is not None:
+            self.stages.append({**self._coming, "first_step": yade.O.iter})
+            self._coming = None
         try:
             self._step_through(over, text)
         except RuntimeError:

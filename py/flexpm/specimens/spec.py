@@ -115,7 +115,17 @@ class SpecimenSpec:
         return all(one is None for one in given)
 
     def with_joints(self, lines: Lines) -> SpecimenSpec:
-        """The same specimen, cut by more joints."""
+        """The same specimen, cut by more joints.
+
+        Raises:
+            InputError: for a joint with the name of a set of a network, whose traces it would join.
+        """
+        for name, _ in self.asked_intensities:
+            if name in lines:
+                raise InputError(
+                    f"joint {name}: name = {name}, is that of a set of the specimen's network; "
+                    "take another name"
+                )
         names = [*(self.joint_names or ()), *lines]
         return replace(
             self,

@@ -203,4 +203,8 @@ TEST_CASE("The static solve has springs in series and tends to the grains' const
     const auto stiff = flexpm::solid_constants(cells, core, elasticity(1.8e16));
     CHECK(stiff.youngs_modulus == Approx(grain.young).epsilon(2e-3));
     CHECK(stiff.poissons_ratio == Approx(grain.poisson).epsilon(2e-3));
+    CHECK_THROWS_WITH(
+        flexpm::solid_constants(cells, solid, elasticity()), Catch::Contains("wall of a facet"));
+    CHECK_THROWS_WITH(flexpm::solid_constants(brick(2, 1, 2), solid, elasticity()),
+        Catch::Contains("must be that of the cells"));
 }

@@ -27,6 +27,15 @@ TEST_CASE("Several cases of one factorisation are those of each alone", "[elasti
         a, { { hold_sides(a, 1e-6), {}, {} }, { hold_sides(a, -3e-6), {}, {} } }, {});
     CHECK(found[0].displacement == solve_static(a, hold_sides(a, 1e-6)).displacement);
     CHECK(found[1].displacement == solve_static(a, hold_sides(a, -3e-6)).displacement);
+    auto fewer = hold_sides(a, 1e-6);
+    fewer.pop_back();
+    CHECK_THROWS_WITH(
+        solve_static_cases(a, { { hold_sides(a, 1e-6), {}, {} }, { fewer, {}, {} } }, {}),
+        Catch::Contains("must be the same in all cases"));
+    CHECK_THROWS_WITH(solve_static_cases(a, { { hold_sides(a, 1e-6), { {} }, {} } }, {}),
+        Catch::Contains("plates = 1 values, must be 0"));
+    CHECK_THROWS_WITH(solve_static_cases(a, { { hold_sides(a, 1e-6), {}, {} } }, PointSprings(3)),
+        Catch::Contains("springs = 3 values"));
 }
 
 TEST_CASE("Springs of the law's stiffness are its own, and half of them bear half", "[elastic]")
@@ -38,17 +47,29 @@ TEST_CASE("Springs of the law's stiffness are its own, and half of them bear hal
         springs.resize(springs.size() + a.contacts.points_of(c),
             { law.normal_stiffness, law.shear_stiffness });
     }
-    const auto whole = stiffness_entries(a), given = stiffness_entries(a, springs);
-    Array<double> sums(a.grains.displacement.size(), 0.0);
+    const auto rows = [&](const std::vector<StiffnessEntry>& entries) {
+        Array<double> sums(a.grains.displacement.size(), 0.0);
+        for (const auto& e : entries)
+            sums[e.row] += e.value * (e.column % 7);
+        return sums;
+    };
     double largest = 0.0;
-    for (const auto& e : whole) {
-        sums[e.row] += e.value * (e.column % 7);
+    for (const auto& e : stiffness_entries(a))
         largest = std::max(largest, std::fabs(e.value));
+    const Array<double> whole = rows(stiffness_entries(a)),
+                        given = rows(stiffness_entries(a, springs));
+    for (PointSpring& k : springs)
+        k = { 0.5 * k.normal, 0.5 * k.shear };
+    const Array<double> half = rows(stiffness_entries(a, springs));
+    springs.assign(springs.size(), {});
+    const Array<double> none = rows(stiffness_entries(a, springs));
+    double borne = 0.0;  // by contacts
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        CHECK(std::fabs(whole[i] - given[i]) < 1e-9 * largest);
+        CHECK(std::fabs((whole[i] - half[i]) - (half[i] - none[i])) < 1e-9 * largest);
+        borne = std::max(borne, std::fabs(whole[i] - none[i]));
     }
-    for (const auto& e : given)
-        sums[e.row] -= e.value * (e.column % 7);
-    for (double s : sums)
-        CHECK(std::fabs(s) < 1e-9 * largest);
+    CHECK(borne > 0.1 * largest);
 }
 
 TEST_CASE("A rectangle between plates is as stiff as its modulus and its plates", "[elastic]")

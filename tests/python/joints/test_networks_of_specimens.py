@@ -87,6 +87,8 @@ def test_a_network_joins_other_joints(rectangle, file, tmp_path):
     assert both.spec == SpecimenSource.read(None, tmp_path / "fault.json", network=file).spec
     with pytest.raises(InputError, match="set weak: name = weak, is that of a joint which"):
         both.with_network(file)
+    with pytest.raises(InputError, match="is that of a set of the specimen's network"):
+        both.with_joints({"weak": [(0.0, 0.01), (0.01, 0.02)]})
     assert [*both.network_intensities()] == ["weak"]
 
 

@@ -180,3 +180,22 @@ def test_given_grains_are_saved_beside(specimen, tmp_path):
     rig = bent(made)
     rig.save(tmp_path)
     assert flexpm.Specimen.load(tmp_path / "grains.json").spec == made.spec
+
+
+def test_a_folder_that_was_saved_on_the_way_is_saved_again(specimen, tmp_path):
+    """Numbers of numpy are kept as those of Python; a stage that is refused is none."""
+    yade.O.reset()
+    rig = flexpm.rig(flexpm.build(specimen, model="rigid"))
+    rig.watch = lambda one: one.save(tmp_path, report=False) if yade.O.iter == 5 else None
+    with pytest.raises(flexpm.InputError):
+        rig.strain_to(-1e-5, rate=-1.0)
+    assert rig.stages == []
+    rig.strain_to(np.float32(1e-4), rate=np.int64(4))
+    rig.watch = None
+    assert json.loads((tmp_path / "result.json").read_text())["inputs"]["stages"][0] == {
+        **{key: rig.stages[0][key] for key in ("stage", "strain", "first_step")},
+        "rate": 4,
+    }
+    rig.save(tmp_path)
+    stages = flexpm.Result.read(tmp_path).inputs["stages"]
+    assert [one["last_step"] for one in stages] == [yade.O.iter]

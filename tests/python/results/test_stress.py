@@ -92,6 +92,18 @@ def test_grains_that_flew_off_and_numbers_of_a_run_that_diverged_hide_no_other_g
     assert whole.stress_at(middles, moved=True).missing == len(middles)
 
 
+def test_a_triangle_that_is_stretched_far_costs_no_memory():
+    state = varied()
+    positions = state.positions.copy()
+    positions[0] -= 1e3  # some billion squares of the others' size
+    far = dataclasses.replace(state, positions=positions)
+    middles = positions[state.triangles].mean(axis=1)
+    found = far.stress_at(middles, moved=True)
+    torn = (state.triangles == 0).any(axis=1)
+    np.testing.assert_array_equal(found.stress[~torn][12:], state.triangle_stress[~torn][12:])
+    assert not np.isnan(found.stress[torn]).any()
+
+
 def test_a_line_has_even_points_and_their_distance():
     state = varied()
     first, last = (0.1 * WIDTH, 0.2 * HEIGHT), (4.9 * WIDTH, 3.3 * HEIGHT)

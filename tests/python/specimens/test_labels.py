@@ -177,6 +177,15 @@ def test_holes_and_what_is_loose():
     flexpm.elastic(specimen.with_minerals(specimen.minerals), mineral_rock())
 
 
+def test_a_small_hole_goes_to_the_longest_line_and_to_no_mineral_by_its_number():
+    labels = np.full((20, 20), 1)
+    labels[:, 10:] = 2
+    labels[5, 9:12] = 3  # three pixels of a hole, of which one lies in the first grain
+    found = divide(labels, PIXEL, minerals={1: 0, 2: 1, 3: None})
+    assert found.counts["small_holes"] == 1
+    assert found.pixels[found.labels.tolist().index(2)] == 200 + 1
+
+
 def mineral_rock():
     base = {"young": 50e9, "poisson": 0.2, "normal_stiffness": 1e14, "shear_ratio": 0.3}
     strengths = {"tensile_strength": 8e6, "cohesion": 30e6, "friction": 0.4, "softening": "brittle"}
@@ -280,6 +289,8 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
     Image.fromarray(clear).save(tmp_path / "clear.png")
     np.save(tmp_path / "objects.npy", np.array([{}, []], dtype=object), allow_pickle=True)
     np.save(tmp_path / "fractions.npy", np.full((5, 5), 0.25))
+    np.save(tmp_path / "texts.npy", np.full((5, 5), "quartz"))
+    np.save(tmp_path / "gaps.npy", np.full((5, 5), np.nan))
     (tmp_path / "none.png").write_bytes(b"no image")
     for file, words in {
         "colours.png": "image colour = #0000ff of 32 pixels, one at row 6, column 8, is missing",
@@ -287,10 +298,13 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
         "clear.png": "image opacity = 100 of 255 at row 0, column 0, must be full",
         "objects.npy": "must be an array of numbers",
         "fractions.npy": "labels = 0.25 at row 0, column 0, must be whole numbers",
+        "texts.npy": "must be rows of whole numbers",
+        "gaps.npy": "labels = nan at row 0, column 0, must be whole numbers",
         "none.png": "must be a PNG, TIFF or NPY file",
         "nowhere.png": "must be a PNG, TIFF or NPY file",
     }.items():
-        phases = ["--phases", str(tmp_path / "phases.toml")] if file == "colours.png" else []
+        named = ("colours.png", "texts.npy", "gaps.npy")
+        phases = ["--phases", str(tmp_path / "phases.toml")] if file in named else []
         assert command(tmp_path, file, *phases) == 2, file
         lines = capsys.readouterr().err.strip().splitlines()
         assert len(lines) == 1 and words in lines[0], lines

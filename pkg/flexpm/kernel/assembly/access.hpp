@@ -232,7 +232,7 @@ inline PointEnergy energy_of(const Contacts& contacts, int contact, int point)
     return { law::elastic_energy(contacts.law_of(contact), s), s.damage_energy, s.friction_energy };
 }
 
-/// Let a point have dissipated so much.
+/// Let a point have dissipated so much [J/m^2].
 inline void set_dissipated(
     Contacts& contacts, int contact, int point, double damage, double friction)
 {
@@ -266,7 +266,8 @@ inline Point contact_force(const Contacts& contacts, int contact)
     return sum;
 }
 
-/// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10.
+/// Relative velocity of a contact point, b to a, at its bonded place, Eqs. 9-10 [m/s]; of
+/// displacements the way [m].
 inline Point relative_velocity(
     const Contacts& contacts, int contact, int point, const Array<double>& velocity)
 {

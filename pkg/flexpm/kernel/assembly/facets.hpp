@@ -74,7 +74,7 @@ struct Facets {
 /// The one tangent that a normal has in the plane: turned by 90 degrees, counter-clockwise.
 constexpr Point tangent_of(Point normal) { return { -normal.y, normal.x }; }
 
-/// Velocity that a spin gives to the end of an arm.
+/// Velocity [m/s] that a spin [rad/s] gives to the end of an arm [m].
 constexpr Point velocity_of_spin(double spin, Point arm) { return spin * tangent_of(arm); }
 
 /// Parts that the nodes of a facet have in a point at share `weight` of the way from its first to
@@ -104,7 +104,8 @@ inline FacetPlace facet_place(const Grains& grains, const Facets& facets, int fa
     return { grains.reference_at(start), grains.reference_at(end) };
 }
 
-/// The same direction, as long as the facet, where its nodes lie so far apart now.
+/// A factor times the way from a facet's first node to its second, as they lie now, turned into the
+/// grain.
 FLEXPM_INLINE Point across_facet(Point way, double factor)
 {
     return { -factor * way.y, factor * way.x };

@@ -314,12 +314,33 @@ std::vector<std::uint8_t> nodes_on(const Grains& g, const Solid& solid, SolidSid
     return on;
 }
 
+/// @throws std::invalid_argument  for cells of another solid
+void require_cells_of(const Solid& solid, const Polyhedra& cells, const Grains& g)
+{
+    constexpr double alike = 1e-6;
+    const int walls = static_cast<int>(solid.walls.size());
+    for (const Facet& f : g.facets) {
+        if (f.wall < 0 || f.wall >= walls) {
+            refuse("solid_constants: wall of a facet", static_cast<double>(f.wall), "",
+                "must be below " + std::to_string(walls) + "; give the solid of the cells");
+        }
+    }
+    double volume = 0.0;
+    for (double v : cells.volumes)
+        volume += v;
+    if (!(std::fabs(volume - solid.volume) <= alike * solid.volume)) {
+        refuse("solid_constants: volume of the solid", solid.volume, "m^3",
+            "must be that of the cells, " + number(volume) + "; give the solid of the cells");
+    }
+}
+
 }  // namespace
 
 SolidConstants solid_constants(
     const Polyhedra& cells, const Solid& solid, const SolidElasticity& material, FacePointRule rule)
 {
     const Grains g = make_grains(cells, material, rule);
+    require_cells_of(solid, cells, g);
     const auto bottom = nodes_on(g, solid, SolidSide::bottom);
     const auto top = nodes_on(g, solid, SolidSide::top);
     const double height = solid.high.z - solid.low.z, section = solid.volume / height;

@@ -32,7 +32,8 @@ struct SolidConstants {
 /// have a fixed order and one thread, so results have the same bits everywhere.
 ///
 /// @param cells  of `solid`
-/// @throws std::invalid_argument  for a property out of range, or a solid without bottom or top
+/// @throws std::invalid_argument  for a property out of range, a solid without bottom or top, or
+///         cells that are not its own
 /// @throws std::runtime_error     if the forces do not come to balance
 SolidConstants solid_constants(const Polyhedra& cells, const Solid& solid,
     const SolidElasticity& material, FacePointRule rule = FacePointRule::corners_and_inner);

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -208,7 +209,7 @@ Eigen::VectorXd right_side(const std::vector<StiffnessEntry>& entries, const Unk
     Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
     for (std::size_t i = 0; i < of_plates.size(); ++i) {
         const double load = of_plates[i] + (loads ? (*loads)[i] : 0.0);
-        check_finite("solve_static: load", load, "N");
+        if (!std::isfinite(load)) check_finite("solve_static: load", load, "N");  // makes a text
         for_each_term(n, static_cast<int>(i), [&](int j, double factor) {
             if (n.kind[j] == Kind::unknown) rhs[n.number[j]] += factor * load;
         });
@@ -261,6 +262,13 @@ void spread(const Unknowns& n, const Eigen::VectorXd& x, const Array<double>& gi
     }
 }
 
+void require_size(const char* what, std::size_t size, std::size_t wanted)
+{
+    if (size == wanted) return;
+    refuse(std::string("solve_static: ") + what, static_cast<double>(size), "values",
+        "must be " + std::to_string(wanted) + ", as the assembly has");
+}
+
 }  // namespace
 
 std::vector<StaticSolution> solve_static_cases(
@@ -268,11 +276,21 @@ std::vector<StaticSolution> solve_static_cases(
 {
     const std::size_t size = a.grains.displacement.size();
     const std::vector<StiffnessEntry> entries = stiffness_entries(a, springs);
+    const std::size_t points = static_cast<std::size_t>(a.contacts.count) * a.contacts.group.points;
+    if (!springs.empty()) require_size("springs", springs.size(), points);
     std::vector<StaticSolution> found;
+    std::vector<int> factorised;
     Solver solver;
     for (const StaticCase& one : cases) {
+        require_size("plates", one.plates.size(), a.plates.size());
+        require_size("angles", one.angles.size(), a.node_sets.size());
         Array<double> given;
         const Unknowns n = number_unknowns(a, one, given);
+        if (found.empty()) factorised.assign(n.index.begin(), n.index.end());
+        if (!std::equal(n.index.begin(), n.index.end(), factorised.begin(), factorised.end())) {
+            refuse("solve_static: prescribed", static_cast<double>(one.prescribed.size()),
+                "components", "must be the same in all cases");
+        }
         if (one.loads && one.loads->size() != size) {
             refuse("solve_static: loads", static_cast<double>(one.loads->size()), "values",
                 "must be " + std::to_string(size) + ", one per displacement");

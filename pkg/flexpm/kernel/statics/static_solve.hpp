@@ -31,6 +31,10 @@ struct StaticCase {
 };
 
 /// solve_static() for several cases by one factorisation, with the springs of contacts as given.
+///
+/// @throws std::invalid_argument  as solve_static(), or if the components, plates or angles of a
+///         case are others than those of the assembly and the first case
+/// @throws std::runtime_error     as solve_static()
 std::vector<StaticSolution> solve_static_cases(
     const Assembly& a, const std::vector<StaticCase>& cases, const PointSprings& springs);
 

@@ -207,7 +207,8 @@ private:
 
 /// Sizes of the specimen within which a line may reach: beyond, round-off shows in its places.
 constexpr double farthest = 1e6;
-/// Sizes of the specimen within which two points of a line are one: round-off of their distance.
+/// Sizes of the specimen within which two points of a line are one: round-off of their distance,
+/// as far as they lie where they cut something.
 constexpr double same_place = 1e-12;
 
 double size_of(const Tessellation& t)

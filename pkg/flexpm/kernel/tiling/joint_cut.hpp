@@ -36,8 +36,8 @@ struct JointCut {
 /// @param discs   of the cells
 /// @param joints  per shared edge: joint that it has already, -1: none; empty: none has one
 /// @param tell    called with the number of lines done, if there is one
-/// @throws std::invalid_argument  for a line of less than two points, or one that reaches further
-///         than 1e6 sizes
+/// @throws std::invalid_argument  for a line of less than two points, without length, with a point
+///         that is not finite, or that reaches further than 1e6 sizes
 JointCut cut_by_joints(const Tessellation& tessellation, const std::vector<Disc>& discs,
     const std::vector<int>& joints, const std::vector<JointLine>& lines,
     const std::function<void(std::size_t)>& tell = {});

@@ -5,9 +5,9 @@
 /// its points is that between the faces, and its normal is across them: the pair meets again where
 /// it was bonded, whether its discs touched there or not, and slides along its faces. The further
 /// they part beyond that, parting(), the more its normal turns to the line of the centres, as discs
-/// have it; once it bears nothing it ends as soon as the discs let it. A normal turns slowly while
-/// it bears something, so that the force goes over. Joints have rules of their own,
-/// joint_faces.hpp.
+/// have it; once it bears nothing and they have parted for good it ends, also where the discs
+/// touch, and the touch goes on. A normal turns slowly while it bears something, so that the force
+/// goes over. Joints have rules of their own, joint_faces.hpp.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>

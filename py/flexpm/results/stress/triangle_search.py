@@ -2,7 +2,8 @@
 """Which triangles have a point in them. They may overlap, and need not be joined.
 
 Squares of the size of a triangle name their candidates. Only squares with a triangle are kept, so
-that grains that have flown off cost nothing.
+that grains that have flown off cost nothing; a triangle that is stretched over many of them is a
+candidate for all points.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ _ROUND_OFF = 1e-9
 _LARGEST = 1e100
 #: Places beyond this number of squares are nowhere, those of a run that has diverged.
 _FARTHEST = 2.0**30
+#: Squares that a triangle may touch and be listed in each.
+_MOST_SQUARES = 10_000
 
 
 def triangles_at(corners: FloatArray, points: FloatArray) -> tuple[IntArray, IntArray]:
@@ -36,29 +39,35 @@ def triangles_at(corners: FloatArray, points: FloatArray) -> tuple[IntArray, Int
     if not size > 0.0:
         none = np.empty(0, dtype=int)
         return none, none
-    squares, owners = _squares(low / size - _ROUND_OFF, high / size + _ROUND_OFF)
+    squares, owners, wide = _squares(low / size - _ROUND_OFF, high / size + _ROUND_OFF)
     order = np.argsort(squares, kind="stable")
     squares, owners = squares[order], owners[order]
     there = np.flatnonzero(np.all(np.abs(points) < _FARTHEST * size, axis=1))
     wanted = _number(np.floor(points[there] / size).astype(np.int64))
     first = np.searchsorted(squares, wanted, "left")
     count = np.searchsorted(squares, wanted, "right") - first
-    point, triangle = np.repeat(there, count), owners[_spans(first, count)]
+    point = np.concatenate([np.repeat(there, count), np.repeat(there, len(wide))])
+    triangle = np.concatenate([owners[_spans(first, count)], np.tile(wide, len(there))])
+    rising = np.argsort(point, kind="stable")
+    point, triangle = point[rising], triangle[rising]
     inside = _contains(corners[triangle], points[point])
     return point[inside], triangle[inside]
 
 
-def _squares(low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
-    """Each square that a box from low to high touches, and the box."""
+def _squares(low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Each square that a box from low to high touches, and the box; the boxes with too many."""
     known = np.all((np.abs(low) < _FARTHEST) & (np.abs(high) < _FARTHEST), axis=1)
     boxes = np.flatnonzero(known)
     start, end = (np.floor(one[boxes]).astype(np.int64) for one in (low, high))
     columns, rows = (end - start + 1).T
+    wide = boxes[columns * rows > _MOST_SQUARES]
+    few = columns * rows <= _MOST_SQUARES
+    boxes, start, columns, rows = boxes[few], start[few], columns[few], rows[few]
     count = columns * rows
     owner = np.repeat(np.arange(len(boxes)), count)
     place = _spans(np.zeros_like(count), count)
     steps = np.column_stack([place % columns[owner], place // columns[owner]])
-    return _number(start[owner] + steps), boxes[owner]
+    return _number(start[owner] + steps), boxes[owner], wide
 
 
 def _number(squares: IntArray) -> IntArray:

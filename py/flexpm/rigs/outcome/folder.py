@@ -180,7 +180,11 @@ def _is_earlier(file: Path, inputs: Table) -> bool:
         there = read_json(file)["inputs"]
         stages, now = there["stages"], inputs["stages"]
         same = all(_fixed(there, name) == _fixed(inputs, name) for name in _FIXED)
-        return bool(same and stages == now[: len(stages)])
+        # the last one may have been under way, without its last step
+        pairs = zip(stages, now[: len(stages)], strict=True)
+        return same and all(
+            later.get(key) == value for one, later in pairs for key, value in one.items()
+        )
     except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return False
 

@@ -77,7 +77,7 @@ def divide(
         smoothed: Whether boundaries are smoothed; else they keep to the edges of pixels.
         least_fill: Least part of its convex hull that a piece fills [-].
     """
-    image = _checked(labels)
+    image: IntArray = np.ascontiguousarray(whole_labels(labels)[::-1])  # the lowest row first
     require_length(_WHERE, "pixel", pixel)
     require_whole(f"{_WHERE}: smallest", smallest, Bounds(at_least=1, at_most=MOST_PIXELS))
     kinds = None if minerals is None else _minerals(minerals, image)
@@ -110,8 +110,12 @@ def divide(
     )
 
 
-def _checked(labels: npt.ArrayLike) -> IntArray:
-    """Labels as whole numbers, the lowest row first."""
+def whole_labels(labels: npt.ArrayLike) -> IntArray:
+    """Labels as whole numbers.
+
+    Raises:
+        InputError: for what is no picture of whole numbers, or is too large.
+    """
     given = np.asarray(labels)
     if given.ndim != 2 or given.dtype.kind not in "biuf" or min(given.shape, default=0) < 2:
         raise InputError(
@@ -136,8 +140,7 @@ def _checked(labels: npt.ArrayLike) -> IntArray:
     whole = given.astype(np.int64)
     if whole.min() == np.iinfo(np.int64).min:  # one less stands for holes
         raise InputError(f"{_WHERE}: labels = {whole.min()}, must be above -2^63; renumber them")
-    flipped: IntArray = np.ascontiguousarray(whole[::-1])
-    return flipped
+    return whole
 
 
 def _minerals(minerals: object, image: IntArray) -> dict[int, int | None]:

@@ -15,7 +15,7 @@ from ...arrays import IntArray
 from ...errors import InputError
 from ...files import Table, load_toml
 from ...require import quoted, require_text
-from .given import MOST_PIXELS
+from .given import MOST_PIXELS, whole_labels
 
 #: What a phase is called that is no rock.
 HOLE_NAME = "hole"
@@ -61,6 +61,8 @@ def read(path: Path) -> Picture:
             if pages > 1:
                 raise InputError(f"image = {pages} pages, must be one; save the page that is meant")
             return _from_image(image.mode, np.asarray(image))
+    except InputError:  # a ValueError, too
+        raise
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError(
             f"image = {quoted(str(path))}, must be a PNG, TIFF or NPY file: {_short(error)}"
@@ -87,7 +89,7 @@ def _from_array(path: Path) -> Picture:
         )
     if found.ndim == 3:
         raise InputError(f"image = array of shape {found.shape}, must have one page of labels")
-    return Picture(np.array(found))
+    return Picture(whole_labels(found))
 
 
 def _from_image(mode: str, values: IntArray) -> Picture:
@@ -107,7 +109,7 @@ def _from_image(mode: str, values: IntArray) -> Picture:
         return Picture(65536 * red + 256 * green + blue, has_colours=True)
     if values.ndim != 2:
         raise InputError(f"image mode = {mode}, must be grey, a palette or RGB; convert it")
-    return Picture(values)
+    return Picture(whole_labels(values))
 
 
 def read_phases(path: Path, picture: Picture) -> dict[int, str]:

@@ -16,6 +16,7 @@ from ...arrays import BoolArray, IntArray
 from ...errors import InputError
 
 HOLE = -1
+_WHERE = "Specimen.from_labels"
 #: Holes below this share of a mean grain are filled [-]; smaller ones count as gaps of cells.
 _LEAST_HOLE = 0.03
 
@@ -100,10 +101,14 @@ def find(
     values[regions] = marked
     is_hole = np.zeros(len(values), dtype=bool)
     is_hole[regions[holes]] = True
-    kinds = values if phases is None else np.array([phases.get(v, v) for v in values.tolist()])
+    kinds = values
+    if phases is not None:  # those of holes are none of the minerals' numbers
+        kinds = np.where(is_hole, -1, [phases.get(v, v) for v in values.tolist()])
     counts = {"regions": int(np.count_nonzero(~is_hole))}
     if not counts["regions"]:
-        raise InputError("labels = all hole, must have grains; name another phase hole")
+        raise InputError(
+            "Specimen.from_labels: labels = all hole, must have grains; name another phase hole"
+        )
     small = _Merging(regions, is_hole, kinds)
     counts["small_regions"] = small.merge(smallest, holes=False)
     rock = int(np.count_nonzero(~holes))
@@ -111,12 +116,16 @@ def find(
     counts["small_holes"] = small.merge(least, holes=True)
     image = np.where(is_hole[small.target], HOLE, small.target)[regions]
     if not (image >= 0).any():
-        raise InputError("labels = all hole but small regions, must have grains; lower smallest")
+        raise InputError(
+            f"{_WHERE}: labels = all hole but small regions, must have grains; lower smallest"
+        )
     counts["loose_pixels"] = _drop_loose(image)
     counts["filled_pixels"] = _fill_touching(image)
     kept, numbers = np.unique(image[image >= 0], return_inverse=True)
     if len(kept) < 2:
-        raise InputError("labels = one region, must be two grains or more; give a larger image")
+        raise InputError(
+            f"{_WHERE}: labels = one region, must be two grains or more; give a larger image"
+        )
     image[image >= 0] = numbers
     return Regions(image, values[kept], counts)
 
