@@ -275,9 +275,9 @@ std::vector<StaticSolution> solve_static_cases(
     const Assembly& a, const std::vector<StaticCase>& cases, const PointSprings& springs)
 {
     const std::size_t size = a.grains.displacement.size();
-    const std::vector<StiffnessEntry> entries = stiffness_entries(a, springs);
     const std::size_t points = static_cast<std::size_t>(a.contacts.count) * a.contacts.group.points;
     if (!springs.empty()) require_size("springs", springs.size(), points);
+    const std::vector<StiffnessEntry> entries = stiffness_entries(a, springs);
     std::vector<StaticSolution> found;
     std::vector<int> factorised;
     Solver solver;
