@@ -89,6 +89,8 @@ TEST_CASE("Each saved part lists all its members")
     check_members(flexpm::ElasticMaterial());
     check_members(flexpm::LawParameters());
     check_members(flexpm::Plate());
+    check_members(flexpm::NodeSet());
+    check_members(flexpm::PartMotion());
 }
 
 TEST_CASE("An assembly saves all its members but the plan of a step")

@@ -12,7 +12,7 @@ TEST_CASE("an error is one line of quantity, value, unit and rule", "[require]")
     CHECK_THROWS_WITH(
         refuse("width", 0.5, "m", "must be above 1"), "width = 0.5 m, must be above 1");
     CHECK_THROWS_WITH(refuse("count", 3, "", "must be 4"), "count = 3, must be 4");
-    CHECK_THROWS_WITH(refuse("centre", place({ 1.0, -2.5 }), "must be inside"),
+    CHECK_THROWS_WITH(refuse("centre", place(Point { 1.0, -2.5 }), "must be inside"),
         "centre = (1, -2.5) m, must be inside");
     CHECK_THROWS_AS(fail("pivot", "0", "must be above 1"), std::runtime_error);
 }

@@ -49,14 +49,31 @@ TEST_CASE("a turn keeps length, dot and cross product", "[vector]")
 
 TEST_CASE("lengths have no squares that could overflow or vanish", "[vector]")
 {
-    CHECK(norm({ 3e200, -4e200 }) == Approx(5e200).epsilon(1e-15));
-    CHECK(norm({ 3e-200, 4e-200 }) == Approx(5e-200).epsilon(1e-15));
+    CHECK(norm(Point { 3e200, -4e200 }) == Approx(5e200).epsilon(1e-15));
+    CHECK(norm(Point { 3e-200, 4e-200 }) == Approx(5e-200).epsilon(1e-15));
 }
 
 TEST_CASE("a point is finite if both components are", "[vector]")
 {
     const double nan = std::nan("");
-    CHECK(is_finite({ 1.0, 2.0 }));
-    CHECK_FALSE(is_finite({ nan, 0.0 }));
-    CHECK_FALSE(is_finite({ 0.0, -1.0 / 0.0 }));
+    CHECK(is_finite(Point { 1.0, 2.0 }));
+    CHECK_FALSE(is_finite(Point { nan, 0.0 }));
+    CHECK_FALSE(is_finite(Point { 0.0, -1.0 / 0.0 }));
+}
+
+TEST_CASE("a vector of the plane among those of space keeps its bits", "[vector]")
+{
+    Random random(2);
+    for (int i = 0; i < 100; ++i) {
+        const Point a { random.next() - 0.5, random.next() - 0.5 };
+        const Point b { random.next() - 0.5, random.next() - 0.5 };
+        const Vector v = a, sum = v + b, twice = 2.0 * v - b;
+        CHECK((sum.x == (a + b).x && sum.y == (a + b).y && sum.z == 0.0));
+        CHECK((twice.x == (2.0 * a - b).x && twice.y == (2.0 * a - b).y && twice.z == 0.0));
+        CHECK(dot(v, b) == dot(a, b));
+        CHECK((cross(v, Vector(b)).z == cross(a, b) && cross(v, Vector(b)).x == 0.0));
+        CHECK((in_plane(v).x == a.x && in_plane(v).y == a.y));
+    }
+    // the third component goes in last
+    CHECK(dot(Vector { 1e16, -1e16, 1.0 }, Vector { 1.0, 1.0, 1.0 }) == 1.0);
 }

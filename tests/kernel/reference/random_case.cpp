@@ -262,7 +262,7 @@ void draw_loading(Random& random, Assembly& a)
     for (std::size_t i = 0; i < grains.spin.size(); ++i)
         a.loading.grains.spin[i] = part * grains.spin[i];
     for (const flexpm::Plate& p : a.plates)
-        a.loading.plates.push_back({ part * p.velocity, {}, 0.0 });
+        a.loading.plates.push_back({ part * p.velocity, {}, {} });
 }
 
 /// A length over which the contacts of a specimen soften [m].

@@ -102,7 +102,7 @@ Plate read_plate(const Assembly& a, std::size_t place, const Numbers& number)
 {
     const flexpm::Plate& from = a.plates[place];
     Plate plate;
-    plate.normal = from.normal;
+    plate.normal = in_plane(from.normal);
     plate.stiffness = from.stiffness;
     plate.shear_stiffness = from.shear_stiffness;
     plate.friction = from.friction;
@@ -110,10 +110,10 @@ Plate read_plate(const Assembly& a, std::size_t place, const Numbers& number)
     plate.loaded = from.loaded;
     plate.load = from.load;
     plate.mass = from.mass;
-    plate.displacement = from.displacement;
-    plate.velocity = from.velocity;
-    plate.undamped_velocity = a.loading.of_plate(place).velocity;
-    plate.force = from.force;
+    plate.displacement = in_plane(from.displacement);
+    plate.velocity = in_plane(from.velocity);
+    plate.undamped_velocity = in_plane(a.loading.of_plate(place).velocity);
+    plate.force = in_plane(from.force);
     for (int i = 0; i < flexpm::plate_points(from); ++i) {
         const flexpm::PlatePoint p = flexpm::plate_point(from, i);
         const auto nodes = a.facets.nodes(p.facet);
@@ -227,7 +227,7 @@ Specimen read_state(const Assembly& a)
     for (std::size_t p = 0; p < a.plates.size(); ++p)
         s.plates.push_back(read_plate(a, p, number));
     s.thickness = a.thickness;
-    s.gravity = a.gravity;
+    s.gravity = in_plane(a.gravity);
     s.step = a.step;
     return s;
 }

@@ -28,7 +28,7 @@ struct Assembly {
     LoadingMotion loading;
     SteadyMotion steady;
     double thickness = 0.0;  ///< out of plane [m]
-    Point gravity;           ///< acceleration of all masses [m/s^2], by set_gravity()
+    Vector gravity;          ///< acceleration of all masses [m/s^2], by set_gravity()
     std::int64_t step = 0;   ///< steps done
 
     // derived
@@ -39,6 +39,8 @@ struct Assembly {
     {
         return steady.is_followed() ? steady.mean : loading.grains;
     }
+
+    bool has_gravity() const { return gravity.x != 0.0 || gravity.y != 0.0 || gravity.z != 0.0; }
 
     /// What the plane leaves out: area of a facet and volume of a section, from what is seen of
     /// them. The order of products decides the last digit: a factor that comes first goes in with
@@ -62,6 +64,7 @@ struct Assembly {
         visit("thickness", s.thickness);
         visit("gravity_x", s.gravity.x);
         visit("gravity_y", s.gravity.y);
+        visit("gravity_z", s.gravity.z);
         visit("step", s.step);
     }
 };

@@ -27,17 +27,21 @@ struct GrainMotion {
 
 /// What the loading gives to a part.
 struct PartMotion {
-    Point velocity;       ///< of a plate under a load, or a set that floats [m/s]
-    Point force;          ///< growth of that of a node set [N/s]
-    double moment = 0.0;  ///< the same of its moment [N m/s]
+    Vector velocity;  ///< of a plate under a load, or a set that floats [m/s]
+    Vector force;     ///< growth of that of a node set [N/s]
+    Vector moment;    ///< the same of its moment [N m/s]
 
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
+        visit("velocity_z", s.velocity.z);
         visit("force_x", s.force.x);
         visit("force_y", s.force.y);
-        visit("moment", s.moment);
+        visit("force_z", s.force.z);
+        visit("moment_x", s.moment.x);
+        visit("moment_y", s.moment.y);
+        visit("moment_z", s.moment.z);
     }
 };
 

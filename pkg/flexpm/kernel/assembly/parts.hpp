@@ -17,8 +17,8 @@ namespace flexpm {
 struct Plate {
     // what it is
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
-    Point position;                ///< of a point of its face at the reference [m]
-    Point normal;                  ///< unit vector
+    Vector position;               ///< of a point of its face at the reference [m]
+    Vector normal;                 ///< unit vector
     double width = 0.0;            ///< of the face that takes pressure [m]
     double stiffness = 0.0;        ///< normal stiffness per area K_n [Pa/m]
     double shear_stiffness = 0.0;  ///< [Pa/m], of frictional contacts
@@ -29,18 +29,18 @@ struct Plate {
     // what drives it
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
     double load = 0.0;    ///< force on the plate along its normal [N]
-    Point velocity;       ///< half a step after `displacement` [m/s]
+    Vector velocity;      ///< half a step after `displacement` [m/s]
     double mass = 0.0;    ///< of a loaded plate, scaled [kg]
 
     // state
-    Point displacement;           ///< [m]
+    Vector displacement;          ///< [m]
     std::vector<int> facets;      ///< of the boundary, which may touch it
     std::vector<double> gap;      ///< [facet][point] at the reference [m]
     std::vector<double> area;     ///< [facet][point] [m^2]
     std::vector<double> opening;  ///< [facet][point] gap at the last step [m]
     std::vector<double>
         shear_force;  ///< [facet][point] on the grain along (-normal.y, normal.x) [N]
-    Point force;      ///< on the specimen at the last step [N]
+    Vector force;     ///< on the specimen at the last step [N]
 
     // energy [J]
     double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows
@@ -56,8 +56,10 @@ struct Plate {
         visit("side", s.side);
         visit("position_x", s.position.x);
         visit("position_y", s.position.y);
+        visit("position_z", s.position.z);
         visit("normal_x", s.normal.x);
         visit("normal_y", s.normal.y);
+        visit("normal_z", s.normal.z);
         visit("width", s.width);
         visit("stiffness", s.stiffness);
         visit("shear_stiffness", s.shear_stiffness);
@@ -68,9 +70,11 @@ struct Plate {
         visit("load", s.load);
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
+        visit("velocity_z", s.velocity.z);
         visit("mass", s.mass);
         visit("displacement_x", s.displacement.x);
         visit("displacement_y", s.displacement.y);
+        visit("displacement_z", s.displacement.z);
         visit("facets", s.facets);
         visit("gap", s.gap);
         visit("area", s.area);
@@ -78,6 +82,7 @@ struct Plate {
         visit("shear_force", s.shear_force);
         visit("force_x", s.force.x);
         visit("force_y", s.force.y);
+        visit("force_z", s.force.z);
         visit("boundary_work", s.boundary_work);
         visit("boundary_work_next", s.boundary_work_next);
         visit("damping_work", s.damping_work);
@@ -94,7 +99,8 @@ struct Plate {
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
 
 /// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid
-/// motion, a translation and a rotation about a pivot, counter-clockwise.
+/// motion, a translation and a rotation about a pivot. In the plane that is about z,
+/// counter-clockwise.
 /// Deviation D52: of rigid grains the centres are held, and the grains are free to turn about them.
 /// Deviation D53: with `floats` the rotation alone is given; the set moves under the forces on it,
 /// so that only a moment acts.
@@ -102,19 +108,19 @@ struct NodeSet {
     // what it is
     std::vector<int> nodes;   ///< of deformable grains; of rigid ones their centres
     std::vector<int> grains;  ///< that of each node
-    bool holds_x = true, holds_y = true;
+    bool holds_x = true, holds_y = true, holds_z = false;
     bool floats = false;
 
     // what drives it
-    Point velocity;     ///< of the pivot, half a step after `displacement` [m/s]
-    double spin = 0.0;  ///< [rad/s]
+    Vector velocity;  ///< of the pivot, half a step after `displacement` [m/s]
+    Vector spin;      ///< [rad/s]
 
     // state
-    Point pivot;          ///< where it is now [m]
-    Point displacement;   ///< of the pivot [m]
-    double angle = 0.0;   ///< [rad]
-    Point force;          ///< at the last step [N]
-    double moment = 0.0;  ///< about the pivot at the last step [N m]
+    Vector pivot;         ///< where it is now [m]
+    Vector displacement;  ///< of the pivot [m]
+    Vector angle;         ///< sum of what it has turned by [rad]
+    Vector force;         ///< at the last step [N]
+    Vector moment;        ///< about the pivot at the last step [N m]
 
     // energy [J]
     double work = 0.0, work_next = 0.0;  ///< on the specimen; next: of the half step that follows
@@ -124,7 +130,7 @@ struct NodeSet {
     double kinetic = 0.0;                          ///< of the translation of one that floats
     double unbalanced = 0.0;  ///< largest force on it that nothing balances [N]
 
-    bool holds(int axis) const { return axis == 0 ? holds_x : holds_y; }
+    bool holds(int axis) const { return axis == 0 ? holds_x : axis == 1 ? holds_y : holds_z; }
 
     /// Calls visit(name, member) for all members.
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
@@ -133,18 +139,29 @@ struct NodeSet {
         visit("grains", s.grains);
         visit("holds_x", s.holds_x);
         visit("holds_y", s.holds_y);
+        visit("holds_z", s.holds_z);
         visit("floats", s.floats);
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
-        visit("spin", s.spin);
+        visit("velocity_z", s.velocity.z);
+        visit("spin_x", s.spin.x);
+        visit("spin_y", s.spin.y);
+        visit("spin_z", s.spin.z);
         visit("pivot_x", s.pivot.x);
         visit("pivot_y", s.pivot.y);
+        visit("pivot_z", s.pivot.z);
         visit("displacement_x", s.displacement.x);
         visit("displacement_y", s.displacement.y);
-        visit("angle", s.angle);
+        visit("displacement_z", s.displacement.z);
+        visit("angle_x", s.angle.x);
+        visit("angle_y", s.angle.y);
+        visit("angle_z", s.angle.z);
         visit("force_x", s.force.x);
         visit("force_y", s.force.y);
-        visit("moment", s.moment);
+        visit("force_z", s.force.z);
+        visit("moment_x", s.moment.x);
+        visit("moment_y", s.moment.y);
+        visit("moment_z", s.moment.z);
         visit("work", s.work);
         visit("work_next", s.work_next);
         visit("float_work", s.float_work);

@@ -21,6 +21,10 @@ inline std::string number(double value)
 
 /// A place in an error message, with its unit.
 inline std::string place(Point p) { return "(" + number(p.x) + ", " + number(p.y) + ") m"; }
+inline std::string place(Vector p)
+{
+    return "(" + number(p.x) + ", " + number(p.y) + ", " + number(p.z) + ") m";
+}
 
 /// One line of an error message.
 inline std::string statement(

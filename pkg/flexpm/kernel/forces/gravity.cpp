@@ -16,10 +16,11 @@ double mass_at(const Grains& grains, int scalar)
 
 }  // namespace
 
-void set_gravity(Assembly& a, Point acceleration)
+void set_gravity(Assembly& a, Vector acceleration)
 {
     check_finite("gravity", acceleration.x, "m/s^2");
     check_finite("gravity", acceleration.y, "m/s^2");
+    check_finite("gravity", acceleration.z, "m/s^2");
     const double before = potential_energy(a);
     a.gravity = acceleration;
     a.ledger.initial += potential_energy(a) - before;
@@ -41,8 +42,7 @@ void add_weight(Assembly& a, int block)
 double potential_energy(const Assembly& a)
 {
     double total = 0.0;
-    if (a.gravity.x == 0.0 && a.gravity.y == 0.0)
-        return total;  // most tests, at each measured step
+    if (!a.has_gravity()) return total;  // most tests, at each measured step
     for (int g = 0; g < a.grains.count; ++g) {
         for (int n = 0; n < a.grains.nodes_of(g); ++n) {
             const int i = a.grains.node(g, n);

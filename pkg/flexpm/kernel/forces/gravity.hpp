@@ -10,7 +10,7 @@ namespace flexpm {
 /// Set the acceleration that acts on all masses [m/s^2]. What this changes in the potential energy
 /// of an assembly that has moved counts as initial energy.
 /// @throws std::invalid_argument  if a component is not finite
-void set_gravity(Assembly& a, Point acceleration);
+void set_gravity(Assembly& a, Vector acceleration);
 
 /// Add the weights of a block's nodes (of rigid grains: at the centres) to the forces.
 void add_weight(Assembly& a, int block);

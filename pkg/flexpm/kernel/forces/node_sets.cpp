@@ -23,13 +23,13 @@ NodeSet& set_at(Assembly& a, int set)
 }
 
 /// What a set holds of a vector.
-Point held_part(const NodeSet& set, Point p)
+Vector held_part(const NodeSet& set, Vector p)
 {
-    return { set.holds_x ? p.x : 0.0, set.holds_y ? p.y : 0.0 };
+    return { set.holds_x ? p.x : 0.0, set.holds_y ? p.y : 0.0, set.holds_z ? p.z : 0.0 };
 }
 
 /// Force that a set exerts on one of its nodes: against all others on it.
-Point reaction_at(const Assembly& a, const NodeSet& set, std::size_t i)
+Vector reaction_at(const Assembly& a, const NodeSet& set, std::size_t i)
 {
     const int grain = set.grains[i];
     const Point on = a.grains.is_rigid(grain) ? resultant_on(a.grains, grain).force
@@ -37,33 +37,34 @@ Point reaction_at(const Assembly& a, const NodeSet& set, std::size_t i)
     return held_part(set, Point {} - on);
 }
 
-/// Velocity of a place of a set, at which a step takes it to where the rotation does.
-Point velocity_at(const NodeSet& set, Point place, double dt)
+/// Velocity of a place of a set, at which a step takes it to where the rotation, about z, does.
+Vector velocity_at(const NodeSet& set, Vector place, double dt)
 {
-    if (set.spin == 0.0) return set.velocity;
-    const Point arm = place - set.pivot;
-    const double half = std::sin(0.5 * dt * set.spin), sine = std::sin(dt * set.spin);
+    const double spin = set.spin.z;
+    if (spin == 0.0) return set.velocity;
+    const Vector arm = place - set.pivot;
+    const double half = std::sin(0.5 * dt * spin), sine = std::sin(dt * spin);
     const double cosine_less_one = -2.0 * half * half;
-    const Point turned = { cosine_less_one * arm.x - sine * arm.y,
-        sine * arm.x + cosine_less_one * arm.y };
+    const Vector turned = { cosine_less_one * arm.x - sine * arm.y,
+        sine * arm.x + cosine_less_one * arm.y, 0.0 };
     return set.velocity + (1.0 / dt) * turned;
 }
 
-void give_velocity(Grains& grains, const NodeSet& set, std::size_t i, Point velocity, double dt)
+void give_velocity(Grains& grains, const NodeSet& set, std::size_t i, Vector velocity, double dt)
 {
     const int node = set.nodes[i], grain = set.grains[i];
     if (grains.is_rigid(grain)) {
-        set_motion(grains, grain, velocity, grains.spin[grains.slot[grain]], dt);
+        set_motion(grains, grain, in_plane(velocity), grains.spin[grains.slot[grain]], dt);
     } else {
-        set_vector(grains.velocity, node, velocity);
+        set_vector(grains.velocity, node, in_plane(velocity));
     }
 }
 
 /// What is held of it goes with the set, the rest stays.
-Point next_velocity(const NodeSet& set, Point place, Point old, double dt)
+Vector next_velocity(const NodeSet& set, Vector place, Vector old, double dt)
 {
-    const Point v = velocity_at(set, place, dt);
-    return { set.holds_x ? v.x : old.x, set.holds_y ? v.y : old.y };
+    const Vector v = velocity_at(set, place, dt);
+    return { set.holds_x ? v.x : old.x, set.holds_y ? v.y : old.y, set.holds_z ? v.z : old.z };
 }
 
 /// Power of its forces on the translation of one that floats [W].
@@ -75,10 +76,10 @@ void drive(Assembly& a, NodeSet& set, double dt)
     double power = 0.0;
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
         const int node = set.nodes[i];
-        const Point old = vector_at(grains.velocity, node), force = reaction_at(a, set, i);
-        const Point next = next_velocity(set, grains.position(node), old, dt);
+        const Vector old = vector_at(grains.velocity, node), force = reaction_at(a, set, i);
+        const Vector next = next_velocity(set, grains.position(node), old, dt);
         power += dot(force, next);
-        if (next.x == old.x && next.y == old.y) continue;
+        if (next.x == old.x && next.y == old.y && next.z == old.z) continue;
         give_velocity(grains, set, i, next, dt);
         a.ledger.prescribed_work[2 * grains.block_of(set.grains[i]) + 1] +=
             0.5 * dt * dot(force, next - old);
@@ -94,11 +95,11 @@ double sum_reactions(const Assembly& a, NodeSet& set)
 {
     double power = 0.0;
     set.force = {};
-    set.moment = 0.0;
+    set.moment = {};
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
-        const Point force = reaction_at(a, set, i);
+        const Vector force = reaction_at(a, set, i);
         set.force = set.force + force;
-        set.moment += cross(a.grains.position(set.nodes[i]) - set.pivot, force);
+        set.moment = set.moment + cross(a.grains.position(set.nodes[i]) - set.pivot, force);
         power += dot(force, vector_at(a.grains.velocity, set.nodes[i]));
     }
     return power;
@@ -118,7 +119,7 @@ double mass_of(const Grains& grains, const NodeSet& set)
 /// One that floats answers to the specimen: to minus the forces that hold its nodes.
 ///
 /// @param undamped  part of its velocity that damping does not act on [m/s]
-void integrate_floating(const Assembly& a, NodeSet& set, Point undamped, double dt, double damping)
+void integrate_floating(const Assembly& a, NodeSet& set, Vector undamped, double dt, double damping)
 {
     const double mass = mass_of(a.grains, set), inverse = mass > 0.0 ? 1.0 / mass : 0.0;
     StepSums sums;
@@ -126,6 +127,8 @@ void integrate_floating(const Assembly& a, NodeSet& set, Point undamped, double 
         { -set.force.x, inverse, 0.0, undamped.x }, dt, damping, set.velocity.x, sums, 0);
     integrate_one<true>(
         { -set.force.y, inverse, 0.0, undamped.y }, dt, damping, set.velocity.y, sums, 0);
+    integrate_one<true>(
+        { -set.force.z, inverse, 0.0, undamped.z }, dt, damping, set.velocity.z, sums, 0);
     set.damping_work += set.damping_work_next + sums.damped[0];
     set.damping_work_next = sums.damped_next[0];
     set.drag_work += set.drag_work_next + sums.dragged[0];
@@ -204,17 +207,17 @@ int add_node_set(Assembly& a, const std::vector<int>& nodes, bool holds_x, bool 
     return static_cast<int>(a.node_sets.size()) - 1;
 }
 
-void set_pivot(Assembly& a, int set, Point pivot)
+void set_pivot(Assembly& a, int set, Vector pivot)
 {
-    check_finite("pivot of a node set", pivot.x + pivot.y, "m");
+    check_finite("pivot of a node set", pivot.x + pivot.y + pivot.z, "m");
     set_at(a, set).pivot = pivot;
 }
 
 void let_float(Assembly& a, int set) { set_at(a, set).floats = true; }
 
-void set_motion_of(Assembly& a, int set, Point velocity, double spin)
+void set_motion_of(Assembly& a, int set, Vector velocity, double spin)
 {
-    check_finite("velocity of a node set", velocity.x + velocity.y, "m/s");
+    check_finite("velocity of a node set", velocity.x + velocity.y + velocity.z, "m/s");
     check_finite("spin of a node set", spin, "rad/s");
     NodeSet& s = set_at(a, set);
     for (int axis = 0; axis < dimension; ++axis) {
@@ -225,7 +228,7 @@ void set_motion_of(Assembly& a, int set, Point velocity, double spin)
             s.floats ? "must be 0 for one that turns freely" : "must be 0: it is free there");
     }
     if (!s.floats) s.velocity = velocity;
-    s.spin = spin;
+    s.spin = { 0.0, 0.0, spin };
 }
 
 void drive_node_sets(Assembly& a, double dt)
@@ -240,7 +243,7 @@ void update_node_sets(Assembly& a, double dt, double damping)
         NodeSet& set = a.node_sets[i];
         set.displacement = set.displacement + dt * set.velocity;
         set.pivot = set.pivot + dt * set.velocity;
-        set.angle += dt * set.spin;
+        set.angle = set.angle + dt * set.spin;
         const double power = sum_reactions(a, set), of_float = float_power(set);
         set.work += set.work_next + 0.5 * dt * (power - of_float);
         set.float_work += set.float_work_next + 0.5 * dt * of_float;

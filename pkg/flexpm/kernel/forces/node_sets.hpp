@@ -18,14 +18,14 @@ std::vector<int> holdable_nodes(const Assembly& a);
 int add_node_set(Assembly& a, const std::vector<int>& nodes, bool holds_x, bool holds_y);
 
 /// Let a set turn about a point instead.
-void set_pivot(Assembly& a, int set, Point pivot);
+void set_pivot(Assembly& a, int set, Vector pivot);
 
 /// Let a set move under the forces on it, apart from its rotation.
 void let_float(Assembly& a, int set);
 
-/// Velocity of the pivot, which one that floats finds itself [m/s], and spin [rad/s];
-/// drive_node_sets() takes them to the nodes.
-void set_motion_of(Assembly& a, int set, Point velocity, double spin);
+/// Velocity of the pivot, which one that floats finds itself [m/s], and spin about z
+/// [rad/s]; drive_node_sets() takes them to the nodes.
+void set_motion_of(Assembly& a, int set, Vector velocity, double spin);
 
 /// Give the nodes of all sets the velocities that their motion has over the coming step of `dt`;
 /// what their forces work in the half step until then goes with these.

@@ -12,12 +12,13 @@ namespace flexpm {
 
 namespace {
 
-void add_force(Facets& facets, const PlatePoint& p, Point force)
+void add_force(Facets& facets, const PlatePoint& p, Vector force)
 {
+    const Point on_grain = in_plane(force);
     const auto parts = facet_parts(p.weight);
     for (int n = 0; n < facet_nodes; ++n) {
         const int at = Facets::force_index(p.facet, FacetRow::of_plates, n);
-        set_vector(facets.forces, at, vector_at(facets.forces, at) + parts[n] * force);
+        set_vector(facets.forces, at, vector_at(facets.forces, at) + parts[n] * on_grain);
     }
 }
 
@@ -38,25 +39,25 @@ double normal_force(const Plate& plate, const PlatePoint& p, double gap)
 }
 
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
-Point touch(Assembly& a, Plate& plate, double dt)
+Vector touch(Assembly& a, Plate& plate, double dt)
 {
-    const Point tangent = tangent_of(plate.normal);
-    Point total;
+    const Vector tangent = tangent_of(in_plane(plate.normal));
+    Vector total;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const auto nodes = a.facets.nodes(p.facet);
         const Point u = vector_on_edge(a.grains.displacement, nodes, p.weight);
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
-        const Point way = u + dt * v - plate.displacement;
+        const Vector way = u + dt * v - plate.displacement;
         const double gap = plate.gap[i] + dot(plate.normal, way);
         plate.opening[i] = gap;
         const double normal = normal_force(plate, p, gap);
         if (plate.friction > 0.0) {
-            const Point slip = dt * (v - plate.velocity);
+            const Vector slip = dt * (v - plate.velocity);
             plate.shear_force[i] = shear_force(plate, p, i, normal, dot(tangent, slip));
         }
         const double shear = plate.shear_force[i];
-        const Point force = normal * plate.normal + shear * tangent;
+        const Vector force = normal * plate.normal + shear * tangent;
         add_force(a.facets, p, force);
         total = total + force;
     }
@@ -96,7 +97,7 @@ void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, doub
 void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 {
     Plate& plate = a.plates[number];
-    const Point before = plate.force;
+    const Vector before = plate.force;
     plate.displacement = plate.displacement + dt * plate.velocity;
     plate.force = touch(a, plate, dt);
     if (plate.loaded) {
@@ -127,11 +128,12 @@ void press(Assembly& a, int plate, double pressure)
     a.plates[plate].load = a.area_of(pressure * a.plates[plate].width);
 }
 
-void set_velocity(Assembly& a, int plate, Point velocity)
+void set_velocity(Assembly& a, int plate, Vector velocity)
 {
     require_plate(a, plate);
     check_finite("velocity of a plate", velocity.x, "m/s");
     check_finite("velocity of a plate", velocity.y, "m/s");
+    check_finite("velocity of a plate", velocity.z, "m/s");
     Plate& p = a.plates[plate];
     // the half step that a loaded plate was promised is not taken any more
     if (p.loaded) {
@@ -150,10 +152,10 @@ PlatePoint plate_point(const Plate& p, int index)
         p.stiffness * p.area[index], p.friction > 0.0 ? p.shear_stiffness * p.area[index] : 0.0 };
 }
 
-Point point_force(const Plate& p, int index)
+Vector point_force(const Plate& p, int index)
 {
     const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
-    return normal * p.normal + p.shear_force[index] * tangent_of(p.normal);
+    return normal * p.normal + p.shear_force[index] * tangent_of(in_plane(p.normal));
 }
 
 void update_plates(Assembly& a, double dt, double damping)
@@ -190,9 +192,9 @@ bool has_plates(const Assembly& a, int side)
         a.plates.begin(), a.plates.end(), [side](const Plate& p) { return p.side == side; });
 }
 
-Point plate_force(const Assembly& a, int side)
+Vector plate_force(const Assembly& a, int side)
 {
-    Point sum;
+    Vector sum;
     for (const Plate& p : a.plates) {
         if (p.side != side) continue;
         sum = sum + p.force;
@@ -203,7 +205,7 @@ Point plate_force(const Assembly& a, int side)
 double contact_width(const Assembly& a, int plate)
 {
     const Plate& p = a.plates.at(plate);
-    const Point tangent = tangent_of(p.normal);
+    const Point tangent = tangent_of(in_plane(p.normal));
     double first = 0.0, last = 0.0;
     bool any = false;
     for (int i = 0; i < plate_points(p); ++i) {

@@ -19,7 +19,7 @@ void require_plate(const Assembly& a, int plate);
 void press(Assembly& a, int plate, double pressure);
 
 /// Prescribe a plate's velocity [m/s].
-void set_velocity(Assembly& a, int plate, Point velocity);
+void set_velocity(Assembly& a, int plate, Vector velocity);
 
 /// Move the plates over a step `dt`, update their forces on the grains, and integrate the loaded
 /// ones. Called by step() between contacts and grains.
@@ -36,13 +36,13 @@ PlatePoint plate_point(const Plate& p, int index);
 int plate_points(const Plate& p);
 
 /// Force of one of its points on the specimen at the last step [N].
-Point point_force(const Plate& p, int index);
+Vector point_force(const Plate& p, int index);
 
 /// Stored energy of a plate's contacts [J].
 double elastic_energy(const Plate& p);
 
 /// Force of the plates of a side on the specimen [N].
-Point plate_force(const Assembly& a, int side);
+Vector plate_force(const Assembly& a, int side);
 bool has_plates(const Assembly& a, int side);
 
 /// Length along the plate between its outermost points in contact, each with its tributary length

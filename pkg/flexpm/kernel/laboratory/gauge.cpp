@@ -66,18 +66,18 @@ const Plate& plate_of(const Assembly& a, int plate)
 
 }  // namespace
 
-double plate_way(const Assembly& a, int plate, Point direction)
+double plate_way(const Assembly& a, int plate, Vector direction)
 {
     return dot(plate_of(a, plate).displacement, direction);
 }
 
-double plate_rate(const Assembly& a, int plate, Point direction)
+double plate_rate(const Assembly& a, int plate, Vector direction)
 {
     const Plate& p = plate_of(a, plate);
     return dot(p.loaded ? a.loading.of_plate(plate).velocity : p.velocity, direction);
 }
 
-double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction)
+double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Vector direction)
 {
     for (int node : { gauge.first, gauge.second })
         need_node(moved, node);
@@ -90,7 +90,7 @@ bool is_erased(const Assembly& a, int node)
     return a.grains.erased[grain_node(a.grains, node).grain] != 0;
 }
 
-Section section_at(const Assembly& a, double place, Point direction, double half_width)
+Section section_at(const Assembly& a, double place, Vector direction, double half_width)
 {
     Section found;
     for (int g = 0; g < a.grains.count; ++g) {
@@ -108,7 +108,7 @@ Section section_at(const Assembly& a, double place, Point direction, double half
     return found;
 }
 
-double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Point direction)
+double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Vector direction)
 {
     if (nodes.empty()) refuse("nodes of a gauge", 0.0, "", "must be at least 1");
     double sum = 0.0;

@@ -25,16 +25,16 @@ double gauge_length(const Assembly& a, const GaugePoints& gauge);
 
 /// Way of a plate along a unit vector [m].
 /// @throws std::invalid_argument  if there is no such plate
-double plate_way(const Assembly& a, int plate, Point direction);
+double plate_way(const Assembly& a, int plate, Vector direction);
 
 /// Velocity along it that the loading gives a plate [m/s].
 /// @throws std::invalid_argument  as plate_way()
-double plate_rate(const Assembly& a, int plate, Point direction);
+double plate_rate(const Assembly& a, int plate, Vector direction);
 
 /// How far the points move apart along a unit vector where nodes move so, in the layout of
 /// Grains::displacement [m].
 /// @throws std::invalid_argument  if one of them is no node of the assembly
-double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Point direction);
+double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Vector direction);
 
 /// Whether a node is one of an erased grain, which stays where it was.
 /// @throws std::invalid_argument  if it is no node of the assembly
@@ -49,10 +49,10 @@ struct Section {
 
 /// Nodes of grains, bonded, that are no further than half a width from a place along a unit vector.
 /// @throws std::invalid_argument  if there are none
-Section section_at(const Assembly& a, double place, Point direction, double half_width);
+Section section_at(const Assembly& a, double place, Vector direction, double half_width);
 
 /// Mean way of nodes along a unit vector where they move so, in the same layout [m].
 /// @throws std::invalid_argument  if there are none, or one of them is no node of the assembly
-double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Point direction);
+double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Vector direction);
 
 }  // namespace flexpm

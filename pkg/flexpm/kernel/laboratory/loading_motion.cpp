@@ -38,7 +38,7 @@ int middle_of(const Assembly& a, int side)
 }
 
 /// Mean velocity along its normal of what lies before a plate [m/s].
-Point velocity_before(const Assembly& a, const Plate& plate, const Array<double>& velocity)
+Vector velocity_before(const Assembly& a, const Plate& plate, const Array<double>& velocity)
 {
     double sum = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
@@ -129,35 +129,36 @@ void note_rates(Assembly& a, const StaticSolution& found, double sense)
     for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
         const NodeSet& set = a.node_sets[s];
         PartMotion& given = a.loading.sets[s];
-        const Point pivot = set.pivot - set.displacement;
+        const Vector pivot = set.pivot - set.displacement;
         given.force = {};
-        given.moment = 0.0;
+        given.moment = {};
         for (std::size_t i = 0; i < set.nodes.size(); ++i) {
             const int g = set.grains[i];
             Point on = vector_at(found.force, set.nodes[i]);
             for (int k = 0; grains.is_rigid(g) && k < grains.vertices_of(g); ++k)
                 on = on + vector_at(found.force, grains.node(g, k));
-            const Point held = { set.holds_x ? -sense * on.x : 0.0,
+            const Vector held = { set.holds_x ? -sense * on.x : 0.0,
                 set.holds_y ? -sense * on.y : 0.0 };
             given.force = given.force + held;
-            given.moment += cross(vector_at(grains.reference, set.nodes[i]) - pivot, held);
+            given.moment =
+                given.moment + cross(vector_at(grains.reference, set.nodes[i]) - pivot, held);
         }
         if (!set.floats || set.nodes.empty()) continue;
         const int first = set.nodes.front();
-        const Point arm = vector_at(grains.reference, first) - pivot;
+        const Point arm = in_plane(vector_at(grains.reference, first) - pivot);
         const Point v =
-            sense * vector_at(found.displacement, first) - velocity_of_spin(set.spin, arm);
+            sense * vector_at(found.displacement, first) - velocity_of_spin(set.spin.z, arm);
         given.velocity = { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0 };
     }
 }
 
 /// Bring a part that has this velocity to `ratio` times what the loading gives to it.
-void change_part(Point& velocity, PartMotion& given, double ratio)
+void change_part(Vector& velocity, PartMotion& given, double ratio)
 {
     velocity = velocity + (ratio - 1.0) * given.velocity;
     given.velocity = ratio * given.velocity;
     given.force = ratio * given.force;
-    given.moment *= ratio;
+    given.moment = ratio * given.moment;
 }
 
 }  // namespace

@@ -104,12 +104,12 @@ constexpr double no_resistance = 1e-9;
 /// Stiffness of the driven plates' contacts along the loading [N/m].
 double springs_of(const Assembly& a, const PartGeometry& parts)
 {
-    const Point d = parts.direction;
+    const Vector d = parts.direction;
     double sum = 0.0;
     for (int number : parts.driven) {
         for (int i = 0; i < plate_points(a.plates[number]); ++i) {
             const StiffnessBlock k = plate_springs(a.plates[number], i);
-            sum += dot(d, Point { k.xx * d.x + k.xy * d.y, k.yx * d.x + k.yy * d.y });
+            sum += dot(d, Vector { k.xx * d.x + k.xy * d.y, k.yx * d.x + k.yy * d.y });
         }
     }
     return sum;
@@ -140,7 +140,7 @@ void require_held(const Assembly& a)
     }
 }
 
-double push(const Assembly& a, const std::vector<int>& plates, Point direction)
+double push(const Assembly& a, const std::vector<int>& plates, Vector direction)
 {
     double sum = 0.0;
     for (int p : plates)
@@ -149,7 +149,7 @@ double push(const Assembly& a, const std::vector<int>& plates, Point direction)
 }
 
 /// Whether a plate's point bears as the plate goes this way against it: not if it lifts off.
-bool bears(const Plate& plate, int point, Point way)
+bool bears(const Plate& plate, int point, Vector way)
 {
     return plate.bonded || plate.opening[point] < 0.0 || dot(plate.normal, way) > 0.0;
 }
@@ -170,7 +170,7 @@ double push_of_sets(const Assembly& a, const PartGeometry& parts)
 {
     return sum_of_sets(
         parts, [&](int set) { return a.node_sets[set].force; },
-        [&](int set) { return a.node_sets[set].moment; });
+        [&](int set) { return a.node_sets[set].moment.z; });
 }
 
 /// Forces along the loading: of the holding plates and of the driven ones.
@@ -190,16 +190,16 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
 {
     double sum = sum_of_sets(
         parts, [&](int set) { return a.loading.of_set(set).force; },
-        [&](int set) { return a.loading.of_set(set).moment; });
+        [&](int set) { return a.loading.of_set(set).moment.z; });
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
-            const Point way = plate.velocity - v;
+            const Vector way = plate.velocity - v;
             if (!bears(plate, i, way)) continue;
             const StiffnessBlock k = plate_springs(plate, i);
-            const Point force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
+            const Vector force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
             sum += dot(force, parts.direction);
         }
     }
@@ -217,7 +217,7 @@ double part_displacement(const Assembly& a, const PartGeometry& parts)
     if (!parts.driven.empty())
         return dot(a.plates[parts.driven.front()].displacement, parts.direction);
     const NodeSet& set = a.node_sets[parts.driven_sets.front()];
-    return dot(set.displacement, parts.direction) + parts.turn * set.angle;
+    return dot(set.displacement, parts.direction) + parts.turn * set.angle.z;
 }
 
 TestFrame part_frame(const Assembly& a, const PartGeometry& parts)
@@ -251,7 +251,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     require_held(moved);
     for (NodeSet& set : moved.node_sets) {
         set.velocity = {};
-        set.spin = 0.0;
+        set.spin = {};
     }
     moved.loading.sets.clear();
     for (int s : parts.driven_sets)

@@ -14,7 +14,7 @@ namespace flexpm {
 struct PartGeometry {
     std::vector<int> driven;   ///< plates that load, which move alike
     std::vector<int> holding;  ///< plates that hold against them; none: the load alone counts
-    Point direction;           ///< of the loading, a unit vector; zero if the loading turns
+    Vector direction;          ///< of the loading, a unit vector; zero if the loading turns
     double area = 0.0;         ///< stress = load / area [m^2]
     double length = 0.0;       ///< strain = displacement / length [m]
 

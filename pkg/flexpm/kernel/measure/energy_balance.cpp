@@ -69,9 +69,10 @@ double damping_power(const Assembly& a, double damping)
     for (std::size_t i = 0; i < a.node_sets.size(); ++i) {
         const NodeSet& set = a.node_sets[i];
         if (!set.floats) continue;
-        const Point v = set.velocity - a.loading.of_set(i).velocity;
+        const Vector v = set.velocity - a.loading.of_set(i).velocity;
         add(set.force.x, v.x);
         add(set.force.y, v.y);
+        add(set.force.z, v.z);
     }
     return damping * total;
 }

@@ -107,7 +107,8 @@ std::vector<Overlap> find_overlaps(const Assembly& a, double smallest_part)
     std::vector<Box> boxes;
     for (int g = 0; g < a.grains.count; ++g) {
         outlines[g] = outline_of(a.grains, g);
-        const bool is_somewhere = std::all_of(outlines[g].begin(), outlines[g].end(), is_finite);
+        const bool is_somewhere = std::all_of(
+            outlines[g].begin(), outlines[g].end(), [](Point p) { return is_finite(p); });
         if (!a.grains.erased[g] && is_somewhere) boxes.push_back(box_of(outlines[g], g));
     }
     std::vector<Overlap> found;

@@ -19,14 +19,14 @@ namespace flexpm {
 namespace {
 
 /// Force on the specimen of a plate at its place, all contacts bonded.
-Point static_force(const Assembly& a, const Plate& plate)
+Vector static_force(const Assembly& a, const Plate& plate)
 {
-    Point sum;
+    Vector sum;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
         const auto n = a.facets.nodes(p.facet);
-        const Point u =
+        const Vector u =
             plate.displacement - a.grains.vector_on_edge(a.grains.displacement, n, p.weight);
         sum.x += k.xx * u.x + k.xy * u.y;
         sum.y += k.yx * u.x + k.yy * u.y;

@@ -42,7 +42,7 @@ void refresh_forces(Assembly& a)
         p.velocity = {};
     for (NodeSet& set : a.node_sets) {
         set.velocity = {};
-        set.spin = 0.0;
+        set.spin = {};
     }
     for (int b = 0; b < a.grains.blocks(); ++b)
         predict_centres(a.grains, b, 1.0, a.plan.next_centre);
@@ -59,7 +59,7 @@ void refresh_forces(Assembly& a)
     update_contact_blocks(a, 0, a.contacts.blocks(), 1.0);
     for (int b = 0; b < a.grains.blocks(); ++b) {
         sum_forces(a, b);
-        if (a.gravity.x != 0.0 || a.gravity.y != 0.0) add_weight(a, b);
+        if (a.has_gravity()) add_weight(a, b);
         if (!a.grains.group(b).rigid) add_element_forces(a.grains, b, false);
     }
 }
@@ -87,10 +87,10 @@ std::vector<Prescribed> prescribed_at(const Assembly& a, const ElasticLoading& l
     const auto drive = [&](int number, double sense) {
         const NodeSet& set = a.node_sets.at(number);
         for (int node : set.nodes) {
-            const Point arm = grains.position(node) - set.pivot;
-            const Point v =
-                way * loading.direction + sense * loading.turn * way * Point { -arm.y, arm.x };
-            set_vector(value, node, v);
+            const Vector arm = grains.position(node) - set.pivot;
+            const Vector v =
+                way * loading.direction + sense * loading.turn * way * Vector { -arm.y, arm.x };
+            set_vector(value, node, in_plane(v));
         }
     };
     for (int s : loading.sets)
@@ -128,7 +128,7 @@ StaticCase case_at(const Assembly& a, const ElasticLoading& loading, double way)
 /// Displacements from the present state, and the forces of its nodes there.
 struct Motion {
     Array<double> displacement, force;
-    std::vector<Point> plates;
+    std::vector<Vector> plates;
     std::vector<double> angles;
     double way = 0.0;
 
@@ -188,7 +188,7 @@ Assembly state_after(const Assembly& a, const OneSidedPoints& points, const Clos
     for (std::size_t i = 0; i < s.plates.size(); ++i)
         s.plates[i].displacement = s.plates[i].displacement + m.plates[i];
     for (std::size_t i = 0; i < s.node_sets.size(); ++i)
-        s.node_sets[i].angle += m.angles[i];
+        s.node_sets[i].angle.z += m.angles[i];
     return s;
 }
 
@@ -198,9 +198,10 @@ double load_of(const Assembly& a, const ElasticLoading& loading)
     for (int p : loading.plates)
         sum += dot(a.plates[p].force, loading.direction);
     for (int s : loading.sets)
-        sum += dot(a.node_sets[s].force, loading.direction) + loading.turn * a.node_sets[s].moment;
+        sum +=
+            dot(a.node_sets[s].force, loading.direction) + loading.turn * a.node_sets[s].moment.z;
     for (int s : loading.back_sets)
-        sum -= loading.turn * a.node_sets[s].moment;
+        sum -= loading.turn * a.node_sets[s].moment.z;
     return sum;
 }
 
@@ -248,7 +249,7 @@ private:
         Eigen::VectorXd out(static_cast<Eigen::Index>(cases.size() - 1));
         Eigen::Index row = 0;
         for (int i : pressed) {
-            const Point force = points.plate_force(closed, trial, i, m.displacement, m.plates[i]);
+            const Vector force = points.plate_force(closed, trial, i, m.displacement, m.plates[i]);
             out[row++] = a.plates[i].load - dot(a.plates[i].normal, force);
         }
         if (loading.load) {
@@ -322,7 +323,7 @@ ElasticState find_elastic_state(const Assembly& a, const ElasticLoading& loading
     apply(now, loading);
     refresh_forces(now);
     const OneSidedPoints points(now);
-    const std::vector<Point> still(now.plates.size());
+    const std::vector<Vector> still(now.plates.size());
     const Array<double> none(now.grains.displacement.size(), 0.0);
     Closed closed = points.closed(none, still, now.grains.radius.front());
     for (int solutions = 1; solutions < most_solutions; ++solutions) {
@@ -338,7 +339,7 @@ ElasticState find_elastic_state(const Assembly& a, const ElasticLoading& loading
         ElasticState found { last.state(), last.moved().way, 0.0, solutions + 1, 0 };
         found.load = load_of(found.state, loading);
         for (int set : loading.sets) {
-            Point& moved = found.state.node_sets[set].displacement;
+            Vector& moved = found.state.node_sets[set].displacement;
             moved = moved + found.way * loading.direction;
         }
         found.beyond_friction = count_beyond_friction(found.state, points);

@@ -21,7 +21,7 @@ struct ElasticLoading {
     std::vector<int> plates;                        ///< driven ones
     std::vector<int> sets;                          ///< driven along, or counter-clockwise
     std::vector<int> back_sets;                     ///< those that turn clockwise
-    Point direction;                                ///< unit vector; zero if sets turn
+    Vector direction;                               ///< unit vector; zero if sets turn
     double turn = 0.0;                              ///< 1: sets turn
     double way = 0.0;                               ///< of what is driven, from now on [m, or rad]
     std::optional<double> load;                     ///< in the end, in place of a way [N, or N m]

@@ -21,7 +21,7 @@ void add(Array<double>& to, int node, Point force)
 }  // namespace
 
 Closed OneSidedPoints::closed(
-    const Array<double>& moved, const std::vector<Point>& plates, double size) const
+    const Array<double>& moved, const std::vector<Vector>& plates, double size) const
 {
     Closed found;
     const double none = no_gap * size;
@@ -79,7 +79,7 @@ Array<double> OneSidedPoints::forces(const Closed& now, const Assembly& trial) c
         for (int k = 0; k < plate_points(a.plates[i]); ++k) {
             const PlatePoint p = plate_point(a.plates[i], k);
             const Point more =
-                point_force(now, trial, i, k, {}) - flexpm::point_force(a.plates[i], k);
+                in_plane(point_force(now, trial, i, k, {}) - flexpm::point_force(a.plates[i], k));
             const auto n = a.facets.nodes(p.facet);
             add(found, n[0], (1.0 - p.weight) * more);
             add(found, n[1], p.weight * more);
@@ -111,23 +111,23 @@ PointSpring OneSidedPoints::spring(const Closed& now, int c, int p, double kept)
     return { law.normal_stiffness, (law.friction > 0.0 ? 1.0 : kept) * law.shear_stiffness };
 }
 
-Point OneSidedPoints::point_force(
-    const Closed& now, const Assembly& trial, std::size_t i, int k, Point way) const
+Vector OneSidedPoints::point_force(
+    const Closed& now, const Assembly& trial, std::size_t i, int k, Vector way) const
 {
     const Plate& plate = a.plates[i];
     const PlatePoint p = plate_point(trial.plates[i], k);
-    const Point t = tangent_of(plate.normal);
+    const Vector t = tangent_of(in_plane(plate.normal));
     const double kept = now.plates[i][k] ? plate.shear_force[k] : 0.0;
     return -p.stiffness * (plate.opening[k] + dot(plate.normal, way)) * plate.normal
         + (kept - p.shear_stiffness * dot(t, way)) * t;
 }
 
-Point OneSidedPoints::plate_force(const Closed& now, const Assembly& trial, std::size_t i,
-    const Array<double>& moved, Point displacement) const
+Vector OneSidedPoints::plate_force(const Closed& now, const Assembly& trial, std::size_t i,
+    const Array<double>& moved, Vector displacement) const
 {
-    Point sum;
+    Vector sum;
     for (int k = 0; k < plate_points(a.plates[i]); ++k) {
-        const Point way = way_of(a, plate_point(a.plates[i], k), moved) - displacement;
+        const Vector way = way_of(a, plate_point(a.plates[i], k), moved) - displacement;
         sum = sum + point_force(now, trial, i, k, way);
     }
     return sum;

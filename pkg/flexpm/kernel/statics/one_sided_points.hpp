@@ -37,7 +37,7 @@ public:
     explicit OneSidedPoints(const Assembly& a) : a(a), points(a.contacts.group.points) { }
 
     /// Which are closed after displacements [m] from the present state; `size` is that of these.
-    Closed closed(const Array<double>& moved, const std::vector<Point>& plates, double size) const;
+    Closed closed(const Array<double>& moved, const std::vector<Vector>& plates, double size) const;
 
     /// Stiffnesses of the contacts' points; one that is open keeps a part of its own.
     PointSprings springs(const Closed& now, double kept) const;
@@ -52,8 +52,8 @@ public:
     PointTraction traction(const Closed& now, int contact, int point, Point way) const;
 
     /// Force of a plate on the specimen after displacements [m] from the present state [N].
-    Point plate_force(const Closed& now, const Assembly& trial, std::size_t plate,
-        const Array<double>& moved, Point displacement) const;
+    Vector plate_force(const Closed& now, const Assembly& trial, std::size_t plate,
+        const Array<double>& moved, Vector displacement) const;
 
     /// Calls visit(contact, point) for all that bear.
     template <class Visit> void for_each_point(const Visit& visit) const
@@ -66,8 +66,8 @@ public:
 
 private:
     PointSpring spring(const Closed& now, int contact, int point, double kept) const;
-    Point point_force(
-        const Closed& now, const Assembly& trial, std::size_t plate, int point, Point way) const;
+    Vector point_force(
+        const Closed& now, const Assembly& trial, std::size_t plate, int point, Vector way) const;
 
     const Assembly& a;
     const int points;

@@ -27,14 +27,14 @@ constexpr double smallest_pivot = 1e-10;
 
 /// Forces on the nodes when the plates are displaced and the grains are not.
 void add_plate_loads(
-    const Assembly& a, const std::vector<Point>& displacements, Array<double>& loads)
+    const Assembly& a, const std::vector<Vector>& displacements, Array<double>& loads)
 {
     for (std::size_t number = 0; number < a.plates.size(); ++number) {
         const Plate& plate = a.plates[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const StiffnessBlock k = plate_springs(plate, i);
-            const Point u = displacements[number];
+            const Vector u = displacements[number];
             const auto n = a.facets.nodes(p.facet);
             const auto part = facet_parts(p.weight);
             for (int r = 0; r < facet_nodes; ++r) {
@@ -322,7 +322,7 @@ StaticSolution solve_static(
     for (const Plate& plate : a.plates)
         one.plates.push_back(plate.displacement);
     for (const NodeSet& set : a.node_sets)
-        one.angles.push_back(set.angle);
+        one.angles.push_back(set.angle.z);
     return std::move(solve_static_cases(a, { one }, {}).front());
 }
 

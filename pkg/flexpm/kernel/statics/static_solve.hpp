@@ -25,8 +25,8 @@ struct StaticSolution {
 /// What acts in one of several solutions of the same assembly.
 struct StaticCase {
     std::vector<Prescribed> prescribed;    ///< the same components in all cases
-    std::vector<Point> plates;             ///< displacement of each plate [m]
-    std::vector<double> angles;            ///< of each node set that floats [rad]
+    std::vector<Vector> plates;            ///< displacement of each plate [m]
+    std::vector<double> angles;            ///< of each node set that floats, about z [rad]
     const Array<double>* loads = nullptr;  ///< as for solve_static()
 };
 

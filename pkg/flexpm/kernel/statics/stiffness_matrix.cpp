@@ -116,7 +116,7 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
 StiffnessBlock plate_springs(const Plate& plate, int point)
 {
     const PlatePoint p = plate_point(plate, point);
-    return spring_block(plate.normal, p.stiffness, p.shear_stiffness);
+    return spring_block(in_plane(plate.normal), p.stiffness, p.shear_stiffness);
 }
 
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs)

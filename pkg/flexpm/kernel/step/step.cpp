@@ -61,7 +61,7 @@ void update_grain_block(Assembly& a, int block, const StepOptions& o)
     Grains& grains = a.grains;
     const MeshGroup& group = grains.group(block);
     sum_forces(a, block);
-    if (a.gravity.x != 0.0 || a.gravity.y != 0.0) add_weight(a, block);
+    if (a.has_gravity()) add_weight(a, block);
     StepSums sums;
     if (group.rigid) {
         step_rigid(rigid_rows(a, block), o.dt, o.damping, o.measure, sums);

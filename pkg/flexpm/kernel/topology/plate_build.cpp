@@ -20,7 +20,7 @@ namespace flexpm {
 
 namespace {
 
-double along(Point direction, Point p) { return direction.x * p.x + direction.y * p.y; }
+double along(Vector direction, Vector p) { return dot(direction, p); }
 
 Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
 {
@@ -212,7 +212,7 @@ double distance_to(const FacetPlace& facet, Point place)
 ///         more, and ends on it
 void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
 {
-    const Point tangent = tangent_of(p.normal);
+    const Point tangent = tangent_of(in_plane(p.normal));
     double off = std::numeric_limits<double>::infinity(), length = 0.0, first = off, last = -off;
     for (int e : p.facets) {
         const FacetPlace facet = facet_place(a, e);
@@ -293,7 +293,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
         const FacetPlace facet = facet_place(a, e);
         const bool outer = a.facets.side[e] >= 0 && !a.grains.erased[a.facets.grain[e]];
         if (!outer || !(along(p.normal, facet.normal()) > facing)) continue;
-        const CoveredFacet part = covered_part(facet, p.normal, patch);
+        const CoveredFacet part = covered_part(facet, in_plane(p.normal), patch);
         if (part.last > part.first && std::fabs(part.gap) < patch.length) {
             covered.push_back(part);
             p.facets.push_back(e);

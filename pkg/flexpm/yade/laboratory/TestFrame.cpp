@@ -58,7 +58,7 @@ py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Re
 	for (const flexpm::Plate& p : found.state.plates)
 		plates.append(py::make_tuple(p.force.x, p.force.y, p.displacement.x, p.displacement.y));
 	for (const flexpm::NodeSet& s : found.state.node_sets)
-		sets.append(py::make_tuple(s.force.x, s.force.y, s.displacement.x, s.displacement.y, s.moment));
+		sets.append(py::make_tuple(s.force.x, s.force.y, s.displacement.x, s.displacement.y, s.moment.z));
 	py::dict d;
 	d["snapshot"]        = flexpm_bindings::snapshot_dict(found.state);
 	d["plates"]          = plates;

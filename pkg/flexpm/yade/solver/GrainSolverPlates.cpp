@@ -89,9 +89,9 @@ py::list GrainSolver::nodeSets()
 		d["floats"]       = set.floats;
 		d["place"]        = py::make_tuple(set.pivot.x, set.pivot.y);
 		d["displacement"] = py::make_tuple(set.displacement.x, set.displacement.y);
-		d["angle"]        = set.angle;
+		d["angle"]        = set.angle.z;
 		d["force"]        = py::make_tuple(set.force.x, set.force.y);
-		d["moment"]       = set.moment;
+		d["moment"]       = set.moment.z;
 		d["work"]         = set.work;
 		all.append(d);
 	}

@@ -129,7 +129,7 @@ Real GrainSolver::useRealMasses()
 
 void GrainSolver::resetEnergyBalance() { flexpm::reset_energy_balance(current()); }
 
-Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, 0); }
+Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, assembly.gravity.z); }
 
 void GrainSolver::setGravity(Vector3r acceleration)
 {
