@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 
@@ -12,8 +11,7 @@ from yade import wrapper
 from ...errors import InputError, SimulationError
 from ...require import NOT_NEGATIVE, Bounds, quoted, require_number, require_whole
 from ...runs.runner import Span
-from ...specimens.outlines import Circle
-from ...specimens.outlines import Circle
+from ...specimens.kernel_input import Circle
 from ..parts import Part, require_apart, require_part
 from ..rig import AT_REST, RAMP_CROSSINGS, REST_CROSSINGS
 from .rest import PartRest
@@ -36,7 +34,7 @@ class PartPressures(PartRest):
         and gauges of a record that begins later count from there on.
 
         Args:
-            pressure: Of the fluid, into the specimen positive [Pa].
+            pressure: On the outline, into the specimen positive [Pa].
             side: Numbers of one or several sides, as for `platen`; those of holes follow the ones
                 outside.
             hole: Number of a hole in the order in which they were given: all of its sides.
@@ -89,9 +87,7 @@ class PartPressures(PartRest):
                 f"press: part = {part}, is driven, must not be; press it before `load`"
             )
 
-    def _press_until_rest(
-        self, stage: str, begin: partial[Span], force: float, what: str
-    ) -> None:
+    def _press_until_rest(self, stage: str, begin: partial[Span], force: float, what: str) -> None:
         """Step until all balances beside a force [N]; damping is on meanwhile."""
         self._scales = None  # joints that are closed now bear what they did not bear before
         self._from_now = True
@@ -177,7 +173,9 @@ class PartPressures(PartRest):
         if hole is not None:
             bounds = Bounds(at_least=0, at_most=len(holes) - 1)
             if not holes:
-                raise InputError(f"fluid: hole = {quoted(hole)}, the specimen has none; give a side")
+                raise InputError(
+                    f"fluid: hole = {quoted(hole)}, the specimen has none; give a side"
+                )
             number = require_whole("fluid: hole", hole, bounds)
             first = outside + sum(len(one) for one in holes[:number])
             return list(range(first, first + len(holes[number])))
