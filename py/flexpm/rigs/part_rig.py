@@ -26,13 +26,12 @@ from ..runs.runner import Runner
 from .part_columns import PartColumns
 from .parts import Part, require_part
 from .stages.cycles import PartCycles
-from .statics.elastic_state import PartStatics
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9
 
 
-class PartRig(PartColumns, PartStatics, PartCycles):
+class PartRig(PartColumns, PartCycles):
     """A specimen of any outline between parts.
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,

@@ -24,7 +24,9 @@ from .still import endless
 #: Cycles that one call may ask for.
 _COUNT = Bounds(at_least=1, at_most=10_000)
 #: Part of the way to a load that is gone ever slower, without waiting for cracks [-].
-_LAST_PART = 0.1
+_LAST_PART = 0.25
+#: Most wave crossings of that: a cracked specimen is softer than its first stiffness says.
+_TO_REST = 3.0 * REST_CROSSINGS
 #: A way is where a history begins within this part of the largest one of it [-].
 _SAME_WAY = 1e-6
 
@@ -133,12 +135,12 @@ class PartCycles(PartPressures):
             return
         near = value - _LAST_PART * (value - before)
         self._go_to_stress(stage, near / self._frame.area, rate)
-        self._steer(stage, value / self._frame.area, REST_CROSSINGS, until="there", rate=rate)
+        self._steer(stage, value / self._frame.area, _TO_REST, until="there", rate=rate)
 
     def _end_at(self, stage: str, by: str, value: float) -> None:
         """End at rest at a load, or where the parts are."""
         if by == "load":
-            self._steer(stage, value / self._frame.area, REST_CROSSINGS)
+            self._steer(stage, value / self._frame.area, _TO_REST)
         else:
             self._come_to_rest(stage, REST_CROSSINGS)
 

@@ -18,10 +18,10 @@ from ...models.options import DAMPING
 from ...runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule
 from ...runs.runner import Span
 from ..grain_rig import SETTLING_DAMPING, GrainRig
-from ..part_loads import PartLoads
 from ..parts import HeldNodes, Part, RigPart
 from ..readings import Balance
 from ..rig import AT_REST, MEASURED_A_CROSSING, NODES_AT_REST
+from ..statics.elastic_state import PartStatics
 
 #: Stored energy over the largest so far that is none [-].
 NO_ENERGY = 1e-7
@@ -36,7 +36,7 @@ _STEERING_CROSSINGS = 4.0
 _DAMPING_TAG = "flexpm_damping"
 
 
-class PartStill(PartLoads, GrainRig):
+class PartStill(PartStatics, GrainRig):
     """Base of a rig of parts that brings what it loads to rest."""
 
     built: Model
@@ -225,9 +225,9 @@ class PartStill(PartLoads, GrainRig):
 
     # What there is
 
-    def _span_of(self, longest: float, likely: float) -> Span:
-        """Length of a stage by wave crossings, and its measurements."""
-        crossing = math.ceil(self._crossing_steps())
+    def _span_of(self, longest: float, likely: float, least: float = 0.0) -> Span:
+        """Length of a stage by wave crossings of at least so many steps, and its measurements."""
+        crossing = math.ceil(max(self._crossing_steps(), least))
         self._measure_every(max(crossing // MEASURED_A_CROSSING, 1))
         return Span(math.ceil(longest) * crossing, math.ceil(likely) * crossing)
 
