@@ -139,7 +139,7 @@ class PartRest(PartStill):
         return self._span_of(longest, RAMP_CROSSINGS + 0.2 * (longest - RAMP_CROSSINGS), swing)
 
     def _swing_steps(self) -> float:
-        """Steps of a quarter of the slowest swing under the weight, 0 where nothing holds it.
+        """Steps of a quarter of the slowest swing under the weight, 0 where nothing holds it: D74.
 
         Rayleigh's quotient of the static solution: what stands on few or soft contacts rocks far
         more slowly than a wave crosses it. A column that swings along itself has the crossing.

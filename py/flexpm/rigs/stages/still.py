@@ -181,7 +181,7 @@ class PartStill(PartStatics, GrainRig):
         return self._schedule(Loading(kind=kind))
 
     def _steering(self, stress: float, rate: float) -> float:
-        """Velocity of the driven parts that brings the load nearer to a value."""
+        """Velocity of the driven parts that brings the load nearer to a value. Deviation D74."""
         scales, plan = self.scales(), self._steering_plan()
         time = _STEERING_CROSSINGS * scales.crossing_steps * yade.O.dt
         wanted = (stress - self.stress) / scales.modulus * scales.height / time
