@@ -63,3 +63,60 @@ def test_a_block_slides_as_coulomb_says_or_not_at_all(model, beyond):
     else:
         gain = GRAVITY * math.sin(dip - PHI) / math.cos(PHI)
         assert way - speed * time == pytest.approx(0.5 * gain * time**2, rel=0.01)
+
+
+def standing(beyond: float, ratio: float) -> tuple[flexpm.PartRig, list[int]]:
+    """A block on a base that dips `beyond` degrees more than width over height; its bodies."""
+    yade.O.reset()
+    dip, width = math.atan(ratio) + math.radians(beyond), ratio
+    along, up = np.array([math.cos(dip), math.sin(dip)]), np.array([-math.sin(dip), math.cos(dip)])
+    places = ((0.0, -0.5 * width), (width, -0.5 * width), (width, 1.0), (0.0, 1.0))
+    corners = [tuple(x * along + y * up) for x, y in places]
+    sizes = (0.4 * width, 0.6 * width)
+    specimen = flexpm.Specimen.polygon(corners, 0.1, diameters=sizes, seed=1)
+    ends = [(-0.1 * width * along).tolist(), (1.1 * width * along).tolist()]
+    rock = flexpm.materials.load(None, "rigid").with_set(joint("base", 1e13, ratio + 0.3), "rigid")
+    # a hundred times the weight, so that it takes a tenth of the time
+    options = {"dynamic": True, "gravity": 100.0 * GRAVITY}
+    built = flexpm.build(specimen.with_joints({"base": [ends]}), rock, "rigid", **options)
+    rig = flexpm.PartRig(built)
+    rig.hold(where=lambda x, y: x * up[0] + y * up[1] < -0.15 * width)
+    bodies = built.solver.bodyIds
+    return rig, [one for one in bodies if middle_of([yade.O.bodies[one].state], "pos") @ up > 0.1]
+
+
+def turned(bodies: list[int], before: np.ndarray) -> float:
+    """Angle by which bodies have turned about their middle [degrees]."""
+    before, now = (places - places.mean(axis=0) for places in (before, places_of(bodies)))
+    sine = np.sum(before[:, 0] * now[:, 1] - before[:, 1] * now[:, 0])
+    return math.degrees(math.atan2(sine, np.sum(before * now)))
+
+
+def places_of(bodies: list[int]) -> np.ndarray:
+    states = [yade.O.bodies[one].state for one in bodies]
+    return np.array([[one.pos[axis] for axis in (0, 1)] for one in states])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("ratio", [0.25, 0.5])
+def test_a_block_stands_up_to_the_dip_of_its_width_over_its_height(ratio):
+    rig, block = standing(-0.5, ratio)
+    before = places_of(block)
+    rig.settle()
+    settled = turned(block, before)
+    rig.built.run(60_000)
+    assert turned(block, before) == pytest.approx(settled, abs=0.05)
+    assert settled < 0.1
+
+
+@pytest.mark.parametrize("ratio", [0.25, 0.5])
+def test_a_block_beyond_it_topples(ratio):
+    rig, block = standing(0.5, ratio)
+    before = places_of(block)
+    with pytest.raises(flexpm.SimulationError, match="settle: reactions lack .* held nodes at"):
+        rig.settle()
+    for _ in range(60):
+        if abs(turned(block, before)) > 5.0:
+            break
+        rig.built.run(2000)
+    assert turned(block, before) > 5.0
