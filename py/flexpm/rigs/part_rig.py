@@ -94,7 +94,7 @@ class PartRig(PartColumns, PartCycles):
         """What has set the grains into the motion of the loading, at the last measured step [J].
 
         The elastic start gives it, and the loading takes it back as it slows. The boundary work of
-        the record is the work of all parts and this.
+        the record is the work of all parts and this, with the work of fluids.
         """
         solver = self.built.solver
         parts, energies = (*solver.plates(), *solver.nodeSets()), solver.energies()
