@@ -138,6 +138,17 @@ class Script:
         if rig := self._parts():
             rig.elastic({self._picked(part): pressure}, way=way, load=load)
 
+    def do_press_all(self, parts: list[Any], pressures: list[Any]) -> None:
+        if rig := self._parts():
+            picked = self._picked(parts)
+            picked = picked if isinstance(picked, list) else [picked]
+            rig.press(dict(zip(picked, pressures, strict=False)))
+
+    def do_stage(self, name: str, arguments: list[Any], named: dict[str, Any]) -> None:
+        """A stage; those that would take long are asked for a few crossings alone."""
+        if rig := self._parts():
+            getattr(rig, name)(*arguments, **named)
+
     def do_move(self, part: list[Any], along: float, across: float) -> None:
         if hasattr(held := self._picked(part), "move"):
             held.move((across, along))

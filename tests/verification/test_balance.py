@@ -116,7 +116,7 @@ def test_a_wave_shows_in_the_mean_stress(monkeypatch):
     """Each node is nearly in balance meanwhile: to look at nodes alone is not enough."""
     grains = built(0.04, 1, "flexible")
     rig = flexpm.rig(grains)
-    monkeypatch.setattr(rigs, "_AT_REST", np.inf)
+    monkeypatch.setattr(rigs, "AT_REST", np.inf)
     rig.confine(PRESSURE)
     assert rig.unbalanced() < 0.01
     assert rig.balance().largest > 3.0 * SHARE
@@ -124,8 +124,8 @@ def test_a_wave_shows_in_the_mean_stress(monkeypatch):
 
 @pytest.mark.parametrize("model", ["flexible", "rigid", "jcfpm", "cohfrict"])
 def test_a_pressure_that_is_not_borne_is_refused_in_one_line(model, monkeypatch):
-    monkeypatch.setattr(rigs, "_REST_CROSSINGS", 1)
-    monkeypatch.setattr(rigs, "_AT_REST", 1e-6)
+    monkeypatch.setattr(rigs, "REST_CROSSINGS", 1)
+    monkeypatch.setattr(rigs, "AT_REST", 1e-6)
     rig = flexpm.rig(built(0.02, 1, model))
     line = r"confine: imbalance = .* of 1e\+07 Pa \(reactions .*, mean stress .*, motion .*\), must"
     with pytest.raises(flexpm.SimulationError, match=line):

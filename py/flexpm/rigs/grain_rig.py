@@ -37,7 +37,7 @@ _LOOKS_A_CROSSING = 100
 #: Share of the elastic limit up to which a preload goes [-].
 _PRELOAD_SHARE = 0.9
 #: With less damping than this waves do not end within the crossings that balance may take [-].
-_SETTLING_DAMPING = 0.2
+SETTLING_DAMPING = 0.2
 #: Plates of the membrane on each side, paper Sec. 4.1.
 _MEMBRANE_PLATES = 16
 
@@ -155,8 +155,8 @@ class GrainRig(TestRig):
     @property
     def _more_balance(self) -> str:
         damping = self.built.solver.damping
-        if damping < _SETTLING_DAMPING:  # real masses may have none: waves run on
-            return f"damping = {damping:g}, take {_SETTLING_DAMPING} or above"
+        if damping < SETTLING_DAMPING:  # real masses may have none: waves run on
+            return f"damping = {damping:g}, take {SETTLING_DAMPING} or above"
         return super()._more_balance
 
     @property

@@ -9,6 +9,7 @@ within its friction. Nodes are held, moved or turned as one, wherever they lie.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import astuple
 
 import numpy as np
@@ -22,16 +23,15 @@ from ..require import NOT_NEGATIVE, require_number
 from ..results import doubts, measures
 from ..runs.loading_rate import Scales, Schedule, rates_of
 from ..runs.runner import Runner
-from .grain_rig import GrainRig
 from .part_columns import PartColumns
 from .parts import Part, require_part
-from .statics.elastic_state import PartStatics
+from .stages.cycles import PartCycles
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9
 
 
-class PartRig(PartColumns, PartStatics, GrainRig):
+class PartRig(PartColumns, PartCycles):
     """A specimen of any outline between parts.
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,
@@ -94,7 +94,7 @@ class PartRig(PartColumns, PartStatics, GrainRig):
         """What has set the grains into the motion of the loading, at the last measured step [J].
 
         The elastic start gives it, and the loading takes it back as it slows. The boundary work of
-        the record is the work of all parts and this.
+        the record is the work of all parts and this, with the work of fluids.
         """
         solver = self.built.solver
         parts, energies = (*solver.plates(), *solver.nodeSets()), solver.energies()
@@ -121,22 +121,30 @@ class PartRig(PartColumns, PartStatics, GrainRig):
         """None: what presses on a part is no confinement of the record."""
         return None
 
-    def press(self, part: Part, pressure: float) -> None:
-        """Let a part move along its normal under a pressure [Pa] until the forces balance.
+    def press(self, part: Part | Mapping[Part, float], pressure: float | None = None) -> None:
+        """Let parts move along their normals under pressures [Pa] until the forces balance.
 
-        It goes on to press. Displacements and gauges count from there on. Parts may be pressed one
-        after the other, each with its own pressure.
+        They go on to press. Displacements and gauges count from there on. Parts may be pressed one
+        after the other, each with its own pressure, or at once: ``press({top: 2e6, right: 1e6})``;
+        each then bears its pressure within 0.1 %.
 
         Raises:
             InputError: for what is no plate of this rig, or one that the loading drives already.
+            SimulationError: if the forces do not come to balance.
         """
+        if isinstance(part, Mapping):
+            if pressure is not None:
+                raise InputError("press: pressure, must be left out beside a table of pressures")
+            self._press_all(part)
+            return
         part = require_part("press: part", self, part, Part)
-        if self._recorder.loading is not None and part.number in self._frame.driven:
-            raise InputError(
-                f"press: part = {part}, is driven, must not be; press it before `load`"
-            )
+        self._require_free(part)
+        value = require_number("press: pressure", pressure, NOT_NEGATIVE, "Pa")
         self.pressed = part
-        self.confine(require_number("press: pressure", pressure, NOT_NEGATIVE, "Pa"))
+        if value:
+            self.confine(value)
+        else:
+            self._press_all({part: value})
 
     def confine(self, pressure: float) -> None:
         """Press on the part ``pressed`` until the forces balance, see `press`.
@@ -164,21 +172,9 @@ class PartRig(PartColumns, PartStatics, GrainRig):
         self._let_go([number])
         self.built.add_engines(before=(engine,))
 
-    def _pressing_engines(self) -> list[wrapper.PressureController]:
-        return [one for one in self.built.engines if isinstance(one, wrapper.PressureController)]
-
-    def _pressure_on(self, plate: int) -> float:
-        """Pressure that a plate has been given [Pa]."""
-        return sum(one.pressure for one in self._pressing_engines() if plate in one.plates)
-
-    def _let_go(self, plates: list[int]) -> None:
-        """Take plates from the engines that press them."""
-        for engine in self._pressing_engines():
-            engine.plates = [plate for plate in engine.plates if plate not in plates]
-            if not engine.plates:
-                self.built.remove_engines(engine)
-
     def _pressing_force(self) -> float:
+        if self._asked_force is not None:
+            return self._asked_force
         pressing = self._pressing()
         if self.pressed is None or pressing is None:
             return 0.0
@@ -194,6 +190,8 @@ class PartRig(PartColumns, PartStatics, GrainRig):
 
     def _begin_record(self) -> None:
         super()._begin_record()
+        if self._from_now:
+            self._recorder.fromNow = True
         self._frame.loadingScales = list(astuple(self.scales()))
 
     def _drive(self, plan: Schedule) -> None:
@@ -220,7 +218,7 @@ class PartRig(PartColumns, PartStatics, GrainRig):
             "lay it with bonded=True"
         )
 
-    def _take_hold(self) -> wrapper.LoadingController:
+    def _take_hold(self) -> wrapper.PlateController:
         frame = self._frame
         self._let_go(frame.driven)
         loading = wrapper.PlateController(
@@ -238,9 +236,19 @@ class PartRig(PartColumns, PartStatics, GrainRig):
     def _move(self, velocity: float, factor: float) -> None:
         loading, direction = self._recorder.loading, self._frame.direction
         assert isinstance(loading, wrapper.PlateController)
+        if velocity and loading.started and loading.velocity.norm() == 0.0:
+            loading = self._take_hold_again(loading)
         speed = -velocity  # a rig that presses gives that of its upper end, upwards
         loading.velocity = (speed * direction[0], speed * direction[1], speed * direction[2])
         loading.velocityFactor = factor
+
+    def _take_hold_again(self, stood: wrapper.PlateController) -> wrapper.PlateController:
+        """Begin anew along the elastic solution: the motion of a loading that has stood is over."""
+        self.built.remove_engines(stood)
+        fresh = self._take_hold()
+        fresh.undampedLoading = stood.undampedLoading
+        self._recorder.loading = fresh
+        return fresh
 
     def _loaded_area(self) -> float:
         return self._frame.area

@@ -30,15 +30,15 @@ from .readings import RigReadings
 BOTTOM, RIGHT, TOP, LEFT = range(4)
 
 #: Wave crossings over which an isotropic pressure rises.
-_RAMP_CROSSINGS = 10
+RAMP_CROSSINGS = 10
 #: Most wave crossings until the forces then balance.
-_REST_CROSSINGS = 100
+REST_CROSSINGS = 100
 #: Forces balance once each part of what presses that is not borne is below this [-] ...
-_AT_REST = 0.001
+AT_REST = 0.001
 #: ... and the largest unbalanced force below this part of the mean contact force [-].
-_NODES_AT_REST = 0.01
+NODES_AT_REST = 0.01
 #: Measurements of the balance while a wave crosses the specimen, at least.
-_MEASURED_A_CROSSING = 8
+MEASURED_A_CROSSING = 8
 #: Steps, all of them recorded, of the way along the elastic solution.
 _PRELOAD_STEPS = 20
 #: Steps by which the end of a stage may be seen late.
@@ -92,7 +92,7 @@ class TestRig(RigReadings):
             raise SimulationError(
                 f"confine: imbalance = {found.largest:.2g} of {pressure:g} Pa (reactions "
                 f"{found.reaction:.2g}, mean stress {found.stress:.2g}, motion {found.motion:.2g}"
-                f"), must fall below {_AT_REST}; {self._more_balance}"
+                f"), must fall below {AT_REST}; {self._more_balance}"
             )
 
     def load(self, loading: Loading | None = None) -> None:
@@ -122,12 +122,7 @@ class TestRig(RigReadings):
         """
         strain = require_number("strain_to: strain", strain)
         self._tell("strain_to", strain=strain, rate=rate)
-        entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
-        if self.diverged or (entered and not self._is_over()):
-            raise SimulationError(
-                f"strain_to: axial strain = {self.strain:.6g}, must come to {strain:.6g}; "
-                + ("lower the rate" if self.diverged else "the specimen strains elsewhere")
-            )
+        self._go_to_strain("strain_to", strain, rate)
 
     def stress_to(self, stress: float, rate: float = 1.0) -> None:
         """Load or unload until the record's axial stress has come to `stress`.
@@ -145,20 +140,7 @@ class TestRig(RigReadings):
         """
         stress = require_number("stress_to: stress", stress, unit="Pa")
         self._tell("stress_to", stress=stress, rate=rate)
-        senses: list[float] = []  # of a stage that is taken up: that with which it began
-
-        def there() -> bool:
-            if not senses:
-                senses.append(self._sense_to(stress, self._runner.position.stage_start))
-            return senses[0] * (self._readings.stress - stress) >= 0.0
-
-        begin = partial(self._begin_stress, stress, rate)
-        entered = self._stage(begin, lambda: there() or self._is_over())
-        if self.diverged or (entered and not there()):
-            raise SimulationError(
-                f"stress_to: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
-                "the specimen does not bear it"
-            )
+        self._go_to_stress("stress_to", stress, rate)
 
     def start(self, loading: Loading) -> Span:
         """Set the scene up as `load` does, without a step, and tell how many it takes."""
@@ -275,6 +257,32 @@ class TestRig(RigReadings):
             self.stages[-1]["last_step"] = yade.O.iter
         return True
 
+    def _go_to_strain(self, stage: str, strain: float, rate: float) -> None:
+        """A part of a stage: go to a strain, see `strain_to`."""
+        entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
+        if self.diverged or (entered and not self._is_over()):
+            raise SimulationError(
+                f"{stage}: axial strain = {self.strain:.6g}, must come to {strain:.6g}; "
+                + ("lower the rate" if self.diverged else "the specimen strains elsewhere")
+            )
+
+    def _go_to_stress(self, stage: str, stress: float, rate: float) -> None:
+        """A part of a stage: go to a stress, see `stress_to`."""
+        senses: list[float] = []  # of a stage that is taken up: that with which it began
+
+        def there() -> bool:
+            if not senses:
+                senses.append(self._sense_to(stress, self._runner.position.stage_start))
+            return senses[0] * (self._readings.stress - stress) >= 0.0
+
+        begin = partial(self._begin_stress, stress, rate)
+        entered = self._stage(begin, lambda: there() or self._is_over())
+        if self.diverged or (entered and not there()):
+            raise SimulationError(
+                f"{stage}: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
+                "the specimen does not bear it"
+            )
+
     def _step_through(self, over: Callable[[], bool], text: str) -> None:
         with limited(self.built.threads):
             self._runner.run(
@@ -287,9 +295,9 @@ class TestRig(RigReadings):
 
     def _begin_confinement(self, pressure: float) -> Span:
         crossing = math.ceil(self._crossing_steps())
-        self._press(pressure, _RAMP_CROSSINGS * crossing)
-        self._measure_every(max(crossing // _MEASURED_A_CROSSING, 1))
-        return Span((_RAMP_CROSSINGS + _REST_CROSSINGS) * crossing, 2 * _RAMP_CROSSINGS * crossing)
+        self._press(pressure, RAMP_CROSSINGS * crossing)
+        self._measure_every(max(crossing // MEASURED_A_CROSSING, 1))
+        return Span((RAMP_CROSSINGS + REST_CROSSINGS) * crossing, 2 * RAMP_CROSSINGS * crossing)
 
     def _begin_preload(self, loading: Loading) -> Span:
         self.start(loading)
@@ -319,19 +327,23 @@ class TestRig(RigReadings):
 
     def _sense_to(self, stress: float, step: int) -> float:
         """1 if the stress must rise from what the record has at a step, else -1."""
+        return 1.0 if stress > self._stress_at(step) else -1.0
+
+    def _stress_at(self, step: int) -> float:
+        """Stress of the last row of the record up to a step, 0 before the first [Pa]."""
         record = self.record
         before = record["axial_stress"][record["step"] <= step]
-        return 1.0 if stress > (before[-1] if len(before) else 0.0) else -1.0
+        return float(before[-1]) if len(before) else 0.0
 
     def _at_rest(self) -> bool:
         """Whether forces balance under the full pressure; looked at each crossing of a wave."""
         start, end = self._runner.position.stage_start, self._runner.position.stage_end
         crossings, rest = divmod(
-            yade.O.iter - start, (end - start) // (_RAMP_CROSSINGS + _REST_CROSSINGS)
+            yade.O.iter - start, (end - start) // (RAMP_CROSSINGS + REST_CROSSINGS)
         )
-        if rest != 0 or crossings <= _RAMP_CROSSINGS:
+        if rest != 0 or crossings <= RAMP_CROSSINGS:
             return False
-        return self.unbalanced() < _NODES_AT_REST and self.balance().largest < _AT_REST
+        return self.unbalanced() < NODES_AT_REST and self.balance().largest < AT_REST
 
     def _is_over(self) -> bool:
         return self.diverged or self._readings.state != TestState.running

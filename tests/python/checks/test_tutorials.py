@@ -98,6 +98,24 @@ def test_fracture_network(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_incline(package_parent):
+    text = printed("incline.py", package_parent)
+    found = re.findall(r"([+-]\d+) degrees: +([\d.]+) nm in 1 ms, Coulomb ([\d.]+)", text)
+    ways = {int(beyond): (float(way), float(free)) for beyond, way, free in found}
+    assert ways[-1][0] < 1.0
+    for beyond in (2, 10):
+        assert ways[beyond][0] == pytest.approx(ways[beyond][1], rel=0.02)
+
+
+@pytest.mark.long
+def test_toppling(package_parent):
+    text = printed("toppling.py", package_parent)
+    assert "dip = 26.07 degrees: stands, on 16" in text
+    assert "dip = 27.07 degrees: settle: reactions lack" in text
+    assert "topples: by 5 degrees after 0." in text
+
+
+@pytest.mark.long
 def test_calibration(package_parent, tmp_path):
     text = printed("calibration.py", package_parent, str(tmp_path / "rock"))
     assert text.count(": met") == 3

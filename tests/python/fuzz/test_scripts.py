@@ -36,6 +36,44 @@ CUT = st.tuples(
 PICK = st.sampled_from([0, 1, 2, 3, 100, 101, None, 0.5, "part", True])
 PICKS = st.lists(PICK, max_size=3)
 COLUMN = st.sampled_from(["opening", "load", "axial_stress", "set_point", "", "a\nb", "opennig", 5])
+#: A few numbers, good and bad, of loads, ways, pressures and times.
+VALUE = st.sampled_from([0.0, 10.0, 1e-7, -1.0, 1e300, float("nan"), None, "a"])
+CROSSINGS = st.sampled_from([1.0, 3, 0.0, -1.0, float("inf"), None])
+BY = st.sampled_from(["load", "way", "force", 1])
+STAGES = st.one_of(
+    st.tuples(
+        st.just("stage"),
+        st.sampled_from(["settle", "relax", "unload"]),
+        st.just([]),
+        st.fixed_dictionaries({"crossings": CROSSINGS}),
+    ),
+    st.tuples(
+        st.just("stage"),
+        st.just("dwell"),
+        st.tuples(CROSSINGS),
+        st.fixed_dictionaries({"by": BY}),
+    ),
+    st.tuples(
+        st.just("stage"),
+        st.just("cycle"),
+        st.tuples(VALUE, st.sampled_from([1, 2, 0, 1.5, None])),
+        st.fixed_dictionaries({"by": BY, "low": VALUE}),
+    ),
+    st.tuples(
+        st.just("stage"),
+        st.just("follow"),
+        st.tuples(st.lists(VALUE, max_size=3), st.none() | st.lists(VALUE, max_size=3)),
+        st.fixed_dictionaries({"by": BY}),
+    ),
+    st.tuples(
+        st.just("stage"),
+        st.just("fluid"),
+        st.tuples(VALUE),
+        st.fixed_dictionaries(
+            {"side": st.sampled_from([None, 1, [0, 2], 9, "a"]), "hole": st.sampled_from([None, 0])}
+        ),
+    ),
+)
 PARTS = st.one_of(
     st.tuples(st.just("support"), PLACE, PLACE, st.sampled_from([0.001, 0.0, 1.0]), st.booleans()),
     st.tuples(st.just("platen"), st.sampled_from([0, 1, 2, 3, 9, -1]), st.booleans()),
@@ -52,6 +90,12 @@ PARTS = st.one_of(
         st.lists(PICK, min_size=1, max_size=1),
         st.sampled_from([0.0, 1e5, -1.0, float("nan"), None]),
     ),
+    st.tuples(
+        st.just("press_all"),
+        PICKS,
+        st.lists(st.sampled_from([0.0, 1e5, -1.0, float("nan"), None]), max_size=3),
+    ),
+    STAGES,
     st.tuples(
         st.just("elastic"),
         st.lists(PICK, min_size=1, max_size=1),

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stages that load by a plan: cycles, and a history of loads or ways. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import yade
+
+from ...arrays import FloatArray
+from ...errors import InputError
+from ...require import Bounds, require_number, require_one_of, require_whole
+from ...runs.loading_rate import RATE, Loading
+from ...runs.runner import Span
+from ..rig import REST_CROSSINGS
+from .history import history_of
+from .pressures import PartPressures
+from .rest import WAYS
+from .still import endless
+
+#: Cycles that one call may ask for.
+_COUNT = Bounds(at_least=1, at_most=10_000)
+#: Part of the way to a load that is gone ever slower, without waiting for cracks [-].
+_LAST_PART = 0.25
+#: Most wave crossings of that: a cracked specimen is softer than its first stiffness says.
+_TO_REST = 3.0 * REST_CROSSINGS
+#: A way is where a history begins within this part of the largest one of it [-].
+_SAME_WAY = 1e-6
+
+
+class PartCycles(PartPressures):
+    """Base of a rig of parts that loads its specimen up and down."""
+
+    def cycle(
+        self,
+        amplitude: float,
+        count: int = 1,
+        *,
+        by: str = "load",
+        low: float = 0.0,
+        rate: float = 1.0,
+    ) -> None:
+        """Load to `amplitude` and back to `low`, several times, and end there at rest.
+
+        Turns are within 0.1 % of the load that is asked for, or of the largest where that is 0; by
+        way they are at the next row of the record.
+
+        Args:
+            amplitude: Load [N; N m of what turns], or way of the driven parts [m, or rad].
+            count: Number of cycles.
+            by: ``"load"`` or ``"way"``.
+            low: Load or way at the other end of a cycle.
+            rate: Factor on the default loading rate [-]; a way is gone at a constant rate.
+
+        Raises:
+            InputError: for a value out of range, or where no part loads.
+            SimulationError: if the specimen does not bear the load.
+        """
+        require_one_of("cycle: by", by, WAYS)
+        unit = "N" if by == "load" else "m"
+        amplitude = require_number("cycle: amplitude", amplitude, unit=unit)
+        low = require_number("cycle: low", low, unit=unit)
+        count = require_whole("cycle: count", count, _COUNT)
+        rate = require_number("cycle: rate", rate, RATE)
+        if amplitude == low:
+            raise InputError(f"cycle: amplitude = {amplitude:g} {unit}, must not be that of low")
+        self._require_scene("cycle")
+        self._require_bearing("cycle", by, min(amplitude, low))
+        self.scales()
+        self._tell("cycle", amplitude=amplitude, count=count, by=by, low=low, rate=rate)
+        for _ in range(count):
+            self._go("cycle", by, low, amplitude, rate)
+            self._go("cycle", by, amplitude, low, rate)
+        self._end_at("cycle", by, low)
+
+    def follow(
+        self,
+        times: Sequence[float] | FloatArray | Path | str,
+        values: Sequence[float] | FloatArray | None = None,
+        *,
+        by: str = "way",
+        rate: float = 1.0,
+    ) -> None:
+        """Follow a history of the load or the way of the driven parts.
+
+        With real masses the way follows its times, in straight lines between them, and the stage
+        ends in motion. With scaled masses, where time means nothing, and by load the values are
+        come to one after the other at the loading rate; equal ones that follow each other are held
+        until all is at rest, and so is the last one.
+
+        Args:
+            times: Rising [s], or a CSV file with a row of names, at most one row of units (as s, N,
+                kN, m, mm), and rows of time and value; columns behind them are left out.
+            values: One for each time [N, or m]; None with a file.
+            by: ``"load"`` or ``"way"``.
+            rate: Factor on the default loading rate [-], unused with real masses by way.
+
+        Raises:
+            InputError: for a row that is not finite or whose time does not rise, which it names, a
+                way that does not begin where the parts are, or where no part loads.
+            SimulationError: if the specimen does not bear the load.
+        """
+        require_one_of("follow: by", by, WAYS)
+        rate = require_number("follow: rate", rate, RATE)
+        instants, wanted = history_of(times, values, "N" if by == "load" else "m")
+        self._require_scene("follow")
+        self._require_bearing("follow", by, min(wanted))
+        self.scales()
+        in_time = by == "way" and self.built.dynamic
+        if in_time:
+            self._require_start(wanted)
+        self._tell("follow", times=instants, values=wanted, by=by, rate=rate)
+        if in_time:
+            for number in range(1, len(wanted)):
+                time = instants[number] - instants[number - 1]
+                self._stage(
+                    partial(self._begin_line, wanted[number] - wanted[number - 1], time),
+                    lambda: self.diverged,
+                )
+            return
+        for number, value in enumerate(wanted):
+            if number and value == wanted[number - 1]:
+                self._end_at("follow", by, value)
+            else:
+                self._go("follow", by, wanted[number - 1] if number else 0.0, value, rate)
+        self._end_at("follow", by, wanted[-1])
+
+    def _go(self, stage: str, by: str, before: float, value: float, rate: float) -> None:
+        """Go to a load, the last of it ever slower, or to a way at a row of the record."""
+        if by == "way":
+            self._go_to_strain(stage, value / self._frame.length, rate)
+            return
+        near = value - _LAST_PART * (value - before)
+        self._go_to_stress(stage, near / self._frame.area, rate)
+        self._steer(stage, value / self._frame.area, _TO_REST, until="there", rate=rate)
+
+    def _end_at(self, stage: str, by: str, value: float) -> None:
+        """End at rest at a load, or where the parts are."""
+        if by == "load":
+            self._steer(stage, value / self._frame.area, _TO_REST)
+        else:
+            self._come_to_rest(stage, REST_CROSSINGS)
+
+    def _begin_line(self, way: float, time: float) -> Span:
+        """Go a way in a time [m, s]."""
+        plan = endless(self._schedule(Loading()))
+        steps = max(round(time / yade.O.dt), 1)
+        self._drive(replace(plan, velocity=way / time))
+        return Span(steps, steps)
+
+    def _require_start(self, wanted: list[float]) -> None:
+        """Refuse a way that does not begin where the parts are."""
+        rows = self.record["displacement"].tolist() if self._begun else []
+        now = rows[-1] if rows else 0.0
+        if abs(wanted[0] - now) > _SAME_WAY * max(map(abs, wanted)):
+            raise InputError(
+                f"follow: row 1: way = {wanted[0]:g} m, must be where the parts are, {now:g} m"
+            )
+
+    def _require_bearing(self, stage: str, by: str, least: float) -> None:
+        """Refuse loads that pull by plates that only press."""
+        frame, plates = self._frame, self.built.solver.plates()
+        if by != "load" or least >= 0.0 or frame.drivenSets:
+            return
+        if not all(plates[number]["bonded"] for number in frame.driven):
+            raise InputError(
+                f"{stage}: load = {least:g} N, must not be below 0: {self._driven_part} only "
+                "presses; lay it with bonded=True"
+            )

@@ -1,0 +1,286 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How a rig of parts stands still, comes to rest, and steers its load to a value. SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import yade
+from yade import wrapper
+
+from ...errors import InputError, SimulationError
+from ...models.grains import Model
+from ...models.options import DAMPING
+from ...runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule
+from ...runs.runner import Span
+from ..grain_rig import SETTLING_DAMPING, GrainRig
+from ..parts import HeldNodes, Part, RigPart
+from ..readings import Balance
+from ..rig import AT_REST, MEASURED_A_CROSSING, NODES_AT_REST
+from ..statics.elastic_state import PartStatics
+
+#: Stored energy over the largest so far that is none [-].
+NO_ENERGY = 1e-7
+#: A load is at its value within this part of it, or of the largest, where the value is 0 [-].
+_LOAD_AT_REST = 0.5 * AT_REST
+#: Velocity of what is steered and is where it is to be, over that of the loading [-]: a motion of
+#: the loading that has stood still could not go on.
+_STILL = 1e-12
+#: Crossings in which a load that is steered to a value comes nearer to it by a factor of e.
+_STEERING_CROSSINGS = 4.0
+#: Tag of YADE's scene with the damping that is to come back: a saved scene has it, too.
+_DAMPING_TAG = "flexpm_damping"
+
+
+class PartStill(PartStatics, GrainRig):
+    """Base of a rig of parts that brings what it loads to rest."""
+
+    built: Model
+    _scales: Scales | None
+    #: Force of which a part must not be missing in balance [N]; None: that of the pressures.
+    _asked_force: float | None = None
+    #: Whether strains count from the state in which the record begins.
+    _from_now = False
+
+    @property
+    def weight(self) -> float:
+        """Weight of all grains [N]; 0 with scaled masses."""
+        own = set(self.built.solver.bodyIds)
+        mass = math.fsum(body.state.mass for body in yade.O.bodies if body.id in own)
+        return mass * self.built.gravity
+
+    def _come_to_rest(self, stage: str, crossings: float) -> None:
+        """A part of a stage: stand until the stored energy is at rest, see `relax`."""
+        begin = partial(self._begin_rest, crossings)
+        entered = self._damped_stage(begin, partial(self._has_come_to_rest, crossings), stage)
+        if entered and not self.diverged and not self._is_at_rest():
+            found = self._balance_of_all()
+            raise SimulationError(
+                f"{stage}: imbalance = {found.largest:.2g} of the largest force, must fall below "
+                f"{AT_REST}; {self._most_borne}; allow more crossings, or lower what loads"
+            )
+
+    def _begin_rest(self, crossings: float, damped: bool = True) -> Span:
+        self._stand()
+        if damped:
+            self._damp()
+        return self._span_of(crossings, 0.3 * crossings)
+
+    def _has_come_to_rest(self, crossings: float) -> bool:
+        steps = yade.O.iter - self._runner.position.stage_start
+        looks = steps > 0 and steps % self._crossing_of(crossings) == 0
+        return self.diverged or (looks and self._is_at_rest())
+
+    def _is_at_rest(self) -> bool:
+        """Whether all forces balance, or next to nothing is stored any more."""
+        if self._is_empty():
+            return True
+        return self.unbalanced() < NODES_AT_REST and self._balance_of_all().largest < AT_REST
+
+    def _is_empty(self) -> bool:
+        """Whether the energy that is stored or moves is none beside the largest of the record."""
+        energies = self.built.solver.energies()
+        stored = energies["elastic_energy"] + abs(energies["kinetic_energy"])
+        rows = self.record["elastic_energy"] if self._begun else np.zeros(0)
+        return stored <= NO_ENERGY * float(rows.max(initial=0.0))
+
+    def _is_balanced(self) -> bool:
+        return self.unbalanced() < NODES_AT_REST and self.balance().largest < AT_REST
+
+    def _balance_of_all(self) -> Balance:
+        """Balance beside the largest force of a part or of a fluid, or the weight."""
+        own = [math.hypot(*part.force) for part in self._all_parts]
+        self._asked_force = max([*own, self.weight, self._force_of_fluids])
+        found, self._asked_force = self.balance(), None
+        return found
+
+    @property
+    def _fluids(self) -> list[wrapper.ConfinementController]:
+        """Engines that press on the outline itself."""
+        kind = wrapper.ConfinementController
+        return [one for one in self.built.engines if isinstance(one, kind)]
+
+    @property
+    def _force_of_fluids(self) -> float:
+        """Force of the largest pressure of a fluid on a width like the specimen's [N]."""
+        specimen = self.built.specimen
+        largest = max((one.pressure for one in self._fluids), default=0.0)
+        return float(largest * specimen.equal_diameter * specimen.thickness)
+
+    def _stand(self) -> None:
+        """Stop what is driven, if a loading has begun."""
+        if self._recorder.loading is not None:
+            self._drive(replace(endless(self._schedule(Loading())), velocity=0.0))
+
+    # A load that is steered
+
+    def _steer(
+        self,
+        stage: str,
+        stress: float | None,
+        crossings: float,
+        *,
+        until: str = "rest",
+        rate: float = 1.0,
+    ) -> None:
+        """A part of a stage: drive on until the load is what it is to be.
+
+        Args:
+            stage: Name of the stage.
+            stress: That of the record to come to [Pa]; None: that as this part begins.
+            crossings: Most wave crossings for the last of the way.
+            until: ``"rest"``: all is at rest there, with damping on; ``"there"``: it is there;
+                ``"end"``: the crossings are over.
+            rate: Factor on the fastest velocity [-].
+        """
+        targets: list[float] = []
+
+        def is_done() -> bool:
+            return self._is_there(targets[0]) and (until != "rest" or self._is_at_rest())
+
+        def over() -> bool:
+            begun = self._runner.position.stage_start
+            if not targets:
+                targets.append(self._stress_at(begun) if stress is None else stress)
+            steps = yade.O.iter - begun
+            if self.diverged or steps == 0 or steps % self.built.solver.measurePeriod:
+                return self.diverged
+            self._move(-self._steering(targets[0], rate), 1.0)
+            return until != "end" and is_done()
+
+        begin = partial(self._begin_steering, stress, crossings, until == "rest", rate)
+        if not self._damped_stage(begin, over, stage) or self.diverged or is_done():
+            return
+        area = self._frame.area
+        raise SimulationError(
+            f"{stage}: load = {self.stress * area:.6g} of {self._driven_part}, must come to "
+            f"{targets[0] * area:.6g} within {AT_REST:g}"
+            + (" and to rest" if until == "rest" else "")
+            + "; the specimen does not bear it, or needs more crossings"
+        )
+
+    def _begin_steering(
+        self, stress: float | None, crossings: float, damped: bool, rate: float
+    ) -> Span:
+        plan = self._steering_plan()
+        scales = self.scales()
+        way = 0.0 if stress is None else abs(stress - self.stress) / scales.modulus * scales.height
+        back = math.ceil(2.0 * way / (rate * plan.fastest * plan.velocity * yade.O.dt))
+        self._drive(replace(endless(plan), velocity=_STILL * plan.velocity))
+        if damped:
+            self._damp()
+        span = self._span_of(crossings, 0.5 * crossings)
+        return Span(span.longest + back, span.likely + back // 2)
+
+    def _steering_plan(self) -> Schedule:
+        kind = "waiting" if self.built.name in WAITING_MODELS else "constant"
+        return self._schedule(Loading(kind=kind))
+
+    def _steering(self, stress: float, rate: float) -> float:
+        """Velocity of the driven parts that brings the load nearer to a value. Deviation D74."""
+        scales, plan = self.scales(), self._steering_plan()
+        time = _STEERING_CROSSINGS * scales.crossing_steps * yade.O.dt
+        wanted = (stress - self.stress) / scales.modulus * scales.height / time
+        fastest = rate * plan.fastest * plan.velocity
+        return float(np.clip(wanted, -fastest, fastest)) or _STILL * plan.velocity
+
+    def _is_there(self, stress: float) -> bool:
+        """Whether the load is within 0.1 % of a value, or of the largest for the value 0."""
+        whole = abs(stress) or float(np.abs(self.record["axial_stress"]).max(initial=0.0))
+        return abs(self.stress - stress) <= _LOAD_AT_REST * whole
+
+    # Damping
+
+    def _damped_stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str) -> bool:
+        """A stage that may put damping on, which then is what it was."""
+        try:
+            entered = self._stage(begin, over, text)
+        finally:
+            self._undamp()
+        return entered
+
+    def _damp(self) -> None:
+        """Put damping on real masses that have none, until `_undamp`."""
+        built = self.built
+        if not built.dynamic or built.damping >= SETTLING_DAMPING:
+            return
+        yade.O.tags[_DAMPING_TAG] = repr(built.damping)
+        built.damping = DAMPING
+        built.set_masses()
+
+    def _undamp(self) -> None:
+        """Bring the damping back, and all of the weight."""
+        tags = yade.O.tags
+        if self._solver not in yade.O.engines:
+            return
+        if tags.has_key(_DAMPING_TAG) and tags[_DAMPING_TAG]:
+            self.built.damping = float(tags[_DAMPING_TAG])
+            tags[_DAMPING_TAG] = ""
+            self.built.set_masses()
+        self._solver.gravity = (0.0, -self.built.gravity, 0.0)
+
+    # What there is
+
+    def _span_of(self, longest: float, likely: float, least: float = 0.0) -> Span:
+        """Length of a stage by wave crossings of at least so many steps, and its measurements."""
+        crossing = math.ceil(max(self._crossing_steps(), least))
+        self._measure_every(max(crossing // MEASURED_A_CROSSING, 1))
+        return Span(math.ceil(longest) * crossing, math.ceil(likely) * crossing)
+
+    def _crossing_of(self, longest: float) -> int:
+        """Steps in which a wave crosses the specimen, as the present stage began."""
+        position = self._runner.position
+        return (position.stage_end - position.stage_start) // math.ceil(longest)
+
+    @property
+    def _all_parts(self) -> list[RigPart]:
+        solver = self.built.solver
+        plates = [Part(self, solver, "plate", n) for n in range(len(solver.plates()))]
+        sets = [HeldNodes(self, solver, "held nodes", n) for n in range(len(solver.nodeSets()))]
+        return [*plates, *sets]
+
+    @property
+    def _most_borne(self) -> str:
+        """The part with the largest force, in words."""
+        parts = self._all_parts
+        if not parts:
+            return "no part bears"
+        most = max(parts, key=lambda part: math.hypot(*part.force))
+        x, y = most.force
+        return f"{most} bears ({x:.4g}, {y:.4g}) N"
+
+    @property
+    def _driven_part(self) -> str:
+        frame = self._frame
+        kind, number = (Part, frame.driven[0]) if frame.driven else (HeldNodes, frame.drivenSets[0])
+        name = "plate" if frame.driven else "held nodes"
+        return str(kind(self, self.built.solver, name, number))
+
+    def _require_parts(self, stage: str) -> None:
+        if not self._all_parts:
+            raise InputError(
+                f"{stage}: parts = none, must be at least 1; lay what bears the weight"
+            )
+
+    def _require_loaded(self, stage: str) -> None:
+        """Refuse a stage of what loads before anything does."""
+        self._require_scene(stage)
+        if self._recorder.loading is None:
+            raise InputError(f"{stage}: loading = none, must have begun; call load or stress_to")
+
+
+def endless(plan: Schedule) -> Schedule:
+    """A plan at one velocity that nothing ends."""
+    return replace(
+        plan,
+        fastest=1.0,
+        running_shares=None,
+        min_strain=-1e300,
+        max_strain=1e300,
+        least_peak=1e300,
+        softening_growth=0.0,
+    )
