@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Command that makes specimens of images: ``flexpm specimen image``. SI units."""
+"""Commands that make specimens of images and tessellations: ``flexpm specimen image`` and ``tess``.
+
+SI units.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,8 @@ import click
 from ..errors import InputError
 from ..files import Table, json_text, write_text
 from ..report import tables
-from ..require import POSITIVE
+from ..require import POSITIVE, Bounds
+from ..specimens.checks import SHORT_EDGE
 from ..specimens.spec import GRAINS_FILE
 from ..text import words_of
 from . import inputs, terminal
@@ -59,10 +63,15 @@ def image(
     out: Path,
     quiet: bool,
 ) -> None:
-    """The grains of an image: PNG, TIFF or NPY, a label or a colour for each grain or phase."""
+    """The grains of an image: PNG, TIFF, NPY or a .tesr file of Neper.
+
+    Each label or colour is a grain, or with --phases a phase.
+    """
     from ..specimens.labels import picture
 
     read = picture.read(file)
+    if phases is None and read.has_voids:
+        raise InputError("image label = 0, is void in a tesr file; give phases with 0 = hole")
     names: list[str] = []
     minerals = None
     if phases is not None:
@@ -78,22 +87,58 @@ def image(
     _describe(made, folder, names)
 
 
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--scale",
+    type=Quantity("m", POSITIVE),
+    default=1.0,
+    show_default=True,
+    help="Length of the file's unit [m].",
+)
+@length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
+@click.option(
+    "--short-edge",
+    type=Quantity("", Bounds(at_least=0.0, below=0.5)),
+    default=SHORT_EDGE,
+    metavar="F",
+    help="Edges of Laguerre cells below this share of the mean diameter are collapsed; 0: none "
+    f"[-].  [default: {SHORT_EDGE:.3f}]",
+)
+@cli_options.out_option
+@cli_options.quiet_option
+def tess(
+    file: Path, scale: float, thickness: float, short_edge: float, out: Path, quiet: bool
+) -> None:
+    """The cells of a tessellation of Neper in the plane, a .tess file."""
+    folder = inputs.locked_folder(out)
+    with terminal.Progress(quiet):
+        inputs.load_yade()
+        from ..specimens.specimen import Specimen
+
+        made = Specimen.from_tess(file, thickness, scale=scale, short_edge=short_edge)
+    _describe(made, folder, ())
+
+
 def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     """Print the figures of the grains and write them with the specimen and its picture."""
+    import numpy as np
+
     from ..report import maps
     from ..specimens.labels.measures import of_grains
 
-    if made.grains is None:
-        raise InputError("specimen = no grains, must come of an image")
-    found = of_grains(made.tessellation, made.grains, made.minerals, names)
-    found |= {"cells": made.tessellation.cells, "contacts": len(made.tessellation.shared_edges)}
-    found["image"] = made.regions
+    cells = made.tessellation
+    grains = np.arange(cells.cells) if made.grains is None else made.grains
+    found = of_grains(cells, grains, made.minerals, names)
+    found |= {"cells": cells.cells, "contacts": len(cells.shared_edges)}
+    if made.regions:
+        found["image"] = made.regions
     write_text(folder / "specimen.json", json_text(found))
     made.save(folder / GRAINS_FILE)
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     drawn = folder / "specimen.png"
-    polygons = maps.cell_polygons(made.tessellation)
-    kinds = made.grains if made.minerals is None else made.minerals
+    polygons = maps.cell_polygons(cells)
+    kinds = grains if made.minerals is None else made.minerals
     maps.grain_picture(drawn, polygons, kinds, names, caption)
     terminal.say(tables.table(_rows(found)))
     if names:

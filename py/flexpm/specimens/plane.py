@@ -6,8 +6,10 @@ Grains are the Laguerre cells of packed discs, cells sawn out of a packing, or c
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TypedDict, cast
 
 import numpy as np
@@ -18,9 +20,10 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
 from ..progress import Progress
-from ..require import require_flag
+from ..require import POSITIVE, require_flag, require_number
 from . import packed, packing
 from .checks import require_diameters, require_length, require_short_edge
+from .files import tess
 from .kernel_input import (
     Circle,
     call,
@@ -35,6 +38,8 @@ from .labels.given import FILLS, divide
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
+#: Areas of cells of which the seeds may be Laguerre's differ by less [-].
+_ALIKE = 1e-7
 #: Corners of a polygon, rows x, y [m].
 Corners = Sequence[Sequence[float]] | FloatArray
 
@@ -172,6 +177,23 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
     minerals = mineral_indices(found.minerals[grains], len(grains))
     spec = replace(made.spec, minerals=checksum(minerals))
     return replace(made, grains=grains, minerals=minerals, spec=spec, regions=found.counts)
+
+
+def from_tess(path: Path, thickness: float, scale: float, short_edge: float) -> Filling:
+    """Fill an outline with the cells of a tessellation of Neper, see `Specimen.from_tess`."""
+    where = "Specimen.from_tess"
+    require_length(where, "thickness", thickness)
+    require_short_edge(short_edge)
+    given = tess.read(path).scaled(require_number(f"{where}: scale", scale, POSITIVE, "m"))
+    outline = given.outline()
+    if given.centres is not None and outline is not None:
+        for radii in given.radii:
+            with contextlib.suppress(InputError):  # seeds outside, or hidden: of no such cells
+                discs = np.column_stack((given.centres, radii))
+                _, cells = packed.tessellated(discs, outline, 0.0, drop_hidden=False)
+                if np.allclose(cells.cell_areas, given.areas, rtol=_ALIKE, atol=0.0):
+                    return from_discs(given.centres, radii, outline, thickness, short_edge, False)
+    return from_polygons(given.polygons, thickness, holes=True)
 
 
 def _of_cells(

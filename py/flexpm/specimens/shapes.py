@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Self, Unpack
 
 import numpy.typing as npt
@@ -173,6 +174,33 @@ class PlaneShapes(ABC):
         """
         options = {"pixel": pixel, "minerals": minerals, "edge": edge, "smallest": smallest}
         return cls._of(plane.from_labels(labels, thickness, options))
+
+    @classmethod
+    def from_tess(
+        cls,
+        path: Path | str,
+        thickness: float,
+        *,
+        scale: float = 1.0,
+        short_edge: float = SHORT_EDGE,
+    ) -> Self:
+        """Make a specimen of the cells of a tessellation of Neper in the plane, a ``.tess`` file.
+
+        Where the cells are the Laguerre cells of the seeds in the file the seeds are the centres
+        (D76); others are given cells, as in ``from_polygons``.
+
+        Args:
+            path: The file, of format 2.0 or later.
+            thickness: Out of plane [m].
+            scale: Length of the file's unit [m].
+            short_edge: Edges of Laguerre cells below this share of the mean diameter are
+                collapsed [-]; 0: none.
+
+        Raises:
+            InputError: for a file that is none of cells in the plane or is broken, with its line,
+                and as ``from_polygons``.
+        """
+        return cls._of(plane.from_tess(Path(path), thickness, scale, short_edge))
 
     @classmethod
     def from_discs(

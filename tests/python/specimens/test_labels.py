@@ -300,8 +300,8 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
         "fractions.npy": "labels = 0.25 at row 0, column 0, must be whole numbers",
         "texts.npy": "must be rows of whole numbers",
         "gaps.npy": "labels = nan at row 0, column 0, must be whole numbers",
-        "none.png": "must be a PNG, TIFF or NPY file",
-        "nowhere.png": "must be a PNG, TIFF or NPY file",
+        "none.png": "must be a PNG, TIFF, NPY or TESR file",
+        "nowhere.png": "must be a PNG, TIFF, NPY or TESR file",
     }.items():
         named = ("colours.png", "texts.npy", "gaps.npy")
         phases = ["--phases", str(tmp_path / "phases.toml")] if file in named else []
