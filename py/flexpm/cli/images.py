@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that make specimens of images and tessellations: ``flexpm specimen image`` and ``tess``.
+"""Commands that make specimens of files of others: ``flexpm specimen image``, ``ebsd``, ``tess``.
 
 SI units.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -22,12 +22,26 @@ from ..text import words_of
 from . import inputs, terminal
 from . import options as cli_options
 from .options import length_option
-from .parameters import Count, Quantity
+from .parameters import Count, Name, Quantity
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen
 
 _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
+
+_thickness = length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
+_edge = click.option(
+    "--edge",
+    type=Quantity("m", POSITIVE),
+    help="Way between corners of boundaries [m].  [default: a quarter of the mean diameter]",
+)
+_smallest = click.option(
+    "--smallest",
+    type=Count(1),
+    default=4,
+    show_default=True,
+    help="Regions with fewer pixels go to a neighbour.",
+)
 
 
 @click.command()
@@ -38,19 +52,9 @@ _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
     type=click.Path(path_type=Path),
     help="TOML file: label or colour = mineral, or hole.  [default: labels are of grains]",
 )
-@length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
-@click.option(
-    "--edge",
-    type=Quantity("m", POSITIVE),
-    help="Way between corners of boundaries [m].  [default: a quarter of the mean diameter]",
-)
-@click.option(
-    "--smallest",
-    type=Count(1),
-    default=4,
-    show_default=True,
-    help="Regions with fewer pixels go to a neighbour.",
-)
+@_thickness
+@_edge
+@_smallest
 @cli_options.out_option
 @cli_options.quiet_option
 def image(
@@ -96,7 +100,7 @@ def image(
     show_default=True,
     help="Length of the file's unit [m].",
 )
-@length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
+@_thickness
 @click.option(
     "--short-edge",
     type=Quantity("", Bounds(at_least=0.0, below=0.5)),
@@ -118,6 +122,45 @@ def tess(
 
         made = Specimen.from_tess(file, thickness, scale=scale, short_edge=short_edge)
     _describe(made, folder, ())
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--misorientation",
+    type=Quantity("degree", Bounds(above=0.0, at_most=180.0)),
+    default=10.0,
+    metavar="A",
+    show_default=True,
+    help="From which on two neighbours are two grains [degree].",
+)
+@click.option(
+    "--unindexed",
+    type=Name("fill", "hole"),
+    default="fill",
+    metavar="fill|hole",
+    show_default=True,
+    help="Points that were not indexed go to most of their neighbours, or are holes.",
+)
+@click.option(
+    "--phases",
+    type=click.Path(path_type=Path),
+    help="TOML file: phase of the map = mineral, or hole.  [default: each is a mineral]",
+)
+@_thickness
+@_edge
+@_smallest
+@cli_options.out_option
+@cli_options.quiet_option
+def ebsd(file: Path, thickness: float, out: Path, quiet: bool, **options: Any) -> None:
+    """The grains of a map of crystal orientations: .ctf, or .ang of a square or hexagonal grid."""
+    folder = inputs.locked_folder(out)
+    with terminal.Progress(quiet):
+        inputs.load_yade()
+        from ..specimens.specimen import Specimen
+
+        made = Specimen.from_ebsd(file, thickness, **options)
+    _describe(made, folder, made.mineral_names)
 
 
 def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:

@@ -34,6 +34,7 @@ from .kernel_input import (
     mineral_indices,
     ring,
 )
+from .labels import ebsd
 from .labels.given import FILLS, divide
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
@@ -82,6 +83,7 @@ class Filling:
     grains: IntArray | None = None
     minerals: IntArray | None = None
     regions: Mapping[str, int] = field(default_factory=dict)
+    mineral_names: tuple[str, ...] = ()
 
 
 def packing_of(name: str, in_order: Sequence[object], named: Packing) -> Packing:
@@ -177,6 +179,22 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
     minerals = mineral_indices(found.minerals[grains], len(grains))
     spec = replace(made.spec, minerals=checksum(minerals))
     return replace(made, grains=grains, minerals=minerals, spec=spec, regions=found.counts)
+
+
+def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:
+    """Fill an outline with the grains of a map of orientations, see `Specimen.from_ebsd`."""
+    found = ebsd.read(path)
+    given = options.pop("phases")
+    phases = None if given is None else ebsd.read_phases(Path(given), found)
+    how = {key: options.pop(key) for key in ("misorientation", "unindexed")}
+    oriented = ebsd.grains(found, phases=phases, **how)
+    options |= {"pixel": found.sides, "minerals": oriented.minerals}
+    made = from_labels(oriented.labels, thickness, options)
+    regions = oriented.counts | dict(made.regions)
+    if len(oriented.names) > 1:
+        return replace(made, regions=regions, mineral_names=tuple(oriented.names))
+    spec = replace(made.spec, minerals=None)  # all alike: a rock without minerals has them, too
+    return replace(made, minerals=None, spec=spec, regions=regions)
 
 
 def from_tess(path: Path, thickness: float, scale: float, short_edge: float) -> Filling:

@@ -176,6 +176,43 @@ class PlaneShapes(ABC):
         return cls._of(plane.from_labels(labels, thickness, options))
 
     @classmethod
+    def from_ebsd(
+        cls,
+        path: Path | str,
+        thickness: float,
+        *,
+        misorientation: float = 10.0,
+        unindexed: str = "fill",
+        phases: Path | str | None = None,
+        edge: float | None = None,
+        smallest: int = 4,
+    ) -> Self:
+        """Make a specimen of a map of crystal orientations, a ``.ctf`` or ``.ang`` file.
+
+        Neighbours of one phase hang together below a misorientation, the smallest one under the
+        symmetry of the phase's Laue group. The grains then go on as in ``from_labels``. A map of
+        one phase names no minerals.
+
+        Args:
+            path: The file; its steps are micrometres.
+            thickness: Out of plane [m].
+            misorientation: From which on two neighbours are two grains [degree].
+            unindexed: ``fill``: points that were not indexed go to most of their neighbours;
+                ``hole``: they are no rock.
+            phases: TOML file of ``"phase" = "mineral"``, or ``"hole"``; left out: each phase of
+                the file, in its order, is a mineral.
+            edge: As for ``from_labels`` [m].
+            smallest: As for ``from_labels``, points [-]; a point of a hexagonal grid counts twice.
+
+        Raises:
+            InputError: for a file that is no such map or is broken, with its line, and as
+                ``from_labels``.
+        """
+        options = {"misorientation": misorientation, "unindexed": unindexed, "phases": phases}
+        options |= {"edge": edge, "smallest": smallest}
+        return cls._of(plane.from_ebsd(Path(path), thickness, options))
+
+    @classmethod
     def from_tess(
         cls,
         path: Path | str,

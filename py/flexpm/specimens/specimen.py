@@ -44,7 +44,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     """Bonded grains that fill an outline.
 
     Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
-    ``from_polygons``, ``from_labels`` or ``load``.
+    ``from_polygons``, ``from_labels``, ``from_ebsd``, ``from_tess`` or ``load``.
 
     Attributes:
         discs: Rows x, y, radius [m], one per grain: centre of its disc, or the point from which
@@ -59,6 +59,8 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         joints: Lines of each joint as they were asked for, by its name [m].
         joint_cuts: What came of the lines of each joint, by its name.
         regions: How many regions and pixels of an image went another way, by what happened; not
+            saved.
+        mineral_names: Phases of a map of orientations that are its minerals, in their order; not
             saved.
         grains: Per cell the grain before it was cut, by joints or to be meshed; None: each is one.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
@@ -77,6 +79,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     joints: Lines = field(default_factory=dict)
     joint_cuts: dict[str, Cut] = field(default_factory=dict)
     regions: dict[str, int] = field(default_factory=dict)
+    mineral_names: tuple[str, ...] = ()
 
     @classmethod
     def _of(cls, made: Filling) -> Specimen:
@@ -90,6 +93,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             grains=made.grains,
             minerals=made.minerals,
             regions=dict(made.regions),
+            mineral_names=made.mineral_names,
         )
 
     @classmethod

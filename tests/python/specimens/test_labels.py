@@ -209,6 +209,15 @@ def test_a_specimen_of_an_image_is_saved_cut_and_run(tmp_path):
     assert result.grains == len(specimen.discs)
 
 
+@pytest.mark.parametrize("seed", [0, 7, 59])
+def test_rims_that_are_nearly_straight_at_a_corner_are_read_back(tmp_path, seed):
+    field = gaussian_filter(np.random.default_rng(seed).random((60, 60)), 4)
+    labels = np.where(field < np.quantile(field, 0.25), 0, voronoi(60, 25, seed) + 1)
+    specimen = made(labels, minerals={0: None} | dict.fromkeys(range(1, 30), 0))
+    specimen.save(tmp_path / "a.json")
+    assert Specimen.load(tmp_path / "a.json").spec == specimen.spec
+
+
 WRONG = [
     (np.zeros((4, 4), int), {}, "one region"),
     (np.zeros(4, int), {}, "must be rows of whole numbers"),

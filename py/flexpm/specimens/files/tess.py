@@ -14,6 +14,7 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 from ...require import LENGTH, require_number
+from ..outlines import area_of
 from .neper_text import Words
 
 #: Most cells, and most vertices and edges of them.
@@ -103,7 +104,7 @@ class PlaneTess:
         if len(ring) != len(after):
             return None
         corners = self.vertices[ring]
-        if _area(corners) < 0.0:
+        if area_of(corners) < 0.0:
             corners = corners[::-1]
         way = np.roll(corners, -1, axis=0) - corners
         come = np.roll(way, 1, axis=0)
@@ -113,11 +114,6 @@ class PlaneTess:
         if (turn[~straight] < 0.0).any():
             return None
         return np.ascontiguousarray(corners[~straight])
-
-
-def _area(corners: FloatArray) -> float:
-    x, y = corners.T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
 
 def _edges(cell: list[int]) -> list[tuple[int, int]]:

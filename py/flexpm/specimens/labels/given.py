@@ -58,7 +58,7 @@ class Division:
 
 def divide(
     labels: npt.ArrayLike,
-    pixel: float,
+    pixel: float | tuple[float, float],
     *,
     minerals: Mapping[int, int | None] | None = None,
     edge: float | None = None,
@@ -70,7 +70,7 @@ def divide(
 
     Args:
         labels: As there.
-        pixel: As there [m].
+        pixel: As there, or width and height [m].
         minerals: As there.
         edge: As there [m].
         smallest: As there.
@@ -78,7 +78,10 @@ def divide(
         least_fill: Least part of its convex hull that a piece fills [-].
     """
     image: IntArray = np.ascontiguousarray(whole_labels(labels)[::-1])  # the lowest row first
-    require_length(_WHERE, "pixel", pixel)
+    sides = pixel if isinstance(pixel, tuple) else (pixel, pixel)
+    for side in sides:
+        require_length(_WHERE, "pixel", side)
+    size = math.sqrt(sides[0] * sides[1])
     require_whole(f"{_WHERE}: smallest", smallest, Bounds(at_least=1, at_most=MOST_PIXELS))
     kinds = None if minerals is None else _minerals(minerals, image)
     found = regions.find(image, _holes(image, kinds), smallest, _phases(kinds))
@@ -92,19 +95,19 @@ def divide(
     asked = (
         None
         if edge is None
-        else require_number(f"{_WHERE}: edge", edge, Bounds(at_least=LEAST_EDGE * pixel), "m")
+        else require_number(f"{_WHERE}: edge", edge, Bounds(at_least=LEAST_EDGE * size), "m")
     )
     mean = float(np.mean(np.sqrt(4.0 / math.pi * sizes)))
-    spacing = max(LEAST_EDGE, _EDGE * mean) if asked is None else asked / pixel
+    spacing = max(LEAST_EDGE, _EDGE * mean) if asked is None else asked / size
     network = Network.of(pieces)
     lines = smooth(network, spacing) if smoothed else [one.raster for one in network.chains]
     return Division(
-        [pixel * polygon for polygon in network.polygons(lines)],
+        [np.array(sides) * polygon for polygon in network.polygons(lines)],
         grains,
         found.labels,
         sizes,
         None if kinds is None else np.array([kinds[v] for v in found.labels.tolist()], np.int32),
-        spacing * pixel,
+        spacing * size,
         bool((found.image < 0).any()),
         found.counts,
     )
