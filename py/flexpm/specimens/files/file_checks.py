@@ -120,7 +120,7 @@ _LATER = ("lines", "cuts")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, _Rule] = {
     "kind": _is_text,
-    "diameters": _or_none(_row(2)),
+    **dict.fromkeys(("diameters", "joint_origin"), _or_none(_row(2))),
     "joint_names": _or_none(_list(_is_text, 1)),
     "networks": _or_none(_list(lambda value: isinstance(value, Mapping), 1)),
     **dict.fromkeys(
