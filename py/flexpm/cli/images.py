@@ -168,22 +168,29 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     import numpy as np
 
     from ..report import maps
-    from ..specimens.labels.measures import of_grains
+    from ..specimens.labels.measures import named, of_grains
 
     cells = made.tessellation
     grains = np.arange(cells.cells) if made.grains is None else made.grains
     found = of_grains(cells, grains, made.minerals, names)
     found |= {"cells": cells.cells, "contacts": len(cells.shared_edges)}
-    if made.regions:
-        found["image"] = made.regions
-    write_text(folder / "specimen.json", json_text(found))
+    source = named(made.regions.get("source", {}), names)
+    counts = {key: one for key, one in made.regions.items() if key != "source"}
+    if counts:
+        found["image"] = counts
+    write_text(folder / "specimen.json", json_text(found | {"source": source}))
     made.save(folder / GRAINS_FILE)
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     drawn = folder / "specimen.png"
     polygons = maps.cell_polygons(cells)
     kinds = grains if made.minerals is None else made.minerals
     maps.grain_picture(drawn, polygons, kinds, names, caption)
-    terminal.say(tables.table(_rows(found)))
+    before = dict(_rows(source))
+    rows = [
+        (label, f"{value:14} source {before[label]}" if label in before else value)
+        for label, value in _rows(found)
+    ]
+    terminal.say(tables.table(rows))
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)

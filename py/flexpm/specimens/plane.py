@@ -7,7 +7,7 @@ Grains are the Laguerre cells of packed discs, cells sawn out of a packing, or c
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypedDict, cast
@@ -36,6 +36,7 @@ from .kernel_input import (
 )
 from .labels import ebsd
 from .labels.given import FILLS, divide
+from .labels.measures import of_grains
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
@@ -82,7 +83,7 @@ class Filling:
     holes: tuple[FloatArray, ...] = ()
     grains: IntArray | None = None
     minerals: IntArray | None = None
-    regions: Mapping[str, int] = field(default_factory=dict)
+    regions: Table = field(default_factory=dict)
     mineral_names: tuple[str, ...] = ()
 
 
@@ -174,11 +175,12 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
     grains = found.grains[tiling.origin].astype(np.int32)
     grains.setflags(write=False)
     made = _of_cells(tiling, rings, thickness, grains)
+    regions: Table = found.counts | {"source": found.source}
     if found.minerals is None:
-        return replace(made, grains=grains, regions=found.counts)
+        return replace(made, grains=grains, regions=regions)
     minerals = mineral_indices(found.minerals[grains], len(grains))
     spec = replace(made.spec, minerals=checksum(minerals))
-    return replace(made, grains=grains, minerals=minerals, spec=spec, regions=found.counts)
+    return replace(made, grains=grains, minerals=minerals, spec=spec, regions=regions)
 
 
 def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:
@@ -190,7 +192,7 @@ def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:
     oriented = ebsd.grains(found, phases=phases, **how)
     options |= {"pixel": found.sides, "minerals": oriented.minerals}
     made = from_labels(oriented.labels, thickness, options)
-    regions = oriented.counts | dict(made.regions)
+    regions = oriented.counts | made.regions
     if len(oriented.names) > 1:
         return replace(made, regions=regions, mineral_names=tuple(oriented.names))
     spec = replace(made.spec, minerals=None)  # all alike: a rock without minerals has them, too
@@ -210,7 +212,10 @@ def from_tess(path: Path, thickness: float, scale: float, short_edge: float) -> 
                 discs = np.column_stack((given.centres, radii))
                 _, cells = packed.tessellated(discs, outline, 0.0, drop_hidden=False)
                 if np.allclose(cells.cell_areas, given.areas, rtol=_ALIKE, atol=0.0):
-                    return from_discs(given.centres, radii, outline, thickness, short_edge, False)
+                    seeds = given.centres
+                    made = from_discs(seeds, radii, outline, thickness, short_edge, False)
+                    source = of_grains(cells, np.arange(cells.cells), None, ())
+                    return replace(made, regions={"source": source})
     return from_polygons(given.polygons, thickness, holes=True)
 
 

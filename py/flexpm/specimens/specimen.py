@@ -58,8 +58,8 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
         joints: Lines of each joint as they were asked for, by its name [m].
         joint_cuts: What came of the lines of each joint, by its name.
-        regions: How many regions and pixels of an image went another way, by what happened; not
-            saved.
+        regions: How many regions and pixels of an image went another way, by what happened, and
+            figures of the ``source`` itself; not saved.
         mineral_names: Phases of a map of orientations that are its minerals, in their order; not
             saved.
         grains: Per cell the grain before it was cut, by joints or to be meshed; None: each is one.
@@ -78,7 +78,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     strengths: FloatArray | None = None
     joints: Lines = field(default_factory=dict)
     joint_cuts: dict[str, Cut] = field(default_factory=dict)
-    regions: dict[str, int] = field(default_factory=dict)
+    regions: Table = field(default_factory=dict)
     mineral_names: tuple[str, ...] = ()
 
     @classmethod
@@ -92,7 +92,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             holes=made.holes,
             grains=made.grains,
             minerals=made.minerals,
-            regions=dict(made.regions),
+            regions=made.regions,
             mineral_names=made.mineral_names,
         )
 

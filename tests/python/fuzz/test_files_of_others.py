@@ -29,6 +29,7 @@ FEATURES = [
     for kind, to in (("LineString", LINES), ("MultiLineString", [LINES, LINES]), ("Point", [0, 0]))
 ]
 CRS = {"type": "name", "properties": {"name": "EPSG:25832"}}
+MAP = {"type": "FeatureCollection", "crs": CRS, "features": FEATURES}
 GOOD = {
     "a.tess": tess_text(CORNERS, [[0, 4, 5, 3], [4, 1, 2, 5]], [(0.25, 0.5, 0), (0.75, 0.5, 0)]),
     "a.tesr": tesr_text(PHASE),

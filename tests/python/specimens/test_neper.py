@@ -93,9 +93,9 @@ def test_short_edges_are_collapsed_and_the_specimen_runs(tmp_path):
 def test_ten_thousand_cells_are_read_within_ten_seconds(tmp_path):
     source, seeds = laguerre(10_000, 6)
     (tmp_path / "a.tess").write_text(tess_of(source, seeds, version="2.0"))
-    start = time.perf_counter()
+    start = time.process_time()
     Specimen.from_tess(tmp_path / "a.tess", 0.01, scale=0.3, short_edge=0.0)
-    assert time.perf_counter() - start < 10.0
+    assert time.process_time() - start < 10.0
     require_as_the_file(tmp_path / "a.tess", 0.3)
 
 
@@ -158,4 +158,5 @@ def test_the_command_writes_figures_and_the_specimen(tmp_path):
     assert cli.main(["specimen", "tess", *given, "--quiet"]) == 0
     found = json.loads((tmp_path / "out/specimen.json").read_text())
     assert found["grains"] == 60 and "image" not in found
+    assert found["source"]["shortest_edge"] < found["shortest_edge"]
     assert Specimen.load(tmp_path / "out/grains.json").spec.cells is None

@@ -12,11 +12,13 @@ import numpy.typing as npt
 
 from ...arrays import BoolArray, FloatArray, IntArray
 from ...errors import InputError
+from ...files import Table
 from ...require import Bounds, require_number, require_whole
 from ..checks import require_length
 from . import regions
 from .chains import Network
 from .loops import divided
+from .measures import of_image
 from .smoothing import smooth
 
 _WHERE = "Specimen.from_labels"
@@ -44,6 +46,7 @@ class Division:
         edge: Spacing of corners [m].
         has_holes: Whether pixels are of no grain.
         counts: How many regions and pixels went another way, by what happened.
+        source: Figures of the regions of the image itself, see ``measures.of_image``.
     """
 
     polygons: list[FloatArray]
@@ -54,6 +57,7 @@ class Division:
     edge: float
     has_holes: bool
     counts: dict[str, int]
+    source: Table
 
 
 def divide(
@@ -84,7 +88,8 @@ def divide(
     size = math.sqrt(sides[0] * sides[1])
     require_whole(f"{_WHERE}: smallest", smallest, Bounds(at_least=1, at_most=MOST_PIXELS))
     kinds = None if minerals is None else _minerals(minerals, image)
-    found = regions.find(image, _holes(image, kinds), smallest, _phases(kinds))
+    holes = _holes(image, kinds)
+    found = regions.find(image, holes, smallest, _phases(kinds))
     if found.number > MOST_GRAINS:
         raise InputError(
             f"{_WHERE}: grains = {found.number}, must be <= {MOST_GRAINS}; raise smallest or cut "
@@ -110,6 +115,7 @@ def divide(
         spacing * size,
         bool((found.image < 0).any()),
         found.counts,
+        of_image(image, holes, kinds, np.array(sides)),
     )
 
 

@@ -151,12 +151,13 @@ class MapText:
         """
         if len(x) < 4:
             raise self.refused(f"points = {len(x)}, must be >= 4; give a whole map")
-        down = (y - y.min()) / (1e6 * steps[1])
+        most = 2.0 * MOST_PIXELS  # beyond it no grid is filled; larger numbers are not whole ones
+        down = np.minimum((y - y.min()) / (1e6 * steps[1]), most)
         rows = np.rint(down).astype(int)
-        along = (x - x.min()) / (1e6 * steps[0]) - shift[rows % 2]
+        along = np.minimum((x - x.min()) / (1e6 * steps[0]), most) - shift[rows % 2]
         columns = np.rint(along).astype(int)
         wrong = (np.abs(down - rows) > _ON_GRID) | (np.abs(along - columns) > _ON_GRID)
-        wrong |= columns < 0
+        wrong |= (columns < 0) | (columns > MOST_PIXELS) | (rows > MOST_PIXELS)
         if wrong.any():
             point = int(np.flatnonzero(wrong)[0])
             raise self.refused(
