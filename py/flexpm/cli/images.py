@@ -167,6 +167,7 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     """Print the figures of the grains and write them with the specimen and its picture."""
     import numpy as np
 
+    from ..laboratory.forecast import forecast
     from ..report import maps
     from ..specimens.labels.measures import named, of_grains
 
@@ -191,6 +192,14 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
         for label, value in _rows(found)
     ]
     terminal.say(tables.table(rows))
+    expected = forecast(made)
+    if expected is not None:
+        steps, seconds = expected
+        test = "compression" if made.kind == "rectangle" else "splitting"
+        terminal.say(
+            f"  its {test} with the default material: about {steps} steps, "
+            f"{terminal.duration(seconds)}"
+        )
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)

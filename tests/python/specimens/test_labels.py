@@ -6,6 +6,8 @@ from __future__ import annotations
 import json
 import math
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -309,6 +311,13 @@ def test_the_command_reads_colours_and_tells_figures(tmp_path, capsys):
     assert "in this order: quartz, mica" in told
     assert "area share, quartz" in told and " source " in told
     assert found["source"]["area_share"] == pytest.approx(found["area_share"], abs=0.01)
+
+
+def test_an_image_is_read_before_yade_is_loaded():
+    """As the command does: what is wrong with it is told at once."""
+    code = "import sys, flexpm.specimens.labels.picture; assert 'yade' not in sys.modules"
+    environment = {**os.environ, "FLEXPM_DEFER": "1"}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True)
 
 
 def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):

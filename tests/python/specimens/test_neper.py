@@ -151,12 +151,15 @@ def test_rasters_that_are_none_in_the_plane_are_refused(tmp_path, capsys):
         assert len(lines) == 1 and words in lines[0], lines
 
 
-def test_the_command_writes_figures_and_the_specimen(tmp_path):
+def test_the_command_writes_figures_and_the_specimen(tmp_path, capsys):
     source, seeds = laguerre(60, 5)
     (tmp_path / "a.tess").write_text(tess_of(source, seeds))
     given = [str(tmp_path / "a.tess"), "--scale", "0.03", "--out", str(tmp_path / "out")]
     assert cli.main(["specimen", "tess", *given, "--quiet"]) == 0
     found = json.loads((tmp_path / "out/specimen.json").read_text())
     assert found["grains"] == 60 and "image" not in found
+    told = capsys.readouterr().out
+    steps = int(told.partition("with the default material: about ")[2].split()[0])
+    assert 1e3 < steps < 1e6
     assert found["source"]["shortest_edge"] < found["shortest_edge"]
     assert Specimen.load(tmp_path / "out/grains.json").spec.cells is None

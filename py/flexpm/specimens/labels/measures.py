@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._flexpm import Tessellation
 from ...arrays import BoolArray, FloatArray, IntArray
 from ...files import Table
 from .regions import connected
+
+if TYPE_CHECKING:  # an image is read before YADE is there
+    from ..._flexpm import Tessellation
 
 
 def of_grains(
