@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tutorial 10: a thin section of two minerals, and weak boundaries between them.
 
-Draws the labels of a section, as an image of grains has them, makes a specimen of it, and compresses
-it with boundaries of feldspar and quartz as the rule of mixing has them, and weaker.
+Draws the labels of a section, as an image of grains has them, makes a specimen of it, and
+compresses it with boundaries of feldspar and quartz as the rule of mixing has them, and weaker.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/thin_section.py [FOLDER]
 """
