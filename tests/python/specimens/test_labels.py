@@ -52,7 +52,8 @@ def drawn(seed, most=128, whole=False):
     """Images of six kinds: grains, islands, patches, checkerboards, noise and single pixels."""
     draw = np.random.default_rng(seed)
     size, kind = int(draw.integers(24, most)), seed % 6
-    size = most if whole else size
+    if whole:  # noise has as many grains as pixels, and takes minutes beyond 128
+        size = min(size, 128) if kind == 4 else most
     if kind == 0:
         return voronoi(size, int(draw.integers(3, 60)), seed)
     if kind == 1:
