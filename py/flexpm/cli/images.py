@@ -1,29 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Command that makes specimens of images: ``flexpm specimen image``. SI units."""
+"""Commands that make specimens of files of others: ``flexpm specimen image``, ``ebsd``, ``tess``.
+
+SI units.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..errors import InputError
 from ..files import Table, json_text, write_text
 from ..report import tables
-from ..require import POSITIVE
+from ..require import POSITIVE, Bounds
+from ..specimens.checks import SHORT_EDGE
 from ..specimens.spec import GRAINS_FILE
 from ..text import words_of
 from . import inputs, terminal
 from . import options as cli_options
 from .options import length_option
-from .parameters import Count, Quantity
+from .parameters import Count, Name, Quantity
 
 if TYPE_CHECKING:
     from ..specimens.specimen import Specimen
 
 _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
+
+_thickness = length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
+_edge = click.option(
+    "--edge",
+    type=Quantity("m", POSITIVE),
+    help="Way between corners of boundaries [m].  [default: a quarter of the mean diameter]",
+)
+_smallest = click.option(
+    "--smallest",
+    type=Count(1),
+    default=4,
+    show_default=True,
+    help="Regions with fewer pixels go to a neighbour.",
+)
 
 
 @click.command()
@@ -34,19 +52,9 @@ _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
     type=click.Path(path_type=Path),
     help="TOML file: label or colour = mineral, or hole.  [default: labels are of grains]",
 )
-@length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
-@click.option(
-    "--edge",
-    type=Quantity("m", POSITIVE),
-    help="Way between corners of boundaries [m].  [default: a quarter of the mean diameter]",
-)
-@click.option(
-    "--smallest",
-    type=Count(1),
-    default=4,
-    show_default=True,
-    help="Regions with fewer pixels go to a neighbour.",
-)
+@_thickness
+@_edge
+@_smallest
 @cli_options.out_option
 @cli_options.quiet_option
 def image(
@@ -59,10 +67,15 @@ def image(
     out: Path,
     quiet: bool,
 ) -> None:
-    """The grains of an image: PNG, TIFF or NPY, a label or a colour for each grain or phase."""
+    """The grains of an image: PNG, TIFF, NPY or a .tesr file of Neper.
+
+    Each label or colour is a grain, or with --phases a phase.
+    """
     from ..specimens.labels import picture
 
     read = picture.read(file)
+    if phases is None and read.has_voids:
+        raise InputError("image label = 0, is void in a tesr file; give phases with 0 = hole")
     names: list[str] = []
     minerals = None
     if phases is not None:
@@ -78,24 +91,115 @@ def image(
     _describe(made, folder, names)
 
 
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--scale",
+    type=Quantity("m", POSITIVE),
+    default=1.0,
+    show_default=True,
+    help="Length of the file's unit [m].",
+)
+@_thickness
+@click.option(
+    "--short-edge",
+    type=Quantity("", Bounds(at_least=0.0, below=0.5)),
+    default=SHORT_EDGE,
+    metavar="F",
+    help="Edges of Laguerre cells below this share of the mean diameter are collapsed; 0: none "
+    f"[-].  [default: {SHORT_EDGE:.3f}]",
+)
+@cli_options.out_option
+@cli_options.quiet_option
+def tess(
+    file: Path, scale: float, thickness: float, short_edge: float, out: Path, quiet: bool
+) -> None:
+    """The cells of a tessellation of Neper in the plane, a .tess file."""
+    folder = inputs.locked_folder(out)
+    with terminal.Progress(quiet):
+        inputs.load_yade()
+        from ..specimens.specimen import Specimen
+
+        made = Specimen.from_tess(file, thickness, scale=scale, short_edge=short_edge)
+    _describe(made, folder, ())
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--misorientation",
+    type=Quantity("degree", Bounds(above=0.0, at_most=180.0)),
+    default=10.0,
+    metavar="A",
+    show_default=True,
+    help="From which on two neighbours are two grains [degree].",
+)
+@click.option(
+    "--unindexed",
+    type=Name("fill", "hole"),
+    default="fill",
+    metavar="fill|hole",
+    show_default=True,
+    help="Points that were not indexed go to most of their neighbours, or are holes.",
+)
+@click.option(
+    "--phases",
+    type=click.Path(path_type=Path),
+    help="TOML file: phase of the map = mineral, or hole.  [default: each is a mineral]",
+)
+@_thickness
+@_edge
+@_smallest
+@cli_options.out_option
+@cli_options.quiet_option
+def ebsd(file: Path, thickness: float, out: Path, quiet: bool, **options: Any) -> None:
+    """The grains of a map of crystal orientations: .ctf, or .ang of a square or hexagonal grid."""
+    folder = inputs.locked_folder(out)
+    with terminal.Progress(quiet):
+        inputs.load_yade()
+        from ..specimens.specimen import Specimen
+
+        made = Specimen.from_ebsd(file, thickness, **options)
+    _describe(made, folder, made.mineral_names)
+
+
 def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     """Print the figures of the grains and write them with the specimen and its picture."""
-    from ..report import maps
-    from ..specimens.labels.measures import of_grains
+    import numpy as np
 
-    if made.grains is None:
-        raise InputError("specimen = no grains, must come of an image")
-    found = of_grains(made.tessellation, made.grains, made.minerals, names)
-    found |= {"cells": made.tessellation.cells, "contacts": len(made.tessellation.shared_edges)}
-    found["image"] = made.regions
-    write_text(folder / "specimen.json", json_text(found))
+    from ..laboratory.forecast import forecast
+    from ..report import maps
+    from ..specimens.labels.measures import named, of_grains
+
+    cells = made.tessellation
+    grains = np.arange(cells.cells) if made.grains is None else made.grains
+    found = of_grains(cells, grains, made.minerals, names)
+    found |= {"cells": cells.cells, "contacts": len(cells.shared_edges)}
+    source = named(made.regions.get("source", {}), names)
+    counts = {key: one for key, one in made.regions.items() if key != "source"}
+    if counts:
+        found["image"] = counts
+    write_text(folder / "specimen.json", json_text(found | {"source": source}))
     made.save(folder / GRAINS_FILE)
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     drawn = folder / "specimen.png"
-    polygons = maps.cell_polygons(made.tessellation)
-    kinds = made.grains if made.minerals is None else made.minerals
+    polygons = maps.cell_polygons(cells)
+    kinds = grains if made.minerals is None else made.minerals
     maps.grain_picture(drawn, polygons, kinds, names, caption)
-    terminal.say(tables.table(_rows(found)))
+    before = dict(_rows(source))
+    rows = [
+        (label, f"{value:14} source {before[label]}" if label in before else value)
+        for label, value in _rows(found)
+    ]
+    terminal.say(tables.table(rows))
+    expected = forecast(made)
+    if expected is not None:
+        steps, seconds = expected
+        test = "compression" if made.kind == "rectangle" else "splitting"
+        terminal.say(
+            f"  its {test} with the default material: about {steps} steps, "
+            f"{terminal.duration(seconds)}"
+        )
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)

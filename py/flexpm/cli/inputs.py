@@ -93,7 +93,16 @@ def source(test: str, options: Table) -> SpecimenSource:
 def _source(packed: SpecimenSpec | None, file: Path | None, options: Table) -> SpecimenSource:
     """A specimen with the lines that the options cut it by."""
     names = ("joints_file", "network_file", "network_seed")
-    return SpecimenSource.read(packed, file, *(options[name] for name in names))
+    found = SpecimenSource.read(
+        packed,
+        file,
+        *(options[name] for name in names),
+        joint_name=options["joint_name"],
+        joint_origin=options["joint_origin"],
+    )
+    for line in found.notes:
+        terminal.say(line)
+    return found
 
 
 def run_spec(test: str, options: Table, chosen: Material, specimen: SpecimenSource) -> RunSpec:

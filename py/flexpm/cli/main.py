@@ -113,6 +113,8 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 
 
 specimen.add_command(cli_images.image)
+specimen.add_command(cli_images.ebsd)
+specimen.add_command(cli_images.tess)
 specimen.add_command(cli_solids.box)
 specimen.add_command(cli_solids.cylinder)
 

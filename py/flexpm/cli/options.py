@@ -20,7 +20,7 @@ from ..runs.loading_rate import LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import RunSpec
 from ..specimens.spec import SIZES, SpecimenSpec
-from .parameters import Count, Name, Quantity, Range, Seeds
+from .parameters import Count, Name, Place, Quantity, Range, Seeds
 
 #: Adds an option to the function of a command.
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -163,12 +163,29 @@ specimen_option = click.option(
     metavar="FILE",
     help="Test a specimen of Specimen.save instead of packing one.",
 )
-joints_option = click.option(
-    "--joints",
-    "joints_file",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Cut the specimen along the segments of a CSV file x1,y1,x2,y2,name [m].",
+joints_option = combined(
+    click.option(
+        "--joints",
+        "joints_file",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Cut the specimen along the segments of a CSV file x1,y1,x2,y2,name [m], or the lines "
+        "of a map, a .geojson file [m].",
+    ),
+    click.option(
+        "--name",
+        "joint_name",
+        metavar="KEY",
+        help="Property of the map that names the joint of a line.  [default: name, if all have it]",
+    ),
+    click.option(
+        "--origin",
+        "joint_origin",
+        type=Place(),
+        metavar="X,Y",
+        help="Point of the map at the specimen's origin [m].  [default: lower left corner of the "
+        "lines]",
+    ),
 )
 network_options = combined(
     click.option(

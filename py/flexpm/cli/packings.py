@@ -28,6 +28,12 @@ def asked(options: Table) -> Sequence[int]:
         )
     if options["workers"] and not seeds:
         raise InputError(f"workers = {options['workers']}, must be given with seeds only")
+    for key in ("joint_name", "joint_origin"):
+        if seeds and options.get(key) is not None:
+            raise InputError(
+                f"{key.removeprefix('joint_')} = {options[key]}, must not be given with seeds; put "
+                "it into the map"
+            )
     return seeds
 
 

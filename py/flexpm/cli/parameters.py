@@ -52,6 +52,26 @@ class Range(click.ParamType):
         return low, high
 
 
+class Place(click.ParamType):
+    """A point X,Y."""
+
+    name = "place"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Return both coordinates, or raise InputError."""
+        if isinstance(value, tuple):
+            x, y = value
+            return x, y
+        parts = str(value).split(",")
+        if len(parts) != 2:
+            raise InputError(f"{label_of(param)} = {value} m, must read X,Y")
+        length = Quantity("m", ANY)
+        x, y = (length.convert(part.strip(), param, ctx) for part in parts)
+        return x, y
+
+
 class Count(click.ParamType):
     """A whole number of at least `at_least`."""
 

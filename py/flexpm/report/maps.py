@@ -365,7 +365,8 @@ def draw_scale_bar(axes: Axes) -> None:
     data = axes.dataLim
     quarter = data.width / 4.0
     decade = 10.0 ** math.floor(math.log10(quarter))
-    length = max(step for step in (1.0, 2.0, 5.0) if step * decade <= quarter) * decade
+    most = quarter * (1.0 + 1e-9)  # one that is a decade to round-off
+    length = max(step for step in (1.0, 2.0, 5.0) if step * decade <= most) * decade
     gap = 0.03 * max(data.width, data.height)
     ends, place = (data.x0, data.x0 + length), data.y0 - gap
     axes.plot(ends, (place, place), color="black", lw=2.0, solid_capstyle="butt")

@@ -88,6 +88,10 @@ class RigReadings(ABC):
         """Strain of the reference strength, at about which a brittle specimen fails [-]."""
         return self._schedule(Loading()).reference_strain
 
+    def likely_steps(self, loading: Loading) -> int:
+        """Steps that a test of these ends will probably take under a loading."""
+        return self._schedule(loading).likely_steps
+
     @property
     def stress(self) -> float:
         """Axial stress of the last row of the record [Pa]."""

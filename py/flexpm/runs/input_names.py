@@ -36,7 +36,7 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
 UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
 #: Units of inputs that have one.
 INPUT_UNITS = {
-    **dict.fromkeys((*_SIZES, "thickness", "diameters"), "m"),
+    **dict.fromkeys((*_SIZES, "thickness", "diameters", "joint_origin"), "m"),
     **{name: one.unit for name, of in options().items() for one in of.values() if one.unit},
     "confinement": "Pa",
     "gravity": "m/s2",

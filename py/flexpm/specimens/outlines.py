@@ -71,3 +71,9 @@ def kind_of(outline: FloatArray | Circle) -> tuple[str, dict[str, float]]:
         width, height = box[2] - box[0]
         return "rectangle", {"width": float(width), "height": float(height)}
     return "polygon", {}
+
+
+def area_of(ring: FloatArray) -> float:
+    """Area within corners, (n, 2) [m]; above zero if they go round counter-clockwise [m2]."""
+    x, y = (ring - ring[0]).T
+    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))

@@ -6,8 +6,10 @@ Grains are the Laguerre cells of packed discs, cells sawn out of a packing, or c
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import contextlib
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TypedDict, cast
 
 import numpy as np
@@ -18,9 +20,10 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
 from ..progress import Progress
-from ..require import require_flag
+from ..require import POSITIVE, require_flag, require_number
 from . import packed, packing
 from .checks import require_diameters, require_length, require_short_edge
+from .files import tess
 from .kernel_input import (
     Circle,
     call,
@@ -31,10 +34,14 @@ from .kernel_input import (
     mineral_indices,
     ring,
 )
+from .labels import ebsd
 from .labels.given import FILLS, divide
+from .labels.measures import of_grains
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
+#: Areas of cells of which the seeds may be Laguerre's differ by less [-].
+_ALIKE = 1e-7
 #: Corners of a polygon, rows x, y [m].
 Corners = Sequence[Sequence[float]] | FloatArray
 
@@ -76,7 +83,8 @@ class Filling:
     holes: tuple[FloatArray, ...] = ()
     grains: IntArray | None = None
     minerals: IntArray | None = None
-    regions: Mapping[str, int] = field(default_factory=dict)
+    regions: Table = field(default_factory=dict)
+    mineral_names: tuple[str, ...] = ()
 
 
 def packing_of(name: str, in_order: Sequence[object], named: Packing) -> Packing:
@@ -167,11 +175,48 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
     grains = found.grains[tiling.origin].astype(np.int32)
     grains.setflags(write=False)
     made = _of_cells(tiling, rings, thickness, grains)
+    regions: Table = found.counts | {"source": found.source}
     if found.minerals is None:
-        return replace(made, grains=grains, regions=found.counts)
+        return replace(made, grains=grains, regions=regions)
     minerals = mineral_indices(found.minerals[grains], len(grains))
     spec = replace(made.spec, minerals=checksum(minerals))
-    return replace(made, grains=grains, minerals=minerals, spec=spec, regions=found.counts)
+    return replace(made, grains=grains, minerals=minerals, spec=spec, regions=regions)
+
+
+def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:
+    """Fill an outline with the grains of a map of orientations, see `Specimen.from_ebsd`."""
+    found = ebsd.read(path)
+    given = options.pop("phases")
+    phases = None if given is None else ebsd.read_phases(Path(given), found)
+    how = {key: options.pop(key) for key in ("misorientation", "unindexed")}
+    oriented = ebsd.grains(found, phases=phases, **how)
+    options |= {"pixel": found.sides, "minerals": oriented.minerals}
+    made = from_labels(oriented.labels, thickness, options)
+    regions = oriented.counts | made.regions
+    if len(oriented.names) > 1:
+        return replace(made, regions=regions, mineral_names=tuple(oriented.names))
+    spec = replace(made.spec, minerals=None)  # all alike: a rock without minerals has them, too
+    return replace(made, minerals=None, spec=spec, regions=regions)
+
+
+def from_tess(path: Path, thickness: float, scale: float, short_edge: float) -> Filling:
+    """Fill an outline with the cells of a tessellation of Neper, see `Specimen.from_tess`."""
+    where = "Specimen.from_tess"
+    require_length(where, "thickness", thickness)
+    require_short_edge(short_edge)
+    given = tess.read(path).scaled(require_number(f"{where}: scale", scale, POSITIVE, "m"))
+    outline = given.outline()
+    if given.centres is not None and outline is not None:
+        for radii in given.radii:
+            with contextlib.suppress(InputError):  # seeds outside, or hidden: of no such cells
+                discs = np.column_stack((given.centres, radii))
+                _, cells = packed.tessellated(discs, outline, 0.0, drop_hidden=False)
+                if np.allclose(cells.cell_areas, given.areas, rtol=_ALIKE, atol=0.0):
+                    seeds = given.centres
+                    made = from_discs(seeds, radii, outline, thickness, short_edge, False)
+                    source = of_grains(cells, np.arange(cells.cells), None, ())
+                    return replace(made, regions={"source": source})
+    return from_polygons(given.polygons, thickness, holes=True)
 
 
 def _of_cells(

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Self, Unpack
 
 import numpy.typing as npt
@@ -173,6 +174,70 @@ class PlaneShapes(ABC):
         """
         options = {"pixel": pixel, "minerals": minerals, "edge": edge, "smallest": smallest}
         return cls._of(plane.from_labels(labels, thickness, options))
+
+    @classmethod
+    def from_ebsd(
+        cls,
+        path: Path | str,
+        thickness: float,
+        *,
+        misorientation: float = 10.0,
+        unindexed: str = "fill",
+        phases: Path | str | None = None,
+        edge: float | None = None,
+        smallest: int = 4,
+    ) -> Self:
+        """Make a specimen of a map of crystal orientations, a ``.ctf`` or ``.ang`` file.
+
+        Neighbours of one phase hang together below a misorientation, the smallest one under the
+        symmetry of the phase's Laue group. The grains then go on as in ``from_labels``. A map of
+        one phase names no minerals.
+
+        Args:
+            path: The file; its steps are micrometres.
+            thickness: Out of plane [m].
+            misorientation: From which on two neighbours are two grains [degree].
+            unindexed: ``fill``: points that were not indexed go to most of their neighbours;
+                ``hole``: they are no rock.
+            phases: TOML file of ``"phase" = "mineral"``, or ``"hole"``; left out: each phase of
+                the file, in its order, is a mineral.
+            edge: As for ``from_labels`` [m].
+            smallest: As for ``from_labels``, points [-]; a point of a hexagonal grid counts twice.
+
+        Raises:
+            InputError: for a file that is no such map or is broken, with its line, and as
+                ``from_labels``.
+        """
+        options = {"misorientation": misorientation, "unindexed": unindexed, "phases": phases}
+        options |= {"edge": edge, "smallest": smallest}
+        return cls._of(plane.from_ebsd(Path(path), thickness, options))
+
+    @classmethod
+    def from_tess(
+        cls,
+        path: Path | str,
+        thickness: float,
+        *,
+        scale: float = 1.0,
+        short_edge: float = SHORT_EDGE,
+    ) -> Self:
+        """Make a specimen of the cells of a tessellation of Neper in the plane, a ``.tess`` file.
+
+        Where the cells are the Laguerre cells of the seeds in the file the seeds are the centres
+        (D76); others are given cells, as in ``from_polygons``.
+
+        Args:
+            path: The file, of format 2.0 or later.
+            thickness: Out of plane [m].
+            scale: Length of the file's unit [m].
+            short_edge: Edges of Laguerre cells below this share of the mean diameter are
+                collapsed [-]; 0: none.
+
+        Raises:
+            InputError: for a file that is none of cells in the plane or is broken, with its line,
+                and as ``from_polygons``.
+        """
+        return cls._of(plane.from_tess(Path(path), thickness, scale, short_edge))
 
     @classmethod
     def from_discs(

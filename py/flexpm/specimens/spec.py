@@ -63,6 +63,7 @@ class SpecimenSpec:
         minerals: Checksum of given minerals of the grains; None if there are none.
         networks: Fracture networks whose traces are among the joints, as tables that draw them
             again; None if there are none.
+        joint_origin: Point of a map of joints that lies at the specimen's origin [m]; None: none.
     """
 
     kind: str = "rectangle"
@@ -82,6 +83,7 @@ class SpecimenSpec:
     joint_names: tuple[str, ...] | None = None
     strengths: str | None = None
     networks: tuple[Table, ...] | None = None
+    joint_origin: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -95,6 +97,9 @@ class SpecimenSpec:
             self._set("joint_names", tuple(self.joint_names))
         if self.networks is not None:
             self._set("networks", tuple(self.networks))
+        if self.joint_origin is not None:
+            x, y = self.joint_origin
+            self._set("joint_origin", (x, y))
         if self.discs is None:
             self._check_packing(where)
         elif not (self.diameters is None and self.porosity is None and self.seed is None):
@@ -114,8 +119,8 @@ class SpecimenSpec:
         given = (self.discs, self.outline, self.minerals, self.cells, self.joints, self.strengths)
         return all(one is None for one in given)
 
-    def with_joints(self, lines: Lines) -> SpecimenSpec:
-        """The same specimen, cut by more joints.
+    def with_joints(self, lines: Lines, origin: tuple[float, float] | None = None) -> SpecimenSpec:
+        """The same specimen, cut by more joints, of a map if there is an origin.
 
         Raises:
             InputError: for a joint with the name of a set of a network, whose traces it would join.
@@ -131,6 +136,7 @@ class SpecimenSpec:
             self,
             joints=checksum(lines, self.joints),
             joint_names=tuple(dict.fromkeys(names)),
+            joint_origin=self.joint_origin if origin is None else origin,
         )
 
     def with_network(self, network: Table, lines: Lines) -> SpecimenSpec:

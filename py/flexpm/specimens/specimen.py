@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +14,10 @@ from .._flexpm import GrainMeshes, Tessellation, grain_meshes
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
+from ..joints import geojson
 from ..joints.bend import largest_bend
 from ..joints.cuts import Cut
-from ..joints.lines import Lines
+from ..joints.lines import Lines, Point
 from ..joints.lines import checked as checked_lines
 from ..joints.lines import read as read_lines
 from ..notebook import Shown
@@ -44,7 +44,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     """Bonded grains that fill an outline.
 
     Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
-    ``from_polygons``, ``from_labels`` or ``load``.
+    ``from_polygons``, ``from_labels``, ``from_ebsd``, ``from_tess`` or ``load``.
 
     Attributes:
         discs: Rows x, y, radius [m], one per grain: centre of its disc, or the point from which
@@ -58,7 +58,9 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
         joints: Lines of each joint as they were asked for, by its name [m].
         joint_cuts: What came of the lines of each joint, by its name.
-        regions: How many regions and pixels of an image went another way, by what happened; not
+        regions: How many regions and pixels of an image went another way, by what happened, and
+            figures of the ``source`` itself; not saved.
+        mineral_names: Phases of a map of orientations that are its minerals, in their order; not
             saved.
         grains: Per cell the grain before it was cut, by joints or to be meshed; None: each is one.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
@@ -76,7 +78,8 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
     strengths: FloatArray | None = None
     joints: Lines = field(default_factory=dict)
     joint_cuts: dict[str, Cut] = field(default_factory=dict)
-    regions: dict[str, int] = field(default_factory=dict)
+    regions: Table = field(default_factory=dict)
+    mineral_names: tuple[str, ...] = ()
 
     @classmethod
     def _of(cls, made: Filling) -> Specimen:
@@ -89,7 +92,8 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             holes=made.holes,
             grains=made.grains,
             minerals=made.minerals,
-            regions=dict(made.regions),
+            regions=made.regions,
+            mineral_names=made.mineral_names,
         )
 
     @classmethod
@@ -111,7 +115,11 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         specimen_file.write(Path(path), specimen_file.fields_of(vars(self)))
 
     def with_joints(
-        self, joints: Mapping[str, object], progress: Progress | None = None
+        self,
+        joints: Mapping[str, object],
+        progress: Progress | None = None,
+        *,
+        origin: Point | None = None,
     ) -> Specimen:
         """Return the specimen cut by joints, whose laws the material has (D35 to D37).
 
@@ -121,6 +129,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         Args:
             joints: By the name of the joint a line, rows x, y [m], or a list of lines.
             progress: Called with (lines done, lines, text).
+            origin: Point of their map at that of the specimen, to be told in results [m].
 
         Returns:
             Cells in their order, second parts of cut cells last.
@@ -135,7 +144,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
                 f"Specimen.with_joints: strengths = {len(self.strengths)}, belong to other "
                 "contacts; cut first, then give strengths"
             )
-        spec = self.spec.with_joints(lines)
+        spec = self.spec.with_joints(lines, origin)
         tiling, cuts = cut_cells(
             self.tessellation,
             self.discs,
@@ -144,13 +153,13 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             spec.joint_names or (),
             progress,
         )
-        origin, discs, edge_joints = tiling.origin, tiling.discs, tiling.edge_joints
-        minerals = None if self.minerals is None else self.minerals[origin]
-        grains = origin if self.grains is None else self.grains[origin]
+        cut, discs, edge_joints = tiling.origin, tiling.discs, tiling.edge_joints
+        minerals = None if self.minerals is None else self.minerals[cut]
+        grains = cut if self.grains is None else self.grains[cut]
         for array in (discs, edge_joints, grains, minerals):
             if array is not None:
                 array.setflags(write=False)
-        return dataclasses.replace(
+        return replace(
             self,
             discs=discs,
             tessellation=tiling.tessellation,
@@ -163,7 +172,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
                 for name in spec.joint_names or ()
             },
             joint_cuts=self.joint_cuts
-            | {name: cut.and_(self.joint_cuts.get(name)) for name, cut in cuts.items()},
+            | {name: one.and_(self.joint_cuts.get(name)) for name, one in cuts.items()},
         )
 
     def joints_from_csv(self, path: Path | str, progress: Progress | None = None) -> Specimen:
@@ -178,6 +187,24 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             InputError: if the file cannot be read or a row is no segment, and as ``with_joints``.
         """
         return self.with_joints(read_lines(Path(path)), progress)
+
+    def joints_from_geojson(
+        self, path: Path | str, *, name: str | None = None, origin: Point | None = None
+    ) -> Specimen:
+        """Return the specimen cut by the lines of a map, as ``--joints`` does.
+
+        Args:
+            path: GeoJSON in metres with LineString and MultiLineString; others are left out.
+            name: Property that names the joint of a line; left out: ``name``, if all have it.
+            origin: Point of the map at the origin of the specimen [m]; left out: the lower left
+                corner of the lines.
+
+        Raises:
+            InputError: for coordinates in degrees, a map that is broken or has no lines, and as
+                ``with_joints``.
+        """
+        found = geojson.read(Path(path), name, origin)
+        return self.with_joints(found.lines, origin=found.origin)
 
     def with_network(
         self,
@@ -209,7 +236,7 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         outline = vars(self.outline) if isinstance(self.outline, Circle) else self.outline
         lines = chosen.lines(self.spec.window(outline))
         spec = self.spec.with_network(chosen.to_json(), lines)
-        return dataclasses.replace(self.with_joints(lines, progress), spec=spec)
+        return replace(self.with_joints(lines, progress), spec=spec)
 
     def network_intensities(self) -> dict[str, dict[str, float]]:
         """P21 of each set of a network [1/m], as it was ``asked``, ``drawn`` and ``cut``.
@@ -217,16 +244,9 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
         Drawn is that of the traces in the specimen, of which a seed has more or less than it was
         asked for; cut is that of the contacts which they have made, with their bends (D35).
         """
-        area, found = float(np.sum(self.tessellation.cell_areas)), {}
         ends = dict(zip(self.spec.joint_names or (), self.joint_lines(), strict=True))
-        for name, asked in self.spec.asked_intensities:
-            lengths = [0.0, 0.0]  # of a set without a trace
-            if name in ends:
-                cut, way = self.joint_cuts[name], ends[name][:, 1] - ends[name][:, 0]
-                lengths = [cut.length - cut.outside, float(np.sum(np.hypot(way[:, 0], way[:, 1])))]
-            drawn, made = (length / area for length in lengths)
-            found[name] = {"asked": asked, "drawn": drawn, "cut": made}
-        return found
+        area, asked = float(np.sum(self.tessellation.cell_areas)), self.spec.asked_intensities
+        return statistics.of_networks(asked, ends, self.joint_cuts, area)
 
     def with_strengths(self, factors: Sequence[float] | FloatArray) -> Specimen:
         """Return the specimen with contacts of different strength (D38).
@@ -239,8 +259,8 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             InputError: if it is not one number above zero for each contact.
         """
         strengths = contact_strengths.checked(factors, len(self.tessellation.shared_edges))
-        spec = dataclasses.replace(self.spec, strengths=checksum(strengths))
-        return dataclasses.replace(self, strengths=strengths, spec=spec)
+        spec = replace(self.spec, strengths=checksum(strengths))
+        return replace(self, strengths=strengths, spec=spec)
 
     def with_weibull_strengths(self, modulus: float, seed: int = 1) -> Specimen:
         """Return the specimen with strengths that follow Weibull's distribution, of mean 1.
@@ -283,8 +303,8 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
             InputError: if it is not one index for each grain.
         """
         given = mineral_indices(minerals, len(self.discs))
-        spec = dataclasses.replace(self.spec, minerals=checksum(given))
-        return dataclasses.replace(self, minerals=given, spec=spec)
+        spec = replace(self.spec, minerals=checksum(given))
+        return replace(self, minerals=given, spec=spec)
 
     @property
     def kind(self) -> str:

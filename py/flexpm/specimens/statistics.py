@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from .._flexpm import GrainMeshes, Tessellation
 from ..arrays import FloatArray
+from ..joints.cuts import Cut
 
 #: Shares of the edges that are shorter than the lengths given [-].
 _SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
@@ -44,6 +46,31 @@ def of_meshes(refined: GrainMeshes, fan: GrainMeshes) -> dict[str, float | int]:
         "fan_fallbacks": int(refined.fallback.sum()),
         "moved_centres": int(refined.moved_centre.sum()),
     }
+
+
+def of_networks(
+    asked: Sequence[tuple[str, float]],
+    ends: Mapping[str, FloatArray],
+    cuts: Mapping[str, Cut],
+    area: float,
+) -> dict[str, dict[str, float]]:
+    """P21 of each set of traces [1/m], as it was asked, drawn and cut.
+
+    Args:
+        asked: Name and P21 of each set [1/m].
+        ends: Ends (n, 2, 2) of the contacts of each joint [m].
+        cuts: What came of the lines of each joint.
+        area: That of the specimen [m2].
+    """
+    found = {}
+    for name, intensity in asked:
+        lengths = [0.0, 0.0]  # of a set without a trace
+        if name in ends:
+            cut, way = cuts[name], ends[name][:, 1] - ends[name][:, 0]
+            lengths = [cut.length - cut.outside, float(np.sum(np.hypot(way[:, 0], way[:, 1])))]
+        drawn, made = (length / area for length in lengths)
+        found[name] = {"asked": intensity, "drawn": drawn, "cut": made}
+    return found
 
 
 def _edge_lengths(cells: Tessellation) -> FloatArray:

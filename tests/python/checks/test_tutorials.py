@@ -42,6 +42,18 @@ def test_two_minerals(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_thin_section(package_parent, tmp_path):
+    text = printed("thin_section.py", package_parent, str(tmp_path))
+    made, drawn = map(float, re.search(r"quartz ([\d.]+) mm2 of ([\d.]+)", text).groups())
+    assert made == pytest.approx(drawn, rel=0.005)
+    mixed, weak = map(float, re.findall(r"strength (\d+) MPa", text))
+    assert weak < 0.95 * mixed
+    first, second = map(int, re.findall(r"feldspar/quartz +(\d+) points", text))
+    assert second > first
+    assert (tmp_path / "weak" / "cracks.png").stat().st_size > 10000
+
+
+@pytest.mark.long
 def test_first_test(package_parent, tmp_path):
     text = printed("first_test.py", package_parent, str(tmp_path))
     solved, tested = map(float, re.findall(r"E = ([\d.]+) GPa", text))

@@ -42,6 +42,7 @@ COMMANDS = st.sampled_from(
         *(("run", test) for test in ("bending", "scb", "shear", "punch", "sonic")),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
+        *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
     ]

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...errors import InputError
+from ...joints import geojson
 from ...joints import lines as joint_lines
 from ...progress import Progress
 from ..spec import SpecimenSpec
@@ -31,6 +32,8 @@ class SpecimenSource:
         lines: Lines of the joints, which were read once: their file may be a pipe; None: no joints.
         network: The network; None: none.
         traces: What was drawn of it.
+        origin: Point of a map of joints at the specimen's origin [m]; None: no map.
+        notes: What the reader of a map has to tell, a line each.
     """
 
     plain: SpecimenSpec
@@ -38,6 +41,8 @@ class SpecimenSource:
     lines: joint_lines.Lines | None = None
     network: Network | None = None
     traces: joint_lines.Lines = field(default_factory=dict)
+    origin: joint_lines.Point | None = None
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def read(
@@ -47,15 +52,20 @@ class SpecimenSource:
         joints: Path | None = None,
         network: Path | None = None,
         network_seed: int | None = None,
+        *,
+        joint_name: str | None = None,
+        joint_origin: joint_lines.Point | None = None,
     ) -> SpecimenSource:
         """Read what files there are.
 
         Args:
             packed: A packing, or None if there is a file of a specimen.
             file: The specimen's file.
-            joints: A CSV file of joints.
+            joints: A CSV file of joints, or a map of them as GeoJSON.
             network: A TOML file of a fracture network.
             network_seed: Counts before its own seed.
+            joint_name: Property of the map that names joints, see ``geojson.read``.
+            joint_origin: Point of the map at the specimen's origin [m], as there.
 
         Raises:
             InputError: for a file that cannot be read, or that holds something else, and for a
@@ -66,22 +76,36 @@ class SpecimenSource:
             content = specimen_file.read(file)
             packed, outline = specimen_file.spec_of(content), content["outline"]
         assert packed is not None
-        lines = None if joints is None else joint_lines.read(joints)
+        lines, origin = None, None
+        notes: tuple[str, ...] = ()
+        if joints is not None and joints.suffix.lower() in geojson.SUFFIXES:
+            found = geojson.read(joints, joint_name, joint_origin)
+            lines, origin, notes = found.lines, found.origin, found.notes
+        elif joint_name is not None or joint_origin is not None:
+            given = joint_name if joint_origin is None else joint_origin
+            raise InputError(
+                f"name or origin = {given}, must be given with a map of joints, a .geojson file"
+            )
+        elif joints is not None:
+            lines = joint_lines.read(joints)
         if network is None:
             if network_seed is not None:
                 raise InputError(
                     f"network_seed = {network_seed}, must be given with network only; leave it out"
                 )
-            return cls(packed, file, lines)
+            return cls(packed, file, lines, origin=origin, notes=notes)
         from ...joints.network import Network
 
         chosen = Network.read(network, network_seed)
-        return cls(packed, file, lines, chosen, chosen.lines(packed.window(outline)))
+        traces = chosen.lines(packed.window(outline))
+        return cls(packed, file, lines, chosen, traces, origin, notes)
 
     @property
     def spec(self) -> SpecimenSpec:
         """What the specimen is made from, joints included."""
-        spec = self.plain if self.lines is None else self.plain.with_joints(self.lines)
+        spec = self.plain
+        if self.lines is not None:
+            spec = spec.with_joints(self.lines, self.origin)
         if self.network is None:
             return spec
         return spec.with_network(self.network.to_json(), self.traces)
@@ -101,7 +125,7 @@ class SpecimenSource:
             Specimen.pack(self.plain, progress) if self.file is None else Specimen.load(self.file)
         )
         if self.lines is not None:
-            found = found.with_joints(self.lines, progress)
+            found = found.with_joints(self.lines, progress, origin=self.origin)
         if self.network is not None:
             found = found.with_network(self.network.to_json(), None, progress)
         return found

@@ -12,11 +12,13 @@ import numpy.typing as npt
 
 from ...arrays import BoolArray, FloatArray, IntArray
 from ...errors import InputError
+from ...files import Table
 from ...require import Bounds, require_number, require_whole
 from ..checks import require_length
 from . import regions
 from .chains import Network
 from .loops import divided
+from .measures import of_image
 from .smoothing import smooth
 
 _WHERE = "Specimen.from_labels"
@@ -44,6 +46,7 @@ class Division:
         edge: Spacing of corners [m].
         has_holes: Whether pixels are of no grain.
         counts: How many regions and pixels went another way, by what happened.
+        source: Figures of the regions of the image itself, see ``measures.of_image``.
     """
 
     polygons: list[FloatArray]
@@ -54,11 +57,12 @@ class Division:
     edge: float
     has_holes: bool
     counts: dict[str, int]
+    source: Table
 
 
 def divide(
     labels: npt.ArrayLike,
-    pixel: float,
+    pixel: float | tuple[float, float],
     *,
     minerals: Mapping[int, int | None] | None = None,
     edge: float | None = None,
@@ -70,7 +74,7 @@ def divide(
 
     Args:
         labels: As there.
-        pixel: As there [m].
+        pixel: As there, or width and height [m].
         minerals: As there.
         edge: As there [m].
         smallest: As there.
@@ -78,10 +82,14 @@ def divide(
         least_fill: Least part of its convex hull that a piece fills [-].
     """
     image: IntArray = np.ascontiguousarray(whole_labels(labels)[::-1])  # the lowest row first
-    require_length(_WHERE, "pixel", pixel)
+    sides = pixel if isinstance(pixel, tuple) else (pixel, pixel)
+    for side in sides:
+        require_length(_WHERE, "pixel", side)
+    size = math.sqrt(sides[0] * sides[1])
     require_whole(f"{_WHERE}: smallest", smallest, Bounds(at_least=1, at_most=MOST_PIXELS))
     kinds = None if minerals is None else _minerals(minerals, image)
-    found = regions.find(image, _holes(image, kinds), smallest, _phases(kinds))
+    holes = _holes(image, kinds)
+    found = regions.find(image, holes, smallest, _phases(kinds))
     if found.number > MOST_GRAINS:
         raise InputError(
             f"{_WHERE}: grains = {found.number}, must be <= {MOST_GRAINS}; raise smallest or cut "
@@ -92,21 +100,22 @@ def divide(
     asked = (
         None
         if edge is None
-        else require_number(f"{_WHERE}: edge", edge, Bounds(at_least=LEAST_EDGE * pixel), "m")
+        else require_number(f"{_WHERE}: edge", edge, Bounds(at_least=LEAST_EDGE * size), "m")
     )
     mean = float(np.mean(np.sqrt(4.0 / math.pi * sizes)))
-    spacing = max(LEAST_EDGE, _EDGE * mean) if asked is None else asked / pixel
+    spacing = max(LEAST_EDGE, _EDGE * mean) if asked is None else asked / size
     network = Network.of(pieces)
     lines = smooth(network, spacing) if smoothed else [one.raster for one in network.chains]
     return Division(
-        [pixel * polygon for polygon in network.polygons(lines)],
+        [np.array(sides) * polygon for polygon in network.polygons(lines)],
         grains,
         found.labels,
         sizes,
         None if kinds is None else np.array([kinds[v] for v in found.labels.tolist()], np.int32),
-        spacing * pixel,
+        spacing * size,
         bool((found.image < 0).any()),
         found.counts,
+        of_image(image, holes, kinds, np.array(sides)),
     )
 
 

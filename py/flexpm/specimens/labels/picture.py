@@ -15,6 +15,7 @@ from ...arrays import IntArray
 from ...errors import InputError
 from ...files import Table, load_toml
 from ...require import quoted, require_text
+from . import tesr
 from .given import MOST_PIXELS, whole_labels
 
 #: What a phase is called that is no rock.
@@ -28,6 +29,7 @@ class Picture:
 
     labels: IntArray
     has_colours: bool = False  #: whether a label is a colour, red * 65536 + green * 256 + blue
+    has_voids: bool = False  #: whether 0 stands for no rock
 
     def name_of(self, label: int) -> str:
         """A label as a file of phases has it."""
@@ -35,7 +37,7 @@ class Picture:
 
 
 def read(path: Path) -> Picture:
-    """Read labels from PNG, TIFF or NPY.
+    """Read labels from PNG, TIFF, NPY or TESR.
 
     A palette is read as its indices; a channel of opacity must be full.
 
@@ -45,6 +47,9 @@ def read(path: Path) -> Picture:
     """
     if path.suffix.lower() == ".npy":
         return _from_array(path)
+    if path.suffix.lower() == ".tesr":
+        labels = tesr.read(path)
+        return Picture(labels, has_voids=bool((labels == 0).any()))
     from PIL import Image
 
     try:
@@ -65,7 +70,7 @@ def read(path: Path) -> Picture:
         raise
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError(
-            f"image = {quoted(str(path))}, must be a PNG, TIFF or NPY file: {_short(error)}"
+            f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {_short(error)}"
         ) from None
 
 

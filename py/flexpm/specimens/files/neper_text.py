@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Words of Neper's text files, one after the other, with their place for messages."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...errors import InputError
+from ...files import read_text
+from ...require import quoted
+
+
+class Words:
+    """Words of a file that is made of ***, ** and * sections.
+
+    Args:
+        path: The file, at most 64 MB.
+        what: What it is, for messages.
+
+    Raises:
+        InputError: if it cannot be read.
+    """
+
+    def __init__(self, path: Path, what: str) -> None:
+        self._name = f"{what} = {quoted(str(path))}"
+        try:
+            text = read_text(path)
+        except OSError as error:
+            raise InputError(
+                f"{self._name}, cannot be read ({error.strerror}); give a file of Neper"
+            ) from None
+        except ValueError as error:
+            raise InputError(f"{self._name}, is no text of Neper: {error}") from None
+        self._words = _words(text)
+        self._line, self._next = 1, ""
+        self._go_on()
+
+    def refused(self, why: str) -> InputError:
+        """The error of the word that comes next."""
+        return InputError(f"{self._name}, line {self._line}: {why}")
+
+    @property
+    def section(self) -> str:
+        """The mark that comes next, such as ``**cell``; empty for another word."""
+        return self._next if self._next.startswith("*") else ""
+
+    def word(self, what: str) -> str:
+        """The next word, which is none of a mark."""
+        found = self._next
+        if not found or found.startswith("*"):
+            shown = quoted(found) if found else "end of the file"
+            raise self.refused(f"{what} = {shown}, must be a value; complete it")
+        self._go_on()
+        return found
+
+    def number(self, what: str) -> float:
+        """The next word as a finite number."""
+        try:
+            value = float(self._next)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise self.refused(f"{what} = {quoted(self._next)}, must be a number; correct it")
+        self._go_on()
+        return value
+
+    def whole(self, what: str, least: int, most: int) -> int:
+        """The next word as a whole number."""
+        try:
+            value = int(self._next)
+        except ValueError:
+            value = least - 1
+        if not least <= value <= most:
+            raise self.refused(
+                f"{what} = {quoted(self._next)}, must be a whole number from {least} to {most}"
+            )
+        self._go_on()
+        return value
+
+    def expect(self, mark: str) -> None:
+        """Pass a mark, which must come next."""
+        if self._next != mark:
+            raise self.refused(f"section = {quoted(self._next)}, must be {mark}; complete the file")
+        self._go_on()
+
+    def skip_to(self, *marks: str) -> str:
+        """Pass all words up to one of some marks, and this; returns it."""
+        while self._next and self._next not in marks:
+            self._go_on()
+        found = self._next
+        if not found:
+            raise self.refused(f"section = end of the file, must be {' or '.join(marks)}")
+        self._go_on()
+        return found
+
+    def _go_on(self) -> None:
+        line, self._next = next(self._words, (0, ""))
+        self._line = line or self._line
+
+
+def _words(text: str) -> Iterator[tuple[int, str]]:
+    for number, line in enumerate(text.split("\n"), 1):
+        for word in line.split():
+            yield number, word

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tessellations of Neper, ``.tess`` in the plane. Lengths in the file's unit.
+
+The format is that of Neper's documentation, "Tessellation File".
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from ...arrays import FloatArray, IntArray
+from ...require import LENGTH, require_number
+from ..outlines import area_of
+from .neper_text import Words
+
+#: Most cells, and most vertices and edges of them.
+MOST_CELLS, _MOST = 100_000, 1_000_000
+#: Numbers that end a face: its equation, two states, a point.
+_AFTER_EDGES = 9
+#: Round-off of the files, of the size of the whole [-].
+_ROUNDED = 1e-9
+
+
+@dataclass(frozen=True)
+class PlaneTess:
+    """A tessellation in the plane.
+
+    Attributes:
+        vertices: Rows x, y.
+        cells: Vertices of each cell, in the order of their ring.
+        centres: Seeds of the cells, rows x, y; None if the file has none.
+        radii: Radii of discs about them whose Laguerre cells these may be.
+    """
+
+    vertices: FloatArray
+    cells: list[list[int]]
+    centres: FloatArray | None = None
+    radii: tuple[FloatArray, ...] = ()
+
+    @property
+    def polygons(self) -> list[FloatArray]:
+        """Corners of each cell."""
+        return [self.vertices[cell] for cell in self.cells]
+
+    @property
+    def areas(self) -> FloatArray:
+        """Area of each cell."""
+        here = np.concatenate(self.cells)
+        after = np.concatenate([[*cell[1:], cell[0]] for cell in self.cells])
+        starts = np.cumsum([0, *map(len, self.cells[:-1])])
+        (x, y), (next_x, next_y) = self.vertices[here].T, self.vertices[after].T
+        found: FloatArray = np.abs(0.5 * np.add.reduceat(x * next_y - next_x * y, starts))
+        return found
+
+    @property
+    def neighbours(self) -> IntArray:
+        """Cells that share an edge, rows of two, lower numbers first, in their order."""
+        owners: dict[tuple[int, int], list[int]] = {}
+        for number, cell in enumerate(self.cells):
+            for edge in _edges(cell):
+                owners.setdefault(edge, []).append(number)
+        pairs = {tuple(sorted(one)) for one in owners.values() if len(one) == 2}
+        return np.array(sorted(pairs), dtype=int).reshape(-1, 2)
+
+    def scaled(self, scale: float) -> PlaneTess:
+        """The same with other lengths.
+
+        Raises:
+            InputError: for a size that no specimen has [m].
+        """
+        require_number(
+            "Specimen.from_tess: size",
+            scale * float(np.ptp(self.vertices, axis=0).max()),
+            LENGTH,
+            "m",
+        )
+        centres = None if self.centres is None else scale * self.centres
+        radii = tuple(scale * one for one in self.radii)
+        return PlaneTess(scale * self.vertices, self.cells, centres, radii)
+
+    def outline(self) -> FloatArray | None:
+        """Corners of the outline, counter-clockwise; None if it is not one convex ring."""
+        count: dict[tuple[int, int], int] = {}
+        for cell in self.cells:
+            for edge in _edges(cell):
+                count[edge] = count.get(edge, 0) + 1
+        after: dict[int, list[int]] = {}
+        for (a, b), often in count.items():
+            if often == 1:
+                after.setdefault(a, []).append(b)
+                after.setdefault(b, []).append(a)
+        if not after or any(len(ends) != 2 for ends in after.values()):
+            return None
+        start = min(after)
+        ring, here, before = [start], after[start][0], start
+        while here != start:
+            ring.append(here)
+            one, other = after[here]
+            here, before = other if one == before else one, here
+        if len(ring) != len(after):
+            return None
+        corners = self.vertices[ring]
+        if area_of(corners) < 0.0:
+            corners = corners[::-1]
+        way = np.roll(corners, -1, axis=0) - corners
+        come = np.roll(way, 1, axis=0)
+        turn = come[:, 0] * way[:, 1] - come[:, 1] * way[:, 0]
+        least = _ROUNDED * float(np.ptp(corners, axis=0).max())
+        straight = np.abs(turn) <= least * np.maximum(np.hypot(*come.T), np.hypot(*way.T))
+        if (turn[~straight] < 0.0).any():
+            return None
+        return np.ascontiguousarray(corners[~straight])
+
+
+def _edges(cell: list[int]) -> list[tuple[int, int]]:
+    return [(min(e), max(e)) for e in itertools.pairwise([*cell, cell[0]])]
+
+
+def read(path: Path) -> PlaneTess:
+    """Read a tessellation.
+
+    Raises:
+        InputError: for a file that cannot be read, is none in the plane, or is broken: with its
+            line.
+    """
+    words = Words(path, "tess")
+    if words.section == "***tesr":
+        raise words.refused("section = ***tesr, must be ***tess; flexpm specimen image reads it")
+    words.expect("***tess")
+    words.expect("**format")
+    version = words.word("format")
+    if not version.split(".")[0].isdigit() or version.startswith(("0.", "1.")):
+        raise words.refused(f"format = {version}, must be 2.0 or later; write it by a newer Neper")
+    words.expect("**general")
+    dimension = words.whole("dimension", 1, 3)
+    if dimension != 2:
+        raise words.refused(
+            f"dimension = {dimension}, must be 2: cells in space are not read; cut them by Neper"
+        )
+    words.skip_to("**cell")
+    number = words.whole("cells", 2, MOST_CELLS)
+    seeds = None
+    while (mark := words.skip_to("*seed", "**vertex")) == "*seed":
+        seeds = _seeds(words, number)
+    assert mark
+    vertices = _vertices(words)
+    words.expect("**edge")
+    for edge in range(1, words.whole("edges", 3, _MOST) + 1):
+        words.whole(f"edge {edge}: number", edge, edge)
+        for _ in range(2):
+            words.whole(f"edge {edge}: vertex", 1, len(vertices))
+        words.number(f"edge {edge}: state")
+    words.expect("**face")
+    words.whole("faces", number, number)
+    cells = [_face(words, face, len(vertices)) for face in range(1, number + 1)]
+    words.skip_to("***end")
+    found = PlaneTess(vertices, cells)
+    if seeds is None:
+        return found
+    return replace(found, centres=seeds[:, :2].copy(), radii=_radii(seeds[:, 2], found.areas))
+
+
+def _radii(weights: FloatArray, areas: FloatArray) -> tuple[FloatArray, ...]:
+    """Radii of discs whose Laguerre cells those of the seeds may be.
+
+    Neper's weights are radii; files of others may hold their squares. Cells stay the same if all
+    squares grow alike, which they do until the discs have the area of the cells.
+    """
+    mean, found = float(areas.mean()) / np.pi, []
+    for squares in (weights * np.abs(weights), weights):
+        least = 0.05 * mean - float(squares.min())
+        found.append(np.sqrt(squares + max(mean - float(squares.mean()), least)))
+    return tuple(found[:1] if np.all(weights == weights[0]) else found)
+
+
+def _seeds(words: Words, number: int) -> FloatArray:
+    rows = np.empty((number, 3))
+    for seed in range(1, number + 1):
+        words.whole(f"seed {seed}: number", seed, seed)
+        x, y, _, weight = (words.number(f"seed {seed}: {key}") for key in ("x", "y", "z", "weight"))
+        rows[seed - 1] = x, y, weight
+    return rows
+
+
+def _vertices(words: Words) -> FloatArray:
+    number = words.whole("vertices", 3, _MOST)
+    rows = np.empty((number, 3))
+    for vertex in range(1, number + 1):
+        words.whole(f"vertex {vertex}: number", vertex, vertex)
+        for column, key in enumerate("xyz"):
+            rows[vertex - 1, column] = words.number(f"vertex {vertex}: {key}")
+        words.number(f"vertex {vertex}: state")
+    wide = np.ptp(rows, axis=0)
+    if not wide[2] <= _ROUNDED * wide[:2].max():
+        raise words.refused(f"vertices: z differs by {wide[2]:g}, must be one plane; project them")
+    return rows[:, :2].copy()
+
+
+def _face(words: Words, face: int, vertices: int) -> list[int]:
+    words.whole(f"face {face}: number", face, face)
+    corners = words.whole(f"face {face}: vertices", 3, vertices)
+    ring = [words.whole(f"face {face}: vertex", 1, vertices) - 1 for _ in range(corners)]
+    if len({*ring}) < corners:
+        raise words.refused(f"face {face}: a vertex is there twice, must be once; correct it")
+    words.whole(f"face {face}: edges", corners, corners)
+    for _ in range(corners):
+        words.whole(f"face {face}: edge", -_MOST, _MOST)
+    for _ in range(_AFTER_EDGES):
+        words.number(f"face {face}: equation, state or point")
+    return ring

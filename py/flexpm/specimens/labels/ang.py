@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of orientations as ``.ang`` files of TSL and EDAX, on square and hexagonal grids."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ...arrays import BoolArray, FloatArray, IntArray
+from . import laue
+from .orientation_map import MapText, OrientationMap, Phase
+
+#: Laue groups by the symmetry in these files, and the direction of a twofold axis.
+_GROUPS = {
+    **{"1": ("-1", ""), "2": ("2/m", "z"), "20": ("2/m", "y"), "200": ("2/m", "x")},
+    **{"22": ("mmm", ""), "4": ("4/m", ""), "42": ("4/mmm", ""), "3": ("-3", "")},
+    **{"32": ("-3m", "x"), "6": ("6/m", ""), "62": ("6/mmm", ""), "23": ("m-3", "")},
+    "43": ("m-3m", ""),
+}
+#: Columns: phi1, Phi, phi2, x, y, image quality, confidence, phase.
+_COLUMNS = (0, 1, 2, 3, 4, 6, 7)
+#: Angles of points that were not indexed are 4 pi.
+_NO_ANGLE = 4.0 * math.pi - 1e-3
+
+
+def read(path: Path) -> OrientationMap:
+    """Read a map; its frame of a crystal has x along a, y along b*.
+
+    Points of negative confidence, or with angles of 4 pi, are not indexed.
+
+    Raises:
+        InputError: for a file that is none, or broken: with its line.
+    """
+    text = MapText(path)
+    head: dict[str, tuple[str, int]] = {}
+    phases: dict[int, Phase] = {}
+    name, number, first = "", 0, 0
+    for first, row in enumerate(text.lines):  # the line after the head
+        if not row.startswith("#"):
+            break
+        key, _, value = (row[1:].replace(":", " ").strip() + " ").partition(" ")
+        value = value.strip()
+        if key == "Phase":
+            number, name = int(text.number("Phase", value, first)), f"phase {value}"
+        elif key == "MaterialName" and value:
+            name = value
+        elif key == "Symmetry":
+            group = _GROUPS.get(value)
+            if group is None:
+                known = ", ".join(_GROUPS)
+                raise text.refused(f"Symmetry = {value}, must be one of {known}", first)
+            phases[number] = Phase(name, laue.rotations(*group))
+        elif key in ("GRID", "XSTEP", "YSTEP"):
+            head.setdefault(key, (value, first))
+    for key in ("GRID", "XSTEP", "YSTEP"):
+        if key not in head:
+            raise text.refused(f"{key} is missing, must be in the head; complete it")
+    if not phases:
+        raise text.refused("Symmetry is missing, must be there for each phase; complete the head")
+    kind, line = head["GRID"]
+    if kind not in ("SqrGrid", "HexGrid"):
+        raise text.refused(f"GRID = {kind}, must be SqrGrid or HexGrid", line)
+    steps = (text.step("XSTEP", *head["XSTEP"]), text.step("YSTEP", *head["YSTEP"]))
+    values = text.table(first, _COLUMNS)
+    indexed = (values[:, 5] >= 0.0) & (np.abs(values[:, :3]) < _NO_ANGLE).all(axis=1)
+    phase = _indices(text, values[:, 6], indexed, list(phases))
+    raster, sides = _raster(text, values[:, 3], values[:, 4], steps, kind == "HexGrid")
+    turned = laue.orientations(np.where(indexed[:, None], values[:, :3], 0.0), degrees=False)
+    return OrientationMap.of(list(phases.values()), phase, turned, raster, sides)
+
+
+def _indices(text: MapText, phase: FloatArray, indexed: BoolArray, numbers: list[int]) -> IntArray:
+    """Index of the phase of each point; a file of one phase may number it 0."""
+    found = np.full(len(phase), -1)
+    for index, number in enumerate(numbers):
+        found[phase == number] = index
+    if len(numbers) == 1:
+        found[phase == 0] = 0
+    wrong = np.flatnonzero((found < 0) & indexed)
+    if len(wrong):
+        raise text.refused(
+            f"point {wrong[0] + 1}: phase = {phase[wrong[0]]:g}, must be one of "
+            f"{', '.join(map(str, numbers))}, as in the head"
+        )
+    return np.where(indexed, found, -1)
+
+
+def _raster(
+    text: MapText, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
+) -> tuple[IntArray, tuple[float, float]]:
+    """Point of each pixel, -1 where there is none, and the sides of a pixel [m].
+
+    A point of a hexagonal grid has two pixels beside each other, so that each second row lies half
+    a step aside, and has its six neighbours. What is left at both ends goes to the last point.
+    """
+    if not hexagonal:
+        columns, rows = text.places(x, y, steps, np.zeros(2))
+        raster = np.full((rows.max() + 1, columns.max() + 1), -1)
+        raster[rows, columns] = np.arange(len(x))
+        return raster, steps
+    near = np.abs(y - y.min()) < 0.5e6 * steps[1]
+    late = near.any() and x[near].min() - x.min() > 0.25e6 * steps[0]
+    shift = np.array([0.5, 0.0]) if late else np.array([0.0, 0.5])
+    columns, rows = text.places(x, y, steps, shift)
+    places = 2 * columns + (rows % 2 == (0 if late else 1))
+    raster = np.full((rows.max() + 1, places.max() + 2), -1)
+    for beside in (0, 1):
+        raster[rows, places + beside] = np.arange(len(x))
+    for end, inner in ((0, 1), (-1, -2)):
+        raster[:, end] = np.where(raster[:, end] < 0, raster[:, inner], raster[:, end])
+    return raster, (0.5 * steps[0], steps[1])

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of orientations as Channel Text Files, ``.ctf``, of HKL and Oxford Instruments."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from . import laue
+from .orientation_map import MapText, OrientationMap, Phase
+
+#: Laue groups by their number in these files, from 1.
+_GROUPS = ("-1", "2/m", "mmm", "4/m", "4/mmm", "-3", "-3m", "6/m", "6/mmm", "m-3", "m-3m")
+_COLUMNS = ("Phase", "X", "Y", "Euler1", "Euler2", "Euler3")
+_MOST_PHASES = 100
+
+
+def read(path: Path) -> OrientationMap:
+    """Read a map; its frame of a crystal has x along a*, y along b.
+
+    Raises:
+        InputError: for a file that is none, or broken: with its line.
+    """
+    text = MapText(path)
+    lines = text.lines
+    if not lines or not lines[0].lstrip("\ufeff").startswith("Channel Text File"):
+        raise text.refused("must begin with Channel Text File; give a .ctf file", 0)
+    found: dict[str, tuple[str, int]] = {}
+    for line, row in enumerate(lines):
+        cells = row.split("\t")
+        if len(cells) > 1:
+            found.setdefault(cells[0].strip(), (cells[1].strip(), line))
+        if cells[0].strip() == "Phases":
+            break
+    for key in ("XStep", "YStep", "Phases"):
+        if key not in found:
+            raise text.refused(f"{key} is missing, must be in the head; complete it")
+    steps = (text.step("XStep", *found["XStep"]), text.step("YStep", *found["YStep"]))
+    count, first = found["Phases"]
+    number = int(text.number("Phases", count, first))
+    if not 1 <= number <= _MOST_PHASES:
+        raise text.refused(f"Phases = {number}, must be 1 to {_MOST_PHASES}; correct it", first)
+    phases = [_phase(text, line) for line in range(first + 1, first + 1 + number)]
+    head = first + 1 + number
+    names = lines[head].split() if head < len(lines) else []
+    missing = [name for name in _COLUMNS if name not in names]
+    if missing:
+        raise text.refused(f"columns: {', '.join(missing)} missing, must be there", head)
+    values = text.table(head + 1, [names.index(name) for name in _COLUMNS])
+    phase, x, y = values[:, :3].T
+    if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
+        wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
+        raise text.refused(f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}")
+    columns, rows = text.places(x, y, steps, np.zeros(2))
+    raster = np.full((rows.max() + 1, columns.max() + 1), -1)
+    raster[rows, columns] = np.arange(len(x))
+    turned = laue.orientations(values[:, 3:], degrees=True)
+    return OrientationMap.of(phases, phase.astype(int) - 1, turned, raster, steps)
+
+
+def _phase(text: MapText, line: int) -> Phase:
+    """A phase: lattice, angles, name, number of its Laue group, separated by tabulators."""
+    cells = text.lines[line].split("\t") if line < len(text.lines) else []
+    if len(cells) < 4 or not cells[2].strip():
+        raise text.refused("phase: must be lattice, angles, name and Laue group; complete it", line)
+    number = text.number("Laue group", cells[3], line)
+    if number not in range(1, len(_GROUPS) + 1):
+        raise text.refused(f"Laue group = {number:g}, must be 1 to {len(_GROUPS)}", line)
+    return Phase(cells[2].strip(), laue.rotations(_GROUPS[int(number) - 1], "y"))

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tutorial 11: a thin section of two minerals, and weak boundaries between them.
+
+Draws the labels of a section, as an image of grains has them, makes a specimen of it, and
+compresses it with boundaries of feldspar and quartz as the rule of mixing has them, and weaker.
+
+    PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/thin_section.py [FOLDER]
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+import flexpm
+
+FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else "thin-section")
+
+# 1. Labels: each pixel has the number of its grain, every third grain is quartz. A real section is
+#    a PNG file: flexpm specimen image FILE --pixel 2e-4 --phases FILE.
+draw = np.random.default_rng(1)
+rows, columns = np.mgrid[:200, :100]
+places = draw.random((110, 2)) * (200, 100)
+labels = cKDTree(places).query(np.column_stack((rows.ravel(), columns.ravel())))[1]
+labels = labels.reshape(rows.shape)
+minerals = {grain: int(grain % 3 == 0) for grain in range(len(places))}
+
+# 2. The specimen: boundaries are smoothed, the grains keep the areas of their pixels.
+specimen = flexpm.Specimen.from_labels(
+    labels, pixel=2e-4, thickness=0.08, minerals=minerals, edge=2e-3
+)
+quartz = specimen.tessellation.cell_areas[specimen.minerals == 1].sum()
+drawn = np.count_nonzero(labels % 3 == 0) * 2e-4**2
+print(
+    f"{specimen.grains.max() + 1} grains, quartz {1e6 * quartz:.2f} mm2 of {1e6 * drawn:.2f} drawn"
+)
+
+# 3. The rock, and the same with weak boundaries between its minerals.
+rock = flexpm.materials.load(Path(__file__).with_name("two_minerals.toml"))
+pair = "interface.feldspar/quartz"
+weak = rock.with_set([f"{pair}.cohesion=10e6", f"{pair}.tensile_strength=3e6"])
+
+# 4. Both in compression, until a little past their peaks.
+for name, material in (("as mixed", rock), ("weak", weak)):
+    folder = FOLDER / name.replace(" ", "-")
+    result = flexpm.run("uniaxial", specimen, material=material, stop_ratio=0.8, out=folder)
+    print(f"{name:9} strength {result.peak_stress / 1e6:.0f} MPa")
+    for two, modes in result.cracks_by_pair.items():
+        print(f"          {two:19} {sum(modes.values())} points cracked")
+print(f"files: {FOLDER}/")

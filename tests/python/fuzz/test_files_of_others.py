@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of other programs, whole and broken at random: an answer or one line."""
+
+from __future__ import annotations
+
+import json
+import warnings
+
+import numpy as np
+import pytest
+from ebsd_files import ang_text, ctf_text
+from fuzz_child import examples
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from neper_files import tesr_text, tess_text
+
+from flexpm.errors import InputError
+from flexpm.joints import geojson
+from flexpm.specimens.labels import ebsd, tesr
+from flexpm.specimens.specimen import Specimen
+
+CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.0), (0.5, 1.0)]
+PHASE = np.array([[1, 1, 2], [1, 0, 2], [1, 2, 2]])
+ANGLES = 30.0 * np.arange(27.0).reshape(3, 3, 3)
+PHASES = [("a", "-3m"), ("b", "2/m")]
+LINES = [[0.0, 0.0], [1.0, 1.0], [2.0, 1.0]]
+FEATURES = [
+    {"type": "Feature", "properties": {"name": "a"}, "geometry": {"type": kind, "coordinates": to}}
+    for kind, to in (("LineString", LINES), ("MultiLineString", [LINES, LINES]), ("Point", [0, 0]))
+]
+CRS = {"type": "name", "properties": {"name": "EPSG:25832"}}
+MAP = {"type": "FeatureCollection", "crs": CRS, "features": FEATURES}
+GOOD = {
+    "a.tess": tess_text(CORNERS, [[0, 4, 5, 3], [4, 1, 2, 5]], [(0.25, 0.5, 0), (0.75, 0.5, 0)]),
+    "a.tesr": tesr_text(PHASE),
+    "a.ctf": ctf_text(PHASE, ANGLES, PHASES),
+    "a.ang": ang_text(PHASE, ANGLES, PHASES),
+    "h.ang": ang_text(PHASE, ANGLES, PHASES, (1.0, 0.866), hexagonal=True),
+    "a.geojson": json.dumps(
+        {"type": "FeatureCollection", "crs": CRS, "features": FEATURES}, indent=1
+    ),
+}
+READERS = {
+    "a.tess": lambda path: Specimen.from_tess(path, 0.01),
+    "a.tesr": tesr.read,
+    "a.ctf": lambda path: ebsd.grains(ebsd.read(path)),
+    "a.ang": lambda path: ebsd.grains(ebsd.read(path)),
+    "h.ang": lambda path: ebsd.grains(ebsd.read(path), unindexed="hole"),
+    "a.geojson": geojson.read,
+}
+WORDS = st.sampled_from(
+    [
+        *("0", "-1", "1e300", "-1e300", "nan", "inf", "1e-300", "99999999999999999999", "0.5", "2"),
+        *("", "a", "**vertex", "*seed", "***end", "#", "\x00", "\u00e9", "[]", "{}", '"', "null"),
+    ]
+)
+
+
+@st.composite
+def broken(draw):
+    """One of the files after a few changes: words, lines, ends, or bytes that are no text."""
+    name = draw(st.sampled_from(sorted(GOOD)))
+    lines = GOOD[name].split("\n")
+    for _ in range(draw(st.integers(0, 3))):
+        at = draw(st.integers(0, max(len(lines) - 1, 0)))
+        how = draw(st.sampled_from(["word", "word", "word", "drop", "twice", "cut"]))
+        if how == "word" and lines[at].split():
+            words = lines[at].split(" ")
+            words[draw(st.integers(0, len(words) - 1))] = draw(WORDS)
+            lines[at] = " ".join(words)
+        elif how == "drop" and len(lines) > 1:
+            del lines[at]
+        elif how == "twice":
+            lines.insert(at, lines[at])
+        elif how == "cut":
+            lines = lines[: at + 1]
+    text = "\n".join(lines).encode()
+    return name, text if draw(st.integers(0, 19)) else b"\xff" + text
+
+
+@given(broken())
+@settings(max_examples=examples(300), deadline=None, suppress_health_check=list(HealthCheck))
+def test_any_file_is_read_or_refused(tmp_path_factory, drawn):
+    name, content = drawn
+    path = tmp_path_factory.getbasetemp() / name
+    path.write_bytes(content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            READERS[name](path)
+        except InputError as error:
+            assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_whole_files_are_read(tmp_path, name):
+    (tmp_path / name).write_text(GOOD[name])
+    READERS[name](tmp_path / name)
+
+
+def test_files_that_are_too_large_are_not_read(tmp_path):
+    for name in GOOD:
+        with (tmp_path / name).open("wb") as file:
+            file.truncate(70_000_000)
+        with pytest.raises(InputError, match="larger than 64 MB"):
+            READERS[name](tmp_path / name)

@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps of orientations: misorientations of each Laue group, grids, points without a phase."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+
+import numpy as np
+import pytest
+from ebsd_files import ANG, CTF, ang_text, ctf_text
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.specimens.labels import ebsd, laue
+from flexpm.specimens.specimen import Specimen
+
+#: Turns about c that each group makes alike [degree], number of rotations, and what a turn of 60
+#: and one of 90 degrees about c, and of 180 about x, are at least.
+GROUPS = {
+    "-1": (1, 60.0, 90.0, 180.0),
+    "2/m": (2, 60.0, 90.0, 180.0),
+    "mmm": (4, 60.0, 90.0, 0.0),
+    "4/m": (4, 30.0, 0.0, 180.0),
+    "4/mmm": (8, 30.0, 0.0, 0.0),
+    "-3": (3, 60.0, 30.0, 180.0),
+    "-3m": (6, 60.0, 30.0, 0.0),
+    "6/m": (6, 0.0, 30.0, 180.0),
+    "6/mmm": (12, 0.0, 30.0, 0.0),
+    "m-3": (12, 60.0, 90.0, 0.0),
+    "m-3m": (24, 30.0, 0.0, 0.0),
+}
+
+
+def angle(name, axis, turn, two_fold="x"):
+    """Smallest angle of a turn about an axis of the crystal, seen from any orientation."""
+    first = Rotation.random(5, random_state=1)
+    second = first * Rotation.from_rotvec(math.radians(turn) * np.asarray(axis, dtype=float))
+    group = laue.rotations(name, two_fold)
+    return laue.misorientations(first.as_quat(), second.as_quat(), group)
+
+
+@pytest.mark.parametrize("name", GROUPS)
+def test_turns_that_a_group_makes_alike(name):
+    count, about_c, quarter, half = GROUPS[name]
+    assert len(laue.rotations(name)) == count
+    z, x = (0, 0, 1), (1, 0, 0)
+    if name == "2/m":  # its axis is b
+        assert angle(name, (0, 1, 0), 180, "y") == pytest.approx(0.0, abs=1e-5)
+        assert angle(name, z, 180, "y") == pytest.approx(180.0, abs=1e-5)
+    else:
+        assert angle(name, z, 60) == pytest.approx(about_c, abs=1e-5)
+        assert angle(name, z, 90) == pytest.approx(quarter, abs=1e-5)
+        assert angle(name, x, 180) == pytest.approx(half, abs=1e-5)
+    assert angle(name, (0.6, 0.0, 0.8), 7) == pytest.approx(7.0, abs=1e-5)
+    # the rotations are a group
+    all_of = Rotation.from_quat(laue.rotations(name))
+    for one, other in itertools.product(all_of, all_of):
+        turns = (all_of.inv() * (one * other)).magnitude()
+        assert turns.min() < 1e-6
+
+
+def test_the_largest_angle_between_cubes():
+    """Mackenzie's: 62.80 degrees about (1, 1, sqrt(2) - 1)."""
+    axis = np.array([1.0, 1.0, math.sqrt(2.0) - 1.0])
+    found = angle("m-3m", axis / np.linalg.norm(axis), 62.7994)
+    assert found == pytest.approx(62.7994, abs=1e-3)
+    one, other = (Rotation.random(5000, random_state=n).as_quat() for n in (1, 2))
+    most = laue.misorientations(one, other, laue.rotations("m-3m")).max()
+    assert 60.0 < most <= 62.8
+
+
+def test_twofold_axes_of_quartz_lie_along_its_edges():
+    """A half turn about a, and about what lies 60 degrees from it; not about a*."""
+    for axis, first in (("x", 0.0), ("y", 90.0)):
+        for more in (0.0, 60.0, 30.0):
+            turn = math.radians(first + more)
+            found = angle("-3m", (math.cos(turn), math.sin(turn), 0.0), 180.0, axis)
+            assert found == pytest.approx(60.0 if more == 30.0 else 0.0, abs=1e-5)
+
+
+def map_of(rows, columns, grains, seed, steps=(1.0, 1.0), hexagonal=False):
+    """Grains of random points, two phases, their orientations and noise of a degree."""
+    draw = np.random.default_rng(seed)
+    y, x = np.mgrid[:rows, :columns].astype(float)
+    if hexagonal:
+        x[1::2] += 0.5
+    at = np.column_stack((x.ravel() * steps[0], y.ravel() * steps[1]))
+    places = draw.random((grains, 2)) * (columns * steps[0], rows * steps[1])
+    number = cKDTree(places).query(at)[1].reshape(rows, columns)
+    mean = Rotation.random(grains, random_state=seed)
+    turned = mean[number.ravel()] * Rotation.from_rotvec(
+        np.radians(draw.normal(0.0, 0.5, (rows * columns, 3)))
+    )
+    angles = turned.as_euler("ZXZ", degrees=True).reshape(rows, columns, 3) % 360.0
+    return number, number % 2 + 1, angles
+
+
+PHASES = [("Quartz-new", "-3m"), ("Biotite", "2/m")]
+
+
+def of(path, **options):
+    return ebsd.grains(ebsd.read(path), **options)
+
+
+@pytest.mark.parametrize("kind", ["ctf", "ang", "hexagonal"])
+def test_grains_are_those_that_were_drawn(tmp_path, kind):
+    steps = (2.0, 3.0**0.5) if kind == "hexagonal" else (2.0, 1.5)
+    number, phase, angles = map_of(40, 50, 30, 3, steps, kind == "hexagonal")
+    if kind == "ctf":
+        (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, PHASES, steps))
+    else:
+        text = ang_text(phase, angles, PHASES, steps, kind == "hexagonal")
+        (tmp_path / "a.ang").write_text(text)
+    path = next(tmp_path.iterdir())
+    found = of(path)
+    assert found.counts["not_indexed"] == 0 and found.counts["missing"] == 0
+    raster = ebsd.read(path).raster
+    drawn = number.ravel()
+    if kind == "hexagonal":
+        late = np.arange(40) % 2 == 1
+        drawn = np.concatenate([row[: 50 - end] for row, end in zip(number, late, strict=True)])
+    drawn = drawn[raster]
+    # each label is one drawn grain, each drawn grain that hangs together one label
+    pairs = np.unique(np.stack((found.labels.ravel(), drawn.ravel())), axis=1)
+    assert len(np.unique(pairs[0])) == pairs.shape[1]
+    assert pairs.shape[1] <= len(np.unique(drawn)) + 2
+    assert found.names == ["Quartz-new", "Biotite"]
+    for label, of_drawn in pairs.T.tolist():
+        assert found.minerals[label] == of_drawn % 2
+    made = Specimen.from_ebsd(path, 0.01, smallest=1)
+    area = 40 * 50 * steps[0] * steps[1] * 1e-12
+    assert made.tessellation.cell_areas.sum() == pytest.approx(area, rel=1e-7)
+    first = np.bincount(made.minerals, made.tessellation.cell_areas)[0]
+    assert first == pytest.approx(area * (drawn % 2 == 0).mean(), rel=1e-6)
+
+
+@pytest.mark.parametrize("group", ["-3m", "6/mmm", "m-3m", "-1"])
+def test_a_boundary_is_one_from_the_misorientation_on(tmp_path, group):
+    """Two halves 9.9 and 10.1 degrees apart, one of them told by an angle of the symmetry."""
+    alike = {"-3m": 120.0, "6/mmm": 60.0, "m-3m": 90.0, "-1": 0.0}[group]
+    phase = np.ones((6, 8), dtype=int)
+    for turn, grains in ((9.9, 1), (10.1, 2)):
+        angles = np.tile([20.0, 30.0, 40.0], (6, 8, 1))
+        angles[:, 4:, 2] += turn + alike
+        (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, [("one", group)]))
+        (tmp_path / "a.ang").write_text(ang_text(phase, angles, [("one", group)]))
+        for end in ("ctf", "ang"):
+            found = of(tmp_path / f"a.{end}")
+            assert len(np.unique(found.labels)) == grains
+    found = of(tmp_path / "a.ctf", misorientation=12.0)
+    assert len(np.unique(found.labels)) == 1
+
+
+def test_points_without_a_phase_go_to_most_of_their_neighbours_or_are_holes(tmp_path):
+    _, phase, angles = map_of(20, 20, 2, 1)
+    phase[:] = 1
+    phase[:, 12:] = 2
+    angles[:] = 10.0
+    phase[5:9, 4:8] = 0
+    phase[14, 12] = 0  # three of four neighbours are of the second phase
+    lines = ctf_text(phase, angles, PHASES).splitlines()
+    del lines[-3]  # a point that is not there
+    (tmp_path / "a.ctf").write_text("\n".join(lines))
+    found = of(tmp_path / "a.ctf")
+    assert found.counts == {"points": 399, "not_indexed": 17, "missing": 1, "filled": 18}
+    assert np.array_equal(found.labels, np.where(np.arange(20) < 12, 0, 1) * np.ones((20, 1)))
+    holes = of(tmp_path / "a.ctf", unindexed="hole")
+    assert np.count_nonzero(holes.labels == -1) == 18 and "filled" not in holes.counts
+    made = Specimen.from_ebsd(tmp_path / "a.ctf", 0.01, unindexed="hole", smallest=2)
+    assert len(made.holes) == 1
+    assert made.regions["not_indexed"] == 17
+
+
+def test_the_command_names_minerals_in_the_order_of_the_file(tmp_path, capsys):
+    _, phase, angles = map_of(40, 40, 20, 2)
+    (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, PHASES).replace(".", ","))
+    (tmp_path / "phases.toml").write_text('"Quartz-new" = "quartz"\n"Biotite" = "hole"\n')
+    out = ["--out", str(tmp_path / "out"), "--quiet"]
+    assert cli.main(["specimen", "ebsd", str(tmp_path / "a.ctf"), *out]) == 0
+    told = capsys.readouterr().out
+    assert "in this order: Quartz-new, Biotite" in told
+    found = json.loads((tmp_path / "out/specimen.json").read_text())
+    assert found["image"]["points"] == 1600
+    given = [str(tmp_path / "a.ctf"), "--phases", str(tmp_path / "phases.toml"), *out]
+    assert cli.main(["specimen", "ebsd", *given, "--smallest", "1"]) == 0
+    assert Specimen.load(tmp_path / "out/grains.json").minerals is None
+    (tmp_path / "phases.toml").write_text('"Quartz" = "quartz"\n')
+    assert cli.main(["specimen", "ebsd", *given]) == 2
+    assert "did you mean Quartz-new?" in capsys.readouterr().err
+
+
+def broken():
+    phase, angles = np.ones((3, 4), dtype=int), np.zeros((3, 4, 3))
+    ctf, ang = (make(phase, angles, PHASES) for make in (ctf_text, ang_text))
+    last = ctf.splitlines()[-1]
+    return [
+        ("a.ctf", "", "line 1: must begin with Channel Text File"),
+        ("a.ctf", ctf.replace("XStep\t1.0\n", ""), "XStep is missing"),
+        ("a.ctf", ctf.replace("XStep\t1.0", "XStep\tx"), "line 7: XStep = 'x', must be a number"),
+        ("a.ctf", ctf.replace("XStep\t1.0", "XStep\t1.2"), "must be on the grid of steps 1.2"),
+        ("a.ctf", ctf.replace("Biotite\t2", "Biotite\t12"), "Laue group = 12, must be 1 to 11"),
+        ("a.ctf", ctf.replace("Phases\t2", "Phases\t3"), "line 16: Laue group = 'Bands', must"),
+        ("a.ctf", ctf.replace("\tEuler3", ""), "columns: Euler3 missing"),
+        ("a.ctf", ctf.replace(last, last.replace("2.0000", "oh", 1)), "column 3 = 'oh', must be"),
+        ("a.ctf", ctf.replace(last, "9" + last[1:]), "point 12: Phase = 9"),
+        ("a.ctf", ctf + last + "\n", "must not be there twice"),
+        ("a.ctf", ctf.replace(last, "1\t2"), "columns = 2, must be >= 8"),
+        ("a.ang", ang.replace("# GRID: SqrGrid\n", ""), "GRID is missing"),
+        ("a.ang", ang.replace("SqrGrid", "Round"), "GRID = Round, must be SqrGrid or HexGrid"),
+        ("a.ang", ang.replace("  32\n", "  33\n"), "Symmetry = 33, must be one of 1, 2,"),
+        ("a.ang", ang.replace("0.900 1 ", "0.900 7 "), "phase = 7, must be one of 1, 2"),
+        ("a.ang", ang.replace("0.900", "-1.000"), "points with a phase = 0"),
+        ("a.h5", ctf, "must end in .ctf or .ang"),
+    ]
+
+
+@pytest.mark.parametrize(("file", "text", "words"), broken(), ids=[row[2] for row in broken()])
+def test_broken_maps_are_one_line_with_the_place(tmp_path, file, text, words):
+    (tmp_path / file).write_text(text)
+    with pytest.raises(InputError) as error:
+        Specimen.from_ebsd(tmp_path / file, 0.01)
+    assert words in str(error.value) and "\n" not in str(error.value)
+
+
+def test_orix_reads_the_same_map(tmp_path):
+    io = pytest.importorskip("orix.io")
+    _, phase, angles = map_of(10, 12, 5, 4)
+    (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, PHASES))
+    (tmp_path / "a.ang").write_text(ang_text(phase, angles, PHASES))
+    for end in ("ctf", "ang"):
+        theirs, ours = io.load(str(tmp_path / f"a.{end}")), ebsd.read(tmp_path / f"a.{end}")
+        assert np.array_equal(theirs.phase_id - 1, ours.phase)
+        # theirs turn the sample into the crystal, w first
+        turned = theirs.rotations.data.reshape(-1, 4)[:, [1, 2, 3, 0]] * (-1, -1, -1, 1)
+        assert np.abs(np.sum(turned * ours.orientations, axis=1)) == pytest.approx(1.0)
+
+
+def test_files_know_all_groups():
+    assert set(CTF) == set(ANG) == set(laue.NAMES)

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tessellations of Neper: areas, neighbours and centres of the file; what is refused."""
+
+from __future__ import annotations
+
+import json
+import time
+
+import numpy as np
+import pytest
+from neper_files import tesr_text, tess_of, tess_text
+
+import flexpm
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.specimens.files import tess
+from flexpm.specimens.labels import tesr
+from flexpm.specimens.specimen import Specimen
+
+SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+
+
+def laguerre(cells, seed, weights="squares"):
+    """Cells of random seeds in the unit square, and the seeds with weights of one meaning."""
+    draw = np.random.default_rng(seed)
+    centres = draw.random((cells, 2))
+    radii = np.full(cells, 0.5 / cells**0.5)
+    if weights != "none":
+        radii *= draw.uniform(0.9, 1.1, cells)
+    made = Specimen.from_discs(centres, radii, SQUARE, 0.1, short_edge=0.0, drop_hidden=True)
+    given = {"squares": made.radii**2, "radii": made.radii, "none": 0.0 * made.radii}[weights]
+    return made, np.column_stack((made.centres, given)).tolist()
+
+
+def pairs(specimen):
+    return np.unique(np.sort(specimen.tessellation.shared_edges[:, :2], axis=1), axis=0)
+
+
+def require_as_the_file(path, scale):
+    file, made = tess.read(path), Specimen.from_tess(path, 0.01, scale=scale, short_edge=0.0)
+    assert made.tessellation.cell_areas == pytest.approx(scale**2 * file.areas, rel=1e-9)
+    assert np.array_equal(pairs(made), file.neighbours)
+    return made
+
+
+@pytest.mark.parametrize("weights", ["squares", "radii", "none"])
+def test_cells_of_seeds_have_the_seeds_as_centres(tmp_path, weights):
+    source, seeds = laguerre(200, 3, weights)
+    (tmp_path / "a.tess").write_text(tess_of(source, seeds))
+    made = require_as_the_file(tmp_path / "a.tess", 0.05)
+    assert made.centres == pytest.approx(0.05 * source.centres, rel=1e-12)
+    assert made.spec.cells is None  # discs: all models take them
+    # the normal of a contact, between the centres, is that of its edge
+    cells = made.tessellation
+    edges = cells.shared_edges
+    way = made.centres[edges[:, 1]] - made.centres[edges[:, 0]]
+    along = cells.vertices[edges[:, 3]] - cells.vertices[edges[:, 2]]
+    long = np.hypot(*along.T) > 1e-3 * made.mean_diameter
+    cosine = np.sum(way * along, axis=1) / np.hypot(*way.T) / np.hypot(*along.T)
+    assert np.abs(cosine[long]).max() < 1e-6
+    assert made.mean_diameter == pytest.approx((4.0 / np.pi * 0.05**2 / 200) ** 0.5, rel=0.02)
+
+
+def test_other_cells_keep_their_shape_and_take_centroids(tmp_path):
+    source, _ = laguerre(200, 4)
+    wrong = np.random.default_rng(1).random((200, 3)).tolist()
+    for number, seeds in enumerate((None, wrong)):
+        (tmp_path / f"{number}.tess").write_text(tess_of(source, seeds))
+        made = require_as_the_file(tmp_path / f"{number}.tess", 0.05)
+        assert made.spec.cells is not None
+    start, end = made.tessellation.cell_offsets[7:9]
+    corners = made.tessellation.vertices[made.tessellation.cell_vertices[start:end]]
+    after = np.roll(corners, -1, axis=0)
+    cross = corners[:, 0] * after[:, 1] - after[:, 0] * corners[:, 1]
+    centroid = (cross[:, None] * (corners + after)).sum(axis=0) / (3.0 * cross.sum())
+    assert made.centres[7] == pytest.approx(centroid, rel=1e-9)
+
+
+def test_short_edges_are_collapsed_and_the_specimen_runs(tmp_path):
+    source, seeds = laguerre(60, 5)
+    (tmp_path / "a.tess").write_text(tess_of(source, seeds))
+    made = Specimen.from_tess(tmp_path / "a.tess", 0.01, scale=0.03)
+    ends = made.tessellation.vertices[made.tessellation.shared_edges[:, 2:]]
+    least = np.hypot(*(ends[:, 1] - ends[:, 0]).T).min()
+    assert least >= made.short_edge * made.mean_diameter
+    assert made.dimensions == pytest.approx({"width": 0.03, "height": 0.03})
+    made.save(tmp_path / "a.json")
+    assert Specimen.load(tmp_path / "a.json").spec == made.spec
+    assert flexpm.elastic(made)["youngs_modulus"] > 1e9
+
+
+@pytest.mark.long
+def test_ten_thousand_cells_are_read_within_ten_seconds(tmp_path):
+    source, seeds = laguerre(10_000, 6)
+    (tmp_path / "a.tess").write_text(tess_of(source, seeds, version="2.0"))
+    start = time.process_time()
+    Specimen.from_tess(tmp_path / "a.tess", 0.01, scale=0.3, short_edge=0.0)
+    assert time.process_time() - start < 10.0
+    require_as_the_file(tmp_path / "a.tess", 0.3)
+
+
+GOOD = tess_text([*SQUARE, (0.5, 0.0), (0.5, 1.0)], [[0, 4, 5, 3], [4, 1, 2, 5]])
+BROKEN = {
+    "no": ("", "line 1: section = '', must be ***tess"),
+    "solid": (GOOD.replace("2 standard", "3 standard"), "line 5: dimension = 3, must be 2"),
+    "raster": (GOOD.replace("***tess", "***tesr"), "flexpm specimen image reads it"),
+    "old": (GOOD.replace("3.5", "1.9.2"), "line 4: format = 1.9.2, must be 2.0 or later"),
+    "cut": (GOOD[: GOOD.index(" **face")], "section = '', must be **face"),
+    "cut late": (GOOD.replace("***end", ""), "section = end of the file, must be ***end"),
+    "number": (GOOD.replace("0.5 1.0 0.0", "0.5 nan 0.0"), "vertex 6: y = 'nan', must be a number"),
+    "vertex": (GOOD.replace(" 1 4 1 5 6 4", " 1 4 1 5 9 4"), "face 1: vertex = '9', must be"),
+    "twice": (GOOD.replace(" 1 4 1 5 6 4", " 1 4 1 5 5 4"), "face 1: a vertex is there twice"),
+    "bent": (GOOD.replace("0.5 1.0 0.0 0", "0.5 1.0 0.1 0"), "must be one plane"),
+    "many": (GOOD.replace("**cell\n  2", "**cell\n  200000"), "cells = '200000', must be"),
+    "over": (GOOD.replace("0.5 1.0 0.0", "0.5 -1.0 0.0"), "polygon"),
+    "size": (GOOD.replace("   3 1.0 1.0", "   3 1.0 1e9"), "size = 1000000000.0 m"),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_broken_files_are_one_line_with_the_place(tmp_path, name):
+    text, words = BROKEN[name]
+    (tmp_path / "a.tess").write_text(text)
+    with pytest.raises(InputError) as error:
+        Specimen.from_tess(tmp_path / "a.tess", 0.01)
+    assert words in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_raster_is_labels_from_below(tmp_path):
+    labels = np.array([[1, 1, 2], [1, 2, 2], [3, 3, 2], [3, 3, 3]])
+    (tmp_path / "a.tesr").write_text(tesr_text(labels))
+    assert np.array_equal(tesr.read(tmp_path / "a.tesr"), labels)
+
+
+def test_rasters_that_are_none_in_the_plane_are_refused(tmp_path, capsys):
+    good = tesr_text(np.full((8, 8), 1))
+    for text, words in (
+        (good.replace("   2\n", "   3\n"), "dimension = 3, must be 2: stacks are not read"),
+        (good.replace("0.01 0.01", "0.01 0.02"), "pixel = 0.01 x 0.02, must be square"),
+        (good.replace("ascii", "binary16"), "data format = binary16, must be ascii"),
+        (good.replace("ascii", "*file a.raw"), "data = in a file of their own"),
+        (good.replace("8 8", "80 80"), "cell of a pixel = '***end', must be a whole number"),
+        (good.replace("8 8", "99999 99999"), "size = 99999 x 99999 pixels, must be <="),
+        (good.replace("1 1 1", "1 0 1"), "image label = 0, is void"),
+    ):
+        (tmp_path / "a.tesr").write_text(text)
+        out = ["--out", str(tmp_path / "out"), "--quiet"]
+        given = [str(tmp_path / "a.tesr"), "--pixel", "1e-3", *out]
+        assert cli.main(["specimen", "image", *given]) == 2
+        lines = capsys.readouterr().err.strip().splitlines()
+        assert len(lines) == 1 and words in lines[0], lines
+
+
+def test_the_command_writes_figures_and_the_specimen(tmp_path, capsys):
+    source, seeds = laguerre(60, 5)
+    (tmp_path / "a.tess").write_text(tess_of(source, seeds))
+    given = [str(tmp_path / "a.tess"), "--scale", "0.03", "--out", str(tmp_path / "out")]
+    assert cli.main(["specimen", "tess", *given, "--quiet"]) == 0
+    found = json.loads((tmp_path / "out/specimen.json").read_text())
+    assert found["grains"] == 60 and "image" not in found
+    told = capsys.readouterr().out
+    steps = int(told.partition("with the default material: about ")[2].split()[0])
+    assert 1e3 < steps < 1e6
+    assert found["source"]["shortest_edge"] < found["shortest_edge"]
+    assert Specimen.load(tmp_path / "out/grains.json").spec.cells is None
