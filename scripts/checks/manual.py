@@ -16,8 +16,8 @@ import re
 import sys
 from pathlib import Path
 
-#: Lines of solids, laws of pairs, networks, folders and states of own tests, rates, calibrations; to be raised with what
-#: is added, to 500.
+#: Lines of solids, laws of pairs, networks, folders and states of own tests, rates, calibrations;
+#: to be raised with what is added, to 500.
 ADDED = 400
 MOST_LINES = 2600 + ADDED
 COLUMNS = 120
