@@ -25,7 +25,17 @@ from .parameters import Each, Name, Quantity
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (
-    *("mesh", "rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start"),
+    *(
+        "mesh",
+        "rate",
+        "halvings",
+        "max_strain",
+        "stop_ratio",
+        "dynamic",
+        "gravity",
+        "damping",
+        "start",
+    ),
     *("loading", *OWN_OPTIONS, "interaction_range"),
 )
 

@@ -182,17 +182,31 @@ def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: An
 @cli_options.many_runs_options
 def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
     """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
-    from ..studies import calibration_problem, calibration_report, calibration_search, pages
+    from ..studies import (
+        calibration_problem,
+        calibration_report,
+        calibration_search,
+        calibration_verdict,
+        pages,
+    )
 
     plan = calibration_problem.read(file)
     start = load(plan.material_file, plan.model)
     values = {key: value_of(start, key, plan.model) for key in plan.free}
+    for key, (low, high) in plan.free.items():
+        value = values[key]
+        if isinstance(value, int | float) and not low <= value <= high:
+            terminal.say(
+                f"{key} = {value:g} in the material, starts at {min(max(value, low), high):g}"
+            )
     folder = inputs.locked_folder(out or Path(file.stem), "calibrate")
+    calibration_verdict.forget(folder)
     with terminal.Progress(quiet, unit="sets") as progress:
         found = calibration_search.run(plan, folder, start=values, progress=progress, **options)
     preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
     calibration_report.write_preset(preset, start, plan, found)
     calibration_report.picture(picture, plan, found)
+    found.verdict.write(folder)
     if report:
         pages.write(folder)
     terminal.say(
@@ -200,6 +214,8 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
             calibration_report.table_rows(plan, found), f"{name_of(plan.name)}, {plan.model} model"
         )
     )
+    for line in found.verdict.lines():
+        terminal.say(f"  {line}")
     terminal.say(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
     missed = [name for name, met in found.met.items() if not met]
     if missed:

@@ -15,12 +15,12 @@ from ..kinds.registry import KINDS, names, options
 from ..kinds.test_kind import TestKind
 from ..models.options import MESHES, MODELS, POINTS, RANGE
 from ..require import NOT_NEGATIVE, POSITIVE, Bounds
-from ..runs.input_names import STARTS
-from ..runs.loading_rate import LOADINGS
+from ..runs.input_names import HALVINGS, STARTS
+from ..runs.loading_rate import HALVING_BOUNDS, LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import RunSpec
 from ..specimens.spec import SIZES, SpecimenSpec
-from .parameters import Count, Name, Place, Quantity, Range, Seeds
+from .parameters import Count, Name, Place, Quantity, Range, Rate, Seeds
 
 #: Adds an option to the function of a command.
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -259,11 +259,20 @@ range_option = click.option(
 loading_options = combined(
     click.option(
         "--rate",
-        type=Quantity("", POSITIVE),
+        type=Rate("", POSITIVE),
         default=RunSpec.rate,
-        metavar="F",
+        metavar="F|auto",
         show_default=True,
-        help="Factor on the loading rate [-].",
+        help="Factor on the loading rate [-]; auto: 1, and half of it again and again, up to "
+        f"{HALVINGS} times, until the test is slow enough.",
+    ),
+    click.option(
+        "--halvings",
+        type=Count(*(int(one or 0) for one in (HALVING_BOUNDS.at_least, HALVING_BOUNDS.at_most))),
+        metavar="N",
+        help="Halve the rate at most N times: a test that ends not_quasistatic is loaded again "
+        "until it is ok and the peaks of two rates agree within 1 %.  [default: never; "
+        f"{HALVINGS} with --rate auto]",
     ),
     click.option(
         "--max-strain",

@@ -10,6 +10,7 @@ import click
 
 from ..errors import InputError
 from ..require import ANY, POSITIVE, Bounds, require_known, require_number, require_whole
+from ..runs.input_names import AUTO
 
 
 class Quantity(click.ParamType):
@@ -28,6 +29,18 @@ class Quantity(click.ParamType):
         with contextlib.suppress(ValueError):
             number = float(str(value))
         return require_number(label_of(param), number, self.bounds, self.unit, shown=str(value))
+
+
+class Rate(Quantity):
+    """A factor on the loading rate, or ``auto``."""
+
+    name = "rate"
+
+    def convert(  # type: ignore[override]  # or a word
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float | str:
+        """Return the number or the word, or raise InputError."""
+        return AUTO if value == AUTO else super().convert(value, param, ctx)
 
 
 class Range(click.ParamType):

@@ -183,11 +183,13 @@ def _simulate(
     with terminal.Progress(options["quiet"]) as progress:
         plan = plan_run(spec, make(progress), chosen, folder, output=output)
         foresee = None if options["quiet"] else progress.foresee
+        announce = None if options["quiet"] else progress.tell
         result = carry_out(
             plan,
             threads=options["threads"],
             progress=progress,
             foresee=foresee,
+            announce=announce,
         )
     terminal.say(tables.result_table(result))
     inputs.tell_warnings(result)

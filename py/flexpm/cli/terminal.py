@@ -98,9 +98,13 @@ class Progress:
 
     def foresee(self, steps: int, seconds: float) -> None:
         """Say how many steps a run will probably have and how much time is left [s]."""
-        self.close()
         rounded = float(f"{steps:.2g}")
-        say(f"about {rounded:.0f} steps in all, {duration(seconds)} left at the present pace")
+        self.tell(f"about {rounded:.0f} steps in all, {duration(seconds)} left at the present pace")
+
+    def tell(self, line: str) -> None:
+        """Say a line without the bar, which comes back below it."""
+        self.close()
+        say(line)
 
     def _restarted(self, text: str, expected: float) -> tqdm[NoReturn]:
         from tqdm import tqdm

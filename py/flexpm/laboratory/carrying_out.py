@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import yade
@@ -20,11 +21,13 @@ from ..rigs.rig import TestRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
 from ..runs.loading_rate import Loading
+from ..runs.loading_start import LoadingStart
 from ..runs.output import ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
 from ..runs.written import about, notches_of, write_files
 from ..specimens.files import given
+from . import halving
 from .outcome import outcome
 from .part_tests import part_rig, prepared
 from .plan import Plan
@@ -36,6 +39,7 @@ def carry_out(
     threads: int = 1,
     progress: Progress | None = None,
     foresee: Foresee | None = None,
+    announce: Callable[[str], None] | None = None,
 ) -> Result:
     """Do a run; arguments and outcome as for ``run``.
 
@@ -43,13 +47,53 @@ def carry_out(
         plan: The run.
         threads: Threads of a step.
         progress: Called with (steps done, steps expected, text).
-        foresee: Called once, as soon as steps of the loading have been timed, with the steps that
+        foresee: Called once a loading, as soon as steps of it have been timed, with the steps that
             the run will probably have and the wall time of those that are left [s].
+        announce: Called with a line before a slower loading begins: what the last one gave and what
+            the next one will take.
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
-    output = plan.output
     if folder is not None:
         given.save(folder, plan.specimen)
+    start = LoadingStart(folder)
+    runner = Runner(checkpoint, progress, foresee)
+    restore = checkpoint.restore if checkpoint is not None and checkpoint.found else None
+    while True:
+        position = runner.position
+        rate = halving.rate_of(spec, len(position.tried))
+        rig, result = _tested(plan, replace(spec, rate=rate), runner, threads, start, restore)
+        result.inputs = spec.to_json()
+        result.step_time = runner.step_time
+        if spec.halvings is None:
+            break
+        settled = position.start.get("step", 0)
+        loadings = [*position.tried, halving.loading(result, rate, settled)]
+        if halving.is_over(spec, loadings):
+            halving.conclude(result, loadings)
+            start.forget()
+            break
+        _announce(halving.told(spec, loadings), announce, progress, result.steps)
+        position = start.after(replace(position, tried=loadings))
+        runner = Runner(checkpoint, progress, foresee, position)
+        restore = start.restore if position.start else None
+    result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
+    if folder is not None:
+        cut = bool(result.material.get("joints"))
+        write_files(folder, result, notches_of(folder / "specimen.vtu") if cut else ())
+        _write_others(folder, result, plan.output, rig)
+    return result
+
+
+def _tested(
+    plan: Plan,
+    spec: RunSpec,
+    runner: Runner,
+    threads: int,
+    start: LoadingStart,
+    restore: Callable[[], None] | None,
+) -> tuple[TestRig, Result]:
+    """Build the scene of a run, or take up one that was saved, and do what is left of the test."""
+    folder, output = plan.folder, plan.output
     yade.O.reset()
     specimen, material = prepared(spec, plan.specimen, plan.material)
     built = build(
@@ -64,8 +108,8 @@ def carry_out(
         interaction_range=spec.interaction_range,
         threads=threads,
     )
-    if checkpoint is not None and checkpoint.found:
-        checkpoint.restore()
+    if restore is not None:
+        restore()
         built.rebind()
         built.set_threads(threads)
     elif folder is not None:
@@ -74,22 +118,29 @@ def carry_out(
             from ..report.rose import rose_picture
 
             rose_picture(folder / ROSE, specimen)
-    runner = Runner(checkpoint, progress, foresee)
     rig = _rig_of(built, spec, runner)
     if folder is not None and output.frames:
-        resumed_at = yade.O.iter if checkpoint is not None and checkpoint.found else None
+        resumed_at = yade.O.iter if restore is not None else None
         rig.watch = FrameWriter(folder, output.frames, about(spec.to_json()), resumed_at)
     for stage in spec.kind.stages:
+        if spec.halvings is not None and spec.kind.settles and stage in (Stage.LOAD, Stage.SLIDE):
+            rig.keep_start(start)
         _STAGES[stage](rig, spec)
     rig.finish()
-    result = outcome(rig, spec)
-    result.step_time = runner.step_time
-    result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
-    if folder is not None:
-        cut = bool(result.material.get("joints"))
-        write_files(folder, result, notches_of(folder / "specimen.vtu") if cut else ())
-        _write_others(folder, result, output, rig)
-    return result
+    return rig, outcome(rig, spec)
+
+
+def _announce(
+    line: str,
+    announce: Callable[[str], None] | None,
+    progress: Progress | None,
+    steps: int,
+) -> None:
+    """Tell of a slower loading, by the progress where nobody else asks for it."""
+    if announce is not None:
+        announce(line)
+    elif progress is not None:
+        progress(0, max(steps, 1), line)
 
 
 def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRig:

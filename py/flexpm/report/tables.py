@@ -89,6 +89,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("unbalanced-force ratio", scaled(result.unbalanced_ratio, 1.0, "", 2)),
         ("energy error", scaled(result.energy_error, 100.0, "%", 2)),
         ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
+        *_rates(result),
         ("status", result.status),
     ]
     if kept := kind_of(result.test).rows:
@@ -133,6 +134,16 @@ def size_text(result: Result) -> str:
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
+
+
+def _rates(result: Result) -> list[tuple[str, str]]:
+    """Rates of a test that was loaded several times, and the last two peaks."""
+    if not result.rates:
+        return []
+    peaks = ", ".join(scaled(one["peak_stress"], 1e-6, "") for one in result.rates[-2:])
+    told = ", ".join(f"{one['rate']:g}" for one in result.rates)
+    last = f"; last peaks {peaks} MPa" if len(result.rates) > 1 else ""
+    return [("rates", told + last)]
 
 
 def _poissons_ratio(result: Result) -> str:

@@ -6,7 +6,7 @@ A doubt stops nothing: the numbers are computed as they were asked for.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from ..files import Table
 from ..kinds.registry import kind_of
@@ -42,6 +42,9 @@ LARGEST_GROWTH_OF_JOINTS = {"flexible": 0.012, "rigid": 0.0065}
 #: cracks come one after the other, and the load tells nothing. Errors above 2 % that nothing else
 #: names begin at 15; up to 5 they are 1.1 % at most (``doc/record/rates``).
 LARGEST_RATE_OF_JOINTS = 5.0
+#: Difference of the peaks of two rates, one half of the other, that is none [-]: half of what the
+#: limits of a single loading let pass (D75).
+LARGEST_PEAK_CHANGE = 0.01
 #: Error of the energy balance that is none [-]. Tests that are slow enough have below 0.003.
 LARGEST_ENERGY_ERROR = 0.01
 #: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
@@ -162,6 +165,34 @@ def of_result(
             f"than {100.0 * LARGEST_MISMATCH:g} %; lower the rate{now}"
         )
     return lines
+
+
+def peak_change(loadings: Sequence[Table]) -> float | None:
+    """Difference of the peaks of the last two loadings, over the last [-]; None without one."""
+    peaks = [one["peak_stress"] for one in loadings[-2:]]
+    if len(peaks) < 2 or not all(peaks):
+        return None
+    return float(abs(peaks[0] / peaks[1] - 1.0))
+
+
+def of_rates(loadings: Sequence[Table], status: str) -> list[str]:
+    """What a test says whose rate has been halved as often as was asked for.
+
+    Args:
+        loadings: As result.json has them.
+        status: Status of the result.
+    """
+    if status != "not_quasistatic":
+        return []
+    peaks = [one["peak_stress"] for one in loadings[-2:]]
+    both = " and ".join("none" if one is None else f"{1e-6 * one:.4g} MPa" for one in peaks)
+    change = peak_change(loadings)
+    differ = "" if change is None else f", which differ by {100.0 * change:.2g} %"
+    limit = f"{100.0 * LARGEST_PEAK_CHANGE:g} %"
+    return [
+        f"rate = {loadings[-1]['rate']:g} after {len(loadings) - 1} halvings, the last peaks are "
+        f"{both}{differ}: must be slow enough and within {limit}; raise --halvings"
+    ]
 
 
 def of_motion(kinetic_shares: Mapping[str, float], parting: float | None) -> list[str]:

@@ -94,6 +94,9 @@ class Result(Shown):
     completeness_magnitude: float | None = None  #: from which on b_value counts events [-]
     b_value: float | None = None  #: of the magnitudes of events [-]
     b_value_error: float | None = None  #: standard error [-]
+    #: factor on the loading rate of the last loading, of a test whose rate is halved [-]
+    final_rate: float | None = None
+    rates: list[Table] | None = None  #: its loadings: rate, status, peak, steps, wall time
     status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
     inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
@@ -117,7 +120,9 @@ class Result(Shown):
         # a script's own test has no option of the command
         given = self.inputs or {}
         rate = given["rate"] if given.get("repeatable", bool(given)) else None
-        found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
+        if self.final_rate is not None:
+            rate, given = self.final_rate, {**given, "rate": self.final_rate}
+        found = doubts.of_inputs(given) if given else []
         if kind_of(self.test).rig is Rig.WAVE and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)
         if self.joint_bend:
@@ -126,6 +131,8 @@ class Result(Shown):
         found += doubts.of_grains(self.grains_across)
         found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
+        if self.rates:
+            found += doubts.of_rates(self.rates, self.status)
         if kind_of(self.test).quasi_static:
             found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
         told = given.get("doubts", ())  # by a script's rig

@@ -27,6 +27,7 @@ _KINDS: dict[str, tuple[type, ...]] = {
     "float": (int, float),
     "str": (str,),
     "Table": (dict,),
+    "list[Table]": (list,),
 }
 
 

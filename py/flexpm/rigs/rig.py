@@ -22,6 +22,7 @@ from ..models.spheres import SphereModel
 from ..require import require_number
 from ..results.result import Result
 from ..runs.loading_rate import WAITING_MODELS, Loading, Schedule
+from ..runs.loading_start import LoadingStart
 from ..runs.runner import Runner, Span
 from ..threads import limited
 from .outcome.folder import save
@@ -169,6 +170,16 @@ class TestRig(RigReadings):
             BusyError: if another process uses it.
         """
         return save(self, self.stages, folder, report=report, step_time=self._runner.step_time)
+
+    def keep_start(self, start: LoadingStart) -> None:
+        """Keep the scene to which slower loadings go back, unless it is kept or has gone by.
+
+        Scenes that do not go on from any step are not kept: their test begins anew.
+        """
+        runner = self._runner
+        wanted = runner.is_between and not runner.position.start
+        if wanted and self.saves_anywhere and not self.diverged:
+            start.keep(runner.position)
 
     def finish(self) -> None:
         """Bring YADE's objects up to date, for scripts that go on, and save the last state."""

@@ -34,6 +34,7 @@ _NESTED = ("specimen", "material", "own")
 #: What stands for None: an input that the loading finds, and the first kind of control.
 _OPEN = {
     "max_strain": "by the reference strength",
+    "halvings": "none",
     **{name: one.open for name, of in options().items() for one in of.values() if one.open},
 }
 #: Entries of result.json that depend on the machine or the version.
@@ -90,11 +91,20 @@ def differences(before: Table, now: Table) -> list[str]:
         before: Content of a result.json.
         now: Content of the other one.
     """
+    before, now = _without_times(before), _without_times(now)
     return [
         name
         for name in {**before, **now}
         if name not in _SURROUNDINGS and _differ(before, now, name)
     ]
+
+
+def _without_times(content: Table) -> Table:
+    """What a result.json holds but the wall times of its loadings."""
+    if not content.get("rates"):
+        return content
+    rates = [{k: v for k, v in one.items() if k != "seconds"} for one in content["rates"]]
+    return {**content, "rates": rates}
 
 
 def _differ(first: Mapping[str, object], second: Mapping[str, object], name: str) -> bool:

@@ -17,7 +17,7 @@ import re
 import shutil
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TypeGuard
 
@@ -41,8 +41,13 @@ _SCENE_PATTERN = re.compile(r"checkpoint-[0-9]{1,18}(\.1)?\.bin")
 _CHECKSUM = "sha256"
 #: Engines of YADE that models have beside those of flexpm; others could run any code.
 _ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "NewtonIntegrator")
+#: Entries that not all runs have.
+_HALVED = ("start", "tried")
+_START = {"stage", "step", "sha256"}
 #: More stages than any test has.
 _MOST_STAGES = 9
+#: More loadings than a run can have, by the bounds of its halvings.
+_MOST_TRIED = 20
 
 
 @dataclass
@@ -54,6 +59,14 @@ class Position:
     stage_end: int = 0  #: step at which it ends in any case
     stage_likely: int = 0  #: step at which it probably ends
     step_time: float | None = None  #: median wall time of a step so far [s]
+    #: scene at the start of the loading, see ``LoadingStart``; empty: none is kept
+    start: Table = field(default_factory=dict)
+    tried: list[Table] = field(default_factory=list)  #: what faster loadings of the run gave
+
+    def to_json(self) -> Table:
+        """All of it but what only runs have whose rate is halved, and these once there is some."""
+        content = asdict(self)
+        return {key: value for key, value in content.items() if key not in _HALVED or value}
 
 
 class Checkpoint:
@@ -103,21 +116,8 @@ class Checkpoint:
         Raises:
             InputError: if another build has written it, or an engine is none of a test.
         """
-        try:
-            yade.O.load(str(self._scene))
-        except (RuntimeError, MemoryError) as error:
-            # by its checksum it is what was written, so what wrote it writes otherwise
-            yade.O.reset()
-            reason = " ".join(str(error).split()) or "reading it takes more memory than there is"
-            raise _other_build(self._folder / _NAME, reason) from error
-        known = {*_ENGINES, *_plugin.load()}
-        for engine in yade.O.engines:
-            if type(engine).__name__ not in known:
-                yade.O.reset()
-                raise InputError(
-                    f"run: checkpoint = {self._scene}, has an engine {type(engine).__name__} that "
-                    f"no test of flexpm has; remove {_NAME} to start again"
-                )
+        assert self._scene is not None
+        load_scene(self._scene)
         self.resumed_at = yade.O.iter
 
     def save(self) -> None:
@@ -145,7 +145,7 @@ class Checkpoint:
         self._remove_others(scene)
 
     def _about(self, scene: Path) -> Table:
-        about = {"scene": scene.name, **asdict(self.position), **self._build}
+        about = {"scene": scene.name, **self.position.to_json(), **self._build}
         return about | {"inputs": self._inputs}
 
     def _read(self, file: Path) -> None:
@@ -168,7 +168,8 @@ class Checkpoint:
             )
         _refuse_differences(file.parent, there, _flat(self._inputs))
         self._scene = scene
-        self.position = Position(**{name: content[name] for name in asdict(self.position)})
+        names = [name for name in asdict(self.position) if name in content]
+        self.position = Position(**{name: content[name] for name in names})
 
     def _scenes(self) -> list[Path]:
         return list(self._folder.glob(_SCENE.format(step="*")))
@@ -178,6 +179,29 @@ class Checkpoint:
             if other != scene:
                 with contextlib.suppress(OSError):
                     other.unlink()
+
+
+def load_scene(scene: Path) -> None:
+    """Replace YADE's scene by a saved one, whose checksum has been looked at.
+
+    Raises:
+        InputError: if another build has written it, or an engine is none of a test.
+    """
+    try:
+        yade.O.load(str(scene))
+    except (RuntimeError, MemoryError) as error:
+        # by its checksum it is what was written, so what wrote it writes otherwise
+        yade.O.reset()
+        reason = " ".join(str(error).split()) or "reading it takes more memory than there is"
+        raise _other_build(scene.parent / _NAME, reason) from error
+    known = {*_ENGINES, *_plugin.load()}
+    for engine in yade.O.engines:
+        if type(engine).__name__ not in known:
+            yade.O.reset()
+            raise InputError(
+                f"run: checkpoint = {scene}, has an engine {type(engine).__name__} that "
+                f"no test of flexpm has; remove {_NAME} to start again"
+            )
 
 
 def discard_unusable(folder: Path, spec: RunSpec) -> str:
@@ -233,9 +257,14 @@ def _require_entries(file: Path, content: Table) -> None:
         "step_time": lambda time: time is None
         or (isinstance(time, float) and math.isfinite(time) and time > 0.0),
         "inputs": lambda inputs: isinstance(inputs, dict),
+        "start": lambda start: isinstance(start, dict)
+        and (not start or (start.keys() == _START and _is_count(start["stage"]))),
+        "tried": lambda tried: isinstance(tried, list) and len(tried) <= _MOST_TRIED,
         _CHECKSUM: lambda checksum: isinstance(checksum, str),
     }
     for name, holds in rules.items():
+        if name not in content and name in _HALVED:
+            continue
         if name not in content:
             raise _no_checkpoint(file, KeyError())
         if not holds(content[name]):

@@ -7,6 +7,7 @@ Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 from ..errors import InputError
 from ..kinds.registry import KINDS, kind_of, options
@@ -29,7 +30,8 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
     sizes = [name for name in _SIZES if name not in SIZES[kind.shape] or name in renamed]
     pressure = () if kind.confined else ("confinement",)
     start = () if kind.static_models else ("start",)
-    return tuple(dict.fromkeys((*sizes, *pressure, *start, *kind.without, *others)))
+    halved = ("halvings",) if "rate" in kind.without else ()
+    return tuple(dict.fromkeys((*sizes, *pressure, *start, *kind.without, *halved, *others)))
 
 
 #: Options that a test has no use for.
@@ -51,8 +53,10 @@ SIMULATION = (
     *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
     *("dynamic", "gravity", "damping", "start", "loading"),
     *OWN_OPTIONS,
-    "interaction_range",
+    *("interaction_range", "halvings"),
 )
+#: Rate of a test that is to find one at which it is slow enough: 1, halved up to so many times.
+AUTO, HALVINGS = "auto", 5
 #: Options that are sizes of the specimen.
 SIZE_NAMES = (*_SIZES, *_OTHER_NAMES)
 #: Options of the command by their names.
@@ -63,6 +67,16 @@ def with_unit(name: str, value: object) -> str:
     """An input and its value with its unit, for a message."""
     shown = value if isinstance(value, str) and len(value) < 80 else quoted(value)
     return f"{name} = {shown} {INPUT_UNITS.get(name, '')}".rstrip()
+
+
+def paced(rate: float | str, halvings: int | None = None) -> tuple[float, int | None]:
+    """Rate and halvings of a run from what was asked for: ``auto`` stands for both.
+
+    What is no rate is left to the checks of a run.
+    """
+    if rate != AUTO:
+        return cast(float, rate), halvings
+    return 1.0, HALVINGS if halvings is None else halvings
 
 
 def models_of(test: str) -> tuple[str, ...]:

@@ -18,6 +18,8 @@ from ..require import Bounds, require_flag, require_number, require_one_of, requ
 
 #: Factors on the default loading rate that a test may have [-].
 RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
+#: How often a rate may be halved: at the last one a test takes a month.
+HALVING_BOUNDS = Bounds(at_least=1, at_most=20)
 #: Largest strains of a loading [-]; 0 for one that ends where it is.
 _STRAIN = Bounds(at_least=0.0, at_most=1e6)
 #: The rate of an adaptive loading is up to this k while the specimen is elastic [-].

@@ -18,9 +18,16 @@ from ..models.options import (
     check_options,
     local_damping,
 )
-from ..require import Bounds, require_flag, require_known, require_number, require_one_of
-from .input_names import OWN_OPTIONS, STARTS, UNUSED, with_unit
-from .loading_rate import LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
+from ..require import (
+    Bounds,
+    require_flag,
+    require_known,
+    require_number,
+    require_one_of,
+    require_whole,
+)
+from .input_names import AUTO, OWN_OPTIONS, STARTS, UNUSED, with_unit
+from .loading_rate import HALVING_BOUNDS, LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 from .run_inputs import RunInputs
 
 #: Inputs that tests have all the same, or that have rules of their own.
@@ -76,11 +83,17 @@ def _check_unused(run: RunInputs) -> None:
 
 
 def _refuse(run: RunInputs, name: str, value: object) -> NoReturn:
+    if name == "halvings":  # a rate that is found by halving it
+        name, value = "rate", AUTO
     raise InputError(f"run: {with_unit(name, value)}, must not be given for {run.test}")
 
 
 def _check_numbers(run: RunInputs) -> None:
     _set(run, "rate", require_number("run: rate", run.rate, RATE))
+    if run.halvings is not None:
+        halvings = require_whole("run: halvings", run.halvings, HALVING_BOUNDS)
+        require_number("run: rate after all halvings", run.rate * 0.5**halvings, RATE)
+        _set(run, "halvings", halvings)
     if run.max_strain is not None:
         largest = require_number("run: max_strain", run.max_strain, _STRAIN)
         _set(run, "max_strain", largest)

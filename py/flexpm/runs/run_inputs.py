@@ -32,7 +32,7 @@ class RunInputs:
         points: Contact points per contact.
         mesh: Triangles in each grain, ``refined`` or ``fan``.
         confinement: Lateral pressure [Pa].
-        rate: Factor on the default loading rate [-].
+        rate: Factor on the default loading rate [-], of the first loading where it is halved.
         max_strain: Axial strain at which the test ends [-]; None for a multiple of that of the
             reference strength.
         stop_ratio: Part of its peak to which the stress falls before the test ends [-].
@@ -56,6 +56,8 @@ class RunInputs:
             confinement with 0.7 at least. None for tests that have none.
         interaction_range: Multiple of the sum of both radii up to which YADE's spheres are bonded
             [-]; None: only neighbours, and for other models.
+        halvings: How often the rate may be halved until the test is slow enough, see
+            ``laboratory.halving``; None: never, the test is done once.
         own: Options of the test that are no fields, by their names.
     """
 
@@ -81,6 +83,7 @@ class RunInputs:
     control: str | None = None
     damping: float | None = None
     interaction_range: float | None = None
+    halvings: int | None = None
     own: Mapping[str, Value] = field(default_factory=dict)
 
     def to_json(self) -> Table:

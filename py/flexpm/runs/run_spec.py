@@ -19,7 +19,7 @@ from ..materials.mixing import description, is_brittle
 from ..models.options import DAMPING
 from ..require import require_known
 from ..specimens.spec import SIZES, SpecimenSpec
-from .input_names import OWN_OPTIONS, PACKING, SIMULATION
+from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced
 from .run_checks import settle
 from .run_inputs import RunInputs
 
@@ -192,5 +192,8 @@ _FIELDS = tuple(field.name for field in fields(RunSpec) if field.name != "own")
 
 def split(values: Table) -> Table:
     """Arguments of ``RunSpec`` from values by the names of its fields and of tests' options."""
+    if "rate" in values:
+        rate, halvings = paced(values["rate"], values.get("halvings"))
+        values = {**values, "rate": rate, "halvings": halvings}
     own = {name: value for name, value in values.items() if name not in (*_FIELDS, "own")}
     return {**{name: value for name, value in values.items() if name not in own}, "own": own}

@@ -48,16 +48,21 @@ class Runner:
         checkpoint: Checkpoint | None = None,
         progress: Progress | None = None,
         foresee: Foresee | None = None,
+        position: Position | None = None,
     ) -> None:
-        """Go on from a checkpoint's position.
+        """Go on from a position, that of the checkpoint unless it is given.
 
         Args:
             checkpoint: Where the scene is saved; None saves nothing.
             progress: Called with (steps done, steps expected, text).
             foresee: Called once, when steps of the loading have been timed.
+            position: Where the run stands, which the checkpoint saves from now on. One at the end
+                of a stage passes that stage.
         """
         self._checkpoint, self._progress, self._foresee = checkpoint, progress, foresee
-        self.position = checkpoint.position if checkpoint else Position()
+        if checkpoint is not None and position is not None:
+            checkpoint.position = position
+        self.position = checkpoint.position if checkpoint else position or Position()
         self._stages = 0
         self._spans: list[float] = []
 
@@ -73,7 +78,8 @@ class Runner:
             prepare: Sets the scene up for the stage; called once, not when the stage is resumed.
 
         Returns:
-            Whether there are steps to do: False for a stage that an earlier start has finished.
+            Whether there are steps to do: False for a stage that an earlier start has finished, or
+            one without steps, after which a slower loading begins.
         """
         self._stages += 1
         position = self.position
@@ -82,7 +88,13 @@ class Runner:
             position.stage, position.stage_start = self._stages, yade.O.iter
             position.stage_end = position.stage_start + span.longest
             position.stage_likely = position.stage_start + span.likely
-        return position.stage == self._stages
+        has_steps = position.stage_end > position.stage_start
+        return position.stage == self._stages and has_steps
+
+    @property
+    def is_between(self) -> bool:
+        """Whether the stages so far are over and the next one has not begun."""
+        return self.position.stage == self._stages
 
     def run(
         self,

@@ -97,6 +97,7 @@ class Runs:
     options: Table
     seeds: Sequence[int]
     disc_seeds: Sequence[int]  #: of the measures that discs alone tell
+    of_test: Mapping[str, Table] = field(default_factory=dict)  #: other options, by the test
 
     def seeds_of(self, target: Target) -> Sequence[int]:
         """Seeds of the packings that tell a measure."""
@@ -255,14 +256,20 @@ def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ra
 def _runs(content: Table, name: str, seeds: Sequence[int]) -> Runs:
     """Runs of ``[screen]`` or ``[verify]``, whose options are over those of ``[common]``."""
     label = f"calibration [{name}]"
-    common = flat("calibration [common]", content.get("common", {}))
-    options = {**common, **flat(label, content.get(name, {}))}
+    tables = [("calibration [common]", content.get("common", {})), (label, content.get(name, {}))]
+    options: Table = {}
+    for where, given in tables:
+        plain = require_table(where, given)
+        of_tests = {test: plain.pop(test) for test in TESTS if test in plain}
+        options |= {**flat(where, plain), **of_tests}
+    own = {test: flat(f"{label} {test}", options.pop(test)) for test in TESTS if test in options}
     chosen = _seeds(f"[{name}] seeds", options.pop("seeds", list(seeds)))
     discs = _seeds(f"[{name}] disc_seeds", options.pop("disc_seeds", chosen))
-    for key in options:
-        if not interface.is_key(key.removeprefix("set.")):
-            require_known(f"{label} key", key.replace("-", "_"), _OPTIONS)
-    return Runs(options, chosen, discs)
+    for where, given in ((label, options), *((f"{label} {test}", own[test]) for test in own)):
+        for key in given:
+            if not interface.is_key(key.removeprefix("set.")):
+                require_known(f"{where} key", key.replace("-", "_"), _OPTIONS)
+    return Runs(options, chosen, discs, own)
 
 
 def _seeds(label: str, given: object) -> list[int]:

@@ -27,6 +27,8 @@ _UNITS = {
     "friction_angle": (1.0, "degrees"),
     "hoek_brown_m": (1.0, ""),
     "direct_indirect_ratio": (1.0, ""),
+    "beam_toughness": (1e-6, "MPa m^0.5"),
+    "scb_toughness": (1e-6, "MPa m^0.5"),
 }
 
 

@@ -33,6 +33,7 @@ from ..materials.keys import is_used
 from ..progress import Progress
 from . import jobs
 from .calibration_problem import Calibration, Runs, Target
+from .calibration_verdict import Verdict, is_met, judge
 from .jobs import Job
 from .pool import Pool, PoolOptions
 from .tables import write_table
@@ -89,6 +90,7 @@ class Outcome:
     best: Evaluation
     met: dict[str, bool]  #: whether the mean of each target is within its tolerance
     history: list[Evaluation] = field(default_factory=list)
+    verdict: Verdict = field(default_factory=lambda: Verdict([], []))
 
 
 def run(
@@ -104,12 +106,13 @@ def run(
     Args:
         plan: Targets, free keys and runs.
         out: Folder; ``runs`` holds the runs, ``history.csv`` all sets that were tried.
-        start: Present values of the free keys in the material.
+        start: Present values of the free keys in the material; one outside its bounds starts at
+            the nearer of them.
         progress: Called when a set has been evaluated.
         pool_options: ``workers``, ``scheduler``, ``cluster`` as for a study.
 
     Raises:
-        InputError: if a start lies outside its bounds, or a target has no free key to meet it.
+        InputError: if a key has no number to start from, or no target tells one.
         SimulationError: if no set gave all measures.
     """
     folder = output_folder(out)
@@ -124,8 +127,17 @@ def run(
         finally:
             if search.history:
                 write_table(history_table(search.history), folder / "history")
-    met = {t.name: _is_met(t, best.mean(t.name)) for t in plan.targets}
-    return Outcome(best, met, search.history)
+    met = {t.name: is_met(t, best.mean(t.name)) for t in plan.targets}
+    return Outcome(best, met, search.history, _judged(plan, best, search.history))
+
+
+def _judged(plan: Calibration, best: Evaluation, history: Sequence[Evaluation]) -> Verdict:
+    parts = []
+    for elastic, stage in ((True, "elastic"), (False, "screen")):
+        targets, keys = plan.of_kind(elastic=elastic)
+        parts.append(([e for e in history if e.stage == stage], keys, targets))
+    tried = [e for e in history if (e.stage, e.round) == ("screen", history[-1].round)]
+    return judge(plan.targets, plan.free, parts, best, used_up=len(tried) > plan.evaluations)
 
 
 def history_table(history: Sequence[Evaluation]) -> pandas.DataFrame:
@@ -189,13 +201,17 @@ class _Search:
             tried = self._screen(values, keys, aims)
             best = [self._verify(e.values) for e in tried[: self._plan.candidates]]
             verified += best
-            if self._plan.rounds == 1 or all(_is_met(t, best[0].mean(t.name)) for t in targets):
+            if self._plan.rounds == 1 or all(is_met(t, best[0].mean(t.name)) for t in targets):
                 break
             aims = [_corrected(t, tried[0], best[0]) for t in targets]
             values = tried[0].values
         complete = [e for e in verified if all(e.mean(t.name) is not None for t in targets)]
         if not complete:
-            raise SimulationError("calibrate: no verified set gave all measures; see history.csv")
+            names = [t.name for t in targets if verified[-1].mean(t.name) is None]
+            raise SimulationError(
+                f"calibrate: no verified set gave all measures, the last none of "
+                f"{', '.join(names)}; see history.csv and the messages in runs"
+            )
         return min(complete, key=lambda e: e.cost)
 
     def _screen(self, values: Values, keys: list[str], aims: list[Target]) -> list[Evaluation]:
@@ -341,7 +357,11 @@ def _jobs(
     }
     return {
         (seed, (test, confinement)): jobs.make(
-            {**common, "test": test, "confinement": confinement, "seed": seed}, plan.base
+            {
+                **{**common, **runs.of_test.get(test, {})},
+                **{"test": test, "confinement": confinement, "seed": seed},
+            },
+            plan.base,
         )
         for seed, (test, confinement) in wanted
     }
@@ -364,16 +384,12 @@ def _started(plan: Calibration, key: str, start: Mapping[str, object]) -> float:
         raise InputError(f"calibration [free] {key}, is not used by model {plan.model}; remove it")
     low, high = plan.free[key]
     value = start.get(key)
-    if not isinstance(value, int | float) or not low <= value <= high:
+    if not isinstance(value, int | float) or not math.isfinite(value):
         raise InputError(
-            f"calibration [free] {key} = {value} at the start, must lie within its bounds "
-            f"{low:g} and {high:g}; change the bounds or the material"
+            f"calibration [free] {key} = {value} at the start, must be a number; give the material "
+            f"one between {low:g} and {high:g}"
         )
-    return float(value)
-
-
-def _is_met(target: Target, mean: float | None) -> bool:
-    return mean is not None and abs(mean / target.value - 1.0) <= target.tolerance
+    return float(min(max(value, low), high))
 
 
 def _corrected(target: Target, small: Evaluation, full: Evaluation) -> Target:

@@ -13,8 +13,18 @@ import numpy as np
 
 from .._version import __version__
 from ..errors import InputError
-from ..files import load_csv, read_text
-from ..report.pages.page import FILE, Chart, Line, Page, Picture, Rows, numbers, rows_to_draw
+from ..files import load_csv, load_json, read_text
+from ..report.pages.page import (
+    FILE,
+    Chart,
+    Line,
+    Page,
+    Picture,
+    Rows,
+    Status,
+    numbers,
+    rows_to_draw,
+)
 from ..report.pages.page import write as write_page
 from ..report.pages.page_run import STATUS, cite, inputs_table, maps_of, versions
 from ..report.style import CYCLE
@@ -25,6 +35,7 @@ from ..runs.asked import told, write_report
 from ..runs.output import KINDS, kind_of
 from ..runs.run_spec import RunSpec
 from ..text import name_of, printable, words_of
+from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
 
 #: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
@@ -166,11 +177,16 @@ def _calibration(folder: Path) -> Page:
     """Page of a calibration."""
     names, rows = load_csv(folder / "history.csv", "history")
     shown = [[_plain(cell) for cell in row] for row in rows[-_MOST_ROWS:]]
+    box, shares = _verdict(folder)
     return Page(
         title=f"Calibration {name_of(folder.resolve().name)}",
         about=f"{len(rows)} sets of values were tried",
         versions=f"Made by flexpm {__version__}.",
-        tables=[Rows("Sets of values", [words_of(name) for name in names], shown)],
+        status=box,
+        tables=[
+            *([shares] if shares else []),
+            Rows("Sets of values", [words_of(name) for name in names], shown),
+        ],
         pictures=_pictures(folder),
         texts=[
             (f"Material {name_of(file.name)}", text)
@@ -179,6 +195,23 @@ def _calibration(folder: Path) -> Page:
         ],
         cite=cite(__version__),
     )
+
+
+def _verdict(folder: Path) -> tuple[Status | None, Rows | None]:
+    """Box and table of what a calibration says of itself; none of one that was not finished."""
+    file = folder / VERDICT
+    if not file.is_file():
+        return None, None
+    content = load_json(file, "verdict")
+    missed = [words_of(str(name)) for name in content["missed"]]
+    lines = [printable(str(line)) for line in content["advice"]]
+    meaning = f"Missed: {', '.join(missed)}." if missed else "All targets are met."
+    name = "not met" if missed else "met"
+    told = " ".join(f"{line[:1].upper()}{line[1:]}." for line in lines)
+    box = Status(name, not missed, meaning, told)
+    shares = [(words_of(str(key)), f"{float(part):.2g}") for key, part in content["left"].items()]
+    note = "1: the targets leave the key anywhere within its bounds; small: they determine it."
+    return box, Rows("How open the keys are", ("key", "scatter left [-]"), shares, note)
 
 
 def _text_of(file: Path) -> str:

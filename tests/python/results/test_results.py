@@ -78,6 +78,8 @@ KEYS = [
     "completeness_magnitude",
     "b_value",
     "b_value_error",
+    "final_rate",
+    "rates",
     "status",
     "warnings",
     "inputs",

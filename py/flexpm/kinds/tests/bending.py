@@ -76,4 +76,5 @@ KIND = TestKind(
     no_constants=("youngs_modulus",),  # the slope of a beam
     measure=_measure,
     words=bent.WORDS,
+    calibrates={"beam_toughness": "fracture_toughness"},
 )

@@ -74,4 +74,5 @@ KIND = TestKind(
     no_constants=("youngs_modulus",),
     measure=_measure,
     words=bent.WORDS,
+    calibrates={"scb_toughness": "fracture_toughness"},
 )

@@ -21,7 +21,7 @@ from ...text import words_of
 from ..curves import fits_a_picture
 from ..emission import emission_table
 from ..style import COLOURS, CYCLE, MODE_NAMES
-from ..tables import result_rows, size_text, test_text
+from ..tables import result_rows, scaled, size_text, test_text
 from ..words import words_of_test
 from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
 from .page_map import crack_map
@@ -56,8 +56,9 @@ STATUS = {
         False,
         "The loading was too fast: forces were not balanced up to the peak, or the energies do "
         "not balance. Strengths come out too high.",
-        "Run it again with half the --rate until the status is ok and the peak stands still. With "
-        "few grains a single crack unbalances the whole specimen: take more of them.",
+        "Run it again with --rate auto: at half the rate, until the status is ok and the peak "
+        "stands still; if it did so, with more --halvings. With few grains a single crack "
+        "unbalances the whole specimen: take more of them.",
     ),
     "diverged": Status(
         "diverged",
@@ -120,7 +121,7 @@ def write_page(
         warnings=[*result.warnings, *missing],
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         maps=maps,
-        tables=_tables(result, inputs, _networks_table(result)),
+        tables=_tables(result, inputs, _rates_table(result), _networks_table(result)),
         pictures=_pictures(folder, _PICTURES),
         commands=commands,
         cite=cite(result.flexpm),
@@ -310,6 +311,23 @@ def _pairs_table(result: Result) -> Rows | None:
         for pair, counts in result.cracks_by_pair.items()
     ]
     return Rows("Cracked points by pair of minerals", ("pair", "tensile", "shear"), rows)
+
+
+def _rates_table(result: Result) -> Rows | None:
+    """Loadings of a test whose rate was halved; None of one that was loaded once."""
+    if not result.rates:
+        return None
+    rows, before = [], None
+    for one in result.rates:
+        peak = one["peak_stress"]
+        change = "-" if not (peak and before) else f"{100.0 * (peak / before - 1.0):+.2g} %"
+        cells = (scaled(peak, 1e-6, "MPa"), change, str(one["steps"]), f"{one['seconds']:.2g} s")
+        rows.append((f"{one['rate']:g}", one["status"], *cells))
+        before = peak
+    note = "Half the rate until the status is ok and the peak moves by less than 1 %; all numbers "
+    note += f"of this page are of the last one, status {result.status}."
+    heading = ("rate", "status", "peak", "change", "steps", "wall time")
+    return Rows("Loadings", heading, rows, note)
 
 
 def _networks_table(result: Result) -> Rows | None:
