@@ -94,7 +94,7 @@ class Result(Shown):
     completeness_magnitude: float | None = None  #: from which on b_value counts events [-]
     b_value: float | None = None  #: of the magnitudes of events [-]
     b_value_error: float | None = None  #: standard error [-]
-    status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
+    status: str = "ok"  #: ok, no_peak, not_quasistatic, diverged or unfinished
     inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
@@ -116,7 +116,7 @@ class Result(Shown):
         mismatch = measures.median_end_mismatch(record)
         # a script's own test has no option of the command
         given = self.inputs or {}
-        rate = given["rate"] if given.get("repeatable", bool(given)) else None
+        rate = given["rate"] if given and "repeatable" not in given else None
         found = [] if self.inputs is None else doubts.of_inputs(self.inputs)
         if kind_of(self.test).rig is Rig.WAVE and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 import yade
@@ -26,6 +26,9 @@ from ..runs.runner import Runner, Span
 from ..threads import limited
 from .outcome.folder import save
 from .readings import RigReadings
+
+if TYPE_CHECKING:
+    from .outcome.kept import KeptTest
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
 
@@ -71,6 +74,8 @@ class TestRig(RigReadings):
         self._coming: Table | None = None  # the stage that has been asked for, until it begins
         #: Called after each step.
         self.watch: Callable[[TestRig], None] | None = None
+        #: Writes the folder of a script's own test, if it has one.
+        self.kept: KeptTest | None = None
 
     def confine(self, pressure: float) -> None:
         """Press on the top and the sides, the bottom held, until the forces balance.
@@ -189,10 +194,15 @@ class TestRig(RigReadings):
         return save(self, self.stages, folder, report=report, step_time=self._runner.step_time)
 
     def finish(self) -> None:
-        """Bring YADE's objects up to date, for scripts that go on, and save the last state."""
+        """Bring YADE's objects up to date, for scripts that go on, and save the last state.
+
+        A test with a folder gets its pictures and its page, too, as at the end of its script.
+        """
         self._synchronize()
         if not self.diverged:
             self._runner.save()
+        if self.kept is not None:
+            self.kept.draw()
 
     # What each kind of rig does in its own way
 
@@ -232,6 +242,8 @@ class TestRig(RigReadings):
 
     def _watched_step(self) -> None:
         self._step()
+        if self.kept is not None:
+            self.kept.look(self)
         if self.watch is None:
             return
         done = yade.O.iter
@@ -241,6 +253,11 @@ class TestRig(RigReadings):
                 f"watch: scene = step {yade.O.iter} with {len(yade.O.engines)} engines, must stay "
                 f"at step {done} with those of the test; let it only look"
             )
+
+    @property
+    def has_scale(self) -> bool:
+        """Whether the strain that the specimen will bear is known, so that frames can be spaced."""
+        return True
 
     @abstractmethod
     def _synchronize(self) -> None:
@@ -259,6 +276,8 @@ class TestRig(RigReadings):
 
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
         """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
+        if self.kept is not None and self._runner.has_begun:
+            self._coming = None  # an earlier start has told of it
         if self.diverged or not self._runner.enter(begin):
             return False
         if self._coming is not None:
@@ -276,9 +295,10 @@ class TestRig(RigReadings):
         return True
 
     def _step_through(self, over: Callable[[], bool], text: str) -> None:
+        frames = self.kept is not None and self.kept.has_frames
         with limited(self.built.threads):
             self._runner.run(
-                self._step if self.watch is None else self._watched_step,
+                self._step if self.watch is None and not frames else self._watched_step,
                 over,
                 lambda: text or self._standing(),
                 save=self.saves_anywhere,

@@ -116,8 +116,8 @@ def write_report(folder: Path, result: Result) -> Path:
 
 
 def is_own(inputs: object) -> bool:
-    """Whether inputs of a result.json are those of a script's own test, which it alone repeats."""
-    return isinstance(inputs, Mapping) and inputs.get("repeatable") is False
+    """Whether inputs of a result.json are those of a script's own test."""
+    return isinstance(inputs, Mapping) and "repeatable" in inputs
 
 
 def _write_own(folder: Path, result: Result) -> Path:

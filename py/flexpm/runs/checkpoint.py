@@ -19,7 +19,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TypeGuard
+from typing import Protocol, TypeGuard
 
 import yade
 
@@ -41,8 +41,19 @@ _SCENE_PATTERN = re.compile(r"checkpoint-[0-9]{1,18}(\.1)?\.bin")
 _CHECKSUM = "sha256"
 #: Engines of YADE that models have beside those of flexpm; others could run any code.
 _ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "NewtonIntegrator")
-#: More stages than any test has.
-_MOST_STAGES = 9
+#: More stages than any test has; a script's own may have many cycles.
+_MOST_STAGES = 10**6
+
+
+class Determined(Protocol):
+    """All that determines a run."""
+
+    @property
+    def results(self) -> int:
+        """Number of the results."""
+
+    def to_json(self) -> Table:
+        """The inputs as plain values."""
 
 
 @dataclass
@@ -62,9 +73,10 @@ class Checkpoint:
     Attributes:
         position: How far the run has come.
         resumed_at: Step at which an earlier run was taken up, or None.
+        told: What is saved beside: of a script's own test what it has called so far.
     """
 
-    def __init__(self, folder: Path, spec: RunSpec, interval: float = INTERVAL) -> None:
+    def __init__(self, folder: Path, spec: Determined, interval: float = INTERVAL) -> None:
         """Look for a checkpoint in `folder`.
 
         Args:
@@ -83,6 +95,7 @@ class Checkpoint:
         self._scene: Path | None = None
         self.position = Position()
         self.resumed_at: int | None = None
+        self.told: Table = {}
         self._lock = FolderLock(folder)
         if (folder / _NAME).exists():
             self._read(folder / _NAME)
@@ -144,9 +157,13 @@ class Checkpoint:
         self._scene, self._saved = scene, time.monotonic()
         self._remove_others(scene)
 
+    def release(self) -> None:
+        """Let other processes into the folder."""
+        self._lock.release()
+
     def _about(self, scene: Path) -> Table:
         about = {"scene": scene.name, **asdict(self.position), **self._build}
-        return about | {"inputs": self._inputs}
+        return about | {"inputs": self._inputs, **({"told": self.told} if self.told else {})}
 
     def _read(self, file: Path) -> None:
         content = _content(file)
@@ -169,6 +186,7 @@ class Checkpoint:
         _refuse_differences(file.parent, there, _flat(self._inputs))
         self._scene = scene
         self.position = Position(**{name: content[name] for name in asdict(self.position)})
+        self.told = content.get("told", {})
 
     def _scenes(self) -> list[Path]:
         return list(self._folder.glob(_SCENE.format(step="*")))
@@ -268,7 +286,7 @@ def _checksum(about: Mapping[str, object], scene: Path) -> str:
     return digest.hexdigest()
 
 
-def _build(spec: RunSpec) -> Table:
+def _build(spec: Determined) -> Table:
     """What a scene depends on beside the inputs of its run: another build differs in it."""
     return {
         "flexpm": __version__,

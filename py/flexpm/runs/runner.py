@@ -66,6 +66,11 @@ class Runner:
         """Median wall time of a step [s], of the earlier run if this one did none."""
         return median(self._spans) if self._spans else self.position.step_time
 
+    @property
+    def has_begun(self) -> bool:
+        """Whether an earlier start has begun the stage that comes next."""
+        return self._stages < self.position.stage
+
     def enter(self, prepare: Callable[[], Span]) -> bool:
         """Begin the next stage of the test.
 
