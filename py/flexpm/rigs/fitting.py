@@ -54,7 +54,7 @@ def rig(
             f"rig: specimen = {built.specimen.kind}, must be a rectangle or a disc; flexpm.PartRig "
             "holds any other"
         )
-    kept = KeptTest.of(built, "rig", leaves, tension=tension)
+    kept = KeptTest.of(built, "rig", leaves, pull=tension)
     made = _fitting(built, tension, runner if kept is None else kept.runner)
     if kept is not None:
         kept.attach(made)

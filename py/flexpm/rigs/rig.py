@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 import numpy as np
 import yade
@@ -24,11 +24,9 @@ from ..results.result import Result
 from ..runs.loading_rate import WAITING_MODELS, Loading, Schedule
 from ..runs.runner import Runner, Span
 from ..threads import limited
+from .outcome.calls import Keeper
 from .outcome.folder import save
 from .readings import RigReadings
-
-if TYPE_CHECKING:
-    from .outcome.kept import KeptTest
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
 
@@ -75,7 +73,7 @@ class TestRig(RigReadings):
         #: Called after each step.
         self.watch: Callable[[TestRig], None] | None = None
         #: Writes the folder of a script's own test, if it has one.
-        self.kept: KeptTest | None = None
+        self.kept: Keeper | None = None
 
     def confine(self, pressure: float) -> None:
         """Press on the top and the sides, the bottom held, until the forces balance.
@@ -243,7 +241,7 @@ class TestRig(RigReadings):
     def _watched_step(self) -> None:
         self._step()
         if self.kept is not None:
-            self.kept.look(self)
+            self.kept.look()
         if self.watch is None:
             return
         done = yade.O.iter

@@ -41,6 +41,7 @@ class Runner:
 
     Attributes:
         position: How far the run has come.
+        stages: How many stages have been asked for.
     """
 
     def __init__(
@@ -58,7 +59,7 @@ class Runner:
         """
         self._checkpoint, self._progress, self._foresee = checkpoint, progress, foresee
         self.position = checkpoint.position if checkpoint else Position()
-        self._stages = 0
+        self.stages = 0
         self._spans: list[float] = []
 
     @property
@@ -69,7 +70,7 @@ class Runner:
     @property
     def has_begun(self) -> bool:
         """Whether an earlier start has begun the stage that comes next."""
-        return self._stages < self.position.stage
+        return self.stages < self.position.stage
 
     def enter(self, prepare: Callable[[], Span]) -> bool:
         """Begin the next stage of the test.
@@ -80,14 +81,14 @@ class Runner:
         Returns:
             Whether there are steps to do: False for a stage that an earlier start has finished.
         """
-        self._stages += 1
-        position = self.position
-        if position.stage < self._stages:
+        number, position = self.stages + 1, self.position
+        if position.stage < number:
             span = prepare()
-            position.stage, position.stage_start = self._stages, yade.O.iter
+            position.stage, position.stage_start = number, yade.O.iter
             position.stage_end = position.stage_start + span.longest
             position.stage_likely = position.stage_start + span.likely
-        return position.stage == self._stages
+        self.stages = number  # one that cannot be prepared is none
+        return position.stage == number
 
     def run(
         self,

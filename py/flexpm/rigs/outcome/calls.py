@@ -17,26 +17,41 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from ...arrays import IntArray
 from ...errors import InputError, SimulationError
 from ...files import Table
 from ...require import quoted
 from ...runs.loading_rate import Loading
+from ...runs.runner import Runner
 from ..parts import HeldNodes, RigPart
 
 #: Public methods that only read, or that make no test of their own.
-_READERS = ("start", "scales", "balance", "unbalanced", "elastic", "save", "finish", "to_yade_plot")
+_READERS = ("start", "scales", "balance", "unbalanced", "save", "finish", "to_yade_plot")
+#: Folder of what finds static solutions, which change no scene.
+_STATICS = ".statics."
 #: What marks a value that is more than a number, a text or a list.
 _PART, _LOADING, _PAIRS, _NODES, _OTHER = "part", "loading", "pairs", "nodes", "unknown"
 #: Errors that a script may catch to go on; they come again when its call is passed.
-_ERRORS = {error.__name__: error for error in (InputError, SimulationError)}
+_CAUGHT = (InputError, SimulationError)
+_ERRORS = {error.__name__: error for error in _CAUGHT}
 
 Kind = TypeVar("Kind", bound=type)
 
 
 class Keeper(Protocol):
-    """What a rig tells of its calls."""
+    """What a rig with a folder tells of its calls and steps."""
 
     calls: Calls
+
+    @property
+    def has_frames(self) -> bool:
+        """Whether each step is to be looked at."""
+
+    def look(self) -> None:
+        """See a step."""
+
+    def draw(self) -> None:
+        """Draw pictures and page."""
 
     def before(self, name: str) -> None:
         """A call begins."""
@@ -50,18 +65,22 @@ class Calls:
 
     Attributes:
         made: Those of this start: the name as ``call``, the arguments, whether it is ``over``, and
-            the error that it ``raised``.
+            the error that it ``raised``: class, text, and the stages that had begun by then.
     """
 
-    def __init__(self, folder: str, earlier: Sequence[Table] = (), *, passes: bool = False) -> None:
+    def __init__(
+        self, folder: str, runner: Runner, earlier: Sequence[Table] = (), *, passes: bool = False
+    ) -> None:
         """Take what an earlier start has called.
 
         Args:
             folder: Named in messages.
+            runner: Counts the stages of the calls.
             earlier: Its calls, which this start must make again.
             passes: The scene has what those of them have done that are over.
         """
-        self._folder, self._earlier, self._passes = folder, [*earlier], passes
+        self._folder, self._runner = folder, runner
+        self._earlier, self._passes = [*earlier], passes
         self.made: list[Table] = []
         self.inside = False
 
@@ -89,15 +108,15 @@ class Calls:
             self._require_same(there, call)
             if self._passes and there.get("raised"):
                 self.made.append(there)
-                kind, text = there["raised"]
+                kind, text, self._runner.stages = there["raised"]
                 raise _ERRORS.get(kind, SimulationError)(text)
         self.made.append(call)
         self.inside = True
         try:
             yield call
-        except tuple(_ERRORS.values()) as error:
+        except _CAUGHT as error:
             call["over"] = True
-            call["raised"] = [type(error).__name__, str(error)]
+            call["raised"] = [type(error).__name__, str(error), self._runner.stages]
             raise
         finally:
             self.inside = False
@@ -122,6 +141,7 @@ def recording(rig: Kind) -> Kind:
         for base in reversed(rig.__mro__)
         for name, function in vars(base).items()
         if inspect.isfunction(function) and not name.startswith("_") and name not in _READERS
+        if _STATICS not in function.__module__
     }
     for name, function in names.items():
         setattr(rig, name, _recorded(name, function))
@@ -200,7 +220,7 @@ def _text(call: Table) -> str:
 class Again:
     """Makes stored calls again on a rig."""
 
-    def __init__(self, rig: object, places: Callable[[], Sequence[int]]) -> None:
+    def __init__(self, rig: object, places: Callable[[], IntArray]) -> None:
         """Take a rig.
 
         Args:
@@ -226,7 +246,7 @@ class Again:
         raised = (call.get("raised") or [""])[0]
         try:
             result = function(self._rig, **given)
-        except tuple(_ERRORS.values()) as error:
+        except _CAUGHT as error:
             if type(error).__name__ != raised:
                 raise
             return

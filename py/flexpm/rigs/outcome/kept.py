@@ -26,7 +26,7 @@ import numpy as np
 import yade
 
 from ...errors import InputError
-from ...files import Table, output_folder, read_json, refuse_folders, write_text
+from ...files import Table, output_folder, read_json, refuse_folders
 from ...models.grains import Model
 from ...models.spheres import SphereModel
 from ...results.result import Result
@@ -93,7 +93,6 @@ class KeptTest:
         self._checkpoint = _Saved(self._folder, before, interval)
         found, told = self._checkpoint.found, self._checkpoint.told
         earlier = told["calls"] if found else self._calls_of_result()
-        self.calls = Calls(self._name, earlier, passes=found)
         self._stages: list[Table] = told.get("stages", [])
         self._reason: str = told.get("reason", "")
         if isinstance(built, SphereModel):
@@ -104,6 +103,7 @@ class KeptTest:
             built.rebind()
             built.set_threads(threads)
         self.runner = Runner(self._checkpoint)
+        self.calls = Calls(self._name, self.runner, earlier, passes=found)
         self._resumed_at = yade.O.iter if found else None
         self._result: Result | None = None  # what is written, and not drawn yet
         self._notches: list[int] = []
@@ -150,9 +150,7 @@ class KeptTest:
         self._frames: FrameWriter | None = None
         if self._output.frames:
             said = about({**self._before, "confinement": 0.0})
-            self._frames = FrameWriter(
-                self._folder, self._output.frames, said, self._resumed_at
-            )
+            self._frames = FrameWriter(self._folder, self._output.frames, said, self._resumed_at)
         self._mark, self._done = _mark(rig), (yade.O.iter, len(rig.stages))
         _open.append(self)
 
@@ -161,9 +159,10 @@ class KeptTest:
         """Whether each step is to be looked at."""
         return self._frames is not None
 
-    def look(self, rig: TestRig) -> None:
+    def look(self) -> None:
         """See a step of the rig."""
-        if self._frames is not None and rig.has_scale:
+        rig = self._rig()
+        if self._frames is not None and rig is not None and rig.has_scale:
             self._frames(rig)
 
     def before(self, name: str) -> None:
@@ -188,7 +187,7 @@ class KeptTest:
             self._done = done
             with contextlib.suppress(*(() if error is None else (OSError, RuntimeError))):
                 if error is None and not rig.diverged:
-                    self._checkpoint.save()
+                    self.runner.save()
                 self._write(rig, "" if error is None else _said(name, error))
         self._mark = _mark(rig)
         if isinstance(error, Terminated):
@@ -244,7 +243,10 @@ class KeptTest:
             "reason": self._reason,
         }
         if ended:
-            inputs["doubts"] = [f"{UNFINISHED}: {ended}; what was reached is here", *inputs["doubts"]]
+            inputs["doubts"] = [
+                f"{UNFINISHED}: {ended}; what was reached is here",
+                *inputs["doubts"],
+            ]
         result = result_so_far(rig, inputs)
         result.step_time, result.resumed_at = self.runner.step_time, self._resumed_at
         if ended:
@@ -277,7 +279,17 @@ class KeptTest:
 
 
 #: What a test begins with.
-_FIXED = ("test", "specimen", "material", "model", "points", "mesh", "dynamic", "gravity", "damping")
+_FIXED = (
+    "test",
+    "specimen",
+    "material",
+    "model",
+    "points",
+    "mesh",
+    "dynamic",
+    "gravity",
+    "damping",
+)
 #: Tests whose script goes on; the scene is that of the last one.
 _open: list[KeptTest] = []
 
