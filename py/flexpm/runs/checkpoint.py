@@ -169,6 +169,11 @@ class Checkpoint:
         content = _content(file)
         if _is_scene(content.get("scene")) and not self._scenes():
             return  # someone has removed it: there is nothing to go on from, and nothing to lose
+        inputs = content.get("inputs")
+        if isinstance(inputs, dict) and "test" in inputs and "flexpm" in content:
+            _refuse_differences(
+                file.parent, *({"test": one["test"]} for one in (inputs, self._inputs))
+            )
         _refuse_other_build(file, content, self._build)
         _require_entries(file, content)
         scene = file.parent / content["scene"]
