@@ -163,16 +163,21 @@ def _write_own(folder: Path, result: Result) -> Path:
 
     content = result.inputs or {}
     with _refusing(folder / "result.json"):
-        spec = _own_inputs(content)
-        shown = ("model", "points", "mesh", "dynamic", "gravity", "damping")
-        values = [(name, getattr(spec, name)) for name in shown]
-        inputs = [
-            *(Input(name, value, INPUT_UNITS.get(name, ""), "given") for name, value in values),
-            *_of_specimen(spec.specimen),
-            *_of_material(spec),
-        ]
+        inputs = _told_own(content)
     again = [_AGAIN] if is_repeatable(content) else []
     return write_own_page(folder, result, inputs, again)
+
+
+def _told_own(content: Table) -> list[Input]:
+    """Specimen, material and model of a script's own test."""
+    spec = _own_inputs(content)
+    shown = ("model", "points", "mesh", "dynamic", "gravity", "damping")
+    values = [(name, getattr(spec, name)) for name in shown]
+    return [
+        *(Input(name, value, INPUT_UNITS.get(name, ""), "given") for name, value in values),
+        *_of_specimen(spec.specimen),
+        *_of_material(spec),
+    ]
 
 
 class Input(NamedTuple):
@@ -182,6 +187,11 @@ class Input(NamedTuple):
     value: object
     unit: str  #: empty if it has none
     source: str  #: where the value comes from
+
+
+def told_of(inputs: Table) -> list[Input]:
+    """What inputs of a result.json say, of a run or of a script's own test."""
+    return _told_own(inputs) if is_own(inputs) else told(RunSpec.from_json(inputs))
 
 
 def told(spec: RunSpec) -> list[Input]:

@@ -34,6 +34,8 @@ _WITHIN = "FLEXPM_STUDY_RUN"
 _OVER, _GRACE = 124, 20
 #: Exit codes of what ends the same way each time: errors of flexpm, and a folder without a result.
 _ENDS = {"flexpm.errors.InputError": 2, "flexpm.errors.SimulationError": 3}
+#: Names that parameters cannot have: columns of the table, and the folder.
+_TAKEN = ("out", "test", "key", "exit_code", "message")
 #: Number of the way in which keys are made.
 _SCHEMA = 1
 
@@ -72,7 +74,7 @@ class Script:
             ) from None
 
     def checksum(self) -> str:
-        """Of the script and of what it imports from its folder, whatever that is called there."""
+        """Checksum of the script and of what it imports from its folder."""
         finder = modulefinder.ModuleFinder([str(self.file.parent)])
         finder.run_script(str(self.file))
         files = [getattr(one, "__file__", None) for one in finder.modules.values()]
@@ -89,7 +91,7 @@ class ScriptJob:
     Attributes:
         inputs: Its parameters by name.
         script: What is run.
-        checksum: Of its bytes.
+        checksum: That of its bytes, see `Script.checksum`.
     """
 
     inputs: Table
@@ -116,7 +118,7 @@ class ScriptJob:
         return self.key
 
     def older_keys(self) -> list[str]:
-        """None: what a script gave before is not known."""
+        """Keys before: none, as what a script gave then is not known."""
         return []
 
     def command(self, folder: Path, worker_path: Path) -> list[str]:
@@ -166,9 +168,10 @@ def make(script: Script, inputs: Table, checksum: str) -> ScriptJob:
     """
     given = {spelt(key): value for key, value in inputs.items()}
     for key, value in given.items():
-        if not key.isidentifier() or key == "out":
+        if not key.isidentifier() or key in _TAKEN:
             raise InputError(
-                f"study key = {quoted(key)}, must be the name of a parameter, and not out"
+                f"study key = {quoted(key)}, must be the name of a parameter, and none of "
+                f"{', '.join(_TAKEN)}"
             )
         plain = value if isinstance(value, list) else [value]
         if not all(isinstance(one, bool | int | float | str) for one in plain):
@@ -216,11 +219,9 @@ def _file_of(function: Callable[..., object]) -> Path:
     name = getattr(function, "__qualname__", "")
     module = sys.modules.get(getattr(function, "__module__", None) or "")
     file = getattr(module, "__file__", None)
-    packed = getattr(module, "__package__", None)
     if (
         not (inspect.isfunction(function) and name.isidentifier() and file)
         or getattr(module, name, None) is not function
-        or packed
     ):
         raise InputError(
             f"study: function = {quoted(function)}, cannot be sent to workers; it must be a "
