@@ -53,7 +53,8 @@ class TestRig(RigReadings):
 
     A test is a sequence of its stages: calls of `confine`, `load` and `strain_to`. Each sets the
     scene up and steps to its end. In a run that is taken up from a checkpoint, stages that were
-    over are passed, and the one that was under way goes on.
+    over are passed, and the one that was under way goes on: what a stage changes it changes as it
+    begins, or again to the same.
     """
 
     __test__ = False  # no test of pytest

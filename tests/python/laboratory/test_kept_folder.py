@@ -10,6 +10,7 @@ import random
 import shutil
 import signal
 import subprocess
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import BusyError
 from flexpm.rigs.outcome import kept
-from flexpm.rigs.outcome.calls import plain
+from flexpm.rigs.outcome.calls import Again, plain, recording
 
 # importing flexpm has told Python where YADE is
 yade = importlib.import_module("yade")
@@ -410,6 +411,41 @@ def test_a_second_rig_ends_the_first_one(tmp_path):
     assert (tmp_path / "one" / "report.html").is_file()
     kept.close_open()
     require_same(tmp_path / "one", tmp_path / "two")
+
+
+@recording
+class Cycled(flexpm.PartRig):
+    """A rig with a stage of its own."""
+
+    def cycle(self, strains, load=None, times=1):
+        """Go to strains, again and again."""
+        for _ in range(times):
+            for strain in strains:
+                self.strain_to(strain, rate=load.rate)
+
+
+def test_a_stage_that_is_added_is_recorded_and_made_again(tmp_path):
+    made, folders = flexpm.Specimen.rectangle(0.036, 0.012, 0.01, seed=1), []
+    for name in ("one", "two"):
+        yade.O.reset()
+        built = flexpm.build(made, model="rigid")
+        rig = Cycled(built, out=tmp_path / name, report=False)
+        if folders:
+            places = partial(built.solver.nodePlaces, bonded=True)
+            again = Again(rig, lambda of=places: of()[0])
+            for call in content(folders[0])["inputs"]["calls"][1:]:
+                again.make(call)
+        else:
+            ends = [rig.hold(where=lambda x, y: x < 0.004), rig.platen(1, bonded=True)]
+            rig.drive(ends[1], (1.0, 0.0), against=ends[0])
+            rig.cycle(np.array([2e-7, 1e-7]), flexpm.Loading(rate=4.0), times=2)
+        folders.append(tmp_path / name)
+    kept.close_open()
+    calls = content(folders[0])["inputs"]["calls"]
+    assert [call["call"] for call in calls] == ["PartRig", "hold", "platen", "drive", "cycle"]
+    assert calls[-1]["with"]["strains"] == [2e-7, 1e-7]
+    assert len(content(folders[0])["inputs"]["stages"]) == 4
+    require_same(*folders)
 
 
 def test_arguments_are_plain_values():

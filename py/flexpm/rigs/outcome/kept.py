@@ -92,7 +92,7 @@ class KeptTest:
         self._before = before.to_json()
         self._checkpoint = _Saved(self._folder, before, interval)
         found, told = self._checkpoint.found, self._checkpoint.told
-        earlier = told["calls"] if found else self._calls_of_result()
+        earlier = told.get("calls", []) if found else self._calls_of_result()
         self._stages: list[Table] = told.get("stages", [])
         self._reason: str = told.get("reason", "")
         if isinstance(built, SphereModel):
