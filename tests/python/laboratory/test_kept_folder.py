@@ -115,7 +115,7 @@ def done_here(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str = SCRIP
 
 def ended(process: subprocess.Popen) -> tuple[int, str]:
     """Its exit code and the last line of its errors."""
-    told = process.communicate(timeout=120)[1].strip()
+    told = process.communicate(timeout=400)[1].strip()
     return process.returncode, told.splitlines()[-1] if told else ""
 
 
@@ -177,7 +177,7 @@ def test_a_killed_script_goes_on_to_the_same_bits(whole, tmp_path):
 @pytest.mark.long
 def test_kills_over_all_stages(whole, tmp_path):
     last, both = content(whole)["steps"], [signal.SIGTERM, signal.SIGKILL, signal.SIGKILL]
-    moments = [drawn(seed, both, last) for seed in range(10, 44)]
+    moments = [drawn(seed, both, last) for seed in range(10, 34)]
     for number, ends in enumerate(killed(tmp_path, moments)):
         assert ends[-1] == 0, ends
         require_same(tmp_path / str(number), whole)
