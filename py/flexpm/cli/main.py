@@ -157,12 +157,13 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
 
 @command.command(short_help="Many runs from one file.")
 @cli_options.many_runs_options
+@cli_options.study_seeds_option
 def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
     """Do the runs of FILE that are not done yet; table and pictures are made from all."""
     from ..studies import figures, pages
     from ..studies import study as studies
 
-    plan = studies.read(file)
+    plan = studies.read(file, options.pop("seeds"))
     folder = inputs.locked_folder(out or Path(file.stem), "study")
     with terminal.Progress(quiet, unit="runs") as progress:
         rows = studies.run(plan, folder, progress=progress, **options)

@@ -360,6 +360,12 @@ frames_options = combined(
     ),
 )
 quiet_option = click.option("--quiet", is_flag=True, help="Show no progress.")
+study_seeds_option = click.option(
+    "--seeds",
+    type=Seeds(),
+    metavar="N-M,...",
+    help="Values of seed in the place of those in FILE, such as 1-5 or 1,3,7-9.",
+)
 many_runs_options = combined(
     click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
     click.option(

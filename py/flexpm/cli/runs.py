@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from .._version import __version__
-from ..errors import SimulationError
+from ..errors import InputError, SimulationError
 from ..files import Table, json_text, load_json, write_text
 from ..kinds.registry import ELASTIC, KINDS, TESTS, names
 from ..materials.material import Material
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
-from ..runs.asked import differences, read_inputs
+from ..runs.asked import differences, read_inputs, read_own
 from ..runs.output import Output, refuse_other_result
+from ..runs.run_inputs import RunInputs
 from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import inputs, packings, terminal
@@ -95,14 +96,18 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 @cli_options.frames_options
 @cli_options.quiet_option
 def rerun(file: Path, out: Path, **options: Any) -> None:
-    """Repeat the run that has left FILE, its result.json (or its folder).
+    """Repeat the run or the script's own test that has left FILE, its result.json (or its folder).
 
-    All that determined the run is in that file. A specimen that is no plain packing is read from
-    grains.json beside it. At the end the numbers are compared with those of FILE.
+    All that determined the run is in that file, of a script's test every call that it made. A
+    specimen that is no plain packing is read from grains.json beside it. At the end the numbers are
+    compared with those of FILE.
     """
     file = file / "result.json" if file.is_dir() else file
-    spec, chosen = read_inputs(file)
     before = load_json(file, "result")
+    if own := read_own(file):
+        _repeat(file, own, inputs.locked_folder(out, "run"), options)
+        return
+    spec, chosen = read_inputs(file)
     folder = inputs.locked_folder(out, "run")
 
     def specimen(shown: terminal.Progress) -> Specimen:
@@ -140,6 +145,36 @@ def elastic(out: Path | None, **options: Any) -> None:
     spec = inputs.run_spec(ELASTIC, options, chosen, source)
     folder = None if out is None else inputs.locked_folder(out, "run")
     _solve(spec, chosen, lambda shown: inputs.made(source, shown), folder, options["quiet"])
+
+
+def _repeat(
+    file: Path, own: tuple[RunInputs, Material, list[Table]], folder: Path, options: Table
+) -> None:
+    """Make a script's own test again and tell its outcome; arguments as for a simulation."""
+    before = load_json(file, "result")
+    output = Output(options["report"], options["frames"], options["film"])
+    if options["discard_checkpoint"]:
+        raise InputError(
+            "discard_checkpoint: must be left out for a script's own test; choose another folder"
+        )
+    inputs.load_yade()
+    from ..laboratory.own_tests import repeat
+
+    try:
+        result = repeat(
+            file,
+            own,
+            threads=options["threads"],
+            out=folder,
+            report=output.report,
+            frames=output.frames,
+            film=output.film,
+        )
+        terminal.say(tables.result_table(result))
+        inputs.tell_warnings(result)
+        terminal.say(f"  files                   {folder}/")
+    finally:  # also of a test that fails again
+        _tell_differences(file, before, folder)
 
 
 def _tell_differences(file: Path, before: Table, folder: Path) -> None:

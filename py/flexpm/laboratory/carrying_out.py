@@ -16,7 +16,7 @@ from ..progress import Progress
 from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..rigs.fitting import rig as rig_of
-from ..rigs.frames import STATE, FrameWriter
+from ..rigs.frames import FrameWriter, show_frames
 from ..rigs.rig import TestRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
@@ -157,16 +157,7 @@ def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) ->
         write_report(folder, result)
     if isinstance(rig.watch, FrameWriter):
         rig.watch.finish(rig)
-        from ..report import film, paraview  # take long to load
-
-        frames = rig.watch.frames
-        files = [folder / one.file for one in frames]
-        steps, stresses = [one.step for one in frames], [one.axial_stress for one in frames]
-        paraview.write_state(folder / STATE, result, [*zip(files, steps, stresses, strict=True)])
-        if output.film:
-            strains = [one.axial_strain for one in frames]
-            shown = [*zip(files, strains, stresses, strict=True)]
-            film.write_film(folder / f"film.{output.film}", result, shown)
+        show_frames(folder, rig.watch.frames, result, output.film)
 
 
 def _confine(rig: TestRig, spec: RunSpec) -> None:

@@ -110,7 +110,10 @@ def _draw_modulus(axes: Axes, result: Result) -> None:
     ends = np.array([max(0.0, middle[1] - result.youngs_modulus * middle[0]), top])
     places = middle[0] + (ends - middle[1]) / result.youngs_modulus
     label = f"E = {1e-9 * result.youngs_modulus:.1f} GPa"
-    axes.plot(100.0 * places, 1e-6 * ends, color="0.45", lw=1.0, ls=(0, (5, 3)), label=label)
+    names = words_of_test(result.test)
+    across = names.x.factor if names.x.column == "axial_strain" else 100.0
+    up = names.y.factor if names.y.column == "axial_stress" else 1e-6
+    axes.plot(across * places, up * ends, color="0.45", lw=1.0, ls=(0, (5, 3)), label=label)
 
 
 def _draw_peak(axes: Axes, result: Result) -> None:
@@ -120,7 +123,10 @@ def _draw_peak(axes: Axes, result: Result) -> None:
     axes.plot(*place, "o", ms=5.0, mfc="white", mec="black", mew=1.2)
     along = place[0] / axes.get_xlim()[1]
     side = "left" if along < _MARGIN else "right" if along > 1.0 - _MARGIN else "center"
-    axes.annotate(f"{place[1]:.1f} MPa", place, (0, 7), textcoords="offset points", ha=side)
+    unit = words_of_test(result.test).y.unit
+    # what a script's own test calls stress has any size
+    text = f"{place[1]:.4g}" if unit == "SI" else f"{place[1]:.1f} MPa"
+    axes.annotate(text, place, (0, 7), textcoords="offset points", ha=side)
 
 
 def _caption(result: Result) -> str:

@@ -97,7 +97,7 @@ class Result(Shown):
     #: factor on the loading rate of the last loading, of a test whose rate is halved [-]
     final_rate: float | None = None
     rates: list[Table] | None = None  #: its loadings: rate, status, peak, steps, wall time
-    status: str = "ok"  #: ok, no_peak, not_quasistatic or diverged
+    status: str = "ok"  #: ok, no_peak, not_quasistatic, diverged or unfinished
     inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
@@ -119,7 +119,7 @@ class Result(Shown):
         mismatch = measures.median_end_mismatch(record)
         # a script's own test has no option of the command
         given = self.inputs or {}
-        rate = given["rate"] if given.get("repeatable", bool(given)) else None
+        rate = given["rate"] if given and "repeatable" not in given else None
         if self.final_rate is not None:
             rate, given = self.final_rate, {**given, "rate": self.final_rate}
         found = doubts.of_inputs(given) if given else []

@@ -21,7 +21,7 @@ _NOT_NEGATIVE = (
     *("step_time", "confinement", "unbalanced_ratio", "end_mismatch", "energy_error"),
     *("contact_width", "notch_depth", "joint_bend", "peak_load", "vp", "vs", "b_value_error"),
 )
-STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged")
+STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged", "unfinished")
 _KINDS: dict[str, tuple[type, ...]] = {
     "int": (int,),
     "float": (int, float),

@@ -3,17 +3,28 @@
 
 from __future__ import annotations
 
+from typing import Unpack
+
 from ..errors import InputError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..runs.runner import Runner
 from .grain_rig import NodeRig, PlateRig
+from .outcome.calls import recording
+from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig
 from .sphere_rig import SphereRig
 
+#: Rigs that note what a script calls, for its folder.
+_RIGS = [recording(kind) for kind in (NodeRig, PlateRig, SphereRig)]
+
 
 def rig(
-    built: Model | SphereModel, *, tension: bool = False, runner: Runner | None = None
+    built: Model | SphereModel,
+    *,
+    tension: bool = False,
+    runner: Runner | None = None,
+    **leaves: Unpack[Leaves],
 ) -> TestRig:
     """Put a built specimen into a rig, to write a test with.
 
@@ -22,19 +33,35 @@ def rig(
             which is compressed between two plates.
         tension: Pull instead of press; a rectangle only.
         runner: Steps, shows progress and saves checkpoints; None for one that only steps.
+        leaves: What the test leaves, by these names:
+
+            - ``out``: folder for its files, which grow while it runs. The same script started again
+              goes on from there, to the same bits; None, the default, writes nothing.
+            - ``frames``, ``film``: states on the way and a film of them, as for ``flexpm.run``.
+            - ``report``: write report.html, too, at the end; default True.
+            - ``checkpoint_interval``: wall time between two checkpoints [s], > 0.
 
     Returns:
         A rig of boundary nodes for deformable grains between their ends, of plates for rigid grains
         and for discs, of plates or grips for YADE's bonded spheres.
 
     Raises:
-        InputError: for a specimen of another outline.
+        InputError: for a specimen of another outline, or a folder that holds something else.
+        BusyError: if another process uses the folder.
     """
     if built.specimen.kind not in ("rectangle", "disc"):
         raise InputError(
             f"rig: specimen = {built.specimen.kind}, must be a rectangle or a disc; flexpm.PartRig "
             "holds any other"
         )
+    kept = KeptTest.of(built, "rig", leaves, pull=tension)
+    made = _fitting(built, tension, runner if kept is None else kept.runner)
+    if kept is not None:
+        kept.attach(made)
+    return made
+
+
+def _fitting(built: Model | SphereModel, tension: bool, runner: Runner | None) -> TestRig:
     if isinstance(built, SphereModel):
         return SphereRig(built, tension=tension, runner=runner)
     kind = NodeRig if built.name == "flexible" and built.specimen.kind == "rectangle" else PlateRig

@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
@@ -20,6 +20,7 @@ import yade
 from ..errors import InputError
 from ..files import csv_text, load_csv, write_text
 from ..require import quoted
+from ..results.result import Result
 from ..results.snapshot import Snapshot
 from ..results.vtu import write_vtu
 from .rig import TestRig
@@ -176,6 +177,20 @@ def read(folder: Path) -> list[Frame]:
         return found
     except ValueError as error:
         raise InputError(f"frames = {str(folder / TABLE)!r}, is no list: {error}") from None
+
+
+def show_frames(folder: Path, frames: Sequence[Frame], result: Result, film: str | None) -> None:
+    """Write what shows the frames of a test: a state of ParaView, and a film if asked for."""
+    from ..report import film as films
+    from ..report import paraview  # both take long to load
+
+    files = [folder / one.file for one in frames]
+    steps, stresses = [one.step for one in frames], [one.axial_stress for one in frames]
+    paraview.write_state(folder / STATE, result, [*zip(files, steps, stresses, strict=True)])
+    if film:
+        strains = [one.axial_strain for one in frames]
+        shown = [*zip(files, strains, stresses, strict=True)]
+        films.write_film(folder / f"film.{film}", result, shown)
 
 
 def _read(folder: Path, resumed_at: int | None) -> list[Frame]:

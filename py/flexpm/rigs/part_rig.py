@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import astuple
+from typing import Unpack
 
 import numpy as np
 from yade import wrapper
@@ -23,6 +24,8 @@ from ..require import NOT_NEGATIVE, require_number
 from ..results import doubts, measures
 from ..runs.loading_rate import Scales, Schedule, rates_of
 from ..runs.runner import Runner
+from .outcome.calls import recording
+from .outcome.kept import KeptTest, Leaves
 from .part_columns import PartColumns
 from .parts import Part, require_part
 from .stages.cycles import PartCycles
@@ -31,6 +34,7 @@ from .stages.cycles import PartCycles
 _PUSHES = 1e-9
 
 
+@recording
 class PartRig(PartColumns, PartCycles):
     """A specimen of any outline between parts.
 
@@ -41,20 +45,30 @@ class PartRig(PartColumns, PartCycles):
 
     built: Model
 
-    def __init__(self, built: Model, *, kind: str = OWN.name, runner: Runner | None = None) -> None:
+    def __init__(
+        self,
+        built: Model,
+        *,
+        kind: str = OWN.name,
+        runner: Runner | None = None,
+        **leaves: Unpack[Leaves],
+    ) -> None:
         """Take grains that have just been built, or whose scene has been loaded.
 
         Args:
             built: The specimen.
             kind: Name of the test, whose loading rate is taken.
             runner: Steps, shows progress and saves checkpoints; None for one that only steps.
+            leaves: What the test leaves, as for `flexpm.rig`: ``out``, ``frames``, ``film``,
+                ``report``, ``checkpoint_interval``.
 
         Raises:
             InputError: for a test that is not one of the model's; ``"own"`` is one of deformable
-                and of rigid grains.
+                and of rigid grains; for a folder that holds something else.
         """
         rates_of(kind, built.name)
-        super().__init__(built, runner=runner)
+        kept = KeptTest.of(built, "PartRig", leaves, kind=kind)
+        super().__init__(built, runner=runner if kept is None else kept.runner)
         self.disc = False
         self._kind = kind
         self._scales: Scales | None = None
@@ -62,6 +76,8 @@ class PartRig(PartColumns, PartCycles):
         self.pressed: Part | None = None
         self._begin_layout()
         self._begin_columns()
+        if kept is not None:
+            kept.attach(self)
 
     @property
     def kind(self) -> str:
@@ -107,6 +123,11 @@ class PartRig(PartColumns, PartCycles):
             return super().warnings
         growth = measures.growth_before_peak(self.record, self.scales().crossing_steps)
         return super().warnings + doubts.of_growth(growth)
+
+    @property
+    def has_scale(self) -> bool:
+        """Before it is driven it has none."""
+        return bool(self._frame.driven or self._frame.drivenSets)
 
     @property
     def may_fail_at_once(self) -> bool:

@@ -25,6 +25,7 @@ from ..runs.loading_rate import WAITING_MODELS, Loading, Schedule
 from ..runs.loading_start import LoadingStart
 from ..runs.runner import Runner, Span
 from ..threads import limited
+from .outcome.calls import Keeper
 from .outcome.folder import save
 from .readings import RigReadings
 
@@ -53,7 +54,8 @@ class TestRig(RigReadings):
 
     A test is a sequence of its stages: calls of `confine`, `load` and `strain_to`. Each sets the
     scene up and steps to its end. In a run that is taken up from a checkpoint, stages that were
-    over are passed, and the one that was under way goes on.
+    over are passed, and the one that was under way goes on: what a stage changes it changes as it
+    begins, or again to the same.
     """
 
     __test__ = False  # no test of pytest
@@ -72,6 +74,8 @@ class TestRig(RigReadings):
         self._coming: Table | None = None  # the stage that has been asked for, until it begins
         #: Called after each step.
         self.watch: Callable[[TestRig], None] | None = None
+        #: Writes the folder of a script's own test, if it has one.
+        self.kept: Keeper | None = None
 
     def confine(self, pressure: float) -> None:
         """Press on the top and the sides, the bottom held, until the forces balance.
@@ -182,10 +186,15 @@ class TestRig(RigReadings):
             start.keep(runner.position)
 
     def finish(self) -> None:
-        """Bring YADE's objects up to date, for scripts that go on, and save the last state."""
+        """Bring YADE's objects up to date, for scripts that go on, and save the last state.
+
+        A test with a folder gets its pictures and its page, too, as at the end of its script.
+        """
         self._synchronize()
         if not self.diverged:
             self._runner.save()
+        if self.kept is not None:
+            self.kept.draw()
 
     # What each kind of rig does in its own way
 
@@ -225,6 +234,8 @@ class TestRig(RigReadings):
 
     def _watched_step(self) -> None:
         self._step()
+        if self.kept is not None:
+            self.kept.look()
         if self.watch is None:
             return
         done = yade.O.iter
@@ -234,6 +245,11 @@ class TestRig(RigReadings):
                 f"watch: scene = step {yade.O.iter} with {len(yade.O.engines)} engines, must stay "
                 f"at step {done} with those of the test; let it only look"
             )
+
+    @property
+    def has_scale(self) -> bool:
+        """Whether the strain that the specimen will bear is known, so that frames can be spaced."""
+        return True
 
     @abstractmethod
     def _synchronize(self) -> None:
@@ -252,6 +268,8 @@ class TestRig(RigReadings):
 
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
         """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
+        if self.kept is not None and self._runner.has_begun:
+            self._coming = None  # an earlier start has told of it
         if self.diverged or not self._runner.enter(begin):
             return False
         if self._coming is not None:
@@ -295,9 +313,10 @@ class TestRig(RigReadings):
             )
 
     def _step_through(self, over: Callable[[], bool], text: str) -> None:
+        frames = self.kept is not None and self.kept.has_frames
         with limited(self.built.threads):
             self._runner.run(
-                self._step if self.watch is None else self._watched_step,
+                self._step if self.watch is None and not frames else self._watched_step,
                 over,
                 lambda: text or self._standing(),
                 save=self.saves_anywhere,

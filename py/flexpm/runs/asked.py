@@ -12,7 +12,7 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeGuard
 
 from ..errors import InputError
 from ..files import Table, load_json
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 #: Inputs that follow from test, model and material unless they are given.
 _FOLLOWING = ("start", "loading", "damping")
 _NESTED = ("specimen", "material", "own")
+#: What repeats a test that says all of itself.
+_AGAIN = ("From its one file:", "flexpm rerun result.json")
 #: What stands for None: an input that the loading finds, and the first kind of control.
 _OPEN = {
     "max_strain": "by the reference strength",
@@ -49,9 +51,10 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
     """
     inputs = load_json(file, "result").get("inputs")
     if is_own(inputs):
+        why = f", {inputs['reason']}" if inputs.get("reason") else ""
         raise InputError(
-            f"result = {str(file)!r}, is of a script's own test (repeatable = false), must be of a "
-            "run; start that script again"
+            f"result = {str(file)!r}, is of a script's own test (repeatable = false{why}), must be "
+            "of a run; start that script again"
         )
     if not isinstance(inputs, Mapping) or not isinstance(inputs.get("material"), Mapping):
         raise InputError(
@@ -59,6 +62,26 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
         )
     with _refusing(file):
         spec = RunSpec.from_json(dict(inputs))
+    return spec, _material_of(file, spec)
+
+
+def read_own(file: Path) -> tuple[RunInputs, Material, list[Table]] | None:
+    """What a script's own test began with and its calls, None for a run; as `read_inputs`.
+
+    Raises:
+        InputError: if it cannot be read.
+    """
+    inputs = load_json(file, "result").get("inputs")
+    if not is_repeatable(inputs):
+        return None
+    with _refusing(file):
+        spec = _own_inputs(inputs)
+        return spec, _material_of(file, spec), [dict(call) for call in inputs["calls"]]
+
+
+def _material_of(file: Path, spec: RunInputs) -> Material:
+    """The material of a test, from its description."""
+    with _refusing(file):
         material = from_description(spec.material, spec.model)
         found = described(material, spec.model)
     if found != spec.material:
@@ -68,7 +91,21 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
             "which this version cannot take from a result; give the material's own file to flexpm "
             "run"
         )
-    return spec, material
+    return material
+
+
+def is_repeatable(inputs: object) -> TypeGuard[Table]:
+    """Whether inputs are those of a script's own test that has stored all that was asked for."""
+    return isinstance(inputs, Mapping) and inputs.get("repeatable") is True
+
+
+def _own_inputs(inputs: Table) -> RunInputs:
+    """Specimen, material and model of a script's own test."""
+    names = {field.name for field in fields(RunInputs)}
+    plain = {name: value for name, value in inputs.items() if name in names}
+    known = {field.name for field in fields(SpecimenSpec)}
+    specimen = {key: value for key, value in plain["specimen"].items() if key in known}
+    return RunInputs(**{**plain, "specimen": SpecimenSpec(**specimen)})
 
 
 @contextlib.contextmanager
@@ -119,15 +156,15 @@ def write_report(folder: Path, result: Result) -> Path:
         return _write_own(folder, result)
     with _refusing(folder / "result.json"):
         spec = RunSpec.from_json(result.inputs or {})
-    commands = [("From its one file:", "flexpm rerun result.json")]
+    commands = [_AGAIN]
     if line := command(spec):
         commands.append(("By all that was asked for:", line))
     return write_page(folder, result, told(spec), commands)
 
 
-def is_own(inputs: object) -> bool:
-    """Whether inputs of a result.json are those of a script's own test, which it alone repeats."""
-    return isinstance(inputs, Mapping) and inputs.get("repeatable") is False
+def is_own(inputs: object) -> TypeGuard[Table]:
+    """Whether inputs of a result.json are those of a script's own test."""
+    return isinstance(inputs, Mapping) and "repeatable" in inputs
 
 
 def _write_own(folder: Path, result: Result) -> Path:
@@ -135,20 +172,22 @@ def _write_own(folder: Path, result: Result) -> Path:
     from ..report.pages.page_run import write_own_page
 
     content = result.inputs or {}
-    names = {field.name for field in fields(RunInputs)}
     with _refusing(folder / "result.json"):
-        plain = {name: value for name, value in content.items() if name in names}
-        known = {field.name for field in fields(SpecimenSpec)}
-        specimen = {key: value for key, value in plain["specimen"].items() if key in known}
-        spec = RunInputs(**{**plain, "specimen": SpecimenSpec(**specimen)})
-        shown = ("model", "points", "mesh", "dynamic", "gravity", "damping")
-        values = [(name, getattr(spec, name)) for name in shown]
-        inputs = [
-            *(Input(name, value, INPUT_UNITS.get(name, ""), "given") for name, value in values),
-            *_of_specimen(spec.specimen),
-            *_of_material(spec),
-        ]
-    return write_own_page(folder, result, inputs)
+        inputs = _told_own(content)
+    again = [_AGAIN] if is_repeatable(content) else []
+    return write_own_page(folder, result, inputs, again)
+
+
+def _told_own(content: Table) -> list[Input]:
+    """Specimen, material and model of a script's own test."""
+    spec = _own_inputs(content)
+    shown = ("model", "points", "mesh", "dynamic", "gravity", "damping")
+    values = [(name, getattr(spec, name)) for name in shown]
+    return [
+        *(Input(name, value, INPUT_UNITS.get(name, ""), "given") for name, value in values),
+        *_of_specimen(spec.specimen),
+        *_of_material(spec),
+    ]
 
 
 class Input(NamedTuple):
@@ -158,6 +197,11 @@ class Input(NamedTuple):
     value: object
     unit: str  #: empty if it has none
     source: str  #: where the value comes from
+
+
+def told_of(inputs: Table) -> list[Input]:
+    """What inputs of a result.json say, of a run or of a script's own test."""
+    return _told_own(inputs) if is_own(inputs) else told(RunSpec.from_json(inputs))
 
 
 def told(spec: RunSpec) -> list[Input]:

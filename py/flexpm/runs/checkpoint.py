@@ -19,7 +19,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import TypeGuard
+from typing import Protocol, TypeGuard
 
 import yade
 
@@ -44,10 +44,21 @@ _ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "Newton
 #: Entries that not all runs have.
 _HALVED = ("start", "tried")
 _START = {"stage", "step", "sha256"}
-#: More stages than any test has.
-_MOST_STAGES = 9
+#: More stages than any test has; a script's own may have many cycles.
+_MOST_STAGES = 10**6
 #: More loadings than a run can have, by the bounds of its halvings.
 _MOST_TRIED = 20
+
+
+class Determined(Protocol):
+    """All that determines a run."""
+
+    @property
+    def results(self) -> int:
+        """Number of the results."""
+
+    def to_json(self) -> Table:
+        """The inputs as plain values."""
 
 
 @dataclass
@@ -75,9 +86,10 @@ class Checkpoint:
     Attributes:
         position: How far the run has come.
         resumed_at: Step at which an earlier run was taken up, or None.
+        told: What is saved beside: of a script's own test what it has called so far.
     """
 
-    def __init__(self, folder: Path, spec: RunSpec, interval: float = INTERVAL) -> None:
+    def __init__(self, folder: Path, spec: Determined, interval: float = INTERVAL) -> None:
         """Look for a checkpoint in `folder`.
 
         Args:
@@ -96,6 +108,7 @@ class Checkpoint:
         self._scene: Path | None = None
         self.position = Position()
         self.resumed_at: int | None = None
+        self.told: Table = {}
         self._lock = FolderLock(folder)
         if (folder / _NAME).exists():
             self._read(folder / _NAME)
@@ -144,14 +157,23 @@ class Checkpoint:
         self._scene, self._saved = scene, time.monotonic()
         self._remove_others(scene)
 
+    def release(self) -> None:
+        """Let other processes into the folder."""
+        self._lock.release()
+
     def _about(self, scene: Path) -> Table:
         about = {"scene": scene.name, **self.position.to_json(), **self._build}
-        return about | {"inputs": self._inputs}
+        return about | {"inputs": self._inputs, **({"told": self.told} if self.told else {})}
 
     def _read(self, file: Path) -> None:
         content = _content(file)
         if _is_scene(content.get("scene")) and not self._scenes():
             return  # someone has removed it: there is nothing to go on from, and nothing to lose
+        inputs = content.get("inputs")
+        if isinstance(inputs, dict) and "test" in inputs and "flexpm" in content:
+            _refuse_differences(
+                file.parent, *({"test": one["test"]} for one in (inputs, self._inputs))
+            )
         _refuse_other_build(file, content, self._build)
         _require_entries(file, content)
         scene = file.parent / content["scene"]
@@ -170,6 +192,7 @@ class Checkpoint:
         self._scene = scene
         names = [name for name in asdict(self.position) if name in content]
         self.position = Position(**{name: content[name] for name in names})
+        self.told = content.get("told", {})
 
     def _scenes(self) -> list[Path]:
         return list(self._folder.glob(_SCENE.format(step="*")))
@@ -297,7 +320,7 @@ def _checksum(about: Mapping[str, object], scene: Path) -> str:
     return digest.hexdigest()
 
 
-def _build(spec: RunSpec) -> Table:
+def _build(spec: Determined) -> Table:
     """What a scene depends on beside the inputs of its run: another build differs in it."""
     return {
         "flexpm": __version__,

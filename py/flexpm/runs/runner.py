@@ -41,6 +41,7 @@ class Runner:
 
     Attributes:
         position: How far the run has come.
+        stages: How many stages have been asked for.
     """
 
     def __init__(
@@ -63,13 +64,18 @@ class Runner:
         if checkpoint is not None and position is not None:
             checkpoint.position = position
         self.position = checkpoint.position if checkpoint else position or Position()
-        self._stages = 0
+        self.stages = 0
         self._spans: list[float] = []
 
     @property
     def step_time(self) -> float | None:
         """Median wall time of a step [s], of the earlier run if this one did none."""
         return median(self._spans) if self._spans else self.position.step_time
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether an earlier start has begun the stage that comes next."""
+        return self.stages < self.position.stage
 
     def enter(self, prepare: Callable[[], Span]) -> bool:
         """Begin the next stage of the test.
@@ -81,20 +87,19 @@ class Runner:
             Whether there are steps to do: False for a stage that an earlier start has finished, or
             one without steps, after which a slower loading begins.
         """
-        self._stages += 1
-        position = self.position
-        if position.stage < self._stages:
+        number, position = self.stages + 1, self.position
+        if position.stage < number:
             span = prepare()
-            position.stage, position.stage_start = self._stages, yade.O.iter
+            position.stage, position.stage_start = number, yade.O.iter
             position.stage_end = position.stage_start + span.longest
             position.stage_likely = position.stage_start + span.likely
-        has_steps = position.stage_end > position.stage_start
-        return position.stage == self._stages and has_steps
+        self.stages = number  # one that cannot be prepared is none
+        return position.stage == number and position.stage_end > position.stage_start
 
     @property
     def is_between(self) -> bool:
         """Whether the stages so far are over and the next one has not begun."""
-        return self.position.stage == self._stages
+        return self.position.stage == self.stages
 
     def run(
         self,

@@ -35,11 +35,22 @@ def write_files(folder: Path, result: Result, notches: Sequence[int] = ()) -> No
         result: The result.
         notches: Numbers of the contacts that were cut open before the test.
     """
+    write_numbers(folder, result)
+    draw_pictures(folder, result, notches)
+
+
+def write_numbers(folder: Path, result: Result) -> None:
+    """Write numbers, record, cracks and final state of a result into `folder`, which exists."""
     result.write(folder)
+    if result.snapshot is not None:
+        write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
+
+
+def draw_pictures(folder: Path, result: Result, notches: Sequence[int] = ()) -> None:
+    """Draw the pictures of a result into `folder`; arguments as for `write_files`."""
     draw = wave_picture if kind_of(result.test).rig is Rig.WAVE else curve_picture
     draw(folder / "curve.png", result)
     if result.snapshot is not None:
-        write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
         broken = result.cracks_by_pair

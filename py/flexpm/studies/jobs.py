@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from subprocess import CompletedProcess
+from typing import Protocol
 
 from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
@@ -46,6 +47,35 @@ _FINAL = (0, 2, 3)
 _OUTCOME = "outcome.json"
 
 
+class Task(Protocol):
+    """What a pool runs: a process in a folder of its own."""
+
+    @property
+    def inputs(self) -> Table:
+        """What was asked for, flat."""
+
+    @property
+    def output(self) -> Output:
+        """What is written beside the results."""
+
+    @property
+    def key(self) -> str:
+        """Name of all that determines the outcome."""
+
+    @property
+    def folder(self) -> str:
+        """Folder below that of all."""
+
+    def older_keys(self) -> list[str]:
+        """Names under which the same was run before results changed."""
+
+    def command(self, folder: Path, worker_path: Path) -> list[str]:
+        """The command line for a folder; `worker_path` holds the package."""
+
+    def checked(self, folder: Path, done: CompletedProcess[str]) -> CompletedProcess[str]:
+        """How its process has ended, with what its folder says."""
+
+
 @dataclass(frozen=True)
 class Job:
     """One run.
@@ -73,6 +103,14 @@ class Job:
     def folder(self) -> str:
         """Folder of the run below that of all."""
         return self.place or self.key
+
+    def older_keys(self) -> list[str]:
+        """Keys that the run had before."""
+        return self.spec.older_keys()
+
+    def checked(self, folder: Path, done: CompletedProcess[str]) -> CompletedProcess[str]:
+        """The process says all of it by itself."""
+        return done
 
     def command(self, folder: Path, worker_path: Path) -> list[str]:
         """The command line for a folder; `worker_path` holds the package.
@@ -187,7 +225,7 @@ def known(folder: Path, key: str | None = None) -> Table | None:
         return None
 
 
-def finished(job: Job, folder: Path) -> Table | None:
+def finished(job: Task, folder: Path) -> Table | None:
     """The outcome of a job that has ended below `folder` with all that it writes, or None."""
     outcome = known(folder / job.folder, job.key)
     if outcome is None or job.output.frames > outcome.get("frames", 0):
@@ -195,7 +233,7 @@ def finished(job: Job, folder: Path) -> Table | None:
     return outcome if job.output.film in (None, outcome.get("film")) else None
 
 
-def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
+def outdated(waiting: Iterable[Task], done: Callable[[str], bool]) -> str:
     """Name, in one line, the runs that are finished with results of an older number.
 
     Args:
@@ -205,13 +243,13 @@ def outdated(waiting: Iterable[Job], done: Callable[[str], bool]) -> str:
     Returns:
         The line, or an empty text if there are none.
     """
-    count = sum(any(map(done, job.spec.older_keys())) for job in waiting)
+    count = sum(any(map(done, job.older_keys())) for job in waiting)
     if not count:
         return ""
     return f"{count} finished runs are of an older results number and are run again"
 
 
-def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException) -> Table:
+def conclude(job: Task, folder: Path, done: CompletedProcess[str] | BaseException) -> Table:
     """Read what a job has left, and note its outcome in `folder` unless it was interrupted.
 
     Returns:
@@ -220,6 +258,7 @@ def conclude(job: Job, folder: Path, done: CompletedProcess[str] | BaseException
     """
     if isinstance(done, BaseException):  # the worker was lost, not the job's fault
         return {"exit_code": None, "message": f"{type(done).__name__}: {done}", "result": {}}
+    done = job.checked(folder, done)
     outcome = {
         "key": job.key,
         "inputs": dict(job.inputs),
@@ -274,13 +313,14 @@ def arguments(test: str, used: Table) -> Iterator[str]:
     yield from (test,) if kind_of(test).is_solve else run
     for key, value in used.items():
         if key.startswith("set."):
-            yield from ("--set", f"{key.removeprefix('set.')}={_text(value)}")
+            yield from ("--set", f"{key.removeprefix('set.')}={text_of(value)}")
         elif not isinstance(value, bool):
-            yield from (f"--{key.replace('_', '-')}", _text(value))
+            yield from (f"--{key.replace('_', '-')}", text_of(value))
         elif value:
             yield f"--{key.replace('_', '-')}"
     yield "--quiet"
 
 
-def _text(value: object) -> str:
+def text_of(value: object) -> str:
+    """A value as an option has it."""
     return ",".join(map(str, value)) if isinstance(value, list | tuple) else str(value)

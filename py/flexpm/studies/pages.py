@@ -14,6 +14,7 @@ import numpy as np
 from .._version import __version__
 from ..errors import InputError
 from ..files import load_csv, load_json, read_text
+from ..kinds.registry import OWN
 from ..report.pages.page import (
     FILE,
     Chart,
@@ -26,14 +27,13 @@ from ..report.pages.page import (
     rows_to_draw,
 )
 from ..report.pages.page import write as write_page
-from ..report.pages.page_run import STATUS, cite, inputs_table, maps_of, versions
+from ..report.pages.page_run import OWN_STATUS, STATUS, cite, inputs_table, maps_of, versions
 from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_test
 from ..results.result import Result
-from ..runs.asked import told, write_report
+from ..runs.asked import told_of, write_report
 from ..runs.output import KINDS, kind_of
-from ..runs.run_spec import RunSpec
 from ..text import name_of, printable, words_of
 from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
@@ -247,7 +247,8 @@ def _runs(
     inputs: Sequence[str] = (),
 ) -> Rows:
     """One line a run: what was asked, what came out."""
-    shown = {key: value for row in rows for key, value in words_of_test(row["test"]).shown.items()}
+    tests = dict.fromkeys(row.get("test", OWN.name) for row in rows)  # of a script: its own
+    shown = {key: value for test in tests for key, value in words_of_test(test).shown.items()}
     header = ["run", *map(words_of, inputs), *(one.heading for one in shown.values()), *_MORE]
     lines = [
         [
@@ -317,13 +318,14 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
 def _about(found: Mapping[str, Result]) -> list[Rows]:
     """What the statuses mean that are not ok, and what was asked of the first run."""
     ended = dict.fromkeys(one.status for one in found.values())
-    told_of = [STATUS[name] for name in ended if name in STATUS and not STATUS[name].good]
+    known = {**OWN_STATUS, **STATUS}
+    doubtful = [known[name] for name in ended if name in known and not known[name].good]
     tables = []
-    if told_of:
-        rows = [(one.name, one.meaning, one.advice) for one in told_of]
+    if doubtful:
+        rows = [(one.name, one.meaning, one.advice) for one in doubtful]
         tables.append(Rows("What the status means", ("status", "meaning", "what to do"), rows))
     for place, first in [*found.items()][:1]:
-        asked = told(RunSpec.from_json(first.inputs or {}))
+        asked = told_of(first.inputs or {})
         tables.append(inputs_table(asked, f"Inputs of {place}"))
     return tables
 

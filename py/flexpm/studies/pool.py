@@ -16,7 +16,7 @@ from ..files import Table
 from ..progress import Progress
 from ..require import Bounds, require_known, require_whole
 from . import jobs
-from .jobs import Job
+from .jobs import Task
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -79,7 +79,7 @@ class Pool:
         self._cluster: _Cluster | None = None
         self._told = False
 
-    def run(self, wanted: Sequence[Job], progress: Progress | None = None) -> list[Table]:
+    def run(self, wanted: Sequence[Task], progress: Progress | None = None) -> list[Table]:
         """Outcomes of jobs in their order; those that have ended before are not run again."""
         known = {job.key: jobs.finished(job, self._folder) for job in wanted}
         outcomes = {key: outcome for key, outcome in known.items() if outcome is not None}
@@ -95,7 +95,7 @@ class Pool:
             report(done, len(wanted), f"runs, {failed} failed" if failed else "runs")
         return [outcomes[job.key] for job in wanted]
 
-    def _tell_outdated(self, waiting: Sequence[Job]) -> None:
+    def _tell_outdated(self, waiting: Sequence[Task]) -> None:
         """Say once that there are finished runs of an older results number."""
         line = jobs.outdated(waiting, lambda key: jobs.known(self._folder / key) is not None)
         if line and not self._told:
@@ -103,8 +103,8 @@ class Pool:
             _LOG.warning("flexpm: %s", line)
 
     def _ended(
-        self, waiting: Sequence[Job]
-    ) -> Iterator[tuple[Job, CompletedProcess[str] | BaseException]]:
+        self, waiting: Sequence[Task]
+    ) -> Iterator[tuple[Task, CompletedProcess[str] | BaseException]]:
         """Jobs with the processes they were, or the error of a worker, as they end."""
         if not waiting:
             return

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -19,15 +19,18 @@ from ..errors import InputError
 from ..files import Table, load_toml, output_folder
 from ..progress import Progress
 from ..require import require_known, require_list, require_table, require_tables, require_text
-from . import jobs, picture_spec
-from .jobs import Job
+from . import jobs, picture_spec, scripts
+from .jobs import Task
 from .pool import Pool
+from .scripts import Script, parameters
 from .tables import table, write_table
+
+__all__ = ["Study", "combinations", "flat", "of", "parameters", "read", "run"]
 
 _TABLES = ("study", "common", "grid", "case", "picture")
 #: Combinations of a study; more are a mistake in a list.
 MOST_RUNS = 100_000
-_STUDY_KEYS = ("name", "title")
+_STUDY_KEYS = ("name", "title", "script", "limit")
 
 
 @dataclass(frozen=True)
@@ -41,17 +44,22 @@ class Study:
     """
 
     name: str
-    jobs: Sequence[Job]
+    jobs: Sequence[Task]
     pictures: Sequence[Table] = field(default_factory=list)
 
 
-def read(path: Path | str) -> Study:
+def read(path: Path | str, seeds: Sequence[int] | None = None) -> Study:
     """Read a study file.
+
+    Args:
+        path: The file.
+        seeds: Values of ``seed`` in the place of those of the file; None: the file's.
 
     ``[common]`` holds options of all runs, each ``[[case]]`` those of some runs, and ``[grid]``
     lists of values of which all combinations are run, for each case. Keys are the options of
     ``flexpm run``, with ``set.KEY`` for the material. Options that a test has no use for (a disc's
-    width, say) are left out, and runs that are equal then are one.
+    width, say) are left out, and runs that are equal then are one. With a ``script`` in ``[study]``
+    keys are its parameters, whatever they are called.
 
     Raises:
         InputError: if the file cannot be read, or for an unknown key or a value out of range.
@@ -63,15 +71,62 @@ def read(path: Path | str) -> Study:
     about = require_table("study [study]", content.get("study", {}))
     for key, text in about.items():
         require_known("study [study] key", key, _STUDY_KEYS)
-        require_text(f"study [study] {key}", text)
+        if key != "limit":
+            require_text(f"study [study] {key}", text)
+    if seeds is not None:
+        content["grid"] = require_table("study [grid]", content.get("grid", {})) | {
+            "seed": [*seeds]
+        }
     asked_for = list(combinations(content))
-    made = [jobs.make(inputs, path.parent) for inputs in asked_for]
-    _require_use(asked_for, made)
+    made = _made(asked_for, about, path.parent)
     distinct = {job.key: job for job in made}
     asked = require_tables("study [[picture]]", content.get("picture", []))
     inputs = {key for job in distinct.values() for key in job.inputs}
     pictures = [picture_spec.checked(picture, inputs) for picture in asked]
     return Study(about.get("name", path.stem), [*distinct.values()], pictures)
+
+
+def _made(asked_for: Sequence[Table], about: Table, base: Path) -> Sequence[Task]:
+    """Runs of tests, or of a script."""
+    if "script" in about:
+        script = Script(base / about["script"], limit=about.get("limit"))
+        checksum = script.checksum()
+        return [scripts.make(script, inputs, checksum) for inputs in asked_for]
+    if "limit" in about:
+        raise InputError(
+            f"study [study] limit = {about['limit']} s, must not be given without script; leave it "
+            "out"
+        )
+    made = [jobs.make(inputs, base) for inputs in asked_for]
+    _require_use(asked_for, made)
+    return made
+
+
+def of(
+    function: Callable[..., object],
+    grid: Mapping[str, Sequence[object]],
+    *,
+    limit: float | None = None,
+) -> Study:
+    """A study of a function of a script: ``run(of(beam, {"seed": [1, 2]}), "folder")``.
+
+    Each run is a process that loads the script and calls the function with ``out``, the folder of
+    the run, and a combination of the parameters; begin the study below
+    ``if __name__ == "__main__":``.
+
+    Args:
+        function: At the top of the script.
+        grid: Values of each parameter, of which all combinations are run.
+        limit: Wall time of a run [s]; None for no limit.
+
+    Raises:
+        InputError: for a function that no other process can load, or that does not take these
+            parameters.
+    """
+    scripts.refuse_within()
+    content = {"grid": {key: [*values] for key, values in grid.items()}}
+    made = scripts.of_function(function, list(combinations(content)), limit)
+    return Study(function.__name__, [*{job.key: job for job in made}.values()])
 
 
 def run(
@@ -98,6 +153,7 @@ def run(
     Returns:
         One row a run: inputs, ``exit_code``, ``message``, measures. It is in ``table.csv``, too.
     """
+    scripts.refuse_within()
     folder = output_folder(out)
     with Pool(folder / "runs", workers, scheduler, cluster) as pool:
         outcomes = pool.run(study.jobs, progress)
@@ -106,7 +162,7 @@ def run(
     return rows
 
 
-def _require_use(asked: Sequence[Table], made: Sequence[Job]) -> None:
+def _require_use(asked: Sequence[Table], made: Sequence[jobs.Job]) -> None:
     """Refuse what is for models that the study does not have."""
     keys = {jobs.spelt(key) for inputs in asked for key in inputs}
     given = {key for key in keys if key.startswith("set.") or key == "interaction_range"}

@@ -9,10 +9,10 @@ from pathlib import Path
 import pandas
 
 from ..files import Table, whole_file
-from .jobs import Job
+from .jobs import Task
 
 
-def table(wanted: Sequence[Job], outcomes: Sequence[Table]) -> pandas.DataFrame:
+def table(wanted: Sequence[Task], outcomes: Sequence[Table]) -> pandas.DataFrame:
     """One row a job: key, inputs, exit code, message, measures."""
     return pandas.DataFrame(
         {

@@ -210,3 +210,12 @@ def test_a_test_of_ones_own_takes_few_lines(name, most):
     text = (TUTORIALS / f"{name}.py").read_text().split('"""')[2]
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     assert len(lines) <= most
+
+
+@pytest.mark.long
+def test_four_point_beam(package_parent, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = printed("four_point_beam.py", package_parent)
+    assert float(re.search(r"bending strength ([\d.]+) MPa", text)[1]) > 5.0
+    assert (tmp_path / "beam" / "report.html").is_file()
+    assert printed("four_point_beam.py", package_parent) == text  # it is there already

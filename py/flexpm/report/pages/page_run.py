@@ -84,6 +84,12 @@ OWN_STATUS = {
         "Run the script again at half the rate until the peak stands still.",
     ),
     "diverged": STATUS["diverged"],
+    "unfinished": Status(
+        "unfinished",
+        False,
+        "The script has not come to its end; a warning says how it stopped.",
+        "Start the same script again: it goes on from here, to the same bits.",
+    ),
 }
 #: What to cite, without the version.
 _PAPER = (
@@ -130,13 +136,16 @@ def write_page(
     return folder / FILE
 
 
-def write_own_page(folder: Path, result: Result, inputs: Iterable[Input]) -> Path:
+def write_own_page(
+    folder: Path, result: Result, inputs: Iterable[Input], commands: Sequence[tuple[str, str]]
+) -> Path:
     """Write the page of a script's own test, which has no state from before it.
 
     Args:
         folder: Folder of the test, with its pictures.
         result: The test.
         inputs: What specimen and model are.
+        commands: What repeats it.
 
     Returns:
         The file.
@@ -153,7 +162,7 @@ def write_own_page(folder: Path, result: Result, inputs: Iterable[Input]) -> Pat
         charts=[chart, _energy_chart(result)] if len(rows) else [],
         tables=_tables(result, inputs, *_told_tables(result.inputs or {})),
         pictures=_pictures(folder, {**_OWN_PICTURES, **_PICTURES}),
-        commands=[],
+        commands=commands,
         cite=cite(result.flexpm),
     )
     write(folder / FILE, page)

@@ -21,6 +21,7 @@ from ...files import (
 from ...kinds.registry import OWN
 from ...materials.mixing import is_brittle
 from ...models.grains import Model
+from ...models.spheres import SphereModel
 from ...report.pages.page import FILE as REPORT
 from ...results.cracks import MODES
 from ...results.result import Result
@@ -29,7 +30,7 @@ from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
 from ...runs.run_inputs import RunInputs
-from ...runs.run_spec import described
+from ...runs.run_spec import described, results_number
 from ...runs.written import FILES, write_files
 from ...specimens.files import given
 from ..readings import RigReadings
@@ -65,13 +66,13 @@ def save(
     place = output_folder(folder)
     refuse_folders(place, FILES)
     lock = FolderLock(place)
-    inputs = _inputs(rig, stages)
+    inputs = inputs_of(rig, stages)
     _refuse_others(place, inputs)
-    result = _result(rig, inputs)
+    result = result_so_far(rig, inputs)
     result.step_time = step_time
     given.save(place, rig.built.specimen)
     assert result.snapshot is not None
-    write_files(place, result, _notches(rig, result.snapshot))
+    write_files(place, result, notches_in(rig, result.snapshot))
     if report:
         write_report(place, result)
     else:
@@ -80,18 +81,19 @@ def save(
     return result
 
 
-def _inputs(rig: RigReadings, stages: Sequence[Table]) -> Table:
-    """What the test was, as far as plain values tell."""
-    built = rig.built
-    loads = [stage for stage in stages if "rate" in stage]
-    run = RunInputs(
-        OWN.name,
-        built.specimen.spec,
-        described(built.material, built.name),
-        built.name,
-        rate=loads[-1]["rate"] if loads else RunInputs.rate,
-        loading=_loading(rig, stages),
-        confinement=rig.confinement or 0.0,
+class OwnInputs(RunInputs):
+    """What is known of a script's own test before it has done anything."""
+
+    @property
+    def results(self) -> int:
+        """Number of the results, see ``results_number``."""
+        return results_number(self.test, self.model)
+
+
+def inputs_before(built: Model | SphereModel) -> OwnInputs:
+    """Specimen, material and model, from which a test begins."""
+    run = OwnInputs(
+        OWN.name, built.specimen.spec, described(built.material, built.name), built.name
     )
     if isinstance(built, Model):
         run = replace(
@@ -102,6 +104,18 @@ def _inputs(rig: RigReadings, stages: Sequence[Table]) -> Table:
             gravity=built.gravity,
             damping=built.damping,
         )
+    return run
+
+
+def inputs_of(rig: RigReadings, stages: Sequence[Table]) -> Table:
+    """What the test was, as far as plain values tell."""
+    loads = [stage for stage in stages if "rate" in stage]
+    run = replace(
+        inputs_before(rig.built),
+        rate=loads[-1]["rate"] if loads else RunInputs.rate,
+        loading=_loading(rig, stages),
+        confinement=rig.confinement or 0.0,
+    )
     told = {"schema": SCHEMA, "repeatable": False, **rig.laid, "stages": [*stages]}
     content: Table = json.loads(json.dumps({**run.to_json(), **told, "doubts": rig.warnings}))
     return content
@@ -114,7 +128,8 @@ def _loading(rig: RigReadings, stages: Sequence[Table]) -> str:
     return kinds[-1] if kinds else "waiting" if waits else "constant"
 
 
-def _result(rig: RigReadings, inputs: Table) -> Result:
+def result_so_far(rig: RigReadings, inputs: Table) -> Result:
+    """What the test has given so far."""
     waiting = inputs["loading"] == "waiting"
     result = result_of(rig, OWN.name, _largest_unbalanced(rig, waiting), waiting=waiting)
     result.inputs = inputs
@@ -137,7 +152,7 @@ def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
     return math.inf if ratio is None else ratio
 
 
-def _notches(rig: RigReadings, snapshot: Snapshot) -> list[int]:
+def notches_in(rig: RigReadings, snapshot: Snapshot) -> list[int]:
     """Numbers of the contacts of open joints, which no test has opened."""
     specimen = rig.built.specimen
     if specimen.edge_joints is None:
