@@ -26,6 +26,8 @@ from flexpm.studies import figures, jobs, study
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results"
+#: Runs after which their rows are kept, so that a night that ends early has lost little.
+KEPT = 20
 
 
 def options(about: str) -> argparse.Namespace:
@@ -71,15 +73,16 @@ def results(
         print(f"{name}: {len(curves)} runs more, whose curves are not in {folder}")
     missing += curves
     folder.mkdir(parents=True, exist_ok=True)
-    if missing and not chosen.dry:
+    if not chosen.dry:
         with Progress(unit="runs") as progress:
-            part = study.Study(plan.name, missing)
-            new = study.run(part, folder, workers=chosen.workers, progress=progress)
-        known = pandas.concat([known, new[new["exit_code"].isin([0, 3])]], ignore_index=True)
-        known = known.drop_duplicates("key")
-        if chosen.keep:
-            RESULTS.mkdir(exist_ok=True)
-            _in_order(known, plan.jobs).to_csv(table, index=False)
+            for first in range(0, len(missing), KEPT):
+                part = study.Study(plan.name, missing[first : first + KEPT])
+                new = study.run(part, folder, workers=chosen.workers, progress=progress)
+                done_now = new[new["exit_code"].isin([0, 3])]
+                known = pandas.concat([known, done_now], ignore_index=True).drop_duplicates("key")
+                if chosen.keep:
+                    RESULTS.mkdir(exist_ok=True)
+                    _in_order(known, plan.jobs).to_csv(table, index=False)
     return _in_order(known, plan.jobs), folder
 
 

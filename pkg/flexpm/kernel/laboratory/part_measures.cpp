@@ -148,6 +148,12 @@ double push(const Assembly& a, const std::vector<int>& plates, Point direction)
     return sum;
 }
 
+/// Whether a plate's point bears as the plate goes this way against it: not if it lifts off.
+bool bears(const Plate& plate, int point, Point way)
+{
+    return plate.bonded || plate.opening[point] < 0.0 || dot(plate.normal, way) > 0.0;
+}
+
 /// Sum over the driven sets along the loading, of a force and a moment of each.
 template <class Force, class Moment>
 double sum_of_sets(const PartGeometry& parts, const Force& force, const Moment& moment)
@@ -191,6 +197,7 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
             const PlatePoint p = plate_point(plate, i);
             const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
             const Point way = plate.velocity - v;
+            if (!bears(plate, i, way)) continue;
             const StiffnessBlock k = plate_springs(plate, i);
             const Point force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
             sum += dot(force, parts.direction);

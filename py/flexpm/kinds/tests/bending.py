@@ -47,7 +47,7 @@ KIND = TestKind(
     about="a beam on two supports, pressed in the middle",
     sizes={"width": 0.18, "height": 0.04},
     models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 3),
+    results=dict.fromkeys(BLOCK_MODELS, 4),
     options=(
         Option("length", "Length of a beam", "m", default="0.18; its height: 0.04", size="width"),
         Option(

@@ -59,7 +59,7 @@ KIND = TestKind(
     "displacement",
     sizes={"width": 0.08, "height": 0.04},
     models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 3),
+    results=dict.fromkeys(BLOCK_MODELS, 4),
     options=(
         Option("normal_stress", "On the upper half", "Pa", default="1e6"),
         slid.WAY,
