@@ -14,6 +14,6 @@ rig = flexpm.PartRig(flexpm.build(beam, "augig-table2-bilinear", "rigid"))
 rollers = [rig.support((x, 0.0)) for x in (0.1 * length, 0.9 * length)]
 pin = rig.support((0.5 * length, height), pinned=True)
 rig.drive(pin, (0.0, -1.0), against=rollers)
-rig.load(flexpm.Loading(kind="waiting", stop_ratio=0.5))
+rig.load(flexpm.Loading(kind="waiting", rate=0.5, stop_ratio=0.5))
 rig.save("beam_with_hole")
 print(f"peak load {rig.record['load'].max():.0f} N", *rig.warnings)
