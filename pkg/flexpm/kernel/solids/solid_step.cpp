@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solids/solid_step.hpp>
+
+#include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/core/thread_team.hpp>
+#include <flexpm/kernel/motion/central_difference.hpp>
+#include <flexpm/kernel/solids/face_forces.hpp>
+#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/step_works.hpp>
+
+#include <algorithm>
+#include <atomic>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int node_values = space_layout.node_stride;
+
+/// Part of many blocks that one thread has.
+struct Share {
+    int first, end;
+};
+
+Share share_of(int blocks, int thread, int threads)
+{
+    const auto begin = [&](std::int64_t t) { return static_cast<int>(t * blocks / threads); };
+    return { begin(thread), begin(thread + 1) };
+}
+
+/// The rows of nodes of one block, two in each row of lanes.
+struct PairRows {
+    int pairs;
+    double* displacement;
+    double* velocity;
+    const double* undamped;
+    double* force;
+    const std::uint8_t* prescribed;
+    const double* inverse_mass;  ///< of nodes
+};
+
+PairRows pair_rows(SolidState& s, int block)
+{
+    Grains& grains = s.grains;
+    const int first = grains.block_nodes[block];
+    return { (grains.group(block).nodes + 1) / 2, grains.displacement.data() + first,
+        grains.velocity.data() + first, s.undamped.velocity.data() + first,
+        grains.force.data() + first, grains.prescribed.data() + first,
+        grains.inverse_mass.data() + grains.scalar_index(first) };
+}
+
+FLEXPM_INLINE void move_pairs(const PairRows& b, double dt)
+{
+    for (int i = 0; i < b.pairs * lanes; ++i)
+        b.displacement[i] += dt * b.velocity[i];
+}
+
+/// The force on each node: contacts in the order of their blocks.
+FLEXPM_INLINE void sum_sources(
+    const int* first, const int* sources, const double* forces, const PairRows& b)
+{
+    for (int n = 0; n < 2 * b.pairs; ++n) {
+        Four sum {};
+        for (int i = first[n]; i < first[n + 1]; ++i)
+            sum += row_of_four(forces + sources[i]);
+        row_of_four(b.force + n * node_values) = sum;
+    }
+}
+
+template <bool Measure, bool Prescribed>
+FLEXPM_INLINE void integrate_lanes(const PairRows& b, double dt, double damping, StepSums& total)
+{
+    StepSums sums;
+    for (int pair = 0; pair < b.pairs; ++pair) {
+        const int row = pair * lanes;
+        const double *f = b.force + row, *undamped = b.undamped + row;
+        double* v = b.velocity + row;
+        alignas(64) double mass[lanes], prescribed[lanes] = {};
+        for (int l = 0; l < lanes; ++l)
+            mass[l] = b.inverse_mass[2 * pair + l / node_values];
+        if (Prescribed) std::copy_n(b.prescribed + row, lanes, prescribed);
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            integrate_one<Measure, Prescribed>(
+                { f[l], mass[l], prescribed[l], undamped[l] }, dt, damping, v[l], sums, l);
+        }
+    }
+    sums.copy_to(total);
+}
+
+template <bool Measure>
+FLEXPM_INLINE void integrate_pairs(const PairRows& b, double dt, double damping, StepSums& sums)
+{
+    const bool any = std::any_of(
+        b.prescribed, b.prescribed + b.pairs * lanes, [](std::uint8_t p) { return p != 0; });
+    if (any) {
+        integrate_lanes<Measure, true>(b, dt, damping, sums);
+    } else {
+        integrate_lanes<Measure, false>(b, dt, damping, sums);
+    }
+}
+
+/// Move a thread's grains to the end of the step.
+void move_grains(SolidState& s, Share own, double dt)
+{
+    const auto move = variant_of<move_pairs>();
+    for (int block = own.first; block < own.end; ++block)
+        move(pair_rows(s, block), dt);
+}
+
+/// Sum the forces on a thread's grains and integrate their velocities.
+void update_grains(SolidState& s, Share own, const StepOptions& o)
+{
+    const auto sum = variant_of<sum_sources>();
+    const auto integrate =
+        o.measure ? variant_of<integrate_pairs<true>>() : variant_of<integrate_pairs<false>>();
+    for (int block = own.first; block < own.end; ++block) {
+        const PairRows rows = pair_rows(s, block);
+        const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
+        sum(s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
+        add_tetrahedron_forces(s, block);
+        StepSums sums;
+        integrate(rows, o.dt, o.damping, sums);
+        add_works(s.ledger, block, sums, o.measure);
+    }
+}
+
+void check(const StepOptions& o)
+{
+    check_positive("time step", o.dt, "s");
+    check_damping(o.damping);
+    if (o.threads < 1) refuse("threads", o.threads, "", "must be at least 1");
+}
+
+/// Sources of the forces on all nodes.
+void find_sources(SolidState& s)
+{
+    const FaceContacts& c = s.contacts;
+    const Layout& layout = s.grains.layout;
+    std::vector<std::vector<int>> sources(s.grains.inverse_mass.size());
+    for (int block = 0; block < c.blocks(); ++block) {
+        for (int i = c.block_nodes[block]; i < c.block_nodes[block + 1]; ++i) {
+            const int lane = (i - c.block_nodes[block]) % lanes;
+            if (c.in_slot[block * lanes + lane] < 0) continue;
+            sources[layout.scalar_index(c.nodes[i])].push_back(i * node_values);
+        }
+    }
+    s.plan.first = { 0 };
+    s.plan.sources.clear();
+    for (const auto& of_node : sources) {
+        s.plan.sources.insert(s.plan.sources.end(), of_node.begin(), of_node.end());
+        s.plan.first.push_back(static_cast<int>(s.plan.sources.size()));
+    }
+}
+
+/// Whether any point of a contact is damaged.
+bool is_damaged(const FaceContacts& c, int contact)
+{
+    for (int p = 0; p < c.points_of(contact); ++p) {
+        const FacePointState state = c.point_state(contact, p);
+        if (state.max_opening > c.law_of(contact).elastic_opening || state.shear_damage > 0.0)
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void prepare_step(SolidState& s)
+{
+    find_sources(s);
+    s.plan.touched.assign(s.contacts.blocks(), 0);
+    for (int c = 0; c < s.contacts.count; ++c)
+        if (is_damaged(s.contacts, c)) s.plan.touched[s.contacts.block_of(c)] = 1;
+}
+
+void step(SolidState& s, const StepOptions& options)
+{
+    check(options);
+    ThreadTeam& team = team_of(options.threads);
+    std::atomic<int> turned { 0 };
+    const ThreadTeam::Work share = [&](int thread) {
+        const Share grains = share_of(s.grains.blocks(), thread, team.size());
+        const Share contacts = share_of(s.contacts.blocks(), thread, team.size());
+        move_grains(s, grains, options.dt);
+        team.meet();
+        turned += update_face_blocks(s, contacts.first, contacts.end);
+        team.meet();
+        update_grains(s, grains, options);
+    };
+    team.run(share);
+    ++s.step;
+    if (turned > 0) {
+        fail("step " + std::to_string(s.step) + ": faces turned away from each other",
+            std::to_string(turned), "must be 0; load more slowly, or end the test earlier");
+    }
+}
+
+}  // namespace flexpm
