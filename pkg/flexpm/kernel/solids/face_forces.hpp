@@ -7,8 +7,7 @@
 namespace flexpm {
 
 /// Update points and forces of blocks of contacts at the present places, and record what cracks.
-/// @return  number of contacts whose sides have turned away from each other, so that their middle
-///          face has no area
+/// @return  number of contacts whose middle face has no area
 int update_face_blocks(SolidState& s, int first, int end);
 
 }  // namespace flexpm

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solids/solid_energies.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/face_forces.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 
 #include <algorithm>
@@ -123,6 +124,13 @@ void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, 
         set_space_vector(s.undamped.velocity, node, rate * *next);
         ++next;
     });
+    if (update_face_blocks(s, 0, s.contacts.blocks()) > 0) {
+        refuse("begin_from: extent", extent, "",
+            "must leave the sides of each contact opposite to each other");
+    }
+    const Energies there = energies(s);
+    s.ledger.initial =
+        there.elastic + there.damage + there.friction + kinetic_of_velocities(s.grains);
 }
 
 }  // namespace flexpm

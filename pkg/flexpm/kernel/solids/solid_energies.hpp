@@ -26,7 +26,8 @@ void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double ve
 double holding_force(const SolidState& s, const std::vector<int>& nodes, int axis);
 
 /// Begin from a linear solution: displacements are `extent` times `field`, velocities `rate` times
-/// it, and damping leaves these alone (deviation D30).
+/// it, and damping leaves these alone (deviation D30). Points of contacts follow, and the balance
+/// of energies begins there.
 /// @param field  of each node, grain after grain, the centre last [m]
 /// @throws std::invalid_argument  unless there is a vector for each node
 void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, double rate);

@@ -194,7 +194,7 @@ void step(SolidState& s, const StepOptions& options)
     team.run(share);
     ++s.step;
     if (turned > 0) {
-        fail("step " + std::to_string(s.step) + ": faces turned away from each other",
+        fail("step " + std::to_string(s.step) + ": contacts without a middle face",
             std::to_string(turned), "must be 0; load more slowly, or end the test earlier");
     }
 }

@@ -14,7 +14,8 @@ void prepare_step(SolidState& s);
 /// a fixed order: results do not depend on the number of threads.
 ///
 /// @throws std::invalid_argument  if an option is out of range
-/// @throws std::runtime_error     if two sides of a contact have turned away from each other
+/// @throws std::runtime_error     if a contact has no middle face, since its corners are at one
+///         place or no numbers any more
 void step(SolidState& s, const StepOptions& options);
 
 }  // namespace flexpm
