@@ -46,6 +46,22 @@ FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* 
     }
 }
 
+/// No lane of a point has any damage: true of most points.
+FLEXPM_INLINE bool is_intact(const FaceLanes& b, const double* state)
+{
+    alignas(64) double damaged[lanes];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const bool opened = state[FaceRow::max_opening * lanes + l]
+            > load_rows<LawParameters>(b.law, l).elastic_opening;
+        damaged[l] = opened | (state[FaceRow::shear_damage * lanes + l] > 0.0) ? 1.0 : 0.0;
+    }
+    double any = 0.0;
+    for (int l = 0; l < lanes; ++l)
+        any += damaged[l];
+    return any == 0.0;
+}
+
 /// Tractions of a point of each contact if all stay on their branches; otherwise changes no state.
 template <bool Intact, bool Dilating>
 FLEXPM_INLINE bool hold_lanes(
@@ -103,28 +119,28 @@ FLEXPM_INLINE int advance_lanes(const FaceLanes& b, const double* places, double
 
 /// What a block comes to.
 struct FaceUpdate {
-    int cracks;    ///< lanes, summed over points, that cracked in this step
-    bool touched;  ///< a point has left the branch of intact ones, now or before
-    int turned;    ///< see update_face_blocks()
+    int cracks;  ///< lanes, summed over points, that cracked in this step
+    int turned;  ///< see update_face_blocks()
 };
 
-template <bool Intact, bool Dilating>
-FLEXPM_INLINE FaceUpdate advance_points(const FaceLanes& b, FaceMotion& m, std::uint8_t* cracked)
+/// Advances all points. Returns the lanes, summed over points, that cracked.
+template <bool Dilating>
+FLEXPM_INLINE int advance_points(const FaceLanes& b, FaceMotion& m, std::uint8_t* cracked)
 {
-    FaceUpdate update { 0, !Intact, 0 };
+    int cracks = 0;
     alignas(64) double jump[vector_rows], places[vector_rows], traction[vector_rows];
     for (int p = 0; p < b.group.points; ++p) {
         double* state = b.states + p * FaceRow::count * lanes;
         find_jump(b, m, p, jump);
         find_places(m, jump, places);
-        if (!hold_lanes<Intact, Dilating>(b, places, state, traction)) {
-            update.cracks +=
-                advance_lanes<Dilating>(b, places, state, traction, cracked + p * lanes);
-            update.touched = true;
-        }
+        const bool intact = !Dilating && is_intact(b, state);
+        const bool holds = intact ? hold_lanes<true, false>(b, places, state, traction)
+                                  : hold_lanes<false, Dilating>(b, places, state, traction);
+        if (!holds)
+            cracks += advance_lanes<Dilating>(b, places, state, traction, cracked + p * lanes);
         spread_point(b, p, jump, traction, m);
     }
-    return update;
+    return cracks;
 }
 
 template <bool Wide>
@@ -133,12 +149,10 @@ FLEXPM_INLINE FaceUpdate update_block(const FaceLanes& b, std::uint8_t* cracked)
     FaceMotion m;
     move_corners<Wide>(b, m);
     find_frames(b, m);
-    FaceUpdate update = b.dilating ? advance_points<false, true>(b, m, cracked)
-        : b.touched                ? advance_points<false, false>(b, m, cracked)
-                                   : advance_points<true, false>(b, m, cracked);
+    const int cracks =
+        b.dilating ? advance_points<true>(b, m, cracked) : advance_points<false>(b, m, cracked);
     write_forces(b, m);
-    update.turned = count_turned(m);
-    return update;
+    return { cracks, count_turned(m) };
 }
 
 /// Laws of a block of contacts in rows.
@@ -167,8 +181,7 @@ FaceLanes face_lanes(SolidState& s, int block, const FaceLaws& laws)
     return { c.group_in(block), s.grains.displacement.data(), c.nodes.data() + nodes,
         c.line.data() + block * lanes, c.places.data() + nodes / 2 * 3, c.areas.data() + points,
         c.shares.data() + c.block_shares[block], c.states.data() + points * FaceRow::count,
-        c.forces.data() + nodes * s.grains.layout.node_stride, laws.rows, laws.dilating,
-        s.plan.touched[block] != 0 };
+        c.forces.data() + nodes * s.grains.layout.node_stride, laws.rows, laws.dilating };
 }
 
 /// Where a point is now: the middle of its places on both sides.
@@ -213,7 +226,6 @@ int update_face_blocks(SolidState& s, int first, int end)
         if (block == first || s.contacts.laws.size() > 1) laws.fill(s.contacts, block);
         std::uint8_t cracked[most_points * lanes] = {};
         const FaceUpdate done = update(face_lanes(s, block, laws), cracked);
-        s.plan.touched[block] = done.touched;
         turned += done.turned;
         if (done.cracks > 0) record_cracks(s, block, cracked);
     }

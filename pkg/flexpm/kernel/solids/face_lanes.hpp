@@ -24,7 +24,6 @@ struct FaceLanes {
     double* forces;
     const double* law;  ///< [row of LawParameters][lane]
     bool dilating;      ///< whether any of these laws dilates
-    bool touched;       ///< see SolidPlan::touched
 };
 
 /// What a block works out on the way.

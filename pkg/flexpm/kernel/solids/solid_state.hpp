@@ -173,13 +173,10 @@ struct SurfaceTriangles {
     std::vector<std::array<int, 3>> nodes;  ///< counter-clockwise as seen from outside
 };
 
-/// What a step derives from the state.
+/// What a step derives from the state: forces of contacts on each node, in the order of blocks.
 struct SolidPlan {
-    // forces of contacts on each node, in the order of blocks
     std::vector<int> first;    ///< of each node (Layout::scalar_index), in `sources`, and the end
     std::vector<int> sources;  ///< index of the x component in FaceContacts::forces
-    /// 1 for each block of contacts of which not all points are undamaged.
-    std::vector<std::uint8_t> touched;
 };
 
 struct SolidState {

@@ -79,8 +79,8 @@ FLEXPM_INLINE void integrate_lanes(const PairRows& b, double dt, double damping,
         const double *f = b.force + row, *undamped = b.undamped + row;
         double* v = b.velocity + row;
         alignas(64) double mass[lanes], prescribed[lanes] = {};
-        for (int l = 0; l < lanes; ++l)
-            mass[l] = b.inverse_mass[2 * pair + l / node_values];
+        for (int node = 0; node < 2; ++node)
+            std::fill_n(mass + node * node_values, node_values, b.inverse_mass[2 * pair + node]);
         if (Prescribed) std::copy_n(b.prescribed + row, lanes, prescribed);
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
@@ -156,26 +156,9 @@ void find_sources(SolidState& s)
     }
 }
 
-/// Whether any point of a contact is damaged.
-bool is_damaged(const FaceContacts& c, int contact)
-{
-    for (int p = 0; p < c.points_of(contact); ++p) {
-        const FacePointState state = c.point_state(contact, p);
-        if (state.max_opening > c.law_of(contact).elastic_opening || state.shear_damage > 0.0)
-            return true;
-    }
-    return false;
-}
-
 }  // namespace
 
-void prepare_step(SolidState& s)
-{
-    find_sources(s);
-    s.plan.touched.assign(s.contacts.blocks(), 0);
-    for (int c = 0; c < s.contacts.count; ++c)
-        if (is_damaged(s.contacts, c)) s.plan.touched[s.contacts.block_of(c)] = 1;
-}
+void prepare_step(SolidState& s) { find_sources(s); }
 
 void step(SolidState& s, const StepOptions& options)
 {
