@@ -4,7 +4,7 @@
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/solids/face_forces.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
 

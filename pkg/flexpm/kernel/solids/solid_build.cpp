@@ -274,17 +274,27 @@ void store_face(Building& b, const FaceOnTheWay& face, int contact, int slot, do
     }
 }
 
+/// Index of a group, which is added if it is new.
+int group_index(FaceContacts& c, const FaceGroup& group)
+{
+    const auto found = std::find_if(c.groups.begin(), c.groups.end(),
+        [&](const FaceGroup& other) { return !(other < group) && !(group < other); });
+    const auto index = static_cast<int>(found - c.groups.begin());
+    if (found == c.groups.end()) c.groups.push_back(group);
+    return index;
+}
+
 /// Blocks of one group, and room for them.
 void add_blocks(FaceContacts& c, const FaceGroup& group, int contacts)
 {
+    const int index = group_index(c, group);
     for (int k = 0; k < blocks_of(contacts); ++k) {
-        c.block_group.push_back(static_cast<int>(c.groups.size()));
+        c.block_group.push_back(index);
         c.block_nodes.push_back(c.block_nodes.back() + 2 * group.corners * lanes);
         c.block_points.push_back(c.block_points.back() + group.points * lanes);
         c.block_shares.push_back(
             c.block_shares.back() + (group.points - group.at_corners) * group.corners * lanes);
     }
-    c.groups.push_back(group);
     c.in_slot.resize(static_cast<std::size_t>(c.blocks()) * lanes, -1);
     c.line.resize(c.in_slot.size(), 0);
     const auto nodes = static_cast<std::size_t>(c.block_nodes.back());
@@ -317,10 +327,11 @@ void add_contacts(Building& b)
         keys.push_back(
             curve.number(0.5 * (b.cells.centres[on.cell_a] + b.cells.centres[on.cell_b])));
     }
-    std::map<FaceGroup, std::vector<int>> groups;
+    std::map<std::pair<int, FaceGroup>, std::vector<int>> groups;
     for (int f : sorted_by(keys))
-        groups[faces[f].group].push_back(f);
-    for (const auto& [group, members] : groups) {
+        groups[{ tile_of(b.state, f), faces[f].group }].push_back(f);
+    for (const auto& [key, members] : groups) {
+        const FaceGroup& group = key.second;
         const int first = c.blocks() * lanes;
         add_blocks(c, group, static_cast<int>(members.size()));
         for (int slot = first; slot < c.blocks() * lanes; ++slot) {

@@ -74,8 +74,13 @@ struct FaceCrack {
     double energy = 0.0;  ///< [J]
 };
 
-/// Contacts in the order of their grain pair; a block holds `lanes` of one group, which may lie
-/// anywhere in that order. A normal points from the first grain to the second, and corners are
+/// Blocks of grains whose contacts follow each other: what a step reads and writes of them stays in
+/// a cache.
+constexpr int tile_grains = 64;
+
+/// Contacts in the order of their grain pair; a block holds `lanes` of one group and of one tile,
+/// that of the first of their two blocks of grains. So a tile's grains have their last contact in
+/// it. A normal points from the first grain to the second, and corners are
 /// counter-clockwise as seen from its tip. The first tangent follows a line from corner 0.
 struct FaceContacts {
     int count = 0;
@@ -173,10 +178,16 @@ struct SurfaceTriangles {
     std::vector<std::array<int, 3>> nodes;  ///< counter-clockwise as seen from outside
 };
 
-/// What a step derives from the state: forces of contacts on each node, in the order of blocks.
+/// What a step derives from the state.
 struct SolidPlan {
+    // forces of contacts on each node, in the order of blocks
     std::vector<int> first;    ///< of each node (Layout::scalar_index), in `sources`, and the end
     std::vector<int> sources;  ///< index of the x component in FaceContacts::forces
+    // tiles
+    std::vector<int> tile_contacts;  ///< first block of contacts of each tile, and the end
+    std::vector<int> first_tile;     ///< of each block of grains: tile of its first contact
+
+    int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
 };
 
 struct SolidState {

@@ -20,15 +20,22 @@ namespace {
 
 constexpr int node_values = space_layout.node_stride;
 
-/// Part of many blocks that one thread has.
-struct Share {
+/// Tiles of one thread.
+struct TileRange {
     int first, end;
 };
 
-Share share_of(int blocks, int thread, int threads)
+TileRange share_of(const SolidPlan& plan, int thread, int threads)
 {
-    const auto begin = [&](std::int64_t t) { return static_cast<int>(t * blocks / threads); };
-    return { begin(thread), begin(thread + 1) };
+    return { thread * plan.tiles() / threads, (thread + 1) * plan.tiles() / threads };
+}
+
+/// Call visit(block) for each block of grains of a tile.
+template <class Visit> void for_each_block(const SolidState& s, int tile, Visit visit)
+{
+    const int end = std::min((tile + 1) * tile_grains, s.grains.blocks());
+    for (int block = tile * tile_grains; block < end; ++block)
+        visit(block);
 }
 
 /// The rows of nodes of one block, two in each row of lanes.
@@ -104,27 +111,49 @@ FLEXPM_INLINE void integrate_pairs(const PairRows& b, double dt, double damping,
 }
 
 /// Move a thread's grains to the end of the step.
-void move_grains(SolidState& s, Share own, double dt)
+void move_grains(SolidState& s, TileRange own, double dt)
 {
     const auto move = variant_of<move_pairs>();
-    for (int block = own.first; block < own.end; ++block)
-        move(pair_rows(s, block), dt);
+    for (int tile = own.first; tile < own.end; ++tile)
+        for_each_block(s, tile, [&](int block) { move(pair_rows(s, block), dt); });
 }
 
-/// Sum the forces on a thread's grains and integrate their velocities.
-void update_grains(SolidState& s, Share own, const StepOptions& o)
+/// Sum the forces on a block of grains and integrate its velocities.
+void update_grains(SolidState& s, int block, const StepOptions& o)
 {
-    const auto sum = variant_of<sum_sources>();
+    const PairRows rows = pair_rows(s, block);
+    const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
+    variant_of<sum_sources>()(
+        s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
+    add_tetrahedron_forces(s, block);
+    StepSums sums;
     const auto integrate =
         o.measure ? variant_of<integrate_pairs<true>>() : variant_of<integrate_pairs<false>>();
-    for (int block = own.first; block < own.end; ++block) {
-        const PairRows rows = pair_rows(s, block);
-        const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
-        sum(s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
-        add_tetrahedron_forces(s, block);
-        StepSums sums;
-        integrate(rows, o.dt, o.damping, sums);
-        add_works(s.ledger, block, sums, o.measure);
+    integrate(rows, o.dt, o.damping, sums);
+    add_works(s.ledger, block, sums, o.measure);
+}
+
+/// Update a thread's contacts and the grains that only these touch. Returns the number of contacts
+/// without a middle face.
+int update_own_tiles(SolidState& s, TileRange own, const StepOptions& o)
+{
+    int turned = 0;
+    for (int tile = own.first; tile < own.end; ++tile) {
+        turned += update_face_blocks(s, s.plan.tile_contacts[tile], s.plan.tile_contacts[tile + 1]);
+        for_each_block(s, tile, [&](int block) {
+            if (s.plan.first_tile[block] >= own.first) update_grains(s, block, o);
+        });
+    }
+    return turned;
+}
+
+/// Update the grains that contacts of an earlier thread touch, too.
+void update_shared_grains(SolidState& s, TileRange own, const StepOptions& o)
+{
+    for (int tile = own.first; tile < own.end; ++tile) {
+        for_each_block(s, tile, [&](int block) {
+            if (s.plan.first_tile[block] < own.first) update_grains(s, block, o);
+        });
     }
 }
 
@@ -156,23 +185,58 @@ void find_sources(SolidState& s)
     }
 }
 
+void find_tiles(SolidState& s)
+{
+    const FaceContacts& c = s.contacts;
+    const int tiles = (s.grains.blocks() + tile_grains - 1) / tile_grains;
+    s.plan.tile_contacts.assign(tiles + 1, 0);
+    s.plan.first_tile.resize(s.grains.blocks());
+    for (int block = 0; block < s.grains.blocks(); ++block)
+        s.plan.first_tile[block] = block / tile_grains;
+    for (int contact = 0; contact < c.count; ++contact) {
+        const int tile = tile_of(s, contact);
+        int& end = s.plan.tile_contacts[tile + 1];
+        end = std::max(end, c.block_of(contact) + 1);
+        for (int grain : c.pairs[contact]) {
+            int& first = s.plan.first_tile[s.grains.block_of(grain)];
+            first = std::min(first, tile);
+        }
+    }
+    // a tile without contacts ends where the one before does
+    for (int tile = 0; tile < tiles; ++tile)
+        s.plan.tile_contacts[tile + 1] =
+            std::max(s.plan.tile_contacts[tile + 1], s.plan.tile_contacts[tile]);
+}
+
 }  // namespace
 
-void prepare_step(SolidState& s) { find_sources(s); }
+int tile_of(const SolidState& s, int contact)
+{
+    const auto [a, b] = s.contacts.pairs[contact];
+    return std::min(s.grains.block_of(a), s.grains.block_of(b)) / tile_grains;
+}
+
+void prepare_step(SolidState& s)
+{
+    find_sources(s);
+    find_tiles(s);
+}
 
 void step(SolidState& s, const StepOptions& options)
 {
     check(options);
+    if (s.plan.tile_contacts.empty()) {
+        refuse("tiles of a step", 0.0, "", "must be at least 1; call prepare_step() after loading");
+    }
     ThreadTeam& team = team_of(options.threads);
     std::atomic<int> turned { 0 };
     const ThreadTeam::Work share = [&](int thread) {
-        const Share grains = share_of(s.grains.blocks(), thread, team.size());
-        const Share contacts = share_of(s.contacts.blocks(), thread, team.size());
-        move_grains(s, grains, options.dt);
+        const TileRange own = share_of(s.plan, thread, team.size());
+        move_grains(s, own, options.dt);
         team.meet();
-        turned += update_face_blocks(s, contacts.first, contacts.end);
+        turned += update_own_tiles(s, own, options);
         team.meet();
-        update_grains(s, grains, options);
+        update_shared_grains(s, own, options);
     };
     team.run(share);
     ++s.step;

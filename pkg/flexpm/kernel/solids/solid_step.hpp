@@ -7,13 +7,17 @@
 
 namespace flexpm {
 
+/// Tile of a contact, see FaceContacts.
+int tile_of(const SolidState& s, int contact);
+
 /// Derive the plan of a step, after a state was made or loaded.
 void prepare_step(SolidState& s);
 
 /// Move all nodes, find the forces at the new places, and integrate the velocities. All sums run in
 /// a fixed order: results do not depend on the number of threads.
 ///
-/// @throws std::invalid_argument  if an option is out of range
+/// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been
+///         called
 /// @throws std::runtime_error     if a contact has no middle face, since its corners are at one
 ///         place or no numbers any more
 void step(SolidState& s, const StepOptions& options);
