@@ -18,7 +18,7 @@ from pathlib import Path
 
 #: Lines of solids, laws of pairs, networks, folders and states of own tests; to be raised with what
 #: is added, to 500.
-ADDED = 350
+ADDED = 379
 MOST_LINES = 2600 + ADDED
 COLUMNS = 120
 UNBROKEN = re.compile(r"^ +\S.* \| |https?://|^ +:alt: ")
