@@ -2,6 +2,7 @@
 /// @file  Specimens in space for the tests of their step, and the same as plain ones.
 #pragma once
 
+#include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_loading.hpp>
@@ -30,9 +31,10 @@ inline Packing packing(int grains, std::uint64_t seed)
     return { solid, solid_samples::packing(grains, seed) };
 }
 
-inline SolidInput granite(FacePointRule rule = FacePointRule::corners_and_inner)
+inline SolidInput granite(
+    FacePointRule rule = FacePointRule::corners_and_inner, bool rigid = false)
 {
-    return { { specimens::granite() }, { specimens::granite_contact() }, {}, rule };
+    return { { specimens::granite() }, { specimens::granite_contact() }, {}, rule, rigid };
 }
 
 /// Call visit(node of the state, node of the plain specimen) for all nodes.
@@ -43,16 +45,20 @@ template <class Visit> void for_both(const SolidState& s, plain_solid::Specimen&
     });
 }
 
-/// Give the state what nodes of the plain specimen have: masses, places, velocities, what is held.
+/// Give the state what the plain specimen has: masses, places, velocities, spins, what is held.
 inline void copy_motion(SolidState& s, plain_solid::Specimen& plain)
 {
     for_both(s, plain, [&](int node, plain_solid::Node& n) {
-        s.grains.inverse_mass[s.grains.scalar_index(node)] = 1.0 / n.mass;
+        s.grains.inverse_mass[s.grains.scalar_index(node)] = n.mass > 0.0 ? 1.0 / n.mass : 0.0;
         set_space_vector(s.grains.displacement, node, n.displacement);
         set_space_vector(s.grains.velocity, node, n.velocity);
         for (int axis = 0; axis < 3; ++axis)
             s.grains.prescribed[s.grains.component(node, axis)] = n.held[axis];
     });
+    for (std::size_t g = 0; g < s.bodies.size(); ++g) {
+        s.bodies[g].inertia = plain.grains[g].inertia;
+        set_spin(s, static_cast<int>(g), plain.grains[g].spin, plain.grains[g].spin_held);
+    }
 }
 
 /// Largest difference of a vector of the nodes, relative to the largest one.

@@ -18,7 +18,8 @@ struct Case {
     int steps;
     FacePointRule rule;
     double damping;
-    bool held;  ///< the ends are held
+    bool held;           ///< the ends are held
+    bool rigid = false;  ///< grains do not deform
 };
 
 /// Steps of a real mass and time.
@@ -33,12 +34,15 @@ void kick(plain_solid::Specimen& plain, const Case& c, std::uint64_t seed)
         const Vector centre = plain.nodes[g.centre()].reference;
         for (int n : g.nodes)
             plain.nodes[n].velocity = v + cross(w, plain.nodes[n].reference - centre);
+        g.spin = w;
+        g.angular_momentum = g.inertia * w;
     }
 }
 
-/// Nodes of both ends are held along z, as a test would.
+/// Nodes of both ends are held along z, as a test would; of rigid grains the spin of the first.
 void hold_ends(plain_solid::Specimen& plain, double top)
 {
+    plain.grains.front().spin_held = plain.grains.front().is_rigid();
     for (auto& n : plain.nodes) {
         const bool low = n.reference.z<1e-9, high = n.reference.z> top - 1e-9;
         if (!low && !high) continue;
@@ -94,16 +98,20 @@ TEST_CASE("A step in space is that of the plain stepper to round-off", "[solids]
         { "three points", 23, 20.0, 10000.0, 100, FacePointRule::three, 0.3, true },
         { "one point", 24, 20.0, 10000.0, 100, FacePointRule::one, 0.3, true },
         { "three tiles", 2 * tile_grains + 3, 20.0, 10000.0, 30, inner, 0.3, true },
+        { "rigid and elastic", 20, 0.02, 10.0, 60, inner, 0.0, false, true },
+        { "rigid, cracked and slid", 20, 20.0, 10000.0, 400, inner, 0.0, false, true },
+        { "rigid, damped and held", 21, 20.0, 10000.0, 100, inner, 0.7, true, true },
+        { "rigid, three tiles", 2 * tile_grains + 3, 20.0, 10000.0, 30, inner, 0.3, true, true },
     };
     std::uint64_t seed = 0;
     for (const Case& c : cases) {
         ++seed;
         const Packing p = packing(c.grains, seed);
         plain_solid::Specimen plain = plain_solid::make_specimen(
-            p.cells, specimens::granite(), specimens::granite_contact(), { false, false, c.rule });
+            p.cells, specimens::granite(), specimens::granite_contact(), { c.rigid, false, c.rule });
         kick(plain, c, seed + 40);
         if (c.held) hold_ends(plain, p.solid.high.z);
-        SolidState s = make_solid(p.cells, p.solid, granite(c.rule));
+        SolidState s = make_solid(p.cells, p.solid, granite(c.rule, c.rigid));
         copy_motion(s, plain);
         plain_solid::Energies expected;
         for (int k = 0; k < c.steps; ++k) {
@@ -118,6 +126,12 @@ TEST_CASE("A step in space is that of the plain stepper to round-off", "[solids]
             < 1e-9);
         CHECK(difference(s, plain, s.grains.force, [](const auto& n) { return n.force; }) < 1e-8);
         CHECK(difference_of_points(s, plain) < 1e-9);
+        for (std::size_t g = 0; g < s.bodies.size(); ++g) {
+            const RigidBody& body = s.bodies[g];
+            const plain_solid::Grain& grain = plain.grains[g];
+            CHECK(norm(body.turn.v - grain.turn.v) < 1e-9);
+            CHECK(norm(body.spin - grain.spin) < 1e-9 * std::max(norm(grain.spin), c.spin));
+        }
         const Energies found = energies(s);
         const double all = expected.sum();
         CHECK(std::fabs(found.kinetic - expected.kinetic) < 1e-9 * all);
@@ -130,5 +144,6 @@ TEST_CASE("A step in space is that of the plain stepper to round-off", "[solids]
         CHECK(cracks.tensile + cracks.shear == solid_samples::cracked_points(plain));
         CAPTURE(cracks.tensile, cracks.shear, found.damage, found.friction);
         CHECK((c.steps < 400 || (cracks.tensile > 20 && found.friction > 0.0)));
+        CHECK(s.bodies.empty() == !c.rigid);
     }
 }

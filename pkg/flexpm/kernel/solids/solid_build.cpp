@@ -137,7 +137,7 @@ void add_grains(Building& b)
         grains.slot[g] = block * lanes;
         grains.in_slot.resize(grains.in_slot.size() + lanes, -1);
         grains.in_slot[grains.slot[g]] = g;
-        grains.groups.push_back({ nodes - 1, nodes, {}, false });
+        grains.groups.push_back({ nodes - 1, nodes, {}, b.input.rigid });
         grains.block_group.push_back(block);
         grains.block_nodes.push_back(values);
         grains.block_triangles.push_back(0);
@@ -383,6 +383,7 @@ SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInp
     add_contacts(b);
     add_surface(b);
     size_ledger(s.ledger, s.grains.blocks());
+    if (input.rigid) s.bodies.resize(s.grains.count);
     s.undamped.velocity.assign(s.grains.velocity.size(), 0.0);
     prepare_step(s);
     set_real_masses(s);

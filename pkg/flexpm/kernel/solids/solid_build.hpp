@@ -15,6 +15,7 @@ struct SolidInput {
     std::vector<ContactMaterial> contacts;
     std::vector<int> kind;  ///< of each cell; empty: all are of the first
     FacePointRule rule = FacePointRule::corners_and_inner;
+    bool rigid = false;
 };
 
 /// Specimen at rest, with real masses and the plan of a step. Grain g is cell g; blocks follow a

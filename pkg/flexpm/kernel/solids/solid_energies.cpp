@@ -13,6 +13,7 @@ double strain_energy(const SolidState& s)
 {
     double sum = 0.0;
     for (int block = 0; block < s.grains.blocks(); ++block) {
+        if (s.grains.group(block).rigid) continue;
         const auto c = load_rows<PlaneStiffness>(
             &s.grains.stiffness[block * row_count<PlaneStiffness> * lanes], 0);
         for_each_tetrahedron(s, block, [&](const TetrahedronShape& t, std::array<int, 4> n) {

@@ -40,6 +40,10 @@ double holding_force(const SolidState& s, const std::vector<int>& nodes, int axi
 
 void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, double rate)
 {
+    if (!s.bodies.empty()) {
+        refuse("begin_from: rigid grains", static_cast<double>(s.bodies.size()), "",
+            "must be 0; a field of nodes bends them");
+    }
     std::size_t wanted = 0;
     for (int g = 0; g < s.grains.count; ++g)
         wanted += s.grains.nodes_of(g);

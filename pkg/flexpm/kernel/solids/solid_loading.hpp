@@ -23,7 +23,7 @@ double holding_force(const SolidState& s, const std::vector<int>& nodes, int axi
 /// it, and damping leaves these alone (deviation D30). Points of contacts follow, and the balance
 /// of energies begins there.
 /// @param field  of each node, grain after grain, the centre last [m]
-/// @throws std::invalid_argument  unless there is a vector for each node
+/// @throws std::invalid_argument  unless there is a vector for each node, or if grains are rigid
 void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, double rate);
 
 }  // namespace flexpm

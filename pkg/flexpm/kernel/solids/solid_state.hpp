@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The state of a bonded specimen in space, deformable polyhedral grains, and apart from it
-/// the plan of a step. Its members have the names of those of Assembly. SI units, tension positive.
+/// @file  The state of a bonded specimen in space, polyhedral grains that deform or are rigid, and
+/// apart from it the plan of a step. Its members have the names of those of Assembly. SI units,
+/// tension positive.
 ///
 /// Grains are laid out by `space_layout`: a block holds one grain, in lane 0 of its slots, whose
 /// nodes follow each other, [node][x y z 0], and fill an even number of rows. A lane is a
@@ -13,6 +14,8 @@
 #include <flexpm/kernel/assembly/loading_motion.hpp>
 #include <flexpm/kernel/core/space_vector.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
+#include <flexpm/kernel/law/solid_elastic.hpp>
+#include <flexpm/kernel/motion/quaternion.hpp>
 
 #include <array>
 #include <cstdint>
@@ -178,6 +181,15 @@ struct SurfaceTriangles {
     std::vector<std::array<int, 3>> nodes;  ///< counter-clockwise as seen from outside
 };
 
+/// Motion of a rigid grain about its centre, whose node has the mass.
+struct RigidBody {
+    Quaternion turn;          ///< since the reference
+    Vector spin;              ///< half a step later [rad/s]
+    Vector angular_momentum;  ///< half a step later [N m s]
+    SpaceTensor inertia {};   ///< in the axes of the reference, scaled or real [kg m^2]
+    bool spin_held = false;   ///< the spin is given
+};
+
 /// What a step derives from the state.
 struct SolidPlan {
     // forces of contacts on each node, in the order of blocks
@@ -192,7 +204,8 @@ struct SolidPlan {
 
 struct SolidState {
     Grains grains;
-    Tetrahedra tetrahedra;
+    Tetrahedra tetrahedra;          ///< of rigid grains for their masses alone
+    std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
     SurfaceTriangles surface;
     EnergyLedger ledger;

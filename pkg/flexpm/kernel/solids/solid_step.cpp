@@ -7,6 +7,7 @@
 #include <flexpm/kernel/motion/central_difference.hpp>
 #include <flexpm/kernel/solids/face_forces.hpp>
 #include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_works.hpp>
@@ -115,7 +116,13 @@ void move_grains(SolidState& s, TileRange own, double dt)
 {
     const auto move = variant_of<move_pairs>();
     for (int tile = own.first; tile < own.end; ++tile)
-        for_each_block(s, tile, [&](int block) { move(pair_rows(s, block), dt); });
+        for_each_block(s, tile, [&](int block) {
+            if (s.grains.group(block).rigid) {
+                move_body(s, block, dt);
+            } else {
+                move(pair_rows(s, block), dt);
+            }
+        });
 }
 
 /// Sum the forces on a block of grains and integrate its velocities.
@@ -125,11 +132,15 @@ void update_grains(SolidState& s, int block, const StepOptions& o)
     const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
     variant_of<sum_sources>()(
         s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
-    add_tetrahedron_forces(s, block);
     StepSums sums;
-    const auto integrate =
-        o.measure ? variant_of<integrate_pairs<true>>() : variant_of<integrate_pairs<false>>();
-    integrate(rows, o.dt, o.damping, sums);
+    if (s.grains.group(block).rigid) {
+        integrate_body(s, block, o, sums);
+    } else {
+        add_tetrahedron_forces(s, block);
+        const auto integrate =
+            o.measure ? variant_of<integrate_pairs<true>>() : variant_of<integrate_pairs<false>>();
+        integrate(rows, o.dt, o.damping, sums);
+    }
     add_works(s.ledger, block, sums, o.measure);
 }
 
