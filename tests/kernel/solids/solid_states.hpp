@@ -31,8 +31,7 @@ inline Packing packing(int grains, std::uint64_t seed)
     return { solid, solid_samples::packing(grains, seed) };
 }
 
-inline SolidInput granite(
-    FacePointRule rule = FacePointRule::corners_and_inner, bool rigid = false)
+inline SolidInput granite(FacePointRule rule = FacePointRule::corners_and_inner, bool rigid = false)
 {
     return { { specimens::granite() }, { specimens::granite_contact() }, {}, rule, rigid };
 }

@@ -14,11 +14,11 @@ using namespace solid_states;
 namespace {
 
 /// Grains that fly apart and turn, so that faces open, slide and part.
-SolidState flying(int grains = 40)
+SolidState flying(int grains = 40, bool rigid = false)
 {
     const double speed = 20.0, spin = 10000.0;
     const Packing p = packing(grains, 6);
-    SolidState s = make_solid(p.cells, p.solid, granite());
+    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
     Random random(9);
     for (int g = 0; g < s.grains.count; ++g) {
         const Vector v = speed * solid_samples::draw(random);
@@ -29,6 +29,7 @@ SolidState flying(int grains = 40)
             const Vector arm = space_vector(s.grains.reference, node) - centre;
             set_space_vector(s.grains.velocity, node, v + cross(w, arm));
         }
+        if (rigid) set_spin(s, g, w, false);
     }
     return s;
 }
@@ -47,6 +48,8 @@ bool same(const Array<double>& a, const Array<double>& b)
 
 bool same(const SolidState& a, const SolidState& b)
 {
+    for (std::size_t g = 0; g < a.bodies.size(); ++g)
+        if (std::memcmp(&a.bodies[g].spin, &b.bodies[g].spin, sizeof(Vector)) != 0) return false;
     return same(a.grains.displacement, b.grains.displacement)
         && same(a.grains.velocity, b.grains.velocity) && same(a.grains.force, b.grains.force)
         && same(a.contacts.states, b.contacts.states)
@@ -66,13 +69,17 @@ Momenta momenta(const SolidState& s, double dt)
     for_each_node(s, [&](int grain, int number) {
         const int node = s.grains.node(grain, number);
         const Vector v = space_vector(s.grains.velocity, node);
-        const Vector p = (1.0 / s.grains.inverse_mass[s.grains.scalar_index(node)]) * v;
+        const double inverse = s.grains.inverse_mass[s.grains.scalar_index(node)];
+        if (inverse == 0.0) return;  // of a rigid grain, whose centre has all
+        const Vector p = (1.0 / inverse) * v;
         const Vector place = space_vector(s.grains.reference, node)
             + space_vector(s.grains.displacement, node) + 0.5 * dt * v;
         m.linear = m.linear + p;
         m.angular = m.angular + cross(place, p);
         m.scale += norm(p);
     });
+    for (const RigidBody& body : s.bodies)
+        m.angular = m.angular + body.angular_momentum;
     return m;
 }
 
@@ -81,14 +88,16 @@ Momenta momenta(const SolidState& s, double dt)
 TEST_CASE(
     "A solid has the same bits on one, two, four and seven threads while it breaks", "[solids]")
 {
-    // several tiles, whose threads share grains; of seven some have none
-    const SolidState start = flying(3 * tile_grains);
-    REQUIRE(start.plan.tiles() == 3);
-    const SolidState one = stepped(start, 1, 100);
-    CHECK(count_cracks(one).tensile > 50);
-    CHECK(energies(one).friction > 0.0);
-    for (int threads : { 2, 4, 7 })
-        CHECK(same(one, stepped(start, threads, 100)));
+    for (const bool rigid : { false, true }) {
+        // several tiles, whose threads share grains; of seven some have none
+        const SolidState start = flying(3 * tile_grains, rigid);
+        REQUIRE(start.plan.tiles() == 3);
+        const SolidState one = stepped(start, 1, 100);
+        CHECK(count_cracks(one).tensile > 50);
+        CHECK(energies(one).friction > 0.0);
+        for (int threads : { 2, 4, 7 })
+            CHECK(same(one, stepped(start, threads, 100)));
+    }
 }
 
 TEST_CASE("A solid has the same bits on every instruction set", "[solids]")
@@ -116,22 +125,24 @@ TEST_CASE("The plan of a solid that was loaded continues to the same bits", "[so
 
 TEST_CASE("A free solid keeps its momenta and energy while faces open, slide and part", "[solids]")
 {
-    SolidState s = flying();
-    const double dt = 2e-8;
-    const Momenta before = momenta(s, dt);
-    double first = 0.0, worst = 0.0;
-    for (int k = 0; k < 600; ++k) {
-        step(s, { dt, 0.0, 1, true });
-        const Energies e = energies(s);
-        const double all = e.kinetic + e.elastic + e.damage + e.friction;
-        if (k == 0) first = all;
-        worst = std::max(worst, std::fabs(all - first));
+    for (const bool rigid : { false, true }) {
+        SolidState s = flying(40, rigid);
+        const double dt = 2e-8;
+        const Momenta before = momenta(s, dt);
+        double first = 0.0, worst = 0.0;
+        for (int k = 0; k < 600; ++k) {
+            step(s, { dt, 0.0, 1, true });
+            const Energies e = energies(s);
+            const double all = e.kinetic + e.elastic + e.damage + e.friction;
+            if (k == 0) first = all;
+            worst = std::max(worst, std::fabs(all - first));
+        }
+        const Momenta after = momenta(s, dt);
+        CHECK(norm(after.linear - before.linear) < 1e-12 * before.scale);
+        CHECK(norm(after.angular - before.angular) < 1e-12 * before.scale * solid_samples::side);
+        CHECK(count_cracks(s).tensile > 20);
+        CHECK(worst < 2e-3 * first);
     }
-    const Momenta after = momenta(s, dt);
-    CHECK(norm(after.linear - before.linear) < 1e-12 * before.scale);
-    CHECK(norm(after.angular - before.angular) < 1e-12 * before.scale * solid_samples::side);
-    CHECK(count_cracks(s).tensile > 20);
-    CHECK(worst < 2e-3 * first);
 }
 
 TEST_CASE("A solid turned by any angle has no force", "[solids]")
@@ -157,27 +168,42 @@ TEST_CASE("A solid turned by any angle has no force", "[solids]")
 TEST_CASE("Masses by the bound keep a solid stable, and stable_step() finds their step", "[solids]")
 {
     const Packing p = packing(30, 3);
-    for (const double damping : { 0.0, 0.7 }) {
-        SolidState s = make_solid(p.cells, p.solid,
-            { { specimens::granite() }, { specimens::strong_contact() }, {},
-                FacePointRule::corners_and_inner });
-        scale_masses(s, damping);
-        CHECK(stable_step(s, damping) == Approx(1.0).epsilon(1e-12));
-        Random random(4);
-        for_each_node(s, [&](int grain, int number) {
-            set_space_vector(s.grains.velocity, s.grains.node(grain, number),
-                1e-12 * solid_samples::draw(random));
-        });
-        double first = 0.0, last = 0.0;
-        for (int k = 0; k < 600; ++k) {
-            step(s, { 1.0, damping, 1, true });
-            const Energies e = energies(s);
-            last = e.kinetic + e.elastic;
-            if (k == 0) first = last;
+    for (const bool rigid : { false, true }) {
+        for (const double damping : { 0.0, 0.7 }) {
+            SolidInput input = granite(FacePointRule::corners_and_inner, rigid);
+            input.contacts = { specimens::strong_contact() };
+            SolidState s = make_solid(p.cells, p.solid, input);
+            const bool real = rigid && damping == 0.0;
+            if (!real) scale_masses(s, damping);
+            const double dt = stable_step(s, damping);
+            if (!real) CHECK(dt == Approx(1.0).epsilon(1e-12));
+            Random random(4);
+            for_each_node(s, [&](int grain, int number) {
+                set_space_vector(s.grains.velocity, s.grains.node(grain, number),
+                    1e-12 / dt * solid_samples::draw(random));
+            });
+            double first = 0.0, last = 0.0;
+            for (int k = 0; k < 600; ++k) {
+                step(s, { dt, damping, 1, true });
+                const Energies e = energies(s);
+                last = e.kinetic + e.elastic;
+                if (k == 0) first = last;
+            }
+            CHECK(last < 1.5 * first);
+            if (damping > 0.0) CHECK(last < 0.1 * first);
         }
-        CHECK(last < 1.5 * first);
-        if (damping > 0.0) CHECK(last < 0.1 * first);
     }
+}
+
+TEST_CASE("The bound of the least moment of inertia is one", "[solids]")
+{
+    CHECK(least_moment({ 1.0, 2.0, 3.0, 0.0, 0.0, 0.0 }) == Approx(1.0));
+    // eigenvalues 1, 3 and 5
+    CHECK(least_moment({ 2.0, 2.0, 5.0, 0.0, 0.0, 1.0 }) == Approx(1.0));
+    // 0.5, 0.5 and 2: the circles leave nothing
+    const double least = least_moment({ 1.0, 1.0, 1.0, 0.5, 0.5, 0.5 });
+    CHECK(least > 0.0);
+    CHECK(least <= 0.5);
 }
 
 TEST_CASE("What no solid can be made of is refused in one line", "[solids]")
@@ -195,6 +221,9 @@ TEST_CASE("What no solid can be made of is refused in one line", "[solids]")
     SolidState s = make_solid(p.cells, p.solid, granite());
     CHECK_THROWS_WITH(step(s, { -1.0, 0.0, 1, false }), Catch::Contains("time step"));
     CHECK_THROWS_WITH(begin_from(s, {}, 1.0, 0.0), Catch::Contains("vectors of the field = 0"));
+    SolidState stiff =
+        make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
+    CHECK_THROWS_WITH(begin_from(stiff, {}, 1.0, 0.0), Catch::Contains("rigid grains = 12"));
     s.plan = {};
     CHECK_THROWS_WITH(step(s, {}), Catch::Contains("call prepare_step()"));
     prepare_step(s);

@@ -107,8 +107,8 @@ TEST_CASE("A step in space is that of the plain stepper to round-off", "[solids]
     for (const Case& c : cases) {
         ++seed;
         const Packing p = packing(c.grains, seed);
-        plain_solid::Specimen plain = plain_solid::make_specimen(
-            p.cells, specimens::granite(), specimens::granite_contact(), { c.rigid, false, c.rule });
+        plain_solid::Specimen plain = plain_solid::make_specimen(p.cells, specimens::granite(),
+            specimens::granite_contact(), { c.rigid, false, c.rule });
         kick(plain, c, seed + 40);
         if (c.held) hold_ends(plain, p.solid.high.z);
         SolidState s = make_solid(p.cells, p.solid, granite(c.rule, c.rigid));
