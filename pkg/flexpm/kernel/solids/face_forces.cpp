@@ -54,7 +54,8 @@ FLEXPM_INLINE bool is_intact(const FaceLanes& b, const double* state)
     for (int l = 0; l < lanes; ++l) {
         const bool opened = state[FaceRow::max_opening * lanes + l]
             > load_rows<LawParameters>(b.law, l).elastic_opening;
-        damaged[l] = opened | (state[FaceRow::shear_damage * lanes + l] > 0.0) ? 1.0 : 0.0;
+        const bool sheared = state[FaceRow::shear_damage * lanes + l] > 0.0;
+        damaged[l] = (opened | sheared) ? 1.0 : 0.0;
     }
     double any = 0.0;
     for (int l = 0; l < lanes; ++l)
