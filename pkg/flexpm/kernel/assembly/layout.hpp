@@ -45,6 +45,9 @@ struct Layout {
 /// Grains of the plane: a row of `lanes` grains for each component.
 constexpr Layout plane_layout { 2, lanes, lanes, 2 * lanes };
 
+/// Grains of space: x, y, z and a zero for each node, one grain after the other.
+constexpr Layout space_layout { 3, 1, 1, 4 };
+
 // The same as constants, for lanes, which are made for the one layout. What is no lane asks
 // Grains::layout.
 constexpr int dimension = plane_layout.dimension;

@@ -85,4 +85,22 @@ FLEXPM_INLINE FaceTraction advance_face_point(
     return { r.normal, r.shear * direction, r.damage_before, r.damage };
 }
 
+/// Traction at `at` of a point that stays on its current branch: no new damage, no slip. Returns
+/// false if it would not. Of the state only the largest opening could change, by what no later step
+/// depends on as long as the point is undamaged.
+///
+/// @tparam Intact  true: the point has no damage, which need not be worked out
+/// @tparam Dilating  false: the law does not dilate
+template <bool Intact = false, bool Dilating = true>
+FLEXPM_INLINE bool hold_face_point(const LawParameters& p, const FacePlace& at,
+    const FacePointState& s, double& max_opening, FaceTraction& traction)
+{
+    const Point tried = p.shear_stiffness * (at.slip - s.plastic_slip);
+    const double gap = Dilating ? law::gap(p, at.opening, s) : at.opening;
+    const law::Branch on = law::branch_at<Intact>(p, gap, s.max_opening, s.shear_damage);
+    max_opening = on.max_opening;
+    traction = { on.normal, tried, on.damage, on.damage };
+    return on.same_secant & (law::length(tried) <= on.limit);
+}
+
 }  // namespace flexpm

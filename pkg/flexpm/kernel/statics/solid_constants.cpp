@@ -336,7 +336,7 @@ void require_cells_of(const Solid& solid, const Polyhedra& cells, const Grains& 
 
 }  // namespace
 
-SolidConstants solid_constants(
+SolidExtension solid_extension(
     const Polyhedra& cells, const Solid& solid, const SolidElasticity& material, FacePointRule rule)
 {
     const Grains g = make_grains(cells, material, rule);
@@ -383,8 +383,18 @@ SolidConstants solid_constants(
         for (int n : f.nodes)
             widening += f.area / 3.0 * dot(wall.normal, at(u, n));
     }
-    return { reaction / section, -0.5 * widening / solid.volume,
-        static_cast<int>(solver.iterations()), solver.error() };
+    SolidExtension result { { reaction / section, -0.5 * widening / solid.volume,
+                                static_cast<int>(solver.iterations()), solver.error() },
+        {} };
+    for (int n = 0; n < static_cast<int>(g.places.size()); ++n)
+        result.field.push_back(at(u, n));
+    return result;
+}
+
+SolidConstants solid_constants(
+    const Polyhedra& cells, const Solid& solid, const SolidElasticity& material, FacePointRule rule)
+{
+    return solid_extension(cells, solid, material, rule).constants;
 }
 
 }  // namespace flexpm

@@ -24,6 +24,13 @@ struct SolidConstants {
     double residual;        ///< of the nodal forces, relative to those of the load [-]
 };
 
+/// A solid at an axial strain of 1, as the linear solution has it.
+struct SolidExtension {
+    SolidConstants constants;
+    /// Displacements of the nodes, grain after grain in the order of fan_meshes() [m].
+    std::vector<Vector> field;
+};
+
 /// Test a solid of deformable bonded grains in uniaxial tension along z: nodes of bottom and top
 /// are held and moved axially only. The modulus follows from the top's reaction over the section,
 /// Poisson's ratio from the way of the mantle along its normal.
@@ -35,6 +42,10 @@ struct SolidConstants {
 /// @throws std::invalid_argument  for a property out of range, a solid without bottom or top, or
 ///         cells that are not its own
 /// @throws std::runtime_error     if the forces do not come to balance
+SolidExtension solid_extension(const Polyhedra& cells, const Solid& solid,
+    const SolidElasticity& material, FacePointRule rule = FacePointRule::corners_and_inner);
+
+/// The constants alone.
 SolidConstants solid_constants(const Polyhedra& cells, const Solid& solid,
     const SolidElasticity& material, FacePointRule rule = FacePointRule::corners_and_inner);
 

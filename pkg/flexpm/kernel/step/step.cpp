@@ -15,6 +15,7 @@
 #include <flexpm/kernel/motion/node_motion.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/step_works.hpp>
 #include <flexpm/kernel/step/tiles.hpp>
 
 #include <algorithm>
@@ -22,32 +23,6 @@
 namespace flexpm {
 
 namespace {
-
-double sum(const double* values)
-{
-    double total = 0.0;
-    for (int l = 0; l < lanes; ++l)
-        total += values[l];
-    return total;
-}
-
-/// Take the works of a block's last step into the ledger, and what was measured in it.
-void add_works(EnergyLedger& ledger, int block, const StepSums& sums, bool measured)
-{
-    double* damped = ledger.damping_work.data() + 2 * block;
-    double* dragged = ledger.drag_work.data() + 2 * block;
-    double* prescribed = ledger.prescribed_work.data() + 2 * block;
-    damped[0] += damped[1] + sum(sums.damped);
-    damped[1] = sum(sums.damped_next);
-    const double half_drag = sum(sums.dragged);
-    dragged[0] += dragged[1] + half_drag;
-    dragged[1] = half_drag;
-    prescribed[0] += prescribed[1] + sum(sums.prescribed);
-    prescribed[1] = sum(sums.prescribed_next);
-    if (!measured) return;
-    ledger.kinetic[block] = sum(sums.kinetic);
-    ledger.largest_force[block] = *std::max_element(sums.largest, sums.largest + lanes);
-}
 
 void show_positions(const Grains& grains, int first, int count, Array<double>& shown)
 {

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solids/face_forces.hpp>
+
+#include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/solids/face_lanes.hpp>
+
+#include <algorithm>
+
+namespace flexpm {
+
+namespace {
+
+/// Points of a face: the corners and one inside, or as many.
+constexpr int most_points = most_corners + 1;
+
+FLEXPM_INLINE FacePointState load_state(const double* rows, int l)
+{
+    return { rows[FaceRow::max_opening * lanes + l],
+        { rows[FaceRow::plastic_x * lanes + l], rows[FaceRow::plastic_y * lanes + l] },
+        rows[FaceRow::shear_damage * lanes + l], rows[FaceRow::damage_energy * lanes + l],
+        rows[FaceRow::friction_energy * lanes + l] };
+}
+
+FLEXPM_INLINE void store_state(const FacePointState& s, double* rows, int l)
+{
+    rows[FaceRow::max_opening * lanes + l] = s.max_opening;
+    rows[FaceRow::plastic_x * lanes + l] = s.plastic_slip.x;
+    rows[FaceRow::plastic_y * lanes + l] = s.plastic_slip.y;
+    rows[FaceRow::shear_damage * lanes + l] = s.shear_damage;
+    rows[FaceRow::damage_energy * lanes + l] = s.damage_energy;
+    rows[FaceRow::friction_energy * lanes + l] = s.friction_energy;
+}
+
+/// Rows of a state that a point on its branch changes: the first ones.
+constexpr int held_rows = FaceRow::max_opening + 1;
+
+/// Opening and slip of a point, three rows, from its way between the sides.
+FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* places)
+{
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector way = load_vector(jump, l);
+        store_vector({ dot(way, load_vector(m.normal, l)), dot(way, load_vector(m.first, l)),
+                         dot(way, load_vector(m.second, l)) },
+            places, l);
+    }
+}
+
+/// No lane of a point has any damage: true of most points.
+FLEXPM_INLINE bool is_intact(const FaceLanes& b, const double* state)
+{
+    alignas(64) double damaged[lanes];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const bool opened = state[FaceRow::max_opening * lanes + l]
+            > load_rows<LawParameters>(b.law, l).elastic_opening;
+        const bool sheared = state[FaceRow::shear_damage * lanes + l] > 0.0;
+        damaged[l] = (opened | sheared) ? 1.0 : 0.0;
+    }
+    double any = 0.0;
+    for (int l = 0; l < lanes; ++l)
+        any += damaged[l];
+    return any == 0.0;
+}
+
+/// Tractions of a point of each contact if all stay on their branches; otherwise changes no state.
+template <bool Intact, bool Dilating>
+FLEXPM_INLINE bool hold_lanes(
+    const FaceLanes& b, const double* places, double* state, double* traction)
+{
+    alignas(64) double next[held_rows * lanes], leaves[lanes];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector at = load_vector(places, l);
+        FaceTraction t;
+        double max_opening = 0.0;
+        const bool holds = hold_face_point<Intact, Dilating>(load_rows<LawParameters>(b.law, l),
+            { at.x, { at.y, at.z } },
+            Intact ? FacePointState { state[FaceRow::max_opening * lanes + l], {}, 0.0, 0.0, 0.0 }
+                   : load_state(state, l),
+            max_opening, t);
+        store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
+        store_vector(at, next, l);
+        next[FaceRow::max_opening * lanes + l] = max_opening;
+        leaves[l] = holds ? 0.0 : 1.0;
+    }
+    double any = 0.0;
+    for (int l = 0; l < lanes; ++l)
+        any += leaves[l];
+    if (any > 0.0) return false;
+    for (int i = 0; i < held_rows * lanes; ++i)
+        state[i] = next[i];
+    return true;
+}
+
+/// Advances a point of each contact by the whole law. Returns the lanes that cracked.
+template <bool Dilating>
+FLEXPM_INLINE int advance_lanes(const FaceLanes& b, const double* places, double* state,
+    double* traction, std::uint8_t* cracked)
+{
+    alignas(64) double fresh[lanes];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector at = load_vector(places, l), before = load_vector(state, l);
+        FacePointState s = load_state(state, l);
+        const FaceTraction t = advance_face_point<Dilating>(load_rows<LawParameters>(b.law, l),
+            { at.x, { at.y, at.z } }, { before.y, before.z }, s);
+        store_state(s, state, l);
+        store_vector(at, state, l);
+        store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
+        fresh[l] = ((t.damage_before < 1.0) & (t.damage >= 1.0)) ? 1.0 : 0.0;
+    }
+    int cracks = 0;
+    for (int l = 0; l < lanes; ++l) {
+        cracked[l] = fresh[l] > 0.0;
+        cracks += cracked[l];
+    }
+    return cracks;
+}
+
+/// What a block comes to.
+struct FaceUpdate {
+    int cracks;  ///< lanes, summed over points, that cracked in this step
+    int turned;  ///< see update_face_blocks()
+};
+
+/// Advances all points. Returns the lanes, summed over points, that cracked.
+template <bool Dilating>
+FLEXPM_INLINE int advance_points(const FaceLanes& b, FaceMotion& m, std::uint8_t* cracked)
+{
+    int cracks = 0;
+    alignas(64) double jump[vector_rows], places[vector_rows], traction[vector_rows];
+    for (int p = 0; p < b.group.points; ++p) {
+        double* state = b.states + p * FaceRow::count * lanes;
+        find_jump(b, m, p, jump);
+        find_places(m, jump, places);
+        const bool intact = !Dilating && is_intact(b, state);
+        const bool holds = intact ? hold_lanes<true, false>(b, places, state, traction)
+                                  : hold_lanes<false, Dilating>(b, places, state, traction);
+        if (!holds)
+            cracks += advance_lanes<Dilating>(b, places, state, traction, cracked + p * lanes);
+        spread_point(b, p, jump, traction, m);
+    }
+    return cracks;
+}
+
+template <bool Wide>
+FLEXPM_INLINE FaceUpdate update_block(const FaceLanes& b, std::uint8_t* cracked)
+{
+    FaceMotion m;
+    move_corners<Wide>(b, m);
+    find_frames(b, m);
+    const int cracks =
+        b.dilating ? advance_points<true>(b, m, cracked) : advance_points<false>(b, m, cracked);
+    write_forces(b, m);
+    return { cracks, count_turned(m) };
+}
+
+/// Laws of a block of contacts in rows.
+struct FaceLaws {
+    alignas(64) double rows[row_count<LawParameters> * lanes];
+    bool dilating = false;
+
+    void fill(const FaceContacts& contacts, int block)
+    {
+        dilating = false;
+        for (int l = 0; l < lanes; ++l) {
+            const int contact = contacts.in_slot[block * lanes + l];
+            // padded lanes follow the first one
+            const LawParameters& law =
+                contacts.law_of(contact >= 0 ? contact : contacts.in_slot[block * lanes]);
+            store_rows(law, rows, l);
+            dilating = dilating || law.dilation_compliance > 0.0;
+        }
+    }
+};
+
+FaceLanes face_lanes(SolidState& s, int block, const FaceLaws& laws)
+{
+    FaceContacts& c = s.contacts;
+    const int nodes = c.block_nodes[block], points = c.block_points[block];
+    return { c.group_in(block), s.grains.displacement.data(), c.nodes.data() + nodes,
+        c.line.data() + block * lanes, c.places.data() + nodes / 2 * 3, c.areas.data() + points,
+        c.shares.data() + c.block_shares[block], c.states.data() + points * FaceRow::count,
+        c.forces.data() + nodes * s.grains.layout.node_stride, laws.rows, laws.dilating };
+}
+
+/// Where a point is now: the middle of its places on both sides.
+Vector point_position(const SolidState& s, int contact, int point)
+{
+    Vector sum;
+    for (int side = 0; side < 2; ++side) {
+        for (int k = 0; k < s.contacts.corners_of(contact); ++k) {
+            const int node = s.contacts.node(contact, side, k);
+            const Vector place =
+                space_vector(s.grains.reference, node) + space_vector(s.grains.displacement, node);
+            sum = sum + 0.5 * s.contacts.share(contact, point, k) * place;
+        }
+    }
+    return sum;
+}
+
+void record_cracks(SolidState& s, int block, const std::uint8_t* cracked)
+{
+    FaceContacts& c = s.contacts;
+    for (int p = 0; p < c.group_in(block).points; ++p) {
+        for (int l = 0; l < lanes; ++l) {
+            const int contact = c.in_slot[block * lanes + l];
+            if (!cracked[p * lanes + l] || contact < 0) continue;
+            const FacePointState state = c.point_state(contact, p);
+            const bool opens =
+                law::gap(c.law_of(contact), c.place_of(contact, p).opening, state) > 0.0;
+            c.cracks[c.point_index(contact, p)] = { s.step + 1, opens ? tensile_crack : shear_crack,
+                point_position(s, contact, p), c.area(contact, p) * state.damage_energy };
+        }
+    }
+}
+
+}  // namespace
+
+int update_face_blocks(SolidState& s, int first, int end)
+{
+    const auto update = variant_of<update_block<false>, update_block<true>>();
+    FaceLaws laws;
+    int turned = 0;
+    for (int block = first; block < end; ++block) {
+        if (block == first || s.contacts.laws.size() > 1) laws.fill(s.contacts, block);
+        std::uint8_t cracked[most_points * lanes] = {};
+        const FaceUpdate done = update(face_lanes(s, block, laws), cracked);
+        turned += done.turned;
+        if (done.cracks > 0) record_cracks(s, block, cracked);
+    }
+    return turned;
+}
+
+}  // namespace flexpm

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Frames of a block of faces, the ways of their corners and the forces on these, `lanes` at
+/// a time: face_frame.hpp in lanes. Inlined into the functions that are compiled for each
+/// instruction set. Vectors are three rows.
+#pragma once
+
+#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/solids/solid_state.hpp>
+
+#include <cmath>
+
+namespace flexpm {
+
+/// The rows of one block of contacts.
+struct FaceLanes {
+    FaceGroup group;
+    const double* displacement;  ///< of nodes
+    const int* nodes;
+    const int* line;
+    const double* places;
+    const double* areas;
+    const double* shares;
+    double* states;
+    double* forces;
+    const double* law;  ///< [row of LawParameters][lane]
+    bool dilating;      ///< whether any of these laws dilates
+};
+
+/// What a block works out on the way.
+struct FaceMotion {
+    alignas(64) double middle[most_corners * vector_rows];  ///< corners of the middle faces
+    alignas(64) double apart[most_corners * vector_rows];   ///< ways from side a to side b
+    alignas(64) double on_a[most_corners * vector_rows];    ///< forces of the points on side a
+    // FaceFrame
+    alignas(64) double normal[vector_rows];
+    alignas(64) double first[vector_rows];
+    alignas(64) double second[vector_rows];
+    alignas(64) double area[lanes];
+    alignas(64) double span[lanes];
+    alignas(64) double lean[lanes];
+    alignas(64) double couple[vector_rows];  ///< sum of f x jump over the points
+};
+
+template <bool Wide> FLEXPM_INLINE void move_corners(const FaceLanes& b, FaceMotion& m)
+{
+    for (int k = 0; k < b.group.corners; ++k) {
+        const int *of_a = b.nodes + 2 * k * lanes, *of_b = of_a + lanes;
+        const double* way = b.displacement;
+        to_lanes<Wide>(
+            [&](int l, Four& row)
+                FLEXPM_INLINED { row = row_of_four(way + of_b[l]) - row_of_four(way + of_a[l]); },
+            m.apart + k * vector_rows);
+        to_lanes<Wide>(
+            [&](int l, Four& row) FLEXPM_INLINED {
+                row = 0.5 * (row_of_four(way + of_b[l]) + row_of_four(way + of_a[l]));
+            },
+            m.middle + k * vector_rows);
+        for (int i = 0; i < vector_rows; ++i) {
+            m.middle[k * vector_rows + i] += b.places[k * vector_rows + i];
+            m.on_a[k * vector_rows + i] = 0.0;
+        }
+    }
+    for (int i = 0; i < vector_rows; ++i)
+        m.couple[i] = 0.0;
+}
+
+/// Twice the area vectors of the middle faces.
+FLEXPM_INLINE void add_area_vectors(const FaceLanes& b, const FaceMotion& m, double* twice)
+{
+    for (int i = 0; i < vector_rows; ++i)
+        twice[i] = 0.0;
+    for (int k = 1; k + 1 < b.group.corners; ++k) {
+        const double *here = m.middle + k * vector_rows, *next = here + vector_rows;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            const Vector origin = load_vector(m.middle, l);
+            store_vector(load_vector(twice, l)
+                    + cross(load_vector(here, l) - origin, load_vector(next, l) - origin),
+                twice, l);
+        }
+    }
+}
+
+/// Frames of the middle faces.
+FLEXPM_INLINE void find_frames(const FaceLanes& b, FaceMotion& m)
+{
+    alignas(64) double twice[vector_rows], end[vector_rows];
+    add_area_vectors(b, m, twice);
+    for (int l = 0; l < lanes; ++l)
+        store_vector(load_vector(m.middle + b.line[l] * vector_rows, l), end, l);
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector area = load_vector(twice, l);
+        const double size = 0.5 * norm(area);
+        const Vector normal = (0.5 / size) * area;
+        const Vector along = load_vector(end, l) - load_vector(m.middle, l);
+        const double lean = dot(along, normal);
+        const Vector flat = along - lean * normal;
+        const double span = norm(flat);
+        const Vector first = (1.0 / span) * flat;
+        store_vector(normal, m.normal, l);
+        store_vector(first, m.first, l);
+        store_vector(cross(normal, first), m.second, l);
+        m.area[l] = size;
+        m.span[l] = span;
+        m.lean[l] = lean;
+    }
+}
+
+/// Lanes whose face has no area or no longest line.
+FLEXPM_INLINE int count_turned(const FaceMotion& m)
+{
+    int turned = 0;
+    for (int l = 0; l < lanes; ++l)
+        turned += !(m.area[l] > 0.0 && m.span[l] > 0.0);
+    return turned;
+}
+
+/// Ways from a to b at point `p`.
+FLEXPM_INLINE void find_jump(const FaceLanes& b, const FaceMotion& m, int p, double* jump)
+{
+    if (p < b.group.at_corners) {
+        for (int i = 0; i < vector_rows; ++i)
+            jump[i] = m.apart[p * vector_rows + i];
+        return;
+    }
+    const double* share = b.shares + (p - b.group.at_corners) * b.group.corners * lanes;
+    for (int i = 0; i < vector_rows; ++i)
+        jump[i] = 0.0;
+    for (int k = 0; k < b.group.corners; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+            FLEXPM_INDEPENDENT
+            for (int l = 0; l < lanes; ++l) {
+                jump[axis * lanes + l] +=
+                    share[k * lanes + l] * m.apart[k * vector_rows + axis * lanes + l];
+            }
+        }
+    }
+}
+
+/// Forces of point `p`, for tractions along normal and tangents, and their couple.
+FLEXPM_INLINE void spread_point(
+    const FaceLanes& b, int p, const double* jump, const double* traction, FaceMotion& m)
+{
+    alignas(64) double force[vector_rows];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector t = load_vector(traction, l);
+        const Vector f = b.areas[p * lanes + l]
+            * (t.x * load_vector(m.normal, l) + t.y * load_vector(m.first, l)
+                + t.z * load_vector(m.second, l));
+        store_vector(f, force, l);
+        store_vector(load_vector(m.couple, l) + cross(f, load_vector(jump, l)), m.couple, l);
+    }
+    if (p < b.group.at_corners) {
+        for (int i = 0; i < vector_rows; ++i)
+            m.on_a[p * vector_rows + i] += force[i];
+        return;
+    }
+    const double* share = b.shares + (p - b.group.at_corners) * b.group.corners * lanes;
+    for (int k = 0; k < b.group.corners; ++k) {
+        for (int axis = 0; axis < 3; ++axis) {
+            FLEXPM_INDEPENDENT
+            for (int l = 0; l < lanes; ++l) {
+                m.on_a[k * vector_rows + axis * lanes + l] +=
+                    share[k * lanes + l] * force[axis * lanes + l];
+            }
+        }
+    }
+}
+
+/// Forces on all corners, with those that take the couples: couple_forces() in lanes.
+FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m)
+{
+    alignas(64) double tilting[vector_rows], about[vector_rows], of_a[vector_rows],
+        of_b[vector_rows];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector couple = load_vector(m.couple, l), normal = load_vector(m.normal, l);
+        const Vector second = load_vector(m.second, l);
+        const double turn = dot(couple, normal) / m.span[l];
+        store_vector(
+            (1.0 / m.area[l]) * (cross(couple, normal) - (turn * m.lean[l]) * second), tilting, l);
+        store_vector(turn * second, about, l);
+    }
+    const int n = b.group.corners;
+    for (int k = 0; k < n; ++k) {
+        const double* next = m.middle + (k + 1 < n ? k + 1 : 0) * vector_rows;
+        const double* last = m.middle + (k > 0 ? k - 1 : n - 1) * vector_rows;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            const double ends = (k == 0 ? 1.0 : 0.0) - (k == b.line[l] ? 1.0 : 0.0);
+            const Vector turning =
+                -0.5 * cross(load_vector(next, l) - load_vector(last, l), load_vector(tilting, l))
+                + ends * load_vector(about, l);
+            const Vector force = load_vector(m.on_a + k * vector_rows, l);
+            store_vector(force + 0.5 * turning, of_a, l);
+            store_vector(0.5 * turning - force, of_b, l);
+        }
+        double* to = b.forces + 2 * k * lanes * 4;
+        from_lanes(of_a, [&](int l, const Four& f) FLEXPM_INLINED { row_of_four(to + 4 * l) = f; });
+        from_lanes(of_b,
+            [&](int l, const Four& f) FLEXPM_INLINED { row_of_four(to + 4 * (lanes + l)) = f; });
+    }
+}
+
+}  // namespace flexpm

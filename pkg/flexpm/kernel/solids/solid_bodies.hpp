@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Motion of rigid polyhedral grains: rigid_grain.hpp with a quaternion. Their nodes follow
+/// the centre and the turn; nodes and contacts are those of deformable grains.
+#pragma once
+
+#include <flexpm/kernel/motion/central_difference.hpp>
+#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/step/step.hpp>
+
+namespace flexpm {
+
+/// Move a rigid grain to the end of a step, by its block.
+void move_body(SolidState& s, int block, double dt);
+
+/// Sum force and moment on a rigid grain from those on its nodes, and integrate its velocity and
+/// its angular momentum. The spin half a step later is that whose turn in the middle of the step
+/// has the momentum.
+void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums);
+
+/// Give a rigid grain a spin from now on [rad/s].
+/// @param held  it stays; else it is integrated
+void set_spin(SolidState& s, int grain, Vector spin, bool held);
+
+/// A lower bound of the smallest principal moment of an inertia.
+double least_moment(const SpaceTensor& inertia);
+
+}  // namespace flexpm

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What moves a specimen in space, between ends without friction as a rule, and the force
+/// that this takes. SI units.
+#pragma once
+
+#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/space/solid.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// Nodes of the grains on a side, without repetition, by their offsets.
+std::vector<int> side_nodes(const SolidState& s, SolidSide side);
+
+/// Give nodes a velocity along an axis (0: x) from now on [m/s].
+void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double velocity);
+
+/// Force along an axis that holds nodes against the grains [N].
+double holding_force(const SolidState& s, const std::vector<int>& nodes, int axis);
+
+/// Begin from a linear solution: displacements are `extent` times `field`, velocities `rate` times
+/// it, and damping leaves these alone (deviation D30). Points of contacts follow, and the balance
+/// of energies begins there.
+/// @param field  of each node, grain after grain, the centre last [m]
+/// @throws std::invalid_argument  unless there is a vector for each node, or if grains are rigid
+void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, double rate);
+
+}  // namespace flexpm

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The state of a bonded specimen in space, polyhedral grains that deform or are rigid, and
+/// apart from it the plan of a step. Its members have the names of those of Assembly. SI units,
+/// tension positive.
+///
+/// Grains are laid out by `space_layout`: a block holds one grain, in lane 0 of its slots, whose
+/// nodes follow each other, [node][x y z 0], and fill an even number of rows. A lane is a
+/// tetrahedron of one grain, or a contact among those whose faces have as many corners.
+#pragma once
+
+#include <flexpm/kernel/assembly/contacts.hpp>
+#include <flexpm/kernel/assembly/energy_ledger.hpp>
+#include <flexpm/kernel/assembly/grains.hpp>
+#include <flexpm/kernel/assembly/loading_motion.hpp>
+#include <flexpm/kernel/core/space_vector.hpp>
+#include <flexpm/kernel/law/face_point.hpp>
+#include <flexpm/kernel/law/solid_elastic.hpp>
+#include <flexpm/kernel/motion/quaternion.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace flexpm {
+
+/// Tetrahedra of the grains in batches of `lanes`, each of one grain. Corner 0 of all is the
+/// grain's centre. Lanes that nothing fills repeat a real one without volume.
+struct Tetrahedra {
+    /// Rows of TetrahedronShape: gradients of corners 1 to 3, and the volume.
+    enum : int { gradients = 0, volume = 9, rows = 10 };
+    static constexpr int corners = 3;
+
+    std::vector<int> first;  ///< batch of each block of grains, and the end
+    Array<int> nodes;        ///< [batch][corner][lane], from the grain's first node
+    Array<double> shape;     ///< [batch][row][lane]
+
+    int batches() const { return first.empty() ? 0 : first.back(); }
+};
+
+/// Rows of a point of a face: where it was at the last forces, and its FacePointState.
+struct FaceRow {
+    enum : int {
+        opening,
+        slip_x,
+        slip_y,
+        max_opening,
+        plastic_x,
+        plastic_y,
+        shear_damage,
+        damage_energy,
+        friction_energy,
+        count
+    };
+};
+
+/// Most corners of a face between two grains.
+constexpr int most_corners = 24;
+
+/// Contacts whose faces have as many corners and points.
+struct FaceGroup {
+    int corners = 0;  ///< of the polygon
+    int points = 0;
+    int at_corners = 0;  ///< the first of the points are the corners: 0 or `corners`
+
+    bool operator<(const FaceGroup& o) const
+    {
+        return std::array<int, 3> { corners, points, at_corners }
+        < std::array<int, 3> { o.corners, o.points, o.at_corners };
+    }
+};
+
+/// When, how and where a point of a face has lost its bond, and what its damage had taken by then.
+struct FaceCrack {
+    std::int64_t step = -1;  ///< -1 while intact
+    CrackMode mode = intact;
+    Vector position;      ///< [m]
+    double energy = 0.0;  ///< [J]
+};
+
+/// Blocks of grains whose contacts follow each other: what a step reads and writes of them stays in
+/// a cache.
+constexpr int tile_grains = 64;
+
+/// Contacts in the order of their grain pair; a block holds `lanes` of one group and of one tile,
+/// that of the first of their two blocks of grains. So a tile's grains have their last contact in
+/// it. A normal points from the first grain to the second, and corners are
+/// counter-clockwise as seen from its tip. The first tangent follows a line from corner 0.
+struct FaceContacts {
+    int count = 0;
+    std::vector<LawParameters> laws;
+    std::vector<GrainPair> pairs;
+    std::vector<int> law;   ///< index into `laws`
+    std::vector<int> slot;  ///< block * lanes + lane of each contact
+    std::vector<FaceGroup> groups;
+    std::vector<int> block_group;   ///< group of each block
+    std::vector<int> block_nodes;   ///< offset of each block in `nodes`, and the end
+    std::vector<int> block_points;  ///< offset of each block in `areas`, and the end
+    std::vector<int> block_shares;  ///< offset of each block in `shares`, and the end
+    std::vector<int> in_slot;       ///< contact in each slot, -1 where padded
+    Array<int> nodes;               ///< [block][corner][side][lane]: offset of the node
+    Array<int> line;                ///< [block][lane]: corner at the end of the line
+    Array<double> places;           ///< [block][corner][component][lane] when bonded [m]
+    Array<double> areas;            ///< [block][point][lane] [m^2], 0 where padded
+    Array<double> shares;  ///< [block][point that is no corner][corner][lane], with sum 1 [-]
+    Array<double> states;  ///< [block][point][FaceRow][lane]
+    std::vector<FaceCrack> cracks;  ///< as `areas`
+    /// Forces on the nodes, four values for each of `nodes` in their order: x, y, z, 0 [N].
+    Array<double> forces;
+
+    int blocks() const { return static_cast<int>(block_group.size()); }
+    int block_of(int contact) const { return slot[contact] / lanes; }
+    int lane_of(int contact) const { return slot[contact] % lanes; }
+    const FaceGroup& group_in(int block) const { return groups[block_group[block]]; }
+    const FaceGroup& group_of(int contact) const { return group_in(block_of(contact)); }
+    int points_of(int contact) const { return group_of(contact).points; }
+    int corners_of(int contact) const { return group_of(contact).corners; }
+    const LawParameters& law_of(int contact) const { return laws[law[contact]]; }
+
+    /// Index of a corner's node on a side in `nodes`; its force begins at four times that.
+    int node_index(int contact, int side, int corner) const
+    {
+        return block_nodes[block_of(contact)] + (2 * corner + side) * lanes + lane_of(contact);
+    }
+    int node(int contact, int side, int corner) const
+    {
+        return nodes[node_index(contact, side, corner)];
+    }
+
+    /// Index of a point in `areas` and `cracks`.
+    int point_index(int contact, int point) const
+    {
+        return block_points[block_of(contact)] + point * lanes + lane_of(contact);
+    }
+    double area(int contact, int point) const { return areas[point_index(contact, point)]; }
+
+    /// Share of a corner in a point.
+    double share(int contact, int point, int corner) const
+    {
+        const FaceGroup& g = group_of(contact);
+        if (point < g.at_corners) return point == corner ? 1.0 : 0.0;
+        const int row = (point - g.at_corners) * g.corners + corner;
+        return shares[block_shares[block_of(contact)] + row * lanes + lane_of(contact)];
+    }
+
+    /// A value of a point, by its FaceRow.
+    double state(int contact, int point, int row) const
+    {
+        return states[state_index(contact, point, row)];
+    }
+    int state_index(int contact, int point, int row) const
+    {
+        const int first = block_points[block_of(contact)] + point * lanes;
+        return first * FaceRow::count + row * lanes + lane_of(contact);
+    }
+
+    /// Place and state of a point.
+    FacePlace place_of(int contact, int point) const
+    {
+        return { state(contact, point, FaceRow::opening),
+            { state(contact, point, FaceRow::slip_x), state(contact, point, FaceRow::slip_y) } };
+    }
+    FacePointState point_state(int contact, int point) const
+    {
+        return { state(contact, point, FaceRow::max_opening),
+            { state(contact, point, FaceRow::plastic_x),
+                state(contact, point, FaceRow::plastic_y) },
+            state(contact, point, FaceRow::shear_damage),
+            state(contact, point, FaceRow::damage_energy),
+            state(contact, point, FaceRow::friction_energy) };
+    }
+    const FaceCrack& crack(int contact, int point) const
+    {
+        return cracks[point_index(contact, point)];
+    }
+};
+
+/// Triangles of the specimen's surface.
+struct SurfaceTriangles {
+    std::vector<int> grain;
+    std::vector<int> side;                  ///< SolidSide of the wall
+    std::vector<std::array<int, 3>> nodes;  ///< counter-clockwise as seen from outside
+};
+
+/// Motion of a rigid grain about its centre, whose node has the mass.
+struct RigidBody {
+    Quaternion turn;          ///< since the reference
+    Vector spin;              ///< half a step later [rad/s]
+    Vector angular_momentum;  ///< half a step later [N m s]
+    SpaceTensor inertia {};   ///< in the axes of the reference, scaled or real [kg m^2]
+    bool spin_held = false;   ///< the spin is given
+};
+
+/// What a step derives from the state.
+struct SolidPlan {
+    // forces of contacts on each node, in the order of blocks
+    std::vector<int> first;    ///< of each node (Layout::scalar_index), in `sources`, and the end
+    std::vector<int> sources;  ///< index of the x component in FaceContacts::forces
+    // tiles
+    std::vector<int> tile_contacts;  ///< first block of contacts of each tile, and the end
+    std::vector<int> first_tile;     ///< of each block of grains: tile of its first contact
+
+    int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
+};
+
+struct SolidState {
+    Grains grains;
+    Tetrahedra tetrahedra;          ///< of rigid grains for their masses alone
+    std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
+    FaceContacts contacts;
+    SurfaceTriangles surface;
+    EnergyLedger ledger;
+    GrainMotion undamped;   ///< motion that damping does not act on, deviation D30
+    std::int64_t step = 0;  ///< steps done
+    SolidPlan plan;         ///< derived
+};
+
+/// Vector of a node of space.
+inline Vector space_vector(const Array<double>& values, int node)
+{
+    return { values[node], values[node + 1], values[node + 2] };
+}
+inline void set_space_vector(Array<double>& values, int node, Vector v)
+{
+    values[node] = v.x;
+    values[node + 1] = v.y;
+    values[node + 2] = v.z;
+}
+
+/// Call visit(grain, number) for each node of all grains.
+template <class Visit> void for_each_node(const SolidState& s, Visit visit)
+{
+    for (int g = 0; g < s.grains.count; ++g)
+        for (int n = 0; n < s.grains.nodes_of(g); ++n)
+            visit(g, n);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One step of a specimen in space: step.hpp for deformable polyhedral grains.
+#pragma once
+
+#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/step/step.hpp>
+
+namespace flexpm {
+
+/// Tile of a contact, see FaceContacts.
+int tile_of(const SolidState& s, int contact);
+
+/// Derive the plan of a step, after a state was made or loaded.
+void prepare_step(SolidState& s);
+
+/// Move all nodes, find the forces at the new places, and integrate the velocities. All sums run in
+/// a fixed order: results do not depend on the number of threads.
+///
+/// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been
+///         called
+/// @throws std::runtime_error     if a contact has no middle face, since its corners are at one
+///         place or no numbers any more
+void step(SolidState& s, const StepOptions& options);
+
+}  // namespace flexpm

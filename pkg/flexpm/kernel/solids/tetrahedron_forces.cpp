@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
+
+#include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/solids/rows_of_four.hpp>
+
+namespace flexpm {
+
+namespace {
+
+/// The tetrahedra of a grain and its nodes.
+struct TetrahedronRows {
+    int batches;
+    int centre;  ///< offset from the grain's first node
+    const int* nodes;
+    const double* shape;
+    const double* stiffness;
+    const double* displacement;
+    double* force;
+};
+
+FLEXPM_INLINE TetrahedronShape load_tetrahedron(const double* rows, int l)
+{
+    const auto row = [&](int r) FLEXPM_INLINED { return rows[r * lanes + l]; };
+    return { { row(0), row(1), row(2) }, { row(3), row(4), row(5) }, { row(6), row(7), row(8) },
+        row(9) };
+}
+
+/// Displacements of corners 1 to 3 relative to the centre, [corner][component][lane].
+template <bool Wide>
+FLEXPM_INLINE void gather_corners(const TetrahedronRows& b, const int* nodes, double* to)
+{
+    const Four centre = row_of_four(b.displacement + b.centre);
+    for (int k = 0; k < Tetrahedra::corners; ++k) {
+        const int* node = nodes + k * lanes;
+        to_lanes<Wide>([&](int l, Four& row)
+                           FLEXPM_INLINED { row = row_of_four(b.displacement + node[l]) - centre; },
+            to + 3 * k * lanes);
+    }
+}
+
+/// Adds to one node after the other, since lanes may share it, and minus all to the centre.
+FLEXPM_INLINE void scatter_corners(const TetrahedronRows& b, const int* nodes, const double* force)
+{
+    Four sum {};
+    for (int k = 0; k < Tetrahedra::corners; ++k) {
+        from_lanes(force + 3 * k * lanes, [&](int l, const Four& f) FLEXPM_INLINED {
+            row_of_four(b.force + nodes[k * lanes + l]) += f;
+            sum += f;
+        });
+    }
+    row_of_four(b.force + b.centre) -= sum;
+}
+
+template <bool Wide> FLEXPM_INLINE void add_forces(const TetrahedronRows& b)
+{
+    constexpr int values = 3 * Tetrahedra::corners * lanes;
+    alignas(64) double way[values], force[values];
+    for (int t = 0; t < b.batches; ++t) {
+        const int* nodes = b.nodes + t * Tetrahedra::corners * lanes;
+        const double* shape = b.shape + t * Tetrahedra::rows * lanes;
+        gather_corners<Wide>(b, nodes, way);
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            const TetrahedronForces f = tetrahedron_forces(load_tetrahedron(shape, l),
+                load_rows<PlaneStiffness>(b.stiffness, l), Vector {}, load_vector(way, l),
+                load_vector(way + 3 * lanes, l), load_vector(way + 6 * lanes, l));
+            const double rows[] = { f.f1.x, f.f1.y, f.f1.z, f.f2.x, f.f2.y, f.f2.z, f.f3.x, f.f3.y,
+                f.f3.z };
+            for (int r = 0; r < 9; ++r)
+                force[r * lanes + l] = rows[r];
+        }
+        scatter_corners(b, nodes, force);
+    }
+}
+
+}  // namespace
+
+void add_tetrahedron_forces(SolidState& s, int block)
+{
+    Grains& grains = s.grains;
+    const int first = grains.block_nodes[block], batch = s.tetrahedra.first[block];
+    const int centre = grains.layout.node_stride * grains.group(block).vertices;
+    variant_of<add_forces<false>, add_forces<true>>()({ s.tetrahedra.first[block + 1] - batch,
+        centre, s.tetrahedra.nodes.data() + batch * Tetrahedra::corners * lanes,
+        s.tetrahedra.shape.data() + batch * Tetrahedra::rows * lanes,
+        grains.stiffness.data() + block * row_count<PlaneStiffness> * lanes,
+        grains.displacement.data() + first, grains.force.data() + first });
+}
+
+TetrahedronShape tetrahedron_of(const SolidState& s, int batch, int lane)
+{
+    return load_tetrahedron(&s.tetrahedra.shape[batch * Tetrahedra::rows * lanes], lane);
+}
+
+std::array<int, 4> tetrahedron_nodes(const SolidState& s, int block, int batch, int lane)
+{
+    const int first = s.grains.block_nodes[block];
+    std::array<int, 4> nodes { first
+        + s.grains.layout.node_stride * s.grains.group(block).vertices };
+    for (int k = 0; k < Tetrahedra::corners; ++k) {
+        nodes[k + 1] = first + s.tetrahedra.nodes[(batch * Tetrahedra::corners + k) * lanes + lane];
+    }
+    return nodes;
+}
+
+}  // namespace flexpm
