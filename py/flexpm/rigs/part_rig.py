@@ -101,6 +101,7 @@ class PartRig(PartColumns, PartCycles):
         if not (frame.driven or frame.drivenSets):
             raise InputError("load: driven parts = none, must be at least 1; call drive or turn")
         if self._scales is None:
+            self._require_push(1.0)
             kept = frame.loadingScales
             self._scales = Scales(*kept) if kept else super().scales()
         return self._scales

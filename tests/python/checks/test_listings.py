@@ -99,13 +99,6 @@ def test_the_listing_of_held_nodes():
     assert load[-1] <= 0.5 * load.max()
 
 
-def test_the_listing_of_a_borehole(capsys):
-    scope = {"flexpm": flexpm}
-    exec(code_after("doc/own_tests.rst", "up to 20 MPa from above::"), scope)
-    assert 20e6 <= scope["rig"].stress < 21e6
-    assert scope["right"].force[0] == pytest.approx(-2000.0, rel=0.03)
-
-
 @pytest.mark.long
 def test_the_listing_of_the_page_on_comparisons(monkeypatch):
     scope = {"flexpm": flexpm, "specimen": flexpm.Specimen.rectangle(0.012, 0.024, 0.01)}
