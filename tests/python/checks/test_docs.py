@@ -176,8 +176,14 @@ def test_every_public_name_has_its_docstring_and_its_place_in_the_reference():
 @pytest.mark.parametrize(
     ("page", "words"),
     [
-        ("record/numbers", "one across gave 8.14 GPa for the 12.58 GPa of rock and joint in series"),
-        ("record/numbers", "in mid-fall, with 4 % of the work in motion and 2 to 3 times as many fragments"),
+        (
+            "record/numbers",
+            "one across gave 8.14 GPa for the 12.58 GPa of rock and joint in series",
+        ),
+        (
+            "record/numbers",
+            "in mid-fall, with 4 % of the work in motion and 2 to 3 times as many fragments",
+        ),
         ("record/numbers", "at 8.0 permille by default and at 12.8 under a slow constant rate"),
         ("record/numbers", "b was 1.00, 1.17 and 1.47 from 0.1, 0.3 and 0.5 above on"),
         ("record/numbers", "0.250 for 0.215"),
