@@ -114,8 +114,10 @@ def _lines(axes: Axes, rows: pandas.DataFrame, x: str, y: str, by: Sequence[str]
             label=label_of(label) or None,
         )
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
-    if by and len(drawn):
-        axes.legend(frameon=False)
+    if by and len(drawn):  # below, where no line can run through it
+        axes.legend(
+            loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2, fontsize=8, frameon=False
+        )
 
 
 def _shown(column: str) -> tuple[float, str]:
