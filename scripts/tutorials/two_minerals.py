@@ -51,7 +51,7 @@ kinds = np.sort(minerals[result.snapshot.contact_grains], axis=1)
 cracked = np.array([crack.contact for crack in result.cracks])
 for pair in ((0, 0), (0, 1), (1, 1)):
     here = np.all(kinds == pair, axis=1)
-    points = result.snapshot.crack_step.shape[1] * np.count_nonzero(here)
+    points = np.count_nonzero(here[result.snapshot.point_contact])
     share = np.count_nonzero(here[cracked]) / points
     names = " - ".join(rock.minerals[kind].name for kind in pair)
     print(f"{names:20}  {100 * share:4.1f} % of the points have cracked")

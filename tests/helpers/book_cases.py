@@ -24,7 +24,7 @@ from flexpm.laboratory.part_tests import notch_depth
 from flexpm.results import waves
 from flexpm.results.cracks import TENSILE
 from flexpm.results.record import Curve
-from flexpm.results.snapshot import POINT_SHARES, Snapshot
+from flexpm.results.snapshot import Snapshot
 from flexpm.rigs.part_rig import PartRig
 from flexpm.rigs.rig import BOTTOM, TOP
 from flexpm.runs.loading_rate import Loading
@@ -385,14 +385,14 @@ def _slip_ratio(
         elastic: Elastic constants of the plate without the crack.
     """
     rows = np.flatnonzero(np.isin(state.contact, np.flatnonzero(cut.edge_joints >= 0)))
-    corners, slip = state.contact_ends[rows], np.abs(state.point_slip[rows])
-    shares = np.linspace(0.0, 1.0, slip.shape[1])[:, None]
-    places = _along(corners[:, None, 0] * (1.0 - shares) + corners[:, None, 1] * shares)
+    on = np.isin(state.point_contact, rows)
+    corners, slip = state.contact_ends[state.point_contact[on]], np.abs(state.point_slip[on])
+    shares = state.point_number[on] / state.point_number.max()
+    places = _along(corners[:, 0] * (1.0 - shares[:, None]) + corners[:, 1] * shares[:, None])
     cuts = _along(cut.joint_lines()[0])
     root = np.sqrt(np.maximum((places - cuts.min()) * (cuts.max() - places), 0.0))
     theory = 4.0 * driving * root / elastic["youngs_modulus"]
-    lengths = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)[:, None]
-    weights = lengths * POINT_SHARES[slip.shape[1]]
+    weights = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1) * state.point_share[on]
     return float(np.sum(weights * slip * theory) / np.sum(weights * theory**2))
 
 

@@ -36,9 +36,10 @@ def wall(columns=3, rows=4, points=3):
                 grains.append((grain, grain + columns))
                 ends.append([(x + WIDTH, y + HEIGHT), (x, y + HEIGHT)])
     contacts = np.arange(len(grains))
-    first = np.zeros((len(grains), points))
-    first[:, 0] = contacts
-    cracked = (contacts % 2 == 1)[:, None] & (np.arange(points) == 0)
+    shares = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}[points]
+    bond, number = np.repeat(contacts, points), np.tile(np.arange(points), len(contacts))
+    first = np.where(number == 0, bond, 0).astype(float)
+    cracked = (bond % 2 == 1) & (number == 0)
     ends = np.reshape(ends, (-1, 2, 2))
     return Snapshot(
         positions=moved(reference),
@@ -50,13 +51,15 @@ def wall(columns=3, rows=4, points=3):
         contact=FIRST + contacts,
         contact_grains=np.reshape(grains, (-1, 2)).astype(int),
         contact_ends=moved(ends),
+        point_contact=bond,
+        point_share=np.tile(shares, len(contacts)),
         point_opening=1e-9 * first,
         point_slip=-1e-9 * first,
         point_damage=first / len(grains),
         point_traction=1e3 * np.stack([first, -first], axis=-1),
         crack_step=np.where(cracked, 10 * first.astype(int), -1),
-        crack_mode=np.where(cracked, 1 + (contacts // 2 % 2)[:, None], 0),
-        crack_position=np.repeat(moved(ends).mean(axis=1)[:, None], points, axis=1),
+        crack_mode=np.where(cracked, 1 + bond // 2 % 2, 0),
+        crack_position=np.repeat(moved(ends).mean(axis=1), points, axis=0),
     )
 
 

@@ -21,7 +21,7 @@ import yade
 from yade import wrapper
 
 from flexpm.arrays import FloatArray
-from flexpm.results.snapshot import POINT_SHARES, Snapshot
+from flexpm.results.snapshot import Snapshot
 from flexpm.rigs.part_rig import PartRig
 from flexpm.rigs.parts import HeldNodes
 from flexpm.runs.loading_rate import Loading
@@ -191,17 +191,17 @@ def _energy_of_area(state: Snapshot, cut: flexpm.Specimen, on: FloatArray) -> fl
 
     The area is that before they slid: faces that have cracked get new partners as they slide on.
     """
-    cracked = state.crack_step[on] >= 0
+    cracked = on[state.point_contact] & (state.crack_step >= 0)
     cells = cut.tessellation
-    ends = cells.vertices[cells.shared_edges[state.contact[on], 2:]]
-    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)[:, None]
-    areas = THICKNESS * lengths * np.array(POINT_SHARES[cracked.shape[1]])
+    bonds = state.contact[state.point_contact[cracked]]
+    ends = cells.vertices[cells.shared_edges[bonds, 2:]]
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    areas = THICKNESS * lengths * state.point_share[cracked]
     assert state.crack_energy is not None
-    return float(state.crack_energy[on][cracked].sum() / areas[cracked].sum())
+    return float(state.crack_energy[cracked].sum() / areas.sum())
 
 
 def _zone(state: Snapshot, on: FloatArray) -> float:
     """Length of what has softened and not cracked [m]."""
-    damage = state.point_damage[on]
-    softened = np.any((damage > 0.0) & (damage < 1.0), axis=1)
-    return float(np.ptp(state.contact_ends[on][softened][:, :, 0]))
+    softened = state.any_of((state.point_damage > 0.0) & (state.point_damage < 1.0))
+    return float(np.ptp(state.contact_ends[on][softened[on]][:, :, 0]))

@@ -22,7 +22,7 @@ from matplotlib.patches import Patch
 from ..arrays import FloatArray, IntArray
 from ..files import remove_earlier
 from ..results.cracks import ERASED, SHEAR, TENSILE
-from ..results.snapshot import POINT_SHARES, Snapshot
+from ..results.snapshot import Snapshot
 from ..text import label_of
 from .style import COLOURS, CUT, MODE_NAMES, STYLE, can_be_drawn, save
 
@@ -299,12 +299,8 @@ def _grains_of(snapshot: Snapshot, outlines: Sequence[IntArray]) -> IntArray:
 
 def crack_segments(snapshot: Snapshot) -> dict[int, FloatArray]:
     """Segments (K, 2, 2) [m] of the cracked points by mode; a point covers its share of area."""
-    modes, ends = snapshot.crack_mode, snapshot.contact_ends
-    bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[modes.shape[1]])])
-    start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
-    places = start[:, None] + bounds[None, :, None] * along[:, None]
-    pieces = np.stack([places[:, :-1], places[:, 1:]], axis=2)
-    return {mode: pieces[modes == mode] for mode in (TENSILE, SHEAR)}
+    pieces = snapshot.point_segments
+    return {mode: pieces[snapshot.crack_mode == mode] for mode in (TENSILE, SHEAR)}
 
 
 def map_figure(polygons: Sequence[FloatArray]) -> tuple[Figure, Axes]:

@@ -17,7 +17,7 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
 from .record import Curve
-from .snapshot import Snapshot
+from .snapshot import Snapshot, numbers_within
 
 TENSILE, SHEAR, ERASED = 1, 2, 3
 #: Name of each mode of a crack.
@@ -106,12 +106,11 @@ def cracks_from_snapshot(
         curve: Record of its test.
         minerals: Their names, if grains differ.
     """
-    numbers, steps, modes, places, energies = _records(snapshot)
+    numbers, rows, points, steps, modes, places, energies = _records(snapshot)
     pairs = _pairs(snapshot, minerals, len(numbers))
-    rows, points = np.nonzero(steps >= 0)
-    order = np.lexsort((points, numbers[rows], steps[rows, points]))
-    rows, points = rows[order], points[order]
-    steps = steps[rows, points]
+    cracked = np.flatnonzero(steps >= 0)
+    order = cracked[np.lexsort((points[cracked], numbers[rows[cracked]], steps[cracked]))]
+    rows, points, steps = rows[order], points[order], steps[order]
     strains = (
         np.interp(steps, curve["step"], curve["axial_strain"])
         if len(curve)
@@ -122,11 +121,11 @@ def cracks_from_snapshot(
         for one in zip(
             steps.tolist(),
             strains.tolist(),
-            *places[rows, points].T.tolist(),
-            modes[rows, points].tolist(),
+            *places[order].T.tolist(),
+            modes[order].tolist(),
             numbers[rows].tolist(),
             points.tolist(),
-            energies[rows, points].tolist(),
+            energies[order].tolist(),
             [pairs[row] for row in rows],
             strict=True,
         )
@@ -144,10 +143,24 @@ def _pairs(snapshot: Snapshot, minerals: Sequence[str], count: int) -> list[str]
     return ["/".join(sorted(minerals[kind] for kind in pair)) for pair in kinds]
 
 
-def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArray, FloatArray]:
-    """Numbers of all bonds with a record, steps, modes, places and energies of their points."""
-    exist = (
+class _Records(NamedTuple):
+    """Bonds with a record, and their points: row of the bond, number in it, and its crack."""
+
+    numbers: IntArray
+    rows: IntArray
+    points: IntArray
+    steps: IntArray
+    modes: IntArray
+    places: FloatArray
+    energies: FloatArray
+
+
+def _records(snapshot: Snapshot) -> _Records:
+    """All bonds, those that exist before those that are erased."""
+    exist = _Records(
         snapshot.contact,
+        snapshot.point_contact,
+        snapshot.point_number,
         snapshot.crack_step,
         snapshot.crack_mode,
         snapshot.crack_position,
@@ -155,20 +168,22 @@ def _records(snapshot: Snapshot) -> tuple[IntArray, IntArray, IntArray, FloatArr
     )
     if (
         snapshot.erased_contact is None
+        or snapshot.erased_point_bond is None
         or snapshot.erased_crack_step is None
         or snapshot.erased_crack_mode is None
         or snapshot.erased_crack_position is None
     ):
         return exist
-    return (
-        np.concatenate([exist[0], snapshot.erased_contact]),
-        np.concatenate([exist[1], snapshot.erased_crack_step]),
-        np.concatenate([exist[2], snapshot.erased_crack_mode]),
-        np.concatenate([exist[3], snapshot.erased_crack_position]),
-        np.concatenate(
-            [exist[4], _energies(snapshot.erased_crack_energy, snapshot.erased_crack_step)]
-        ),
+    erased = _Records(
+        snapshot.erased_contact,
+        snapshot.erased_point_bond + len(snapshot.contact),
+        numbers_within(snapshot.erased_point_bond),
+        snapshot.erased_crack_step,
+        snapshot.erased_crack_mode,
+        snapshot.erased_crack_position,
+        _energies(snapshot.erased_crack_energy, snapshot.erased_crack_step),
     )
+    return _Records(*(np.concatenate(both) for both in zip(exist, erased, strict=True)))
 
 
 def _energies(known: FloatArray | None, steps: IntArray) -> FloatArray:

@@ -12,22 +12,20 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..require import Bounds, require_flag, require_whole
 from .fragments import Fragments, connected
 from .stress.point_stress import OF_TRIANGLES, PointStress, require_points, stress_of_points
 from .stress.tensors import means_by
 
-#: Share of a contact's area that each of its points stands for, by number of points.
-POINT_SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
-
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """Arrays of N nodes, M triangles and C contacts of P points.
+    """Arrays of N nodes, M triangles, C contacts and their P points, contact after contact.
 
     Nodes, triangles and contacts are those that exist. A cracked bond stays after its grains have
-    parted; one that a script has erased does not, only the record of E erased bonds is left.
+    parted; one that a script has erased does not, only the record of E erased bonds and their R
+    points is left.
     """
 
     positions: FloatArray  #: of the nodes, (N, 2) [m]
@@ -39,31 +37,34 @@ class Snapshot:
     contact: IntArray  #: number of each contact, which it keeps, (C,)
     contact_grains: IntArray  #: (C, 2)
     contact_ends: FloatArray  #: (C, 2, 2) [m]
-    point_opening: FloatArray  #: (C, P) [m]
-    point_slip: FloatArray  #: (C, P) [m]
-    point_damage: FloatArray  #: (C, P) [-]
-    point_traction: FloatArray  #: normal and shear, (C, P, 2) [Pa]
-    crack_step: IntArray  #: -1 where a point has not cracked, (C, P)
-    crack_mode: IntArray  #: 0 where a point has not cracked, (C, P)
-    crack_position: FloatArray  #: (C, P, 2) [m]
+    point_contact: IntArray  #: row of the contact of each point, rising, (P,)
+    point_share: FloatArray  #: share of its contact's area that a point stands for, (P,) [-]
+    point_opening: FloatArray  #: (P,) [m]
+    point_slip: FloatArray  #: (P,) [m]
+    point_damage: FloatArray  #: (P,) [-]
+    point_traction: FloatArray  #: normal and shear, (P, 2) [Pa]
+    crack_step: IntArray  #: -1 where a point has not cracked, (P,)
+    crack_mode: IntArray  #: 0 where a point has not cracked, (P,)
+    crack_position: FloatArray  #: (P, 2) [m]
     forces: FloatArray | None = None  #: on the nodes, (N, 2) [N]
-    crack_energy: FloatArray | None = None  #: that damage took until the crack, (C, P) [J]
+    crack_energy: FloatArray | None = None  #: that damage took until the crack, (P,) [J]
     triangle_particle: IntArray | None = None  #: (M,), where grains have inner particles
     triangle_stress_zz: FloatArray | None = None  #: (M,) [Pa], in plane strain
     grain_mineral: IntArray | None = None  #: of each grain, if there are minerals
     erased_contact: IntArray | None = None  #: number of each erased bond, (E,)
     erased_grains: IntArray | None = None  #: (E, 2)
     erased_ends: FloatArray | None = None  #: (E, 2, 2) [m], nan if one of the grains is gone
-    erased_crack_step: IntArray | None = None  #: of the crack or the erasure, (E, P)
-    erased_crack_mode: IntArray | None = None  #: (E, P)
-    erased_crack_position: FloatArray | None = None  #: (E, P, 2) [m]
-    erased_crack_energy: FloatArray | None = None  #: (E, P) [J]
+    erased_point_bond: IntArray | None = None  #: row of the erased bond of each point, (R,)
+    erased_crack_step: IntArray | None = None  #: of the crack or the erasure, (R,)
+    erased_crack_mode: IntArray | None = None  #: (R,)
+    erased_crack_position: FloatArray | None = None  #: (R, 2) [m]
+    erased_crack_energy: FloatArray | None = None  #: (R,) [J]
     stress_source: str = OF_TRIANGLES  #: what the stress of a triangle is: its own, or its grain's
 
     @cached_property
     def fragments(self) -> Fragments:
         """What hangs together: grains between which a point is not fully damaged."""
-        bonded = np.any(self.point_damage < 1.0, axis=1)
+        bonded = self.any_of(self.point_damage < 1.0)
         return connected(self.contact_grains, bonded, self.grain_areas)
 
     @property
@@ -136,8 +137,35 @@ class Snapshot:
 
         Later on grains that have come to touch are such contacts, too.
         """
-        open_ones = np.all((self.point_damage >= 1.0) & (self.crack_mode == 0), axis=1)
-        return np.flatnonzero(open_ones)
+        return np.flatnonzero(~self.any_of((self.point_damage < 1.0) | (self.crack_mode != 0)))
+
+    def any_of(self, chosen: BoolArray) -> BoolArray:
+        """Whether any point of each contact is among those chosen (P,); (C,)."""
+        found: BoolArray = np.zeros(len(self.contact), dtype=bool)
+        found[self.point_contact[chosen]] = True
+        return found
+
+    @property
+    def point_segments(self) -> FloatArray:
+        """Part of its contact that each point stands for, from start to end, (P, 2, 2) [m]."""
+        ends = self.contact_ends[self.point_contact]
+        before = np.concatenate([[0.0], np.cumsum(self.point_share)])
+        first = np.flatnonzero(self.point_number == 0)
+        bounds = np.stack([before[:-1], before[1:]], axis=1)
+        bounds -= np.repeat(before[first], np.diff(first, append=len(ends)))[:, None]
+        segments: FloatArray = ends[:, :1] + bounds[..., None] * (ends[:, 1:] - ends[:, :1])
+        return segments
+
+    @property
+    def point_number(self) -> IntArray:
+        """Number of each point in its contact, from 0, (P,)."""
+        return numbers_within(self.point_contact)
+
+
+def numbers_within(owners: IntArray) -> IntArray:
+    """Number of each row among those of the same owner, which follow each other, from 0."""
+    first = np.flatnonzero(np.diff(owners, prepend=-1))
+    return np.arange(len(owners)) - np.repeat(first, np.diff(first, append=len(owners)))
 
 
 def triangle_areas(snapshot: Snapshot) -> FloatArray:

@@ -30,7 +30,7 @@ from ..errors import InputError
 from ..files import whole_file
 from ..require import quoted
 from ..text import printable
-from .snapshot import POINT_SHARES, Snapshot, triangle_areas
+from .snapshot import Snapshot, triangle_areas
 from .stress.tensors import means_by
 from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
 from .vtu_reader import Arrays, Grid, grid_of, silence
@@ -39,6 +39,9 @@ from .vtu_reader import Arrays, Grid, grid_of, silence
 _FARTHEST = 1e100
 
 GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
+
+#: Share of a contact's area that each of its points stands for, by number of points.
+_SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
 
 #: Unit of each array that has one.
 UNITS = {
@@ -138,11 +141,10 @@ def _snapshot_of(grid: Grid) -> Snapshot:
     grains = {name: values[:count] for name, values in cells.items()}
     contacts = {name: values[count:] for name, values in cells.items()}
     by_point = {
-        name: values.reshape(len(values), -1)
-        for name, values in contacts.items()
-        if name.startswith("point_")
+        name: values.ravel() for name, values in contacts.items() if name.startswith("point_")
     }
-    damage = by_point["point_damage"]
+    damage, bonds = by_point["point_damage"], len(cells["kind"]) - count
+    each = _points_of(cells)
     traction = by_point["point_normal_traction"], by_point["point_shear_traction"]
     mineral = np.zeros(int(np.max(grains["grain"], initial=-1)) + 1, dtype=int)
     mineral[grains["grain"]] = grains["mineral"]
@@ -158,13 +160,15 @@ def _snapshot_of(grid: Grid) -> Snapshot:
         contact=contacts["contact"],
         contact_grains=np.column_stack([contacts["grain_a"], contacts["grain_b"]]),
         contact_ends=places[nodes:].reshape(-1, 2, 2),
+        point_contact=np.repeat(np.arange(bonds), each),
+        point_share=np.tile(np.array(_SHARES[each]), bonds),
         point_opening=by_point["point_opening"],
         point_slip=by_point["point_slip"],
         point_damage=damage,
         point_traction=np.stack(traction, axis=-1),
         crack_step=by_point["point_crack_step"],
         crack_mode=by_point["point_crack_mode"],
-        crack_position=np.full((*damage.shape, 2), np.nan),
+        crack_position=np.full((len(damage), 2), np.nan),
         grain_mineral=mineral if mineral.any() else None,
     )
 
@@ -182,8 +186,13 @@ def _require_grid(cells: Arrays, places: FloatArray, corners: IntArray, count: i
         raise ValueError("grains")
     if not (_are_numbers(cells["mineral"][:count], count) and np.ptp(places, axis=0).all()):
         raise ValueError("minerals or places")
-    if cells["point_damage"].reshape(len(kinds), -1).shape[1] not in POINT_SHARES:
+    if _points_of(cells) not in _SHARES:
         raise ValueError("points")
+
+
+def _points_of(cells: Arrays) -> int:
+    """Points of each contact, of which all have as many in the plane."""
+    return int(np.prod(cells["point_damage"].shape[1:], dtype=int))
 
 
 def _are_numbers(values: IntArray, count: int) -> bool:
@@ -259,14 +268,18 @@ def _minerals(snapshot: Snapshot) -> IntArray:
 
 
 def _contact_arrays(snapshot: Snapshot) -> dict[str, Named]:
-    opening, slip = snapshot.point_opening, snapshot.point_slip
-    damage, traction = snapshot.point_damage, snapshot.point_traction
-    step, mode = snapshot.crack_step, snapshot.crack_mode
-    count, points = opening.shape
-    shares = np.array(POINT_SHARES[points])
+    count = len(snapshot.contact)
+    points = len(snapshot.point_contact) // count if count else 1  # all have as many in the plane
+    opening, slip, damage, step, mode, normal, shear = (
+        values.reshape(count, points)
+        for values in (
+            *(snapshot.point_opening, snapshot.point_slip, snapshot.point_damage),
+            *(snapshot.crack_step, snapshot.crack_mode, *snapshot.point_traction.T),
+        )
+    )
+    shares = np.resize(snapshot.point_share, points)
     names = tuple(f"point {number}" for number in range(points))
     last = np.take_along_axis(mode, np.argmax(step, axis=1)[:, None], axis=1)[:, 0]
-    normal, shear = traction[..., 0], traction[..., 1]
     arrays: dict[str, FloatArray | IntArray] = {
         "kind": np.full(count, CONTACT),
         "contact": snapshot.contact,

@@ -41,7 +41,7 @@ def test_without_contacts_every_grain_is_a_fragment():
 
 
 def test_one_point_that_is_not_fully_damaged_holds():
-    damage = np.array([[1.0, 0.999, 1.0], [1.0, 1.0, 1.0]])
+    damage = np.array([1.0, 0.999, 1.0, 1.0, 1.0, 1.0])
     triangle = np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]])
     snapshot = dataclasses.replace(
         wall(),
@@ -50,6 +50,7 @@ def test_one_point_that_is_not_fully_damaged_holds():
         triangle_grain=np.arange(3),
         contact=np.array([0, 1]),
         contact_grains=np.array([[0, 1], [1, 2]]),
+        point_contact=np.repeat([0, 1], 3),
         point_damage=damage,
     )
     found = snapshot.fragments

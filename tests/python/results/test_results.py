@@ -423,7 +423,7 @@ def test_fragments_of_a_result_and_their_table(tmp_path):
     assert (result.fragments, result.largest_fragment) == (1, pytest.approx(1.0))
     first_row = snapshot.contact_grains.min(axis=1) < 3
     apart = first_row & (snapshot.contact_grains.max(axis=1) >= 3)
-    damage = np.where(apart[:, None], 1.0, snapshot.point_damage)
+    damage = np.where(apart[snapshot.point_contact], 1.0, snapshot.point_damage)
     result.measure_fragments(dataclasses.replace(snapshot, point_damage=damage))
     assert (result.fragments, result.largest_fragment) == (2, pytest.approx(0.75))
     result.write(tmp_path)

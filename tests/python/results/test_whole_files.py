@@ -15,14 +15,17 @@ from flexpm.results.record import Curve
 
 
 def test_cracks_of_a_snapshot_come_in_the_order_of_their_steps():
-    steps = np.array([[30, -1, 10], [-1, -1, 20]])
-    modes = np.array([[1, 0, 2], [0, 0, 1]])
-    places = np.arange(12.0).reshape(2, 3, 2)
+    steps, modes = np.array([30, -1, 10, -1, -1, 20]), np.array([1, 0, 2, 0, 0, 1])
+    places = np.arange(12.0).reshape(6, 2)
     record = Curve()
     for step in (0, 100):
         record.append(**row(step=step, axial_strain=step / 1000))
     snapshot = dataclasses.replace(
-        wall(), crack_step=steps, crack_mode=modes, crack_position=places
+        wall(),
+        point_contact=np.repeat([0, 1], 3),
+        crack_step=steps,
+        crack_mode=modes,
+        crack_position=places,
     )
     cracks = cracks_from_snapshot(snapshot, record)
     assert [(c.step, c.contact, c.point, c.mode) for c in cracks] == [
@@ -42,9 +45,10 @@ def test_erased_bonds_stand_among_the_cracks():
     snapshot = dataclasses.replace(
         wall(),
         erased_contact=np.array([7]),
-        erased_crack_step=np.array([[5, 15, 15]]),
-        erased_crack_mode=np.array([[1, 3, 3]]),
-        erased_crack_position=np.ones((1, 3, 2)),
+        erased_point_bond=np.array([0, 0, 0]),
+        erased_crack_step=np.array([5, 15, 15]),
+        erased_crack_mode=np.array([1, 3, 3]),
+        erased_crack_position=np.ones((3, 2)),
     )
     cracks = cracks_from_snapshot(snapshot, record)
     assert [(c.step, c.contact, c.point, c.mode) for c in cracks if c.contact == 7] == [

@@ -59,8 +59,8 @@ def test_the_weakest_contact_softens_first(specimen):
     factors = np.ones(len(ends))
     factors[across] = 0.05
     built = _pulled(specimen.with_strengths(factors), load())
-    damage = built.snapshot().point_damage.max(axis=1)
-    assert damage.argmax() == across
+    snapshot = built.snapshot()
+    assert snapshot.point_contact[snapshot.point_damage.argmax()] == across
 
 
 def test_weibulls_factors():

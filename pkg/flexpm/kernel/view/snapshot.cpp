@@ -3,6 +3,7 @@
 #include <flexpm/kernel/view/snapshot.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/fem/edge_points.hpp>
 #include <flexpm/kernel/view/grain_values.hpp>
 
 #include <algorithm>
@@ -80,9 +81,13 @@ void add_cracks(const Assembly& a, int contact, std::vector<std::int32_t>& step,
 
 void add_contact(const Assembly& a, int contact, Snapshot& s)
 {
+    const int row = static_cast<int>(s.contact.size());
     add_place(a, contact, s.contact, s.contact_grains, s.contact_ends);
+    const auto share = edge_points(a.contacts.points_of(contact)).share;
     add_cracks(a, contact, s.crack_step, s.crack_mode, s.crack_position, s.crack_energy);
     for (int p = 0; p < a.contacts.points_of(contact); ++p) {
+        s.point_contact.push_back(row);
+        s.point_share.push_back(share[p]);
         s.point_opening.push_back(opening_of(a.contacts, contact, p));
         s.point_slip.push_back(slip_of(a.contacts, contact, p));
         s.point_damage.push_back(damage_of(a.contacts, contact, p));
@@ -93,6 +98,8 @@ void add_contact(const Assembly& a, int contact, Snapshot& s)
 
 void add_erased(const Assembly& a, int contact, Snapshot& s)
 {
+    s.erased_point_bond.insert(s.erased_point_bond.end(), a.contacts.points_of(contact),
+        static_cast<int>(s.erased_contact.size()));
     add_place(a, contact, s.erased_contact, s.erased_grains, s.erased_ends);
     const auto [first, second] = a.contacts.pairs[contact];
     if (a.grains.erased[first] || a.grains.erased[second]) {

@@ -28,6 +28,8 @@ struct Snapshot {
     std::vector<std::int32_t> contact;         ///< [contact] lasting number
     std::vector<std::int32_t> contact_grains;  ///< [contact][2] grains of the rock
     std::vector<double> contact_ends;          ///< [contact][start, end][x, y] [m]
+    std::vector<std::int32_t> point_contact;   ///< [point] row of its contact, in `contact`
+    std::vector<double> point_share;           ///< [point] of the area of its contact [-]
     std::vector<double> point_opening;         ///< [point] [m]
     std::vector<double> point_slip;            ///< [point] [m]
     std::vector<double> point_damage;          ///< [point] [-]
@@ -42,6 +44,7 @@ struct Snapshot {
         erased_grains;  ///< [erased bond][2] grains of the rock, erased or not
     std::vector<double>
         erased_ends;  ///< [erased bond][start, end][x, y] now, nan if a grain is gone [m]
+    std::vector<std::int32_t> erased_point_bond;  ///< [erased point] row of its erased bond
     std::vector<std::int32_t> erased_crack_step;  ///< [erased point] of the crack or the erasure
     std::vector<std::int32_t> erased_crack_mode;  ///< [erased point] CrackMode
     std::vector<double> erased_crack_position;    ///< [erased point][x, y] [m]

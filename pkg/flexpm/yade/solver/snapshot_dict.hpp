@@ -11,35 +11,36 @@ namespace flexpm_bindings {
 inline boost::python::dict snapshot_dict(const flexpm::Assembly& assembly)
 {
 	const auto          s = flexpm::take_snapshot(assembly);
-	const int           p = assembly.contacts.group.points; // all contacts have as many: rows of (contact, point)
 	boost::python::dict d;
-	d["positions"]           = copied(s.positions, 2);
-	d["reference"]           = copied(s.reference, 2);
-	d["velocities"]          = copied(s.velocities, 2);
-	d["forces"]              = copied(s.forces, 2);
-	d["triangles"]           = copied(s.triangles, 3);
-	d["triangle_grain"]      = copied(s.triangle_grain, 0);
-	d["triangle_particle"]   = copied(s.triangle_particle, 0);
-	d["triangle_stress"]     = copied(s.triangle_stress, 3);
-	d["contact"]             = copied(s.contact, 0);
-	d["contact_grains"]      = copied(s.contact_grains, 2);
-	d["contact_ends"]        = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
-	d["point_opening"]       = copied(s.point_opening, p);
-	d["point_slip"]          = copied(s.point_slip, p);
-	d["point_damage"]        = copied(s.point_damage, p);
-	d["point_traction"]      = copied(s.point_traction, 2).attr("reshape")(-1, p, 2);
-	d["crack_step"]          = copied(s.crack_step, p);
-	d["crack_mode"]          = copied(s.crack_mode, p);
-	d["crack_position"]      = copied(s.crack_position, 2).attr("reshape")(-1, p, 2);
-	d["crack_energy"]        = copied(s.crack_energy, p);
-	d["erased_contact"]      = copied(s.erased_contact, 0);
-	d["erased_grains"]       = copied(s.erased_grains, 2);
-	d["erased_ends"]         = copied(s.erased_ends, 2).attr("reshape")(-1, 2, 2);
-	d["erased_crack_step"]   = copied(s.erased_crack_step, p);
-	d["erased_crack_mode"]   = copied(s.erased_crack_mode, p);
-	d["erased_crack_energy"] = copied(s.erased_crack_energy, p);
-
-	d["erased_crack_position"] = copied(s.erased_crack_position, 2).attr("reshape")(-1, p, 2);
+	d["positions"]             = copied(s.positions, 2);
+	d["reference"]             = copied(s.reference, 2);
+	d["velocities"]            = copied(s.velocities, 2);
+	d["forces"]                = copied(s.forces, 2);
+	d["triangles"]             = copied(s.triangles, 3);
+	d["triangle_grain"]        = copied(s.triangle_grain, 0);
+	d["triangle_particle"]     = copied(s.triangle_particle, 0);
+	d["triangle_stress"]       = copied(s.triangle_stress, 3);
+	d["contact"]               = copied(s.contact, 0);
+	d["contact_grains"]        = copied(s.contact_grains, 2);
+	d["contact_ends"]          = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
+	d["point_contact"]         = copied(s.point_contact, 0);
+	d["point_share"]           = copied(s.point_share, 0);
+	d["point_opening"]         = copied(s.point_opening, 0);
+	d["point_slip"]            = copied(s.point_slip, 0);
+	d["point_damage"]          = copied(s.point_damage, 0);
+	d["point_traction"]        = copied(s.point_traction, 2);
+	d["crack_step"]            = copied(s.crack_step, 0);
+	d["crack_mode"]            = copied(s.crack_mode, 0);
+	d["crack_position"]        = copied(s.crack_position, 2);
+	d["crack_energy"]          = copied(s.crack_energy, 0);
+	d["erased_contact"]        = copied(s.erased_contact, 0);
+	d["erased_grains"]         = copied(s.erased_grains, 2);
+	d["erased_ends"]           = copied(s.erased_ends, 2).attr("reshape")(-1, 2, 2);
+	d["erased_point_bond"]     = copied(s.erased_point_bond, 0);
+	d["erased_crack_step"]     = copied(s.erased_crack_step, 0);
+	d["erased_crack_mode"]     = copied(s.erased_crack_mode, 0);
+	d["erased_crack_energy"]   = copied(s.erased_crack_energy, 0);
+	d["erased_crack_position"] = copied(s.erased_crack_position, 2);
 	return d;
 }
 

@@ -17,7 +17,7 @@ from ...results.cracks import NAMES, Crack
 from ...results.fragments import Fragments, connected
 from ...results.record import Curve
 from ...results.result import Result
-from ...results.snapshot import POINT_SHARES, Snapshot
+from ...results.snapshot import Snapshot
 from ..maps import MINERALS
 from ..words import words_of_test
 from .page import Map, rows_to_draw
@@ -200,18 +200,24 @@ def _crack_paths(
 
     A point has its share of the contact. Points of contacts that came later have no place here.
     """
-    bounds = np.concatenate([[0.0], np.cumsum(POINT_SHARES[drawing.point_damage.shape[1]])])
-    row_of = {number: row for row, number in enumerate(drawing.contact.tolist())}
+    first = _first_points(drawing)
+    segments = drawing.point_segments
     parts: dict[tuple[str, int], list[str]] = {}
     for crack, position in zip(cracks, at.tolist(), strict=True):
-        row = row_of.get(crack.contact)
-        if row is None:
+        if crack.contact not in first:
             continue
-        start, end = drawing.contact_ends[row]
-        shares = bounds[[crack.point, crack.point + 1], None]
-        step = _ways(_units(start + shares * (end - start), scale, corner))
+        segment = segments[first[crack.contact] + crack.point]
+        step = _ways(_units(segment, scale, corner))
         parts.setdefault((NAMES[crack.mode], position), []).append(step)
     return [(mode, position, "".join(steps)) for (mode, position), steps in parts.items()]
+
+
+def _first_points(drawing: Snapshot) -> dict[int, int]:
+    """Row of the first point of each contact, by the number of the contact."""
+    rows = np.flatnonzero(drawing.point_number == 0)
+    return dict(
+        zip(drawing.contact[drawing.point_contact[rows]].tolist(), rows.tolist(), strict=True)
+    )
 
 
 def _fragments(
@@ -220,16 +226,16 @@ def _fragments(
     """Fragments at each position: grains hang together while a point of their contact holds."""
     left = drawing.point_damage < 1.0
     areas = drawing.grain_areas
-    row_of = {number: row for row, number in enumerate(drawing.contact.tolist())}
+    first = _first_points(drawing)
     order = np.argsort(at, kind="stable")
     found, next_crack = [], 0
     for position in range(positions):
         while next_crack < len(order) and at[order[next_crack]] <= position:
             crack = cracks[order[next_crack]]
-            if crack.contact in row_of:
-                left[row_of[crack.contact], crack.point] = False
+            if crack.contact in first:
+                left[first[crack.contact] + crack.point] = False
             next_crack += 1
-        found.append(connected(drawing.contact_grains, np.any(left, axis=1), areas))
+        found.append(connected(drawing.contact_grains, drawing.any_of(left), areas))
     return found
 
 
