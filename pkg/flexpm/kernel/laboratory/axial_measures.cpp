@@ -40,21 +40,4 @@ double differential_stress(const AxialObservation& now)
     return now.axial_stress - now.confinement;
 }
 
-AxialObservation observe(const Assembly& a, const TestFrame& frame)
-{
-    const EndForces ends = frame.ends(a);
-    const TestStrains strains = frame.strains(a);
-    AxialObservation o;
-    o.step = a.step;
-    o.axial_strain = strains.axial;
-    o.lateral_strain = strains.lateral;
-    o.axial_stress = axial_stress(ends, frame.sense, frame.area);
-    o.confinement = frame.confinement ? frame.confinement(a) : 0.0;
-    o.end_mismatch = end_mismatch(ends);
-    o.unbalanced_ratio = unbalanced_ratio(a);
-    o.cracks = count_cracks(a);
-    o.energies = energies(a);
-    return o;
-}
-
 }  // namespace flexpm

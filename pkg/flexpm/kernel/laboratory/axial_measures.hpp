@@ -38,6 +38,21 @@ const char* find_bad_value(const AxialObservation& now);
 double differential_stress(const AxialObservation& now);
 
 /// Observation of the last step, which must have been measured.
-AxialObservation observe(const Assembly& a, const TestFrame& frame);
+template <class State> AxialObservation observe(const State& s, const StateFrame<State>& frame)
+{
+    const EndForces ends = frame.ends(s);
+    const TestStrains strains = frame.strains(s);
+    AxialObservation o;
+    o.step = s.step;
+    o.axial_strain = strains.axial;
+    o.lateral_strain = strains.lateral;
+    o.axial_stress = axial_stress(ends, frame.sense, frame.area);
+    o.confinement = frame.confinement ? frame.confinement(s) : 0.0;
+    o.end_mismatch = end_mismatch(ends);
+    o.unbalanced_ratio = unbalanced_ratio(s);
+    o.cracks = count_cracks(s);
+    o.energies = energies(s);
+    return o;
+}
 
 }  // namespace flexpm

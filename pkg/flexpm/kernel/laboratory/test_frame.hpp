@@ -23,15 +23,17 @@ struct TestStrains {
     double lateral = 0.0;
 };
 
-struct TestFrame {
+/// Frame of a specimen of the plane, or of another one whose state is known here by name alone.
+template <class State> struct StateFrame {
     double area = 0.0;    ///< stress = load / area [m^2]
     double height = 0.0;  ///< to which the axial strain refers [m]
     Sense sense = Sense::compression;
-    std::function<EndForces(const Assembly&)> ends;  ///< at the last step
-    std::function<TestStrains(const Assembly&)> strains;
-    std::function<double(const Assembly&)>
+    std::function<EndForces(const State&)> ends;  ///< at the last step
+    std::function<TestStrains(const State&)> strains;
+    std::function<double(const State&)>
         confinement;  ///< [Pa]; none: there is no lateral pressure
 };
+using TestFrame = StateFrame<Assembly>;
 
 /// A rectangle between its bottom and top: mean motion of its sides, pressure on the right one.
 /// @throws std::invalid_argument  unless the outline has four sides

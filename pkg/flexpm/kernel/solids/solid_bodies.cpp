@@ -96,7 +96,7 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
     for (int axis = 0; axis < grains.layout.dimension; ++axis) {
         const int i = grains.component(centre, axis);
         integrate_one<true>({ grains.force[i], inverse_mass,
-                                static_cast<double>(grains.prescribed[i]), s.undamped.velocity[i] },
+                                static_cast<double>(grains.prescribed[i]), s.undamped().velocity[i] },
             o.dt, o.damping, grains.velocity[i], sums, axis);
     }
     sums.largest[0] = std::max(sums.largest[0], norm(moment) / grains.radius[grain]);

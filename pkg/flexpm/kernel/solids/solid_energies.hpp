@@ -5,12 +5,29 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/solids/solid_state.hpp>
 
+#include <string>
+
 namespace flexpm {
 
 /// Energies as of the plane. The kinetic one is that of the last measured step.
 Energies energies(const SolidState& s);
 
+/// Those of the energies that say what a loading does to the specimen.
+Dissipation dissipation(const SolidState& s);
+
+/// Power that local damping takes from what grains move beyond the motion that it leaves alone, as
+/// of the plane [W, or J per unit step].
+double damping_power(const SolidState& s, double damping);
+
+/// Largest force component on a free node over the mean contact force [-]; of the last measured
+/// step, as of the plane.
+double unbalanced_ratio(const SolidState& s);
+
 /// Cracked points.
 CrackCount count_cracks(const SolidState& s);
+
+/// Empty if all is well, else one line that names the step, the grain and the quantity that is not
+/// a finite number.
+std::string find_bad_number(const SolidState& s);
 
 }  // namespace flexpm

@@ -19,11 +19,18 @@ void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double ve
 /// Force along an axis that holds nodes against the grains [N].
 double holding_force(const SolidState& s, const std::vector<int>& nodes, int axis);
 
+/// A displacement of all grains.
+struct SolidField {
+    /// Of each node, grain after grain, the centre last; of rigid grains of the centres alone [m].
+    std::vector<Vector> ways;
+    std::vector<Vector> turns;  ///< of rigid grains, small [rad]; else empty
+};
+
 /// Begin from a linear solution: displacements are `extent` times `field`, velocities `rate` times
 /// it, and damping leaves these alone (deviation D30). Points of contacts follow, and the balance
 /// of energies begins there.
-/// @param field  of each node, grain after grain, the centre last [m]
-/// @throws std::invalid_argument  unless there is a vector for each node, or if grains are rigid
-void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, double rate);
+/// @throws std::invalid_argument  unless there is a vector for each node, or way and turn for each
+///         rigid grain
+void begin_from(SolidState& s, const SolidField& field, double extent, double rate);
 
 }  // namespace flexpm

@@ -12,6 +12,7 @@
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
 #include <flexpm/kernel/assembly/grains.hpp>
 #include <flexpm/kernel/assembly/loading_motion.hpp>
+#include <flexpm/kernel/assembly/parts.hpp>
 #include <flexpm/kernel/core/space_vector.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
 #include <flexpm/kernel/law/solid_elastic.hpp>
@@ -35,6 +36,13 @@ struct Tetrahedra {
     Array<double> shape;     ///< [batch][row][lane]
 
     int batches() const { return first.empty() ? 0 : first.back(); }
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("first", s.first);
+        visit("nodes", s.nodes);
+        visit("shape", s.shape);
+    }
 };
 
 /// Rows of a point of a face: where it was at the last forces, and its FacePointState.
@@ -67,6 +75,13 @@ struct FaceGroup {
         return std::array<int, 3> { corners, points, at_corners }
         < std::array<int, 3> { o.corners, o.points, o.at_corners };
     }
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("corners", s.corners);
+        visit("points", s.points);
+        visit("at_corners", s.at_corners);
+    }
 };
 
 /// When, how and where a point of a face has lost its bond, and what its damage had taken by then.
@@ -75,6 +90,16 @@ struct FaceCrack {
     CrackMode mode = intact;
     Vector position;      ///< [m]
     double energy = 0.0;  ///< [J]
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("step", s.step);
+        visit("mode", s.mode);
+        visit("position_x", s.position.x);
+        visit("position_y", s.position.y);
+        visit("position_z", s.position.z);
+        visit("energy", s.energy);
+    }
 };
 
 /// Blocks of grains whose contacts follow each other: what a step reads and writes of them stays in
@@ -172,6 +197,29 @@ struct FaceContacts {
     {
         return cracks[point_index(contact, point)];
     }
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("count", s.count);
+        visit("laws", s.laws);
+        visit("pairs", s.pairs);
+        visit("law", s.law);
+        visit("slot", s.slot);
+        visit("groups", s.groups);
+        visit("block_group", s.block_group);
+        visit("block_nodes", s.block_nodes);
+        visit("block_points", s.block_points);
+        visit("block_shares", s.block_shares);
+        visit("in_slot", s.in_slot);
+        visit("nodes", s.nodes);
+        visit("line", s.line);
+        visit("places", s.places);
+        visit("areas", s.areas);
+        visit("shares", s.shares);
+        visit("states", s.states);
+        visit("cracks", s.cracks);
+        visit("forces", s.forces);
+    }
 };
 
 /// Triangles of the specimen's surface.
@@ -179,6 +227,13 @@ struct SurfaceTriangles {
     std::vector<int> grain;
     std::vector<int> side;                  ///< SolidSide of the wall
     std::vector<std::array<int, 3>> nodes;  ///< counter-clockwise as seen from outside
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("grain", s.grain);
+        visit("side", s.side);
+        visit("nodes", s.nodes);
+    }
 };
 
 /// Motion of a rigid grain about its centre, whose node has the mass.
@@ -188,6 +243,33 @@ struct RigidBody {
     Vector angular_momentum;  ///< half a step later [N m s]
     SpaceTensor inertia {};   ///< in the axes of the reference, scaled or real [kg m^2]
     bool spin_held = false;   ///< the spin is given
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("turn_w", s.turn.w);
+        visit("turn_v_x", s.turn.v.x);
+        visit("turn_v_y", s.turn.v.y);
+        visit("turn_v_z", s.turn.v.z);
+        visit("spin_x", s.spin.x);
+        visit("spin_y", s.spin.y);
+        visit("spin_z", s.spin.z);
+        visit("angular_momentum_x", s.angular_momentum.x);
+        visit("angular_momentum_y", s.angular_momentum.y);
+        visit("angular_momentum_z", s.angular_momentum.z);
+        visit("inertia_xx", s.inertia.xx);
+        visit("inertia_yy", s.inertia.yy);
+        visit("inertia_zz", s.inertia.zz);
+        visit("inertia_yz", s.inertia.yz);
+        visit("inertia_xz", s.inertia.xz);
+        visit("inertia_xy", s.inertia.xy);
+        visit("spin_held", s.spin_held);
+    }
+};
+
+/// Contact of a plate.
+struct PlateTouch {
+    int plate;
+    int index;  ///< of its facets
 };
 
 /// What a step derives from the state.
@@ -199,6 +281,10 @@ struct SolidPlan {
     std::vector<int> tile_contacts;  ///< first block of contacts of each tile, and the end
     std::vector<int> first_tile;     ///< of each block of grains: tile of its first contact
 
+    // contacts of plates on each block of grains, in the order of plates
+    std::vector<int> first_press;    ///< of each block, in `presses`, and the end; empty: no plates
+    std::vector<PlateTouch> presses;
+
     int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
 };
 
@@ -208,10 +294,33 @@ struct SolidState {
     std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
     SurfaceTriangles surface;
+    std::vector<Plate> plates;      ///< on ends of rigid grains; facets are surface triangles
     EnergyLedger ledger;
-    GrainMotion undamped;   ///< motion that damping does not act on, deviation D30
+    /// Motions as of the plane; `spin` is [grain][x y z], `angle` the turn, [grain][w x y z].
+    LoadingMotion loading;
+    SteadyMotion steady;
     std::int64_t step = 0;  ///< steps done
-    SolidPlan plan;         ///< derived
+    SolidPlan plan;         ///< derived, never saved
+
+    /// Motion of the grains that damping does not act on.
+    const GrainMotion& undamped() const
+    {
+        return steady.is_followed() ? steady.mean : loading.grains;
+    }
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("grains", s.grains);
+        visit("tetrahedra", s.tetrahedra);
+        visit("bodies", s.bodies);
+        visit("contacts", s.contacts);
+        visit("surface", s.surface);
+        visit("plates", s.plates);
+        visit("ledger", s.ledger);
+        visit("loading", s.loading);
+        visit("steady", s.steady);
+        visit("step", s.step);
+    }
 };
 
 /// Vector of a node of space.

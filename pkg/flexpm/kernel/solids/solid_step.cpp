@@ -55,7 +55,7 @@ PairRows pair_rows(SolidState& s, int block)
     Grains& grains = s.grains;
     const int first = grains.block_nodes[block];
     return { (grains.group(block).nodes + 1) / 2, grains.displacement.data() + first,
-        grains.velocity.data() + first, s.undamped.velocity.data() + first,
+        grains.velocity.data() + first, s.undamped().velocity.data() + first,
         grains.force.data() + first, grains.prescribed.data() + first,
         grains.inverse_mass.data() + grains.scalar_index(first) };
 }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Where a test of a solid between its ends takes load and strains from, and its scales:
+/// test_frame.hpp for a box and a cylinder. SI units.
+#pragma once
+
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
+
+namespace flexpm {
+
+using SolidFrame = StateFrame<SolidState>;
+
+/// Section and height of the unloaded specimen.
+struct SolidExtent {
+    double area = 0.0;    ///< of the bottom [m^2]
+    double height = 0.0;  ///< [m]
+};
+SolidExtent extent_of(const SolidState& s);
+
+/// Frame of a specimen between its ends. The axial strain is that between the means of the ends'
+/// nodes; of rigid grains that between bands at a quarter and three quarters of the height
+/// (deviation D21). The lateral one is the mean of both ways of a box, of a cylinder the mean way
+/// of the mantle over the radius.
+SolidFrame solid_frame(const SolidState& s, Sense sense);
+
+/// Lateral strain, positive as Poisson's effect under the sense of the loading [-].
+double lateral_strain(const SolidState& s, Sense sense);
+
+/// Forces that hold the ends along z [N].
+EndForces end_forces(const SolidState& s);
+
+/// The inputs of the scales, means over all grains, as of the plane; `thickness` is the area over
+/// the width, which is its root.
+ScaleInputs scale_inputs(const SolidState& s, Sense sense, double dt);
+
+/// Scales of a test of the specimen as it is; the width is the root of the area.
+TestScales solid_scales(const SolidState& s, Sense sense, double dt);
+
+}  // namespace flexpm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Smooth plates on the ends of a specimen of rigid grains in space: plate_contact.hpp there.
+/// A contact lies in the middle of each surface triangle. SI units; forces of a plate on the
+/// specimen are positive along its normal, which points into it.
+/// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area.
+#pragma once
+
+#include <flexpm/kernel/solids/solid_state.hpp>
+
+namespace flexpm {
+
+/// Lay a plate on the bottom or the top. Masses must be scaled again afterwards.
+/// @param bonded  it pulls as well as it presses
+/// @throws std::invalid_argument  for another side, for one without triangles or with a plate, or
+///         if grains deform
+void add_end_plate(SolidState& s, SolidSide side, bool bonded);
+
+/// Number of the plate on a side; -1 if there is none.
+int find_plate(const SolidState& s, SolidSide side);
+
+/// Contact `index` of a plate [N/m].
+double point_stiffness(const Plate& plate, int index);
+
+/// Add the forces of plates on the nodes of a block of grains, at their present places.
+void add_plate_forces(SolidState& s, int block);
+
+/// Sum forces and works of all plates after the grains have moved by a step.
+void sum_plates(SolidState& s, double dt);
+
+/// Stored energy of a plate's contacts [J].
+double solid_plate_energy(const Plate& plate);
+
+}  // namespace flexpm

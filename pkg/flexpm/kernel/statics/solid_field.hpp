@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Linear solution of a specimen in space between its ends, by conjugate gradients, for
+/// grains that deform or are rigid. SI units.
+#pragma once
+
+#include <flexpm/kernel/solids/solid_loading.hpp>
+
+namespace flexpm {
+
+/// Displacements of the intact, unloaded specimen at an axial strain of 1, with held ends
+/// (hold_ends()): of deformable grains as solid_extension() has it, of rigid ones between their
+/// plates. The bottom stays.
+///
+/// @throws std::runtime_error  if the forces do not come to balance
+SolidField elastic_field(const SolidState& s);
+
+/// Strain, positive, along `sense` (-1: compression) times the field at which the first point
+/// leaves its elastic branch [-]; infinite if none does.
+double elastic_strain(const SolidState& s, const SolidField& field, double sense);
+
+}  // namespace flexpm
