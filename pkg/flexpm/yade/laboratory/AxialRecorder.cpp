@@ -66,9 +66,9 @@ const TestFrame& AxialRecorder::testFrame() const
 	return *frame;
 }
 
-flexpm::AxialObservation AxialRecorder::observed(const flexpm::Assembly& assembly) const
+flexpm::AxialObservation AxialRecorder::observed(GrainSolver& solver) const
 {
-	auto now = flexpm::observe(assembly, testFrame().frame(assembly));
+	auto now = testFrame().observed(solver);
 	if (loading) now.velocity_factor = loading->velocityFactor;
 	return now;
 }
@@ -77,7 +77,7 @@ void AxialRecorder::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (!solver->measured()) return;
-	auto now = observed(solver->forEngines());
+	auto now = observed(*solver);
 	requireFinite(now, *solver);
 	now.axial_strain -= zero[0];
 	now.lateral_strain -= zero[1];
@@ -100,8 +100,9 @@ void AxialRecorder::postLoad(AxialRecorder&)
 {
 	if (!fromNow) return;
 	fromNow              = false;
-	const auto& assembly = GrainSolver::ofScene(*Omega::instance().getScene())->current();
-	const auto  now      = observed(assembly);
+	const auto  solver   = GrainSolver::ofScene(*Omega::instance().getScene());
+	const auto& assembly = solver->current();
+	const auto  now      = observed(*solver);
 	zero                 = Vector2r(now.axial_strain, now.lateral_strain);
 	for (const auto& gauge : gauges)
 		gauge->setZero(assembly);
@@ -169,7 +170,7 @@ void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)
 py::dict AxialRecorder::scales() const
 {
 	const auto world = Omega::instance().getScene();
-	return flexpm_bindings::scales_dict(testFrame().scales(GrainSolver::ofScene(*world)->assembly, world->dt));
+	return flexpm_bindings::scales_dict(testFrame().scalesOf(*GrainSolver::ofScene(*world), world->dt));
 }
 
 } // namespace yade

@@ -7,6 +7,8 @@
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <limits>
@@ -24,19 +26,22 @@ void CrackWaitController::action()
 	if (!recorder || !recorder->loading)
 		throw std::runtime_error("CrackWaitController.recorder = None or without loading, must be the recorder of the test");
 	flexpm::check_positive("CrackWaitController.sweep", sweep, "m3/s");
-	const flexpm::Dissipation   sum = flexpm::dissipation(solver->assembly);
+	const flexpm::Dissipation   sum = solver->onState([](const auto& state) { return flexpm::dissipation(state); });
 	const Real                  now = sum.damage + (ofFriction ? sum.friction : 0), steps = solver->measurePeriod, time = steps * scene->dt;
-	const Real                  lost   = (seen < 0 ? 0 : now - seen) + time * flexpm::damping_power(solver->assembly, solver->damping);
+	const Real                  damped = solver->onState([&](const auto& state) { return flexpm::damping_power(state, solver->damping); });
+	const Real                  lost   = (seen < 0 ? 0 : now - seen) + time * damped;
 	const flexpm::CrackWatch    watch  = { lost, flexpm::swept_work(recorder->stress, sweep, time), recorder->differential, recorder->peak, steps };
 	const flexpm::CrackWaitRule rule   = { fastest, slowest, runningShare, shareAfterPeak, crossingSteps };
 	Real&                       factor = recorder->loading->velocityFactor;
 	const Real                  most   = mostAhead(solver->assembly);
 	factor                             = flexpm::factor_ahead(flexpm::factor_for_cracks(factor, watch, rule), most, rule);
 	seen                               = now;
-	if (undampedDescent && watch.has_fallen())
-		flexpm::follow_steady_motion(solver->assembly, scene->dt, fastestDescent);
-	else
-		flexpm::end_steady_motion(solver->assembly);
+	solver->onState([&](auto& state) {
+		if (undampedDescent && watch.has_fallen())
+			flexpm::follow_steady_motion(state, scene->dt, fastestDescent);
+		else
+			flexpm::end_steady_motion(state);
+	});
 }
 
 Real CrackWaitController::mostAhead(const flexpm::Assembly& assembly) const
@@ -46,6 +51,9 @@ Real CrackWaitController::mostAhead(const flexpm::Assembly& assembly) const
 	return recorder->loading->velocityFactor * flexpm::factor_before_softening(assembly, flexpm::loading_field(assembly), scene->dt, rule);
 }
 
-void CrackWaitController::release() { flexpm::end_steady_motion(GrainSolver::ofScene(*Omega::instance().getScene())->assembly); }
+void CrackWaitController::release()
+{
+	GrainSolver::ofScene(*Omega::instance().getScene())->onState([](auto& state) { flexpm::end_steady_motion(state); });
+}
 
 } // namespace yade

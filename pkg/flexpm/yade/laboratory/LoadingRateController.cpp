@@ -2,6 +2,7 @@
 #include <flexpm/yade/laboratory/LoadingRateController.hpp>
 
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
@@ -15,7 +16,7 @@ void LoadingRateController::action()
 	const auto solver = GrainSolver::ofScene(*scene);
 	if (!solver->measured()) return;
 	if (!loading) throw std::runtime_error("LoadingRateController.loading = None, must be the controller that drives the specimen");
-	const flexpm::Dissipation     now    = flexpm::dissipation(solver->assembly);
+	const flexpm::Dissipation     now    = solver->onState([](const auto& state) { return flexpm::dissipation(state); });
 	const flexpm::Dissipation     before = seen.size() == 3 ? flexpm::Dissipation { seen[0], seen[1], seen[2] } : now;
 	const flexpm::LoadingRateRule rule   = { fastest, slowShare, crossingSteps };
 

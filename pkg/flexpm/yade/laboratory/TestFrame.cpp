@@ -4,20 +4,22 @@
 #include <flexpm/yade/solver/snapshot_dict.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 
 namespace yade {
 
-YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame));
+YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame));
 
 TestFrame::~TestFrame()           = default;
 RectangleFrame::~RectangleFrame() = default;
 DiscFrame::~DiscFrame()           = default;
 PartFrame::~PartFrame()           = default;
+EndFrame::~EndFrame()             = default;
 
 flexpm::TestFrame TestFrame::frame(const flexpm::Assembly&) const
 {
-	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame");
+	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame of a solid");
 }
 
 flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) const
@@ -25,6 +27,14 @@ flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) con
 	frame(assembly);
 	return {};
 }
+
+flexpm::AxialObservation TestFrame::observed(GrainSolver& solver) const
+{
+	const auto& assembly = solver.forEngines();
+	return flexpm::observe(assembly, frame(assembly));
+}
+
+flexpm::TestScales TestFrame::scalesOf(GrainSolver& solver, Real dt) const { return scales(solver.assembly, dt); }
 
 flexpm::TestFrame RectangleFrame::frame(const flexpm::Assembly& assembly) const { return flexpm::rectangle_frame(assembly, sense()); }
 
@@ -79,5 +89,23 @@ std::optional<TestFrame::Measure> PartFrame::measure(const string& column, const
 	if (column != "load") return {};
 	return Measure { flexpm::part_load(assembly, parts()), flexpm::part_load_rate(assembly, parts(), velocity) };
 }
+
+namespace {
+
+	flexpm::SolidState& solidOf(GrainSolver& solver)
+	{
+		if (auto* state = solver.solid()) return *state;
+		throw std::invalid_argument("AxialRecorder.frame = EndFrame, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
+	}
+
+} // namespace
+
+flexpm::AxialObservation EndFrame::observed(GrainSolver& solver) const
+{
+	const auto& state = solidOf(solver);
+	return flexpm::observe(state, flexpm::solid_frame(state, sense()));
+}
+
+flexpm::TestScales EndFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_scales(solidOf(solver), sense(), dt); }
 
 } // namespace yade

@@ -3,6 +3,7 @@
 /// paper Sec. 4.1.
 #pragma once
 
+#include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
@@ -10,6 +11,8 @@
 #include <optional>
 
 namespace yade {
+
+class GrainSolver;
 
 class TestFrame : public Serializable {
 public:
@@ -20,6 +23,9 @@ public:
 	/// The kernel's frame; by itself the class has none.
 	virtual flexpm::TestFrame  frame(const flexpm::Assembly& assembly) const;
 	virtual flexpm::TestScales scales(const flexpm::Assembly& assembly, Real dt) const;
+	/// What is seen of a solver's grains after a step, and the scales of their test.
+	virtual flexpm::AxialObservation observed(GrainSolver& solver) const;
+	virtual flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const;
 	/// Names of the columns that a record has because of it.
 	virtual vector<string> columns() const { return {}; }
 	/// Their values, of the record's stress and strain.
@@ -102,5 +108,23 @@ private:
 	flexpm::PartGeometry parts() const;
 };
 REGISTER_SAVED(PartFrame);
+
+class EndFrame : public TestFrame {
+public:
+	~EndFrame() override;
+	flexpm::AxialObservation observed(GrainSolver& solver) const override;
+	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(EndFrame, TestFrame,
+		"A solid between its ends, along z.",
+		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
+	);
+	// clang-format on
+
+private:
+	flexpm::Sense sense() const { return tension ? flexpm::Sense::tension : flexpm::Sense::compression; }
+};
+REGISTER_SAVED(EndFrame);
 
 } // namespace yade

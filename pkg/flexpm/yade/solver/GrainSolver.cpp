@@ -15,7 +15,14 @@ YADE_PLUGIN((GrainSolver));
 
 GrainSolver::~GrainSolver() = default;
 
-shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene) { return YADE_PTR_CAST<GrainSolver>(assemblyOf(scene).engine); }
+shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene)
+{
+	for (const auto& engine : scene.engines) {
+		const auto solver = YADE_PTR_DYN_CAST<GrainSolver>(engine);
+		if (solver && solver->hasGrains()) return solver;
+	}
+	return YADE_PTR_CAST<GrainSolver>(assemblyOf(scene).engine); // says what is missing
+}
 
 void GrainSolver::postLoad(GrainSolver&)
 {
@@ -29,12 +36,17 @@ void GrainSolver::takeStep()
 {
 	forEngines();
 	if (assembly.step == 0) flexpm::reset_energy_balance(assembly);
+	flexpm::step(assembly, stepOptions());
+}
+
+flexpm::StepOptions GrainSolver::stepOptions() const
+{
 	flexpm::StepOptions options;
 	options.dt      = scene->dt;
 	options.damping = damping;
 	options.threads = threads();
-	options.measure = (assembly.step + 1) % measurePeriod == 0;
-	flexpm::step(assembly, options);
+	options.measure = (stepsDone() + 1) % measurePeriod == 0;
+	return options;
 }
 
 void GrainSolver::action()

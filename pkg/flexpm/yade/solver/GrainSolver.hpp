@@ -2,6 +2,7 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
+#include <flexpm/kernel/solids/solid_state.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
@@ -15,7 +16,7 @@ namespace yade {
 
 namespace py = boost::python;
 
-/// A method for Python that asks first whether there are grains: `call` is the method behind requireAssembled().
+/// A method for Python that asks first whether there are grains of the plane: `call` is the method behind requireAssembled().
 template <auto method> struct AfterAssembly;
 template <class C, class R, class... A, R (C::*method)(A...)> struct AfterAssembly<method> {
 	static R call(C& self, A... a)
@@ -32,6 +33,16 @@ template <class C, class R, class... A, R (C::*method)(A...) const> struct After
 	}
 };
 
+/// The same for a method that grains of space have, too.
+template <auto method> struct WithGrains;
+template <class C, class R, class... A, R (C::*method)(A...)> struct WithGrains<method> {
+	static R call(C& self, A... a)
+	{
+		self.requireGrains();
+		return (self.*method)(a...);
+	}
+};
+
 class GrainSolver : public GlobalEngine, public AssemblyOwner {
 public:
 	~GrainSolver() override;
@@ -43,8 +54,19 @@ public:
 
 	flexpm::Assembly* assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
 	bool              holds(int place) const override;
-	/// @throws std::runtime_error  unless there are grains; all that Python calls goes through it
+	/// Grains of space, which a solver of solids has instead of the assembly.
+	virtual flexpm::SolidState* solid() { return nullptr; }
+	virtual bool                hasGrains() const { return assembly.grains.count > 0; }
+	virtual long                stepsDone() const { return assembly.step; }
+	/// @throws std::runtime_error  unless there are grains of the plane, or any; all that Python calls goes through one of them
 	void requireAssembled() const;
+	void requireGrains() const;
+	/// What `call` says of the grains, of the plane or of space.
+	template <class Call> auto onState(Call call)
+	{
+		if (flexpm::SolidState* state = solid()) return call(*state);
+		return call(assembly);
+	}
 
 	/// The arrays for who looks at them: without all that scripts have erased until now.
 	flexpm::Assembly& current();
@@ -157,14 +179,14 @@ public:
 		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
 		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
-		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
+		.def("energies", WithGrains<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
 		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
-		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
+		.def("cracks", WithGrains<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
 		.def("parting", AfterAssembly<&GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
 			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2].")
-		.def("unbalanced", AfterAssembly<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("unbalanced", WithGrains<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
 		.def("crossingSteps", AfterAssembly<&GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc of the grains of a diameter [m] [-].")
 		.def("balance", AfterAssembly<&GrainSolver::balance>::call,
 			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
@@ -177,6 +199,16 @@ public:
 	// clang-format on
 	DECLARE_LOGGER;
 
+protected:
+	static vector<shared_ptr<Material>> materialsOf(const py::list& list);
+	void                                keepMaterials(const vector<shared_ptr<Material>>& ofGrains);
+	void                                requirePeriods() const;
+	void                                requireMasses() const;
+	void                                requireOwnValues() const;
+	flexpm::StepOptions                 stepOptions() const;
+	int                                 threads() const;
+	void                                trackEnergies();
+
 private:
 	flexpm::NearPairs           nearPairs;
 	vector<flexpm::GrainPair>   candidates;     // near pairs without a contact
@@ -185,9 +217,7 @@ private:
 	vector<shared_ptr<State>>   states;         // of the bodies, by slot; kept alive, so that a body may go at any time
 	void                        requireReady() const;
 	void                        requireInScene() const;
-	void                        requireMasses() const;
 	void                        requireOwnScene() const;
-	int                         threads() const;
 	/// The body of a grain, null if a script has erased it.
 	Body* bodyOf(const Scene& world, int grain) const;
 	void  takeStep();
@@ -212,7 +242,6 @@ private:
 	void            mirrorBonds(const Scene& world);
 	void            hideBonds(const Scene& world);
 	void            mirrorForces(Scene& world);
-	void            trackEnergies();
 };
 REGISTER_SAVED(GrainSolver);
 

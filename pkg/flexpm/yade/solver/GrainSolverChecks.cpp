@@ -36,25 +36,41 @@ namespace {
 
 void GrainSolver::requireAssembled() const
 {
-	if (assembly.grains.count == 0) fail("GrainSolver: grains", "0", "must be assembled; build the specimen first (flexpm.build)");
+	requireGrains();
+	if (assembly.grains.count == 0) fail("GrainSolver: grains", "those of a solid", "must be of the plane for this; a solid is held and loaded by its ends");
+}
+
+void GrainSolver::requireGrains() const
+{
+	if (!hasGrains()) fail("GrainSolver: grains", "0", "must be assembled; build the specimen first (flexpm.build)");
 }
 
 bool GrainSolver::measured() const
 {
 	requirePeriod("measurePeriod", measurePeriod);
-	return assembly.step % measurePeriod == 0;
+	return stepsDone() % measurePeriod == 0;
 }
 
 void GrainSolver::requireReady() const
 {
 	requireAssembled();
+	requirePeriods();
+	if (!(touchMargin >= 0 && touchMargin <= 10)) fail("GrainSolver.touchMargin", number(touchMargin), "must be from 0 to 10 diameters");
+	requireInScene();
+	requireMasses();
+	requireOwnValues();
+}
+
+void GrainSolver::requirePeriods() const
+{
 	requirePeriod("measurePeriod", measurePeriod);
 	requirePeriod("mirrorPeriod", mirrorPeriod);
 	requirePeriod("touchPeriod", touchPeriod);
 	requirePeriod("checkPeriod", checkPeriod);
-	if (!(touchMargin >= 0 && touchMargin <= 10)) fail("GrainSolver.touchMargin", number(touchMargin), "must be from 0 to 10 diameters");
-	requireInScene();
-	requireMasses();
+}
+
+void GrainSolver::requireOwnValues() const
+{
 	for (std::size_t i = 0; i < materials.size(); ++i)
 		requireValues(static_cast<const GrainMat&>(*materials[i]), materialValues[i]);
 }

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/centre_motion.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>
@@ -141,7 +142,7 @@ void GrainSolver::mirrorForces(Scene& world)
 
 void GrainSolver::trackEnergies()
 {
-	const auto e   = flexpm::energies(assembly);
+	const auto e   = onState([](const auto& state) { return flexpm::energies(state); });
 	const auto set = [this](const char* name, Real value) {
 		int id = -1;
 		scene->energy->set(value, name, id);

@@ -10,6 +10,7 @@
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <algorithm>
@@ -28,7 +29,8 @@ Real GrainSolver::crossingSteps(Real diameter) { return flexpm::disc_scales(asse
 
 py::dict GrainSolver::energies()
 {
-	const auto e = flexpm::energies(current());
+	current();
+	const auto e = onState([](const auto& state) { return flexpm::energies(state); });
 	py::dict   d;
 	d["kinetic_energy"]   = e.kinetic;
 	d["elastic_energy"]   = e.elastic;
@@ -45,7 +47,8 @@ py::dict GrainSolver::energies()
 
 py::tuple GrainSolver::cracks()
 {
-	const auto count = flexpm::count_cracks(current());
+	current();
+	const auto count = onState([](const auto& state) { return flexpm::count_cracks(state); });
 	return py::make_tuple(count.tensile, count.shear);
 }
 
@@ -100,7 +103,11 @@ py::dict GrainSolver::overlaps(Real smallestPart)
 	return d;
 }
 
-Real GrainSolver::unbalanced() { return flexpm::unbalanced_ratio(current()); }
+Real GrainSolver::unbalanced()
+{
+	current();
+	return onState([](const auto& state) { return flexpm::unbalanced_ratio(state); });
+}
 
 py::dict GrainSolver::balance()
 {

@@ -16,18 +16,6 @@ namespace yade {
 
 namespace {
 
-	vector<shared_ptr<Material>> materialsOf(const py::list& list)
-	{
-		vector<shared_ptr<Material>> all;
-		for (py::ssize_t i = 0; i < py::len(list); ++i) {
-			const py::extract<shared_ptr<GrainMat>> material(list[i]);
-			if (!material.check() || !material())
-				flexpm::refuse("material " + std::to_string(i), "no GrainMat", "must be one; give a GrainMat for each mineral");
-			all.push_back(material());
-		}
-		return all;
-	}
-
 	/// Inner particles: contacts inside a grain are elastic, those between grains may take the normal of the edge.
 	void chooseInner(const flexpm_bindings::AssemblyInput& input, flexpm::AssemblyOptions& o)
 	{
@@ -40,6 +28,25 @@ namespace {
 	}
 
 } // namespace
+
+vector<shared_ptr<Material>> GrainSolver::materialsOf(const py::list& list)
+{
+	vector<shared_ptr<Material>> all;
+	for (py::ssize_t i = 0; i < py::len(list); ++i) {
+		const py::extract<shared_ptr<GrainMat>> material(list[i]);
+		if (!material.check() || !material())
+			flexpm::refuse("material " + std::to_string(i), "no GrainMat", "must be one; give a GrainMat for each mineral");
+		all.push_back(material());
+	}
+	return all;
+}
+
+void GrainSolver::keepMaterials(const vector<shared_ptr<Material>>& ofGrains)
+{
+	materials = ofGrains;
+	for (const auto& m : ofGrains)
+		materialValues.push_back(valuesOf(static_cast<const GrainMat&>(*m)));
+}
 
 void GrainSolver::assemble(const flexpm_bindings::AssemblyInput& input, py::list minerals, py::list pairs, py::list joints)
 {
@@ -54,10 +61,8 @@ void GrainSolver::assemble(const flexpm_bindings::AssemblyInput& input, py::list
 	for (const auto& m : materialsOf(joints))
 		o.joints.push_back(contactOf(static_cast<const GrainMat&>(*m)));
 	if (!input.outer.empty()) chooseInner(input, o);
-	assembly  = flexpm::make_assembly(*input.tessellation, input.discs, o);
-	materials = ofGrains;
-	for (const auto& m : ofGrains)
-		materialValues.push_back(valuesOf(static_cast<const GrainMat&>(*m)));
+	assembly = flexpm::make_assembly(*input.tessellation, input.discs, o);
+	keepMaterials(ofGrains);
 }
 
 void GrainSolver::addToScene()

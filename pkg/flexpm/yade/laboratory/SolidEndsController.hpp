@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Driven ends of a solid, whose grains deform or are rigid, paper Sec. 4.1 in space.
+#pragma once
+
+#include <flexpm/yade/bindings/saved_class.hpp>
+#include <flexpm/yade/laboratory/LoadingController.hpp>
+
+namespace yade {
+
+class SolidEndsController : public LoadingController {
+public:
+	~SolidEndsController() override;
+	void action() override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(SolidEndsController, LoadingController,
+		"Moves the top of a solid, whose ends :yref:`SolidSolver.holdEnds` has taken hold of, along z; no friction on either. "
+		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen. Place it before :yref:`SolidSolver`.",
+		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom [m/s, or m per step with scaled masses]."))
+		((bool, gripped, false, Attr::readonly, "The top has begun to move |yupdate|."))
+		((Real, seenVelocity, 0., Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
+		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top has [m/s, or m per step]."))
+	);
+	// clang-format on
+};
+REGISTER_SAVED(SolidEndsController);
+
+} // namespace yade

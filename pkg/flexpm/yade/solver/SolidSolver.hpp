@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The same engine for polyhedral grains in space: what it steps is a state of its own.
+#pragma once
+
+#include <flexpm/kernel/space/polyhedra.hpp>
+#include <flexpm/yade/bindings/solid_archive.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+namespace yade {
+
+class SolidSolver : public GrainSolver {
+public:
+	~SolidSolver() override;
+	void action() override;
+	/// YADE calls it after it has loaded a scene or set attributes by name.
+	void postLoad(SolidSolver&);
+
+	flexpm::SolidState* solid() override { return &state; }
+	bool                hasGrains() const override { return state.grains.count > 0; }
+	long                stepsDone() const override { return state.step; }
+
+	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
+	void scaleMasses();
+	void holdEnds(bool bonded);
+	void mirrorBodies();
+	py::dict snapshot();
+	py::dict counts();
+	py::dict overlaps();
+	Real     crossingSteps(Real diameter);
+	py::list plates() { return {}; }
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidSolver, GrainSolver,
+		"Advances polyhedral grains in space as :yref:`GrainSolver` does those of the plane: points of faces, tetrahedra, nodes. What it has "
+		"of that engine are its attributes and the methods below; others refuse a solid.",
+		((flexpm::SolidState, state,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
+		, /* ctor */
+		, .def("assembleSolid", &SolidSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false),
+			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j; minerals: that of each cell.")
+		.def("scaleMasses", WithGrains<&SolidSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
+		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, py::arg("bonded") = false,
+			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. Scale the masses afterwards.")
+		.def("mirrorBodies", WithGrains<&SolidSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is.")
+		.def("snapshot", WithGrains<&SolidSolver::snapshot>::call, "The state as plain arrays, by name.")
+		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")
+		.def("overlaps", WithGrains<&SolidSolver::overlaps>::call, "The deepest overlap of grains that share no contact, which nothing keeps apart, as a dictionary: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
+		.def("crossingSteps", WithGrains<&SolidSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a ball of the grains of a diameter [m] [-].")
+		.def("plates", WithGrains<&SolidSolver::plates>::call, "No plates of a script: those on the ends of rigid grains are the solver's.")
+	);
+	// clang-format on
+
+private:
+	void requireReady() const;
+	void check();
+};
+REGISTER_SAVED(SolidSolver);
+
+} // namespace yade

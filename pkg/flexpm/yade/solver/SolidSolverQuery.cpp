@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What Python asks of a solid: counts, overlaps, arrays.
+#include <flexpm/yade/solver/SolidSolver.hpp>
+
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solid_tests/solid_record.hpp>
+#include <flexpm/kernel/solid_tests/solid_snapshot.hpp>
+
+namespace yade {
+
+using flexpm_bindings::copied;
+
+py::dict SolidSolver::counts()
+{
+	const auto& grains = state.grains;
+	int         nodes = 0, tetrahedra = 0;
+	for (int grain = 0; grain < grains.count; ++grain)
+		nodes += grains.nodes_of(grain);
+	flexpm::for_each_tetrahedron(state, [&](auto&&...) { ++tetrahedra; });
+	py::dict d;
+	d["grains"]         = grains.count;
+	d["particles"]      = grains.count;
+	d["contacts"]       = state.contacts.count;
+	d["inner_contacts"] = 0;
+	d["nodes"]          = nodes;
+	d["tetrahedra"]     = tetrahedra;
+	return d;
+}
+
+py::dict SolidSolver::overlaps()
+{
+	const auto found = flexpm::largest_overlap(state);
+	py::dict   d;
+	d["depth"]       = found.depth;
+	d["of_diameter"] = found.of_diameter;
+	d["grains"]      = py::make_tuple(found.pair[0], found.pair[1]);
+	d["pairs"]       = found.pairs;
+	return d;
+}
+
+Real SolidSolver::crossingSteps(Real diameter)
+{
+	const auto scales = flexpm::solid_scales(state, flexpm::Sense::compression, Omega::instance().getScene()->dt);
+	return scales.crossing_steps * diameter / scales.height;
+}
+
+py::dict SolidSolver::snapshot()
+{
+	const auto s = flexpm::take_snapshot(state);
+	py::dict   d;
+	d["positions"]          = copied(s.positions, 3);
+	d["reference"]          = copied(s.reference, 3);
+	d["velocities"]         = copied(s.velocities, 3);
+	d["forces"]             = copied(s.forces, 3);
+	d["node_offsets"]       = copied(s.node_offsets, 0);
+	d["centres"]            = copied(s.centres, 3);
+	d["volumes"]            = copied(s.volumes, 0);
+	d["tetrahedra"]         = copied(s.tetrahedra, 4);
+	d["tetrahedron_grain"]  = copied(s.tetrahedron_grain, 0);
+	d["tetrahedron_stress"] = copied(s.tetrahedron_stress, 6);
+	d["surface"]            = copied(s.surface, 3);
+	d["surface_grain"]      = copied(s.surface_grain, 0);
+	d["surface_side"]       = copied(s.surface_side, 0);
+	d["contact_grains"]     = copied(s.contact_grains, 2);
+	d["corner_offsets"]     = copied(s.corner_offsets, 0);
+	d["corners"]            = copied(s.corners, 3);
+	d["areas"]              = copied(s.areas, 0);
+	d["point_offsets"]      = copied(s.point_offsets, 0);
+	d["point_area"]         = copied(s.point_area, 0);
+	d["point_opening"]      = copied(s.point_opening, 0);
+	d["point_slip"]         = copied(s.point_slip, 2);
+	d["point_damage"]       = copied(s.point_damage, 0);
+	d["point_traction"]     = copied(s.point_traction, 3);
+	d["crack_step"]         = copied(std::vector<double>(s.crack_step.begin(), s.crack_step.end()), 0).attr("astype")("int64");
+	d["crack_mode"]         = copied(s.crack_mode, 0);
+	d["crack_position"]     = copied(s.crack_position, 3);
+	d["crack_energy"]       = copied(s.crack_energy, 0);
+	return d;
+}
+
+} // namespace yade
