@@ -48,7 +48,7 @@ Run begun(const Packing& p, double strain, double rate)
     scale_masses(r.state, damping);
     prescribe(r.state, r.bottom, 2, 0.0);
     prescribe(r.state, r.top, 2, rate * r.height);
-    begin_from(r.state, e.field, strain, rate);
+    begin_from(r.state, { e.field, {} }, strain, rate);
     return r;
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("A solid begins at the stress of its static solution and keeps its mod
 {
     const double strain = -2e-5, rate = -2e-7;
     Run r = begun(box(60, 2), strain, rate);
-    const double kinetic = kinetic_of_velocities(r.state.grains);
+    const double kinetic = kinetic_of_velocities(r.state);
     step(r.state, { 1.0, damping, 1, true });
     CHECK(r.strain() == Approx(strain + rate).epsilon(1e-9));
     CHECK(r.stress() == Approx(r.young * (strain + rate)).epsilon(2e-3));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Ends of a specimen in space that move along z, and the motion that they give to it:
-/// end_displacement.hpp and loading_motion.hpp there. Ends are free laterally: of deformable grains
-/// their nodes are driven, rigid ones lie between plates. SI units, tension positive.
+/// end_displacement.hpp, loading_motion.hpp and steady_motion.hpp there. Ends are free laterally:
+/// of deformable grains their nodes are driven, rigid ones lie between plates. SI units, tension
+/// positive.
 #pragma once
 
 #include <flexpm/kernel/solids/solid_loading.hpp>
@@ -10,31 +11,35 @@ namespace flexpm {
 
 /// Take hold of both ends at rest. Masses must be scaled afterwards.
 /// @param pulled  plates of rigid grains are bonded
+/// @throws std::invalid_argument  if the ends are held already, or there are none
 void hold_ends(SolidState& s, bool pulled);
 
 /// Begin from a linear solution at a strain, positive in tension, with the top at a velocity, by
 /// which all grains move as that solution does (deviation D30). Kinetic and elastic energy of this
 /// start are the initial ones of the balance. Ends must be held.
 ///
+/// @param strain    of the solution, over that of the field, which is 1 [-]
 /// @param velocity  of the top [m/s], positive away from the bottom
 /// @param undamped  damping acts only on what grains move beyond that
-/// @throws std::invalid_argument  as begin_from()
-void start_ends(
-    SolidState& s, const SolidField& field, double strain, double velocity, bool undamped);
+/// @param dt        time step [s]
+/// @throws std::invalid_argument  as begin_from(), or if ends are not held
+void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,
+    bool undamped, double dt);
 
-/// Move the top at another velocity from now on, and with it the motion that damping leaves alone,
-/// so that the change raises no wave. The kinetic energy that this gives is work of the boundary.
+/// Move the top at another velocity from now on, and with it the motion that the loading gives, so
+/// that the change raises no wave. The kinetic energy that this gives is work of the boundary.
+///
 /// @param dt  time step [s]
+/// @throws std::invalid_argument  if ends are not held, or the velocity is not finite
 void drive_top(SolidState& s, double velocity, double dt);
-
-/// Release the top: it is free from now on.
-void release_top(SolidState& s, double dt);
 
 /// Velocity of the top [m/s].
 double top_velocity(const SolidState& s);
 
-/// Let damping leave alone the mean motion since the last look, from the second look on, no faster
-/// than `fastest` [m/s] (deviation D55, see steady_motion.hpp).
+/// Let damping leave alone the mean motion since the last look, from the second look on
+/// (deviation D55).
+///
+/// @param fastest  of that motion [m/s]; the rim of a rigid grain turns no faster
 void follow_steady_motion(SolidState& s, double dt, double fastest);
 
 /// Let it leave alone that of the loading again.

@@ -30,6 +30,7 @@ Vector spin_of(const RigidBody& body, double dt)
 }
 
 /// Local damping of a moment, Eq. 2 for each component.
+/// @param spin  beyond what damping leaves alone
 Vector damping_moment(Vector moment, Vector spin, double damping)
 {
     const auto against = [&](double m, double w) {
@@ -39,7 +40,10 @@ Vector damping_moment(Vector moment, Vector spin, double damping)
 }
 
 /// New spin of a body under a moment, and the works of damping and of what holds it.
-void integrate_turn(RigidBody& body, Vector moment, const StepOptions& o, StepSums& sums)
+///
+/// @param undamped  spin that damping leaves alone
+void integrate_turn(
+    RigidBody& body, Vector moment, Vector undamped, const StepOptions& o, StepSums& sums)
 {
     const Vector old = body.spin, momentum = body.angular_momentum;
     if (body.spin_held) {
@@ -50,11 +54,12 @@ void integrate_turn(RigidBody& body, Vector moment, const StepOptions& o, StepSu
         body.angular_momentum = turned(body.turn, body.inertia * own);
         return;
     }
-    const Vector damp = damping_moment(moment, old, o.damping);
+    const Vector damp = damping_moment(moment, old - undamped, o.damping);
     body.angular_momentum = momentum + o.dt * (moment + damp);
     body.spin = spin_of(body, o.dt);
     sums.damped[0] -= 0.5 * o.dt * dot(damp, old);
     sums.damped_next[0] -= 0.5 * o.dt * dot(damp, body.spin);
+    sums.dragged[0] -= 0.5 * o.dt * dot(damp, undamped);
     sums.kinetic[0] += 0.25 * (dot(old, body.angular_momentum) + dot(body.spin, momentum));
 }
 
@@ -68,39 +73,55 @@ void move_body(SolidState& s, int block, double dt)
     const Vector way =
         space_vector(grains.displacement, centre) + dt * space_vector(grains.velocity, centre);
     body.turn = normalized(rotation_by(dt * body.spin) * body.turn);
-    const Vector middle = space_vector(grains.reference, centre);
-    for (int n = 0; n < grains.nodes_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        const Vector arm = space_vector(grains.reference, node) - middle;
-        set_space_vector(grains.displacement, node, way + turned_by(body.turn, arm));
-    }
+    place_body(s, grain, way);
 }
 
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums)
 {
     Grains& grains = s.grains;
     const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
-    const auto place = [&](int node) {
-        return space_vector(grains.reference, node) + space_vector(grains.displacement, node);
-    };
-    const Vector middle = place(centre);
-    Vector force, moment;
-    for (int n = 0; n < grains.vertices_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        const Vector on = space_vector(grains.force, node);
-        force = force + on;
-        moment = moment + cross(place(node) - middle, on);
-    }
+    const Vector moment = moment_on(s, grain);
+    Vector force;
+    for (int n = 0; n < grains.vertices_of(grain); ++n)
+        force = force + space_vector(grains.force, grains.node(grain, n));
     set_space_vector(grains.force, centre, force);
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
+    const Array<double>& undamped = s.undamped().velocity;
     for (int axis = 0; axis < grains.layout.dimension; ++axis) {
         const int i = grains.component(centre, axis);
         integrate_one<true>({ grains.force[i], inverse_mass,
-                                static_cast<double>(grains.prescribed[i]), s.undamped().velocity[i] },
+                                static_cast<double>(grains.prescribed[i]), undamped[i] },
             o.dt, o.damping, grains.velocity[i], sums, axis);
     }
     sums.largest[0] = std::max(sums.largest[0], norm(moment) / grains.radius[grain]);
-    integrate_turn(s.bodies[grain], moment, o, sums);
+    integrate_turn(s.bodies[grain], moment, spin_in(s.undamped(), grain), o, sums);
+}
+
+Vector moment_on(const SolidState& s, int grain)
+{
+    const Grains& grains = s.grains;
+    const auto place = [&](int node) {
+        return space_vector(grains.reference, node) + space_vector(grains.displacement, node);
+    };
+    const Vector middle = place(grains.centre(grain));
+    Vector moment;
+    for (int n = 0; n < grains.vertices_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        moment = moment + cross(place(node) - middle, space_vector(grains.force, node));
+    }
+    return moment;
+}
+
+void place_body(SolidState& s, int grain, Vector way)
+{
+    Grains& grains = s.grains;
+    const Vector middle = space_vector(grains.reference, grains.centre(grain));
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        const Vector arm = space_vector(grains.reference, node) - middle;
+        set_space_vector(
+            grains.displacement, node, way + turned_by(s.bodies[grain].turn, arm));
+    }
 }
 
 void set_spin(SolidState& s, int grain, Vector spin, bool held)

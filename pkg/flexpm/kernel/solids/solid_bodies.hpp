@@ -17,6 +17,13 @@ void move_body(SolidState& s, int block, double dt);
 /// has the momentum.
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums);
 
+/// Moment of the forces on the nodes of a rigid grain about its centre, at the last step [N m].
+Vector moment_on(const SolidState& s, int grain);
+
+/// Put a rigid grain where centre and turn are, by its number.
+/// @param way  of its centre since the reference [m]
+void place_body(SolidState& s, int grain, Vector way);
+
 /// Give a rigid grain a spin from now on [rad/s].
 /// @param held  it stays; else it is integrated
 void set_spin(SolidState& s, int grain, Vector spin, bool held);

@@ -385,6 +385,7 @@ SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInp
     size_ledger(s.ledger, s.grains.blocks());
     if (input.rigid) s.bodies.resize(s.grains.count);
     s.loading.grains.velocity.assign(s.grains.velocity.size(), 0.0);
+    s.loading.grains.spin.assign(3 * s.bodies.size(), 0.0);
     prepare_step(s);
     set_real_masses(s);
     return std::move(b.state);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solids/solid_energies.hpp>
 
+#include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace flexpm {
@@ -60,8 +64,108 @@ Energies energies(const SolidState& s)
     e.drag = sum_of_first(s.ledger.drag_work);
     e.damping = sum_of_first(s.ledger.damping_work) - e.drag;
     e.boundary_work = sum_of_first(s.ledger.prescribed_work);
+    for (const Plate& plate : s.plates) {
+        e.elastic += solid_plate_energy(plate);
+        e.boundary_work += plate.boundary_work;
+    }
     e.initial = s.ledger.initial;
     return e;
+}
+
+FaceTraction traction_of(const FaceContacts& contacts, int contact, int point)
+{
+    const LawParameters& law = contacts.law_of(contact);
+    const FacePlace at = contacts.place_of(contact, point);
+    const FacePointState state = contacts.point_state(contact, point);
+    const double damage = law::damage(law, state.max_opening, state.shear_damage);
+    const double opening = law::gap(law, at.opening, state);
+    return { law::normal_traction(law, opening, state.max_opening, damage),
+        law.shear_stiffness * (at.slip - state.plastic_slip), damage, damage };
+}
+
+double kinetic_of_velocities(const SolidState& s)
+{
+    double sum = kinetic_of_velocities(s.grains);
+    for (const RigidBody& body : s.bodies)
+        if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
+    return sum;
+}
+
+Dissipation dissipation(const SolidState& s)
+{
+    const FaceContacts& c = s.contacts;
+    Dissipation d;
+    for (int contact = 0; contact < c.count; ++contact) {
+        for (int p = 0; p < c.points_of(contact); ++p) {
+            const double area = c.area(contact, p);
+            d.damage += area * c.state(contact, p, FaceRow::damage_energy);
+            d.friction += area * c.state(contact, p, FaceRow::friction_energy);
+        }
+    }
+    d.boundary_work = sum_of_first(s.ledger.prescribed_work);
+    for (const Plate& plate : s.plates)
+        d.boundary_work += plate.boundary_work;
+    return d;
+}
+
+double damping_power(const SolidState& s, double damping)
+{
+    const Grains& grains = s.grains;
+    const GrainMotion& undamped = s.undamped();
+    double total = 0.0;
+    const auto add_node = [&](int node) {
+        for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+            const int i = grains.component(node, axis);
+            if (grains.prescribed[i]) continue;
+            total += std::fabs(grains.force[i] * (grains.velocity[i] - undamped.velocity[i]));
+        }
+    };
+    for (int g = 0; g < grains.count; ++g) {
+        if (!grains.is_rigid(g)) {
+            for (int n = 0; n < grains.nodes_of(g); ++n)
+                add_node(grains.node(g, n));
+            continue;
+        }
+        add_node(grains.centre(g));
+        if (s.bodies[g].spin_held) continue;
+        const Vector moment = moment_on(s, g), spin = s.bodies[g].spin - spin_in(undamped, g);
+        total += std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
+            + std::fabs(moment.z * spin.z);
+    }
+    return damping * total;
+}
+
+double unbalanced_ratio(const SolidState& s)
+{
+    const auto& forces = s.ledger.largest_force;
+    const double largest = *std::max_element(forces.begin(), forces.end());
+    const FaceContacts& c = s.contacts;
+    double sum = 0.0;
+    for (int contact = 0; contact < c.count; ++contact) {
+        Vector on;
+        for (int k = 0; k < c.corners_of(contact); ++k)
+            on = on + space_vector(c.forces, 4 * c.node_index(contact, 0, k));
+        sum += norm(on);
+    }
+    if (sum > 0.0) return largest * c.count / sum;
+    // a specimen that flies apart is not in balance
+    return c.count > 0 && largest > 0.0 ? 1.0 : 0.0;
+}
+
+std::string find_bad_number(const SolidState& s)
+{
+    const Grains& grains = s.grains;
+    for (int g = 0; g < grains.count; ++g) {
+        for (int n = 0; n < grains.nodes_of(g); ++n) {
+            const int node = grains.node(g, n);
+            const bool force = is_finite(space_vector(grains.force, node));
+            if (force && is_finite(space_vector(grains.velocity, node))) continue;
+            return std::string(force ? "velocity" : "force") + " of node " + std::to_string(n)
+                + " of grain " + std::to_string(g) + " is not a finite number at step "
+                + std::to_string(s.step) + "; lower the loading rate or check the material";
+        }
+    }
+    return {};
 }
 
 CrackCount count_cracks(const SolidState& s)

@@ -9,6 +9,12 @@
 
 namespace flexpm {
 
+/// Where a point is and what it bears, by its state.
+FaceTraction traction_of(const FaceContacts& contacts, int contact, int point);
+
+/// Kinetic energy as if no force acted on the present velocities and spins, of what is free [J].
+double kinetic_of_velocities(const SolidState& s);
+
 /// Energies as of the plane. The kinetic one is that of the last measured step.
 Energies energies(const SolidState& s);
 

@@ -2,8 +2,9 @@
 #include <flexpm/kernel/solids/solid_loading.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solids/face_forces.hpp>
+#include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_step.hpp>
 
 #include <algorithm>
 #include <string>
@@ -38,34 +39,63 @@ double holding_force(const SolidState& s, const std::vector<int>& nodes, int axi
     return sum;
 }
 
-void begin_from(SolidState& s, const std::vector<Vector>& field, double extent, double rate)
+namespace {
+
+/// @throws std::invalid_argument  unless a field is one of these grains
+void check_field(const SolidState& s, const SolidField& field)
 {
-    if (!s.bodies.empty()) {
-        refuse("begin_from: rigid grains", static_cast<double>(s.bodies.size()), "",
-            "must be 0; a field of nodes bends them");
-    }
-    std::size_t wanted = 0;
+    const auto grains = static_cast<std::size_t>(s.grains.count);
+    std::size_t nodes = 0;
     for (int g = 0; g < s.grains.count; ++g)
-        wanted += s.grains.nodes_of(g);
-    if (field.size() != wanted) {
-        refuse("begin_from: vectors of the field", static_cast<double>(field.size()), "",
-            "must be those of " + std::to_string(wanted) + " nodes");
+        nodes += s.grains.nodes_of(g);
+    const bool rigid = !s.bodies.empty();
+    const std::size_t wanted = rigid ? grains : nodes;
+    if (field.ways.size() != wanted) {
+        refuse("begin_from: vectors of the field", static_cast<double>(field.ways.size()), "",
+            "must be those of " + std::to_string(wanted)
+                + (rigid ? " rigid grains" : " nodes"));
     }
-    auto next = field.begin();
-    for_each_node(s, [&](int grain, int number) {
-        const int node = s.grains.node(grain, number);
-        set_space_vector(s.grains.displacement, node, extent * *next);
-        set_space_vector(s.grains.velocity, node, rate * *next);
-        set_space_vector(s.undamped.velocity, node, rate * *next);
-        ++next;
-    });
-    if (update_face_blocks(s, 0, s.contacts.blocks()) > 0) {
-        refuse("begin_from: extent", extent, "",
-            "must leave the sides of each contact opposite to each other");
+    if (field.turns.size() != (rigid ? grains : 0)) {
+        refuse("begin_from: turns of the field", static_cast<double>(field.turns.size()), "",
+            "must be those of " + std::to_string(rigid ? grains : 0) + " rigid grains");
     }
+}
+
+void begin_node(SolidState& s, int node, Vector way, double extent, double rate)
+{
+    set_space_vector(s.grains.displacement, node, extent * way);
+    set_space_vector(s.grains.velocity, node, rate * way);
+    set_space_vector(s.loading.grains.velocity, node, rate * way);
+}
+
+void begin_body(SolidState& s, int grain, const SolidField& field, double extent, double rate)
+{
+    begin_node(s, s.grains.centre(grain), field.ways[grain], extent, rate);
+    s.bodies[grain].turn = rotation_by(extent * field.turns[grain]);
+    place_body(s, grain, extent * field.ways[grain]);
+    const Vector spin = rate * field.turns[grain];
+    set_spin(s, grain, spin, s.bodies[grain].spin_held);
+    set_space_vector(s.loading.grains.spin, 3 * grain, spin);
+}
+
+}  // namespace
+
+void begin_from(SolidState& s, const SolidField& field, double extent, double rate)
+{
+    check_field(s, field);
+    if (s.bodies.empty()) {
+        auto next = field.ways.begin();
+        for_each_node(s, [&](int grain, int number) {
+            begin_node(s, s.grains.node(grain, number), *next++, extent, rate);
+        });
+    }
+    for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g)
+        begin_body(s, g, field, extent, rate);
+    find_forces(s);
+    std::fill(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
+    s.ledger.kinetic[0] = kinetic_of_velocities(s);
     const Energies there = energies(s);
-    s.ledger.initial =
-        there.elastic + there.damage + there.friction + kinetic_of_velocities(s.grains);
+    s.ledger.initial = there.elastic + there.damage + there.friction + there.kinetic;
 }
 
 }  // namespace flexpm

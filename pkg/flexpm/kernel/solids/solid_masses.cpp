@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
@@ -96,6 +97,21 @@ void add_point(const SolidState& s, int contact, int point, SolidBound& bound)
     }
 }
 
+/// A contact of a plate, which does not give way itself.
+void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& bound)
+{
+    const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    const double r = s.grains.radius[grain];
+    Vector place;
+    for (int n : s.surface.nodes[triangle])
+        place = place + (1.0 / 3.0) * space_vector(s.grains.reference, n);
+    const double arm =
+        norm(place - space_vector(s.grains.reference, s.grains.centre(grain))) / r;
+    const double all = point_stiffness(plate, index) * (1.0 + arm);
+    bound.node[s.grains.scalar_index(s.grains.centre(grain))] += all;
+    bound.turn[grain] += r * r * arm * all;
+}
+
 /// Call visit(index) for the mass of each node that has one.
 template <class Visit> void for_each_mass(const Grains& grains, Visit visit)
 {
@@ -159,6 +175,9 @@ SolidBound stiffness_bound(const SolidState& s)
     for (int c = 0; c < s.contacts.count; ++c)
         for (int p = 0; p < s.contacts.points_of(c); ++p)
             add_point(s, c, p, bound);
+    for (const Plate& plate : s.plates)
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+            add_touch(s, plate, i, bound);
     complete_rigid(s, bound);
     return bound;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/space/solid.hpp>
 
 namespace flexpm {
 

@@ -335,6 +335,12 @@ inline void set_space_vector(Array<double>& values, int node, Vector v)
     values[node + 2] = v.z;
 }
 
+/// Spin of a rigid grain in a motion.
+inline Vector spin_in(const GrainMotion& motion, int grain)
+{
+    return space_vector(motion.spin, 3 * grain);
+}
+
 /// Call visit(grain, number) for each node of all grains.
 template <class Visit> void for_each_node(const SolidState& s, Visit visit)
 {

@@ -8,6 +8,7 @@
 #include <flexpm/kernel/solids/face_forces.hpp>
 #include <flexpm/kernel/solids/rows_of_four.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_works.hpp>
@@ -125,13 +126,20 @@ void move_grains(SolidState& s, TileRange own, double dt)
         });
 }
 
+/// Forces of contacts and plates on a block of grains.
+void sum_outer_forces(SolidState& s, int block, const PairRows& rows)
+{
+    const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
+    variant_of<sum_sources>()(
+        s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
+    if (!s.plan.first_press.empty()) add_plate_forces(s, block);
+}
+
 /// Sum the forces on a block of grains and integrate its velocities.
 void update_grains(SolidState& s, int block, const StepOptions& o)
 {
     const PairRows rows = pair_rows(s, block);
-    const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
-    variant_of<sum_sources>()(
-        s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
+    sum_outer_forces(s, block, rows);
     StepSums sums;
     if (s.grains.group(block).rigid) {
         integrate_body(s, block, o, sums);
@@ -219,6 +227,27 @@ void find_tiles(SolidState& s)
             std::max(s.plan.tile_contacts[tile + 1], s.plan.tile_contacts[tile]);
 }
 
+/// Contacts of plates on each block of grains.
+void find_presses(SolidState& s)
+{
+    std::vector<std::vector<PlateTouch>> of_block(s.grains.blocks());
+    for (std::size_t p = 0; p < s.plates.size(); ++p) {
+        for (std::size_t i = 0; i < s.plates[p].facets.size(); ++i) {
+            const int grain = s.surface.grain[s.plates[p].facets[i]];
+            of_block[s.grains.block_of(grain)].push_back(
+                { static_cast<int>(p), static_cast<int>(i) });
+        }
+    }
+    s.plan.first_press.clear();
+    s.plan.presses.clear();
+    if (s.plates.empty()) return;
+    for (const auto& touches : of_block) {
+        s.plan.first_press.push_back(static_cast<int>(s.plan.presses.size()));
+        s.plan.presses.insert(s.plan.presses.end(), touches.begin(), touches.end());
+    }
+    s.plan.first_press.push_back(static_cast<int>(s.plan.presses.size()));
+}
+
 }  // namespace
 
 int tile_of(const SolidState& s, int contact)
@@ -231,6 +260,20 @@ void prepare_step(SolidState& s)
 {
     find_sources(s);
     find_tiles(s);
+    find_presses(s);
+}
+
+void find_forces(SolidState& s)
+{
+    if (update_face_blocks(s, 0, s.contacts.blocks()) > 0) {
+        refuse("contacts without a middle face", 1.0, "",
+            "must be 0; the sides of each contact must lie opposite to each other");
+    }
+    for (int block = 0; block < s.grains.blocks(); ++block) {
+        sum_outer_forces(s, block, pair_rows(s, block));
+        if (!s.grains.group(block).rigid) add_tetrahedron_forces(s, block);
+    }
+    sum_plates(s, 0.0);
 }
 
 void step(SolidState& s, const StepOptions& options)
@@ -241,6 +284,8 @@ void step(SolidState& s, const StepOptions& options)
     }
     ThreadTeam& team = team_of(options.threads);
     std::atomic<int> turned { 0 };
+    for (Plate& plate : s.plates)
+        plate.displacement = plate.displacement + options.dt * plate.velocity;
     const ThreadTeam::Work share = [&](int thread) {
         const TileRange own = share_of(s.plan, thread, team.size());
         move_grains(s, own, options.dt);
@@ -250,6 +295,7 @@ void step(SolidState& s, const StepOptions& options)
         update_shared_grains(s, own, options);
     };
     team.run(share);
+    sum_plates(s, options.dt);
     ++s.step;
     if (turned > 0) {
         fail("step " + std::to_string(s.step) + ": contacts without a middle face",

@@ -13,6 +13,10 @@ int tile_of(const SolidState& s, int contact);
 /// Derive the plan of a step, after a state was made or loaded.
 void prepare_step(SolidState& s);
 
+/// Find the forces at the present places, and the states of contact points there, without a step.
+/// @throws std::invalid_argument  if a contact has no middle face there
+void find_forces(SolidState& s);
+
 /// Move all nodes, find the forces at the new places, and integrate the velocities. All sums run in
 /// a fixed order: results do not depend on the number of threads.
 ///

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  How Boost saves the kernel's assembly: all members that flexpm::visit_members names.
+/// @file  How Boost saves the kernel's assembly and the state of a solid: all members that flexpm::visit_members names.
 #pragma once
 
 #include <flexpm/kernel/assembly/serialization.hpp>
+#include <flexpm/kernel/solids/solid_state.hpp>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
@@ -51,7 +52,29 @@ namespace serialization {
 		archiveMembers(archive, assembly);
 	}
 
+	template <class Archive> void serialize(Archive& archive, flexpm::Tetrahedra& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::FaceGroup& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::FaceCrack& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::FaceContacts& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::SurfaceTriangles& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::RigidBody& part, unsigned) { archiveMembers(archive, part); }
+
+	/// Version of what SolidState lists and how it lies in memory: to be raised with each change of either.
+	constexpr unsigned solidVersion = 1;
+
+	/// Call flexpm::prepare_step() after loading.
+	template <class Archive> void serialize(Archive& archive, flexpm::SolidState& solid, unsigned version)
+	{
+		if (version != solidVersion) {
+			throw std::runtime_error(
+			        "state of the solid = version " + std::to_string(version) + ", must be " + std::to_string(solidVersion)
+			        + " to fit this flexpm; build and run the specimen again");
+		}
+		archiveMembers(archive, solid);
+	}
+
 } // namespace serialization
 } // namespace boost
 
 BOOST_CLASS_VERSION(flexpm::Assembly, boost::serialization::assemblyVersion)
+BOOST_CLASS_VERSION(flexpm::SolidState, boost::serialization::solidVersion)

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int axial = 2;
+constexpr int turn_values = 4;  ///< of a quaternion in SteadyMotion::angle
+
+std::vector<int> need_nodes(const SolidState& s, SolidSide side)
+{
+    std::vector<int> nodes = side_nodes(s, side);
+    if (nodes.empty()) {
+        refuse("nodes of side " + std::to_string(static_cast<int>(side)), 0.0, "",
+            "must be above 0; give a solid with bottom and top");
+    }
+    return nodes;
+}
+
+bool is_held(const SolidState& s)
+{
+    if (!s.bodies.empty())
+        return find_plate(s, SolidSide::bottom) >= 0 && find_plate(s, SolidSide::top) >= 0;
+    const std::vector<int> top = side_nodes(s, SolidSide::top);
+    return !top.empty() && s.grains.prescribed[s.grains.component(top.front(), axial)];
+}
+
+void need_held(const SolidState& s)
+{
+    if (!is_held(s)) refuse("held ends", 0.0, "", "must be 2; call hold_ends() first");
+}
+
+void set_top_velocity(SolidState& s, double velocity)
+{
+    if (s.bodies.empty()) {
+        prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
+    } else {
+        s.plates[find_plate(s, SolidSide::top)].velocity = { 0.0, 0.0, velocity };
+    }
+}
+
+/// What held nodes do in the half step that begins.
+void update_prescribed_work(SolidState& s, double dt)
+{
+    const Grains& grains = s.grains;
+    for (int g = 0; g < grains.count; ++g) {
+        double work = 0.0;
+        for (int n = 0; n < grains.nodes_of(g); ++n) {
+            for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+                const int i = grains.component(grains.node(g, n), axis);
+                if (grains.prescribed[i])
+                    work -= 0.5 * dt * grains.force[i] * grains.velocity[i];
+            }
+        }
+        s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
+    }
+}
+
+/// Bring what moves with the loading to `ratio` times that motion.
+void change_loading(SolidState& s, double ratio)
+{
+    Grains& grains = s.grains;
+    GrainMotion& given = s.loading.grains;
+    for (std::size_t i = 0; i < given.velocity.size(); ++i) {
+        if (!grains.prescribed[i]) grains.velocity[i] += (ratio - 1.0) * given.velocity[i];
+        given.velocity[i] *= ratio;
+    }
+    for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g) {
+        const Vector spin = spin_in(given, g);
+        if (!s.bodies[g].spin_held)
+            set_spin(s, g, s.bodies[g].spin + (ratio - 1.0) * spin, false);
+        set_space_vector(given.spin, 3 * g, ratio * spin);
+    }
+}
+
+Array<double> turns(const SolidState& s)
+{
+    Array<double> found;
+    for (const RigidBody& body : s.bodies)
+        found.insert(found.end(), { body.turn.w, body.turn.v.x, body.turn.v.y, body.turn.v.z });
+    return found;
+}
+
+/// Small turn from one rotation to another as a vector [rad].
+Vector turn_between(const Quaternion& from, const Quaternion& to)
+{
+    const Quaternion between = to * inverse(from);
+    const double sine = norm(between.v);
+    if (sine == 0.0) return {};
+    const double half = std::atan2(sine, std::fabs(between.w));
+    return ((between.w < 0.0 ? -2.0 : 2.0) * half / sine) * between.v;
+}
+
+/// Mean of a motion, no faster than a bound.
+Vector bounded(Vector mean, double fastest)
+{
+    const double size = norm(mean);
+    return size > fastest ? (fastest / size) * mean : mean;
+}
+
+/// Mean motion since the last look; of a rigid grain the centre alone has a velocity that counts.
+void take_mean(SolidState& s, double time, double fastest)
+{
+    const Grains& grains = s.grains;
+    SteadyMotion& steady = s.steady;
+    const auto take = [&](int node) {
+        const Vector way =
+            space_vector(grains.displacement, node) - space_vector(steady.displacement, node);
+        const Vector mean = bounded((1.0 / time) * way, fastest);
+        const double values[] = { mean.x, mean.y, mean.z };
+        for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+            const int i = grains.component(node, axis);
+            if (!grains.prescribed[i]) steady.mean.velocity[i] = values[axis];
+        }
+    };
+    for (int g = 0; g < grains.count; ++g) {
+        if (!grains.is_rigid(g)) {
+            for (int n = 0; n < grains.nodes_of(g); ++n)
+                take(grains.node(g, n));
+            continue;
+        }
+        take(grains.centre(g));
+        if (s.bodies[g].spin_held) continue;
+        const double* then = &steady.angle[turn_values * g];
+        const Quaternion before { then[0], { then[1], then[2], then[3] } };
+        const Vector turn = turn_between(before, s.bodies[g].turn);
+        set_space_vector(
+            steady.mean.spin, 3 * g, bounded((1.0 / time) * turn, fastest / grains.radius[g]));
+    }
+}
+
+}  // namespace
+
+void hold_ends(SolidState& s, bool pulled)
+{
+    for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
+        need_nodes(s, side);
+    if (is_held(s)) refuse("held ends", 2.0, "", "must be 0; the ends are held already");
+    for (const SolidSide side : { SolidSide::bottom, SolidSide::top }) {
+        if (s.bodies.empty()) {
+            prescribe(s, side_nodes(s, side), axial, 0.0);
+        } else {
+            add_end_plate(s, side, pulled);
+        }
+    }
+}
+
+void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,
+    bool undamped, double dt)
+{
+    need_held(s);
+    check_finite("velocity of the top", velocity, "m/s");
+    check_finite("strain of the start", strain, "");
+    check_positive("time step", dt, "s");
+    const auto z = [&](SolidSide side) {
+        return s.grains.reference[s.grains.component(side_nodes(s, side).front(), axial)];
+    };
+    const double height = z(SolidSide::top) - z(SolidSide::bottom);
+    if (!s.bodies.empty()) {
+        s.plates[find_plate(s, SolidSide::top)].displacement = { 0.0, 0.0, strain * height };
+        s.plates[find_plate(s, SolidSide::bottom)].displacement = {};
+    }
+    set_top_velocity(s, velocity);
+    begin_from(s, field, strain, velocity / height);
+    update_prescribed_work(s, dt);
+    if (undamped) return;
+    std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
+    std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
+}
+
+void drive_top(SolidState& s, double velocity, double dt)
+{
+    need_held(s);
+    check_finite("velocity of the top", velocity, "m/s");
+    const double old = top_velocity(s);
+    if (velocity == old) return;
+    set_top_velocity(s, velocity);
+    update_prescribed_work(s, dt);
+    if (old == 0.0) return;
+    const double before = kinetic_of_velocities(s);
+    change_loading(s, velocity / old);
+    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+}
+
+double top_velocity(const SolidState& s)
+{
+    need_held(s);
+    if (!s.bodies.empty()) return s.plates[find_plate(s, SolidSide::top)].velocity.z;
+    return s.grains
+        .velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
+}
+
+void follow_steady_motion(SolidState& s, double dt, double fastest)
+{
+    check_positive("time step", dt, "s");
+    check_positive("fastest descent", fastest, "m/s");
+    if (!s.steady.is_followed()) {
+        s.steady.mean = s.loading.grains;
+    } else if (s.step > s.steady.step) {
+        take_mean(s, static_cast<double>(s.step - s.steady.step) * dt, fastest);
+    }
+    s.steady.displacement = s.grains.displacement;
+    s.steady.angle = turns(s);
+    s.steady.step = s.step;
+}
+
+void end_steady_motion(SolidState& s) { s.steady = {}; }
+
+}  // namespace flexpm

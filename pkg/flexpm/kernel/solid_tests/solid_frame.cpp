@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/measure/centre_strain.hpp>
+#include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int axial = 2;
+
+bool is_end(int side)
+{
+    return side == static_cast<int>(SolidSide::bottom) || side == static_cast<int>(SolidSide::top);
+}
+
+/// Vector of the area of a surface triangle at the reference, outwards [m^2].
+Vector area_vector(const SolidState& s, int triangle)
+{
+    std::array<Vector, 3> r;
+    for (int k = 0; k < 3; ++k)
+        r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
+    return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
+}
+
+int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
+
+double mean_of(const SolidState& s, const Array<double>& values, SolidSide side)
+{
+    const std::vector<int> nodes = side_nodes(s, side);
+    double sum = 0.0;
+    for (int n : nodes)
+        sum += values[s.grains.component(n, axial)];
+    return sum / static_cast<double>(nodes.size());
+}
+
+/// Force along z on the specimen at an end.
+double end_force(const SolidState& s, SolidSide side)
+{
+    const int plate = find_plate(s, side);
+    return plate >= 0 ? s.plates[plate].force.z : holding_force(s, side_nodes(s, side), axial);
+}
+
+double mean_diameter(const SolidState& s)
+{
+    double sum = 0.0;
+    for (double r : s.grains.radius)
+        sum += 2.0 * r;
+    return sum / s.grains.count;
+}
+
+/// Axial strain between bands of grain centres.
+double centre_strain(const SolidState& s)
+{
+    const double bottom = mean_of(s, s.grains.reference, SolidSide::bottom);
+    const double height = mean_of(s, s.grains.reference, SolidSide::top) - bottom;
+    const double diameter = mean_diameter(s);
+    Station stations[2];
+    const double at[] = { 0.25 * height, 0.75 * height };
+    for (int g = 0; g < s.grains.count; ++g) {
+        const int i = s.grains.component(s.grains.centre(g), axial);
+        const double place = s.grains.reference[i];
+        for (int k = 0; k < 2; ++k)
+            if (in_band(place - bottom, at[k], diameter))
+                stations[k].add(1.0, place, s.grains.displacement[i]);
+    }
+    for (int k = 0; k < 2; ++k)
+        need_grains(stations[k], at[k]);
+    return strain_between(stations[0], stations[1]);
+}
+
+double axial_strain(const SolidState& s)
+{
+    if (!s.bodies.empty()) return centre_strain(s);
+    const double way = mean_of(s, s.grains.displacement, SolidSide::top)
+        - mean_of(s, s.grains.displacement, SolidSide::bottom);
+    return way / extent_of(s).height;
+}
+
+/// Mean of both lateral strains, extension positive. By Gauss's theorem the ways along the mantle's
+/// normals sum to it; of rigid grains those of the centres behind it.
+double lateral_extension(const SolidState& s)
+{
+    double way = 0.0, whole = 0.0;
+    for (int t = 0; t < triangles(s); ++t) {
+        if (is_end(s.surface.side[t])) continue;
+        const Vector area = area_vector(s, t);
+        std::array<int, 3> nodes = s.surface.nodes[t];
+        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[t]));
+        for (int n : nodes) {
+            way += dot(area, space_vector(s.grains.displacement, n)) / 3.0;
+            whole += dot(area, space_vector(s.grains.reference, n)) / 3.0;
+        }
+    }
+    return way / whole;
+}
+
+/// Mean over all grains.
+template <class Value> double grain_mean(const SolidState& s, Value value)
+{
+    double sum = 0.0;
+    for (int g = 0; g < s.grains.count; ++g)
+        sum += value(g);
+    return sum / s.grains.count;
+}
+
+const LawParameters& own_law(const SolidState& s, int grain)
+{
+    return s.contacts.laws[s.grains.law_index(grain, grain)];
+}
+
+double mean_modulus(const SolidState& s)
+{
+    const double of_contacts = contact_modulus(
+        grain_mean(s, [&](int g) { return own_law(s, g).normal_stiffness; }), mean_diameter(s));
+    if (!s.bodies.empty()) return of_contacts;
+    return series_modulus(
+        grain_mean(s, [&](int g) { return s.grains.elastic[s.grains.material[g]].young; }),
+        of_contacts);
+}
+
+}  // namespace
+
+SolidExtent extent_of(const SolidState& s)
+{
+    SolidExtent extent;
+    for (int t = 0; t < triangles(s); ++t)
+        if (s.surface.side[t] == static_cast<int>(SolidSide::bottom))
+            extent.area += norm(area_vector(s, t));
+    check_positive("area of the bottom", extent.area, "m^2");
+    extent.height = mean_of(s, s.grains.reference, SolidSide::top)
+        - mean_of(s, s.grains.reference, SolidSide::bottom);
+    return extent;
+}
+
+SolidFrame solid_frame(const SolidState& s, Sense sense)
+{
+    const SolidExtent extent = extent_of(s);
+    const double sign = sense == Sense::compression ? -1.0 : 1.0;
+    SolidFrame frame;
+    frame.area = extent.area;
+    frame.height = extent.height;
+    frame.sense = sense;
+    frame.ends = end_forces;
+    frame.strains = [sign, sense](const SolidState& now) {
+        return TestStrains { sign * axial_strain(now), lateral_strain(now, sense) };
+    };
+    return frame;
+}
+
+double lateral_strain(const SolidState& s, Sense sense)
+{
+    const double extension = lateral_extension(s);
+    return sense == Sense::compression ? extension : -extension;
+}
+
+EndForces end_forces(const SolidState& s)
+{
+    return { end_force(s, SolidSide::bottom), end_force(s, SolidSide::top) };
+}
+
+ScaleInputs scale_inputs(const SolidState& s, Sense sense, double dt)
+{
+    ScaleInputs in;
+    in.modulus = mean_modulus(s);
+    in.strength = reference_strength(sense,
+        { grain_mean(s, [&](int g) { return own_law(s, g).tensile_strength; }),
+            grain_mean(s, [&](int g) { return own_law(s, g).cohesion; }),
+            grain_mean(s, [&](int g) { return own_law(s, g).friction; }) });
+    for (double m : s.grains.inverse_mass)
+        in.mass += m > 0.0 ? 1.0 / m : 0.0;
+    in.thickness = std::sqrt(extent_of(s).area);
+    in.dt = dt;
+    in.damage_share = 1.0;
+    for (int g = 0; g < s.grains.count; ++g)
+        in.damage_share = std::min(in.damage_share, damage_share(own_law(s, g)));
+    return in;
+}
+
+TestScales solid_scales(const SolidState& s, Sense sense, double dt)
+{
+    const SolidExtent extent = extent_of(s);
+    return rectangle_scales(scale_inputs(s, sense, dt), std::sqrt(extent.area), extent.height);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solids/solid_plates.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_step.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace flexpm {
+
+namespace {
+
+/// Normal stiffness of a grain's own contacts over all grains [Pa/m].
+double mean_stiffness(const SolidState& s)
+{
+    double sum = 0.0;
+    for (int g = 0; g < s.grains.count; ++g)
+        sum += s.contacts.laws[s.grains.law_index(g, g)].normal_stiffness;
+    return sum / s.grains.count;
+}
+
+double triangle_area(const SolidState& s, int triangle)
+{
+    std::array<Vector, 3> r;
+    for (int k = 0; k < 3; ++k)
+        r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
+    return 0.5 * norm(cross(r[1] - r[0], r[2] - r[0]));
+}
+
+/// Mean of a vector over a triangle.
+Vector middle(const Array<double>& values, const std::array<int, 3>& nodes)
+{
+    return (1.0 / 3.0)
+        * (space_vector(values, nodes[0]) + space_vector(values, nodes[1])
+            + space_vector(values, nodes[2]));
+}
+
+/// Force of a contact along the plate's normal on the grain [N].
+double push(const Plate& plate, int index)
+{
+    const double gap = plate.opening[index];
+    return gap < 0.0 || plate.bonded ? -point_stiffness(plate, index) * gap : 0.0;
+}
+
+}  // namespace
+
+void add_end_plate(SolidState& s, SolidSide side, bool bonded)
+{
+    const int number = static_cast<int>(side);
+    if (side != SolidSide::bottom && side != SolidSide::top)
+        refuse("add_end_plate: side", number, "", "must be 0, the bottom, or 2, the top");
+    if (s.bodies.empty())
+        refuse("add_end_plate: rigid grains", 0.0, "", "must be all; drive the nodes of others");
+    if (find_plate(s, side) >= 0)
+        refuse("add_end_plate: side", number, "", "must be without a plate; it has one");
+    Plate p;
+    p.side = number;
+    p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
+    p.stiffness = mean_stiffness(s);
+    p.bonded = bonded;
+    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
+        if (s.surface.side[t] != number) continue;
+        p.facets.push_back(t);
+        p.area.push_back(triangle_area(s, t));
+    }
+    if (p.facets.empty())
+        refuse("add_end_plate: triangles of side " + std::to_string(number), 0.0, "",
+            "must be above 0; give cells of a solid with bottom and top");
+    p.position = middle(s.grains.reference, s.surface.nodes[p.facets.front()]);
+    p.gap.assign(p.facets.size(), 0.0);
+    p.opening.assign(p.facets.size(), 0.0);
+    s.plates.push_back(p);
+    prepare_step(s);
+}
+
+int find_plate(const SolidState& s, SolidSide side)
+{
+    for (std::size_t i = 0; i < s.plates.size(); ++i)
+        if (s.plates[i].side == static_cast<int>(side)) return static_cast<int>(i);
+    return -1;
+}
+
+double point_stiffness(const Plate& plate, int index) { return plate.stiffness * plate.area[index]; }
+
+void add_plate_forces(SolidState& s, int block)
+{
+    const SolidPlan& plan = s.plan;
+    for (int i = plan.first_press[block]; i < plan.first_press[block + 1]; ++i) {
+        const PlateTouch touch = plan.presses[i];
+        Plate& plate = s.plates[touch.plate];
+        const auto& nodes = s.surface.nodes[plate.facets[touch.index]];
+        const Vector way = middle(s.grains.displacement, nodes) - plate.displacement;
+        plate.opening[touch.index] = plate.gap[touch.index] + dot(plate.normal, way);
+        const Vector third = (push(plate, touch.index) / 3.0) * plate.normal;
+        for (int n : nodes)
+            set_space_vector(s.grains.force, n, space_vector(s.grains.force, n) + third);
+    }
+}
+
+void sum_plates(SolidState& s, double dt)
+{
+    for (Plate& plate : s.plates) {
+        const Vector before = plate.force;
+        double sum = 0.0;
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+            sum += push(plate, i);
+        plate.force = sum * plate.normal;
+        plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
+    }
+}
+
+double solid_plate_energy(const Plate& plate)
+{
+    double sum = 0.0;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+        sum -= 0.5 * push(plate, i) * plate.opening[i];
+    return sum;
+}
+
+}  // namespace flexpm

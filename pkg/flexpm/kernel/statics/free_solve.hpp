@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Equilibrium by conjugate gradients of what is given as an operator: no matrix is stored.
+/// Sums have a fixed order and one thread, so results have the same bits everywhere. SI units.
+#pragma once
+
+#include <flexpm/kernel/fem/tetrahedron.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace flexpm {
+
+/// Linear forces of a structure whose unknowns come in threes.
+class LinearForces {
+public:
+    virtual ~LinearForces() = default;
+
+    /// Add K u: the forces that hold it at these displacements.
+    virtual void add(const double* u, double* forces) const = 0;
+
+    /// Diagonal 3x3 blocks of K, by rows, one for each three unknowns.
+    virtual std::vector<SpaceGradient> diagonal_blocks() const = 0;
+};
+
+struct FreeSolution {
+    std::vector<double> u;
+    int iterations = 0;
+    double residual = 0.0;  ///< relative to the load [-]
+};
+
+/// Solve K u = load for all unknowns but the held ones, which stay 0. Motions that no force
+/// opposes keep what the guess has of them.
+///
+/// @param held  1 for each unknown that is held
+/// @throws std::runtime_error  if the forces do not come to balance
+FreeSolution solve_free(const LinearForces& forces, const std::vector<std::uint8_t>& held,
+    std::vector<double> load, const std::vector<double>& guess);
+
+}  // namespace flexpm

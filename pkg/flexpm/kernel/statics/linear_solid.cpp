@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/statics/linear_solid.hpp>
+
+namespace flexpm {
+
+namespace {
+
+using Face = LinearSolid::Face;
+using Spring = LinearSolid::Spring;
+
+/// Force of a spring that is stretched by `jump`.
+Vector spring_force(const Face& face, const Spring& s, Vector jump)
+{
+    return s.area
+        * (face.shear_stiffness * jump
+            + ((face.normal_stiffness - face.shear_stiffness) * dot(face.normal, jump))
+                * face.normal);
+}
+
+/// Forces of a spring for unit jumps, by rows.
+SpaceGradient spring_block(const Face& face, const Spring& s)
+{
+    return { spring_force(face, s, { 1.0, 0.0, 0.0 }), spring_force(face, s, { 0.0, 1.0, 0.0 }),
+        spring_force(face, s, { 0.0, 0.0, 1.0 }) };
+}
+
+void add_block(SpaceGradient& sum, double factor, const SpaceGradient& k)
+{
+    sum = { sum.x + factor * k.x, sum.y + factor * k.y, sum.z + factor * k.z };
+}
+
+SpaceGradient press_block(const LinearSolid::Press& p)
+{
+    const Vector n = p.normal;
+    return { (p.stiffness * n.x) * n, (p.stiffness * n.y) * n, (p.stiffness * n.z) * n };
+}
+
+Vector product(const SpaceGradient& k, Vector v) { return { dot(k.x, v), dot(k.y, v), dot(k.z, v) }; }
+
+/// Stiffness against a turn, times the radius, of what moves by it as turn x arm.
+SpaceGradient turning_block(const SpaceGradient& k, Vector arm, double radius)
+{
+    const auto column = [&](Vector turn) {
+        return (1.0 / (radius * radius)) * cross(arm, product(k, cross(turn, arm)));
+    };
+    // symmetric, so columns are rows
+    return { column({ 1.0, 0.0, 0.0 }), column({ 0.0, 1.0, 0.0 }), column({ 0.0, 0.0, 1.0 }) };
+}
+
+}  // namespace
+
+void LinearSolid::add(const double* u, double* forces) const
+{
+    for (const Element& e : elements) {
+        const auto& n = e.nodes;
+        const SpaceGradient h = displacement_gradient(e.shape, triple_at(u, n[0]),
+            triple_at(u, n[1]), triple_at(u, n[2]), triple_at(u, n[3]));
+        const SpaceTensor s = stress(kinds[e.kind],
+            SpaceTensor { h.x.x, h.y.y, h.z.z, 0.5 * (h.y.z + h.z.y), 0.5 * (h.x.z + h.z.x),
+                0.5 * (h.x.y + h.y.x) });
+        const Vector f1 = e.shape.volume * (s * e.shape.g1), f2 = e.shape.volume * (s * e.shape.g2),
+                     f3 = e.shape.volume * (s * e.shape.g3);
+        add_triple(forces, n[0], -(f1 + f2 + f3));
+        add_triple(forces, n[1], f1);
+        add_triple(forces, n[2], f2);
+        add_triple(forces, n[3], f3);
+    }
+    for (const Face& face : faces) {
+        const std::size_t corners = face.nodes[0].size();
+        for (const Spring& s : face.springs) {
+            Vector jump;
+            for (std::size_t k = 0; k < corners; ++k)
+                jump = jump
+                    + s.shares[k]
+                        * (triple_at(u, face.nodes[1][k]) - triple_at(u, face.nodes[0][k]));
+            const Vector force = spring_force(face, s, jump);
+            for (std::size_t k = 0; k < corners; ++k) {
+                add_triple(forces, face.nodes[1][k], s.shares[k] * force);
+                add_triple(forces, face.nodes[0][k], -s.shares[k] * force);
+            }
+        }
+    }
+    for (const Press& p : presses) {
+        Vector way;
+        for (int n : p.nodes)
+            way = way + (1.0 / 3.0) * triple_at(u, n);
+        for (int n : p.nodes)
+            add_triple(forces, n, (p.stiffness * dot(p.normal, way) / 3.0) * p.normal);
+    }
+}
+
+std::vector<SpaceGradient> LinearSolid::diagonal_blocks() const
+{
+    std::vector<SpaceGradient> blocks(places.size());
+    for (const Element& e : elements)
+        for (int k = 0; k < 4; ++k)
+            add_block(blocks[e.nodes[k]], 1.0, stiffness_block(e.shape, kinds[e.kind], k, k));
+    for (const Face& face : faces) {
+        for (const Spring& s : face.springs) {
+            const SpaceGradient block = spring_block(face, s);
+            for (int side = 0; side < 2; ++side)
+                for (std::size_t k = 0; k < s.shares.size(); ++k)
+                    add_block(blocks[face.nodes[side][k]], s.shares[k] * s.shares[k], block);
+        }
+    }
+    for (const Press& p : presses)
+        for (int n : p.nodes)
+            add_block(blocks[n], 1.0 / 9.0, press_block(p));
+    return blocks;
+}
+
+void RigidSolid::gather(const std::vector<double>& on_nodes, double* forces) const
+{
+    for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
+        const int g = grain[n];
+        const Vector force = triple_at(on_nodes.data(), n);
+        add_triple(forces, 2 * g, force);
+        const Vector moment = cross(solid.places[n] - centres[g], force);
+        add_triple(forces, 2 * g + 1, (1.0 / radii[g]) * moment);
+    }
+}
+
+void RigidSolid::add(const double* u, double* forces) const
+{
+    std::vector<double> ways(3 * grain.size(), 0.0), on_nodes(3 * grain.size(), 0.0);
+    for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
+        const int g = grain[n];
+        const Vector turn = (1.0 / radii[g]) * triple_at(u, 2 * g + 1);
+        add_triple(
+            ways.data(), n, triple_at(u, 2 * g) + cross(turn, solid.places[n] - centres[g]));
+    }
+    solid.add(ways.data(), on_nodes.data());
+    gather(on_nodes, forces);
+}
+
+std::vector<SpaceGradient> RigidSolid::diagonal_blocks() const
+{
+    std::vector<SpaceGradient> blocks(2 * centres.size());
+    const auto add_to = [&](int g, Vector place, const SpaceGradient& block) {
+        add_block(blocks[2 * g], 1.0, block);
+        add_block(blocks[2 * g + 1], 1.0, turning_block(block, place - centres[g], radii[g]));
+    };
+    for (const Face& face : solid.faces) {
+        for (const Spring& s : face.springs) {
+            const SpaceGradient block = spring_block(face, s);
+            for (const auto& nodes : face.nodes) {
+                Vector place;
+                for (std::size_t k = 0; k < s.shares.size(); ++k)
+                    place = place + s.shares[k] * solid.places[nodes[k]];
+                add_to(grain[nodes[0]], place, block);
+            }
+        }
+    }
+    for (const LinearSolid::Press& p : solid.presses) {
+        Vector place;
+        for (int n : p.nodes)
+            place = place + (1.0 / 3.0) * solid.places[n];
+        add_to(grain[p.nodes[0]], place, press_block(p));
+    }
+    return blocks;
+}
+
+}  // namespace flexpm

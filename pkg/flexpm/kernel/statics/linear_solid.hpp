@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  All that is linear in a solid of bonded polyhedral grains, intact and at small strains:
+/// tetrahedra, points of faces, smooth plates. SI units.
+#pragma once
+
+#include <flexpm/kernel/statics/free_solve.hpp>
+
+#include <array>
+#include <vector>
+
+namespace flexpm {
+
+struct LinearSolid : LinearForces {
+    struct Element {
+        std::array<int, 4> nodes;
+        TetrahedronShape shape;
+        int kind;  ///< index into `kinds`
+    };
+    struct Spring {
+        double area;
+        std::vector<double> shares;  ///< of the corners
+    };
+    struct Face {
+        std::array<std::vector<int>, 2> nodes;  ///< corners of both sides
+        Vector normal;
+        double normal_stiffness, shear_stiffness;  ///< [Pa/m]
+        std::vector<Spring> springs;
+    };
+    /// A smooth plate before the middle of a surface triangle; it bears both ways.
+    struct Press {
+        std::array<int, 3> nodes;
+        Vector normal;
+        double stiffness;  ///< [N/m]
+    };
+
+    std::vector<PlaneStiffness> kinds;  ///< of elements
+    std::vector<Vector> places;         ///< of nodes
+    std::vector<Element> elements;
+    std::vector<Face> faces;
+    std::vector<Press> presses;
+
+    /// Unknowns are the displacements of the nodes.
+    void add(const double* u, double* forces) const override;
+    std::vector<SpaceGradient> diagonal_blocks() const override;
+};
+
+inline Vector triple_at(const double* u, int node)
+{
+    return { u[3 * node], u[3 * node + 1], u[3 * node + 2] };
+}
+inline void add_triple(double* u, int node, Vector v)
+{
+    u[3 * node] += v.x;
+    u[3 * node + 1] += v.y;
+    u[3 * node + 2] += v.z;
+}
+
+/// Grains that are rigid: unknowns of each are the way of its centre and its turn times its radius.
+struct RigidSolid : LinearForces {
+    const LinearSolid& solid;
+    std::vector<int> grain;       ///< of each node
+    std::vector<Vector> centres;  ///< of grains
+    std::vector<double> radii;
+
+    explicit RigidSolid(const LinearSolid& of) : solid(of) { }
+    void add(const double* u, double* forces) const override;
+    std::vector<SpaceGradient> diagonal_blocks() const override;
+
+    /// Forces on the unknowns, from those on nodes.
+    void gather(const std::vector<double>& on_nodes, double* forces) const;
+};
+
+}  // namespace flexpm

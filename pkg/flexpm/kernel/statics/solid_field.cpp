@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
+#include <flexpm/kernel/space/face_frame.hpp>
+#include <flexpm/kernel/statics/linear_solid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexpm {
+
+namespace {
+
+/// Numbers of a grain's nodes follow those of the grain before.
+class NodeNumbers {
+public:
+    explicit NodeNumbers(const SolidState& s) : grains_(s.grains)
+    {
+        for (int g = 0; g < grains_.count; ++g)
+            first_.push_back(first_.back() + grains_.nodes_of(g));
+    }
+    int count() const { return first_.back(); }
+    int of(int grain, int node) const
+    {
+        const int first = grains_.block_nodes[grains_.block_of(grain)];
+        return first_[grain] + (node - first) / grains_.layout.node_stride;
+    }
+
+private:
+    const Grains& grains_;
+    std::vector<int> first_ { 0 };
+};
+
+void add_elements(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
+{
+    for (const ElasticMaterial& m : s.grains.elastic)
+        solid.kinds.push_back(solid_stiffness(m));
+    for (int g = 0; g < s.grains.count; ++g) {
+        if (s.grains.is_rigid(g)) continue;
+        for_each_tetrahedron(
+            s, s.grains.block_of(g), [&](const TetrahedronShape& t, std::array<int, 4> nodes) {
+                for (int& n : nodes)
+                    n = numbers.of(g, n);
+                solid.elements.push_back({ nodes, t, s.grains.material[g] });
+            });
+    }
+}
+
+/// Frame of a contact when it was bonded.
+FaceFrame bonded_frame(const SolidState& s, int contact)
+{
+    const FaceContacts& c = s.contacts;
+    std::vector<Vector> corners;
+    for (int k = 0; k < c.corners_of(contact); ++k)
+        corners.push_back(space_vector(s.grains.reference, c.node(contact, 0, k)));
+    return face_frame(corners, { 0, c.line[c.slot[contact]] });
+}
+
+void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
+{
+    const FaceContacts& c = s.contacts;
+    for (int contact = 0; contact < c.count; ++contact) {
+        LinearSolid::Face face;
+        face.normal = bonded_frame(s, contact).normal;
+        face.normal_stiffness = c.law_of(contact).normal_stiffness;
+        face.shear_stiffness = c.law_of(contact).shear_stiffness;
+        const int corners = c.corners_of(contact);
+        for (int side = 0; side < 2; ++side)
+            for (int k = 0; k < corners; ++k)
+                face.nodes[side].push_back(
+                    numbers.of(c.pairs[contact][side], c.node(contact, side, k)));
+        for (int p = 0; p < c.points_of(contact); ++p) {
+            LinearSolid::Spring spring { c.area(contact, p), {} };
+            for (int k = 0; k < corners; ++k)
+                spring.shares.push_back(c.share(contact, p, k));
+            face.springs.push_back(spring);
+        }
+        solid.faces.push_back(face);
+    }
+}
+
+void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
+{
+    for (const Plate& plate : s.plates) {
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+            const int triangle = plate.facets[i], grain = s.surface.grain[triangle];
+            std::array<int, 3> nodes = s.surface.nodes[triangle];
+            for (int& n : nodes)
+                n = numbers.of(grain, n);
+            solid.presses.push_back({ nodes, plate.normal, point_stiffness(plate, i) });
+        }
+    }
+}
+
+LinearSolid linear_solid(const SolidState& s, const NodeNumbers& numbers)
+{
+    LinearSolid solid;
+    for_each_node(s, [&](int grain, int number) {
+        solid.places.push_back(space_vector(s.grains.reference, s.grains.node(grain, number)));
+    });
+    add_elements(s, numbers, solid);
+    add_faces(s, numbers, solid);
+    add_presses(s, numbers, solid);
+    return solid;
+}
+
+/// z of an end at the reference.
+double end_of(const SolidState& s, SolidSide side)
+{
+    const std::vector<int> nodes = side_nodes(s, side);
+    if (nodes.empty()) {
+        refuse("elastic_field: nodes of an end", 0.0, "",
+            "must be above 0; give a solid with bottom and top");
+    }
+    return s.grains.reference[s.grains.component(nodes.front(), 2)];
+}
+
+SolidField field_of_nodes(const SolidState& s, const NodeNumbers& numbers)
+{
+    const LinearSolid solid = linear_solid(s, numbers);
+    const double low = end_of(s, SolidSide::bottom);
+    const std::size_t size = 3 * solid.places.size();
+    std::vector<std::uint8_t> held(size, 0);
+    for_each_node(s, [&](int grain, int number) {
+        const int node = s.grains.node(grain, number), n = numbers.of(grain, node);
+        for (int axis = 0; axis < 3; ++axis)
+            held[3 * n + axis] = s.grains.prescribed[s.grains.component(node, axis)];
+    });
+    std::vector<double> given(size, 0.0), guess(size, 0.0), load(size, 0.0);
+    for (std::size_t n = 0; n < solid.places.size(); ++n)
+        (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - low;
+    solid.add(given.data(), load.data());
+    for (double& f : load)
+        f = -f;
+    const FreeSolution found = solve_free(solid, held, load, guess);
+    SolidField field;
+    for (std::size_t n = 0; n < solid.places.size(); ++n)
+        field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
+            + triple_at(found.u.data(), static_cast<int>(n)));
+    return field;
+}
+
+SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
+{
+    const LinearSolid solid = linear_solid(s, numbers);
+    RigidSolid rigid(solid);
+    const double low = end_of(s, SolidSide::bottom);
+    const double height = end_of(s, SolidSide::top) - low;
+    rigid.grain.resize(numbers.count());
+    for_each_node(s, [&](int grain, int number) {
+        rigid.grain[numbers.of(grain, s.grains.node(grain, number))] = grain;
+    });
+    rigid.radii = s.grains.radius;
+    std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
+    for (int g = 0; g < s.grains.count; ++g) {
+        rigid.centres.push_back(space_vector(s.grains.reference, s.grains.centre(g)));
+        guess[6 * g + 2] = rigid.centres.back().z - low;
+    }
+    std::vector<double> on_nodes(3 * solid.places.size(), 0.0), load(guess.size(), 0.0);
+    std::size_t next = 0;
+    for (const Plate& plate : s.plates) {
+        const bool moves = plate.side == static_cast<int>(SolidSide::top);
+        for (std::size_t i = 0; i < plate.facets.size(); ++i, ++next) {
+            const LinearSolid::Press& p = solid.presses[next];
+            const double along = moves ? dot(p.normal, { 0.0, 0.0, height }) : 0.0;
+            for (int n : p.nodes)
+                add_triple(on_nodes.data(), n, (p.stiffness * along / 3.0) * p.normal);
+        }
+    }
+    rigid.gather(on_nodes, load.data());
+    const FreeSolution found
+        = solve_free(rigid, std::vector<std::uint8_t>(guess.size(), 0), load, guess);
+    SolidField field;
+    for (int g = 0; g < s.grains.count; ++g) {
+        field.ways.push_back(triple_at(found.u.data(), 2 * g));
+        field.turns.push_back((1.0 / rigid.radii[g]) * triple_at(found.u.data(), 2 * g + 1));
+    }
+    return field;
+}
+
+/// Way of a node in a field.
+Vector way_in(const SolidState& s, const SolidField& field, const NodeNumbers& numbers, int grain,
+    int node)
+{
+    if (field.turns.empty()) return field.ways[numbers.of(grain, node)];
+    const Vector arm = space_vector(s.grains.reference, node)
+        - space_vector(s.grains.reference, s.grains.centre(grain));
+    return field.ways[grain] + cross(field.turns[grain], arm);
+}
+
+/// Multiple of a jump at which a point leaves its branch.
+double limit_of(const LawParameters& law, const FaceFrame& frame, Vector jump)
+{
+    double least = std::numeric_limits<double>::infinity();
+    const double opening = dot(frame.normal, jump);
+    const double shear = law.shear_stiffness * norm(jump - opening * frame.normal);
+    const double normal = law.normal_stiffness * opening;
+    if (normal > 0.0) least = std::min(least, law.tensile_strength / normal);
+    // shear = c - friction * normal
+    const double towards = shear + law.friction * normal;
+    if (towards > 0.0) least = std::min(least, law.cohesion / towards);
+    return least;
+}
+
+}  // namespace
+
+SolidField elastic_field(const SolidState& s)
+{
+    const NodeNumbers numbers(s);
+    const bool rigid = !s.bodies.empty();
+    if (rigid && s.plates.size() != 2) {
+        refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
+            "must be 2 of rigid grains; call hold_ends() first");
+    }
+    return rigid ? field_of_bodies(s, numbers) : field_of_nodes(s, numbers);
+}
+
+double elastic_strain(const SolidState& s, const SolidField& field, double sense)
+{
+    const NodeNumbers numbers(s);
+    const FaceContacts& c = s.contacts;
+    double least = std::numeric_limits<double>::infinity();
+    for (int contact = 0; contact < c.count; ++contact) {
+        const FaceFrame frame = bonded_frame(s, contact);
+        const GrainPair pair = c.pairs[contact];
+        for (int p = 0; p < c.points_of(contact); ++p) {
+            Vector jump;
+            for (int k = 0; k < c.corners_of(contact); ++k) {
+                const Vector apart
+                    = way_in(s, field, numbers, pair[1], c.node(contact, 1, k))
+                    - way_in(s, field, numbers, pair[0], c.node(contact, 0, k));
+                jump = jump + (sense * c.share(contact, p, k)) * apart;
+            }
+            least = std::min(least, limit_of(c.law_of(contact), frame, jump));
+        }
+    }
+    return least;
+}
+
+}  // namespace flexpm
