@@ -20,12 +20,13 @@ from ..runs.input_names import PACKING, SIZE_NAMES, UNUSED, shape_of, with_unit
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.spec import SIZES, SpecimenSpec
+from ..specimens.spec import SpecimenSpec
+from ..specimens.spec_of import SIZES, AnySpec, is_solid
 from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..specimens.specimen import Specimen
+    from ..specimens.files.source import AnySpecimen
 
 
 def load_yade() -> None:
@@ -81,16 +82,18 @@ def material(options: Table, model: str | None = None) -> Material:
 
 def source(test: str, options: Table) -> SpecimenSource:
     """The specimen that the options describe, with its files, which are read once."""
-    file = options["specimen_file"]
+    file, solid = options["specimen_file"], options.get("shape")
+    if solid is not None:
+        _refuse_plane(solid)
     if file is None:
-        refuse_other_sizes(shape_of(test))
+        refuse_other_sizes(solid or shape_of(test))
     else:
         refuse_packing()
     packed = RunSpec.packed(test, options) if file is None else None
     return _source(packed, file, options)
 
 
-def _source(packed: SpecimenSpec | None, file: Path | None, options: Table) -> SpecimenSource:
+def _source(packed: AnySpec | None, file: Path | None, options: Table) -> SpecimenSource:
     """A specimen with the lines that the options cut it by."""
     names = ("joints_file", "network_file", "network_seed")
     found = SpecimenSource.read(
@@ -139,7 +142,7 @@ def packed(kind: str, options: Table) -> SpecimenSource:
     return _source(spec, None, options)
 
 
-def made(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
+def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
     """Pack or load a specimen and cut it by its joints.
 
     Args:
@@ -152,6 +155,15 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
         for line in doubts.of_cuts({name: one.to_json() for name, one in found.joint_cuts.items()}):
             _warn(line)
     return found
+
+
+def _refuse_plane(shape: str) -> None:
+    """Refuse options of specimens of the plane beside a solid."""
+    context = click.get_current_context()
+    for name in ("thickness", "joints_file", "network_file", "points", "mesh"):
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            told = with_unit(name.removesuffix("_file"), context.params.get(name))
+            raise InputError(f"{told}, must not be given for a {shape}; leave it out")
 
 
 def refuse_packing() -> None:

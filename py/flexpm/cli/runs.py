@@ -26,7 +26,7 @@ from . import options as cli_options
 from .parameters import Quantity
 
 if TYPE_CHECKING:
-    from ..specimens.specimen import Specimen
+    from ..specimens.files.source import AnySpecimen
 
 
 _discard_option = click.option(
@@ -42,6 +42,7 @@ _discard_option = click.option(
 )
 @click.argument("test", metavar="TEST")
 @cli_options.model_options
+@cli_options.shape_options
 @cli_options.rectangle_options
 @cli_options.disc_options
 @cli_options.own_options
@@ -110,7 +111,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
     spec, chosen = read_inputs(file)
     folder = inputs.locked_folder(out, "run")
 
-    def specimen(shown: terminal.Progress) -> Specimen:
+    def specimen(shown: terminal.Progress) -> AnySpecimen:
         inputs.load_yade()
         from ..specimens.files import given
 
@@ -190,7 +191,7 @@ def _tell_differences(file: Path, before: Table, folder: Path) -> None:
 def _simulate(
     spec: RunSpec,
     chosen: Material,
-    make: Callable[[terminal.Progress], Specimen],
+    make: Callable[[terminal.Progress], AnySpecimen],
     folder: Path,
     options: Table,
 ) -> None:
@@ -245,7 +246,7 @@ def _simulate(
 def _solve(
     spec: RunSpec,
     chosen: Material,
-    make: Callable[[terminal.Progress], Specimen],
+    make: Callable[[terminal.Progress], AnySpecimen],
     folder: Path | None,
     quiet: bool,
 ) -> None:

@@ -56,12 +56,15 @@ class TestKind:
 
     # What is tested
     shape: str = "rectangle"  #: a kind of specimen
+    solids: tuple[str, ...] = ()  #: kinds of space that it takes, too
+    solid_hint: str = ""  #: what serves a user who wants one, if it takes none
     sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
     models: tuple[str, ...] = MODELS
     #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
     #: command (scripts/checks/reference.py) raises the number of its test and model; runs of these
     #: that were finished before get other keys and are done again.
     results: Mapping[str, int] = field(default_factory=dict)
+    solid_results: Mapping[str, int] = field(default_factory=dict)  #: the same of solids
 
     # What can be asked for
     options: tuple[Option, ...] = ()  #: that not all tests have
@@ -87,6 +90,7 @@ class TestKind:
     ligament: Callable[[Frame], float] = _above_the_notch  #: what notches leave of it [m]
     layout: Callable[[Frame], Layout] | None = None
     rates: Mapping[str, Rates] = field(default_factory=dict)  #: by model
+    solid_rates: Mapping[str, Rates] = field(default_factory=dict)  #: the same of solids
     stop_ratio: float = STOP_RATIO
     #: It ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
     #: slowly, and the interlocking edges of inner particles, carry more than the reference.
@@ -115,6 +119,10 @@ class TestKind:
     def has(self, option: str) -> bool:
         """Whether an option that not all tests have is one of this test."""
         return any(one.name == option for one in self.options)
+
+    def models_of(self, shape: str) -> tuple[str, ...]:
+        """Models for a shape; of a solid those that have rates."""
+        return tuple(self.solid_rates) if shape in self.solids else self.models
 
     @property
     def is_solve(self) -> bool:

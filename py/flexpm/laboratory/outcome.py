@@ -35,4 +35,6 @@ def _largest_unbalanced(spec: RunSpec) -> float:
     if not spec.kind.quasi_static:
         return math.inf
     waiting, brittle = spec.loading == "waiting", is_brittle(spec.material)
-    return quasistatic_ratio(spec.test, spec.model, waiting=waiting, brittle=brittle)
+    return quasistatic_ratio(
+        spec.test, spec.model, waiting=waiting, brittle=brittle, solid=spec.is_solid
+    )

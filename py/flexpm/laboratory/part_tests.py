@@ -21,6 +21,7 @@ from ..rigs.part_rig import PartRig
 from ..rigs.parts import Part
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Runner
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 
 #: Joint that notches are, in these tests.
@@ -29,7 +30,9 @@ _NOTCH = "notch"
 _TOUCHES = 1e-9
 
 
-def prepared(spec: RunSpec, specimen: Specimen, material: Material) -> tuple[Specimen, Material]:
+def prepared(
+    spec: RunSpec, specimen: Specimen | SolidSpecimen, material: Material
+) -> tuple[Specimen | SolidSpecimen, Material]:
     """The specimen and the material of a test, with its notches if it has some.
 
     Raises:
@@ -37,7 +40,7 @@ def prepared(spec: RunSpec, specimen: Specimen, material: Material) -> tuple[Spe
             its name and is none.
     """
     kind = spec.kind
-    if kind.cut is None:
+    if kind.cut is None or isinstance(specimen, SolidSpecimen):
         return specimen, material
     lines = kind.cut(_frame(spec, specimen, material))
     if _NOTCH in (specimen.spec.joint_names or ()):

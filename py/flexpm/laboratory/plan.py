@@ -18,6 +18,7 @@ from ..runs import written
 from ..runs.checkpoint import INTERVAL, Checkpoint
 from ..runs.output import BEGUN, ROSE, Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 
 #: Names of the files of a run.
@@ -29,7 +30,7 @@ class Plan:
     """A run that can be done."""
 
     spec: RunSpec
-    specimen: Specimen
+    specimen: Specimen | SolidSpecimen
     material: Material
     folder: Path | None
     checkpoint: Checkpoint | None  #: in the folder, with what an earlier start has left
@@ -38,7 +39,7 @@ class Plan:
 
 def plan_run(
     spec: RunSpec,
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     material: Material,
     out: Path | str | None = None,
     checkpoint_interval: float = INTERVAL,
@@ -89,9 +90,11 @@ def _require_frames(folder: Path, output: Output) -> None:
         )
 
 
-def _require_contacts(spec: RunSpec, specimen: Specimen) -> None:
+def _require_contacts(spec: RunSpec, specimen: Specimen | SolidSpecimen) -> None:
     """Refuse a single grain that cannot deform, or whose contacts would set the start."""
     rigid = spec.model in ("rigid", *SPHERE_MODELS)
+    if isinstance(specimen, SolidSpecimen):
+        return
     if len(specimen.discs) < 2 and (rigid or spec.start == "static"):
         raise InputError(
             f"run: grains = {len(specimen.discs)}, must be >= 2 for {spec.test} of model "

@@ -15,6 +15,7 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.input_names import paced
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen, require_specimen
 from .carrying_out import carry_out
 from .plan import plan_run
@@ -22,7 +23,7 @@ from .plan import plan_run
 
 def run(
     test: str,
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     material: Material | str | None = None,
     model: str = "flexible",
     *,

@@ -76,7 +76,7 @@ def assembled(grains: Grains, chosen: Material) -> wrapper.GrainSolver:
     """Make the solver with the packed arrays of the bonded, unloaded grains."""
     description(chosen, grains.model)  # refuses minerals that do not go together
     solver = wrapper.GrainSolver()
-    materials = [_grain_material(kind, grains.model) for kind in mineral_materials(chosen)]
+    materials = [grain_material(kind, grains.model) for kind in mineral_materials(chosen)]
     try:
         cells = _input(grains)
         pairs = _tell_minerals(cells, grains, chosen)
@@ -111,7 +111,7 @@ def _tell_minerals(
     if found is None:
         return []
     cells.minerals = found
-    return [_grain_material(pair, grains.model) for pair in pair_materials(chosen, grains.model)]
+    return [grain_material(pair, grains.model) for pair in pair_materials(chosen, grains.model)]
 
 
 def _tell_joints(cells: AssemblyInput, grains: Grains, chosen: Material) -> list[wrapper.GrainMat]:
@@ -137,7 +137,8 @@ def _joint_material(law: Table) -> wrapper.GrainMat:
     )
 
 
-def _grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
+def grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
+    """What a solver takes of a material for a model."""
     law = chosen.law(model)
     return wrapper.GrainMat(
         label=chosen.name, planeStrain=law["plane"] == "strain", **_numbers({**law})

@@ -8,7 +8,7 @@ per step, and only slow loading means anything.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar, Unpack
+from typing import TypeVar, Unpack, cast
 
 import numpy as np
 import yade
@@ -20,8 +20,10 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
+from ..materials.mixing import description
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
+from ..results.solid_snapshot import SolidSnapshot
 from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import mineral_map
 from ..specimens.space.specimen import SolidSpecimen
@@ -40,7 +42,7 @@ from .options import (
     local_damping,
     motion_of,
 )
-from .solids import elastic_of_solid
+from .solids import elastic_of_solid, snapshot_of, solver_of
 
 Engine = TypeVar("Engine", bound=wrapper.Engine)
 
@@ -156,7 +158,7 @@ class Model:
         """Numbers of grains, particles, contacts, nodes and triangles, by name."""
         return self.solver.counts()
 
-    def snapshot(self) -> Snapshot:
+    def snapshot(self) -> Snapshot | SolidSnapshot:
         """The present state as plain arrays."""
         found: Table = {**self.solver.snapshot(), **self.of_snapshots}
         return Snapshot(**found)
@@ -172,7 +174,7 @@ class Model:
         return mineral_map.describe(self.specimen, self.material, self.name, self.minerals)
 
     @property
-    def parting(self) -> tuple[int, float]:
+    def parting(self) -> tuple[int | None, float]:
         """Loose grains, and how far any has parted from a neighbour, see `GrainSolver.parting`.
 
         The second is the growth of a distance of centres, in mean diameters of the grains [-].
@@ -188,8 +190,49 @@ class Model:
         return max((bend for name, bend in bends if name in bearing), default=None)
 
 
+class SolidModel(Model):
+    """A solid in YADE's scene. What rigs ask of a specimen a solid has, too."""
+
+    def set_masses(self) -> None:
+        """Scale the masses, before the first step and after the ends have been held."""
+        yade.O.dt = 1.0
+        self.solver.scaleMasses()
+
+    def snapshot(self) -> Snapshot | SolidSnapshot:
+        """The present state as plain arrays."""
+        source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
+        return snapshot_of(cast(wrapper.SolidSolver, self.solver), source)
+
+    def describe_material(self) -> Table:
+        """Name and parameters of the material."""
+        return {"name": self.material.name, **description(self.material, self.name)}
+
+    @property
+    def parting(self) -> tuple[int | None, float]:
+        """How far any grain has parted from a neighbour, see ``Model.parting``.
+
+        Contacts of solids never end, so that what is loose is not known.
+        """
+        state = self.snapshot()
+        assert isinstance(state, SolidSnapshot)
+        return None, state.parting / self.specimen.mean_diameter
+
+
+def _build_solid(
+    specimen: SolidSpecimen, chosen: Material, model: str, damping: float, threads: int
+) -> Model:
+    solver = solver_of(specimen, chosen, model)
+    solver.damping = damping
+    engines: list[wrapper.Engine] = [solver]
+    set_engines(engines)
+    built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines)
+    built.set_threads(threads)
+    built.set_masses()
+    return built
+
+
 def build(
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     material: Material | str | None = None,
     model: str = "flexible",
     *,
@@ -242,6 +285,10 @@ def build(
     points = int(points)  # numpy's integers are no integers for the kernel
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
+    if isinstance(specimen, SolidSpecimen):
+        _refuse_plane(points, mesh, dynamic=dynamic)
+        _refuse_second()
+        return _build_solid(specimen, load_material(material, model), model, damping, threads)
     require_specimen("build", specimen)
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
@@ -254,8 +301,7 @@ def build(
             interaction_range=interaction_range,
             threads=threads,
         )
-    if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
-        raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
+    _refuse_second()
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)
@@ -314,6 +360,21 @@ def elastic(
     solver = assembled(grains, chosen)
     modulus, ratio = constants(solver)
     return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
+
+
+def _refuse_second() -> None:
+    if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
+        raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
+
+
+def _refuse_plane(points: int, mesh: str, *, dynamic: bool) -> None:
+    """Refuse options of the plane beside a solid."""
+    if (points, mesh, dynamic) != (POINTS[-1], MESHES[0], False):
+        raise InputError(
+            f"build: points, mesh, dynamic = {points}, {mesh}, {dynamic}, must be left out for a "
+            "solid, whose contacts have their corners and an inner point, whose meshes are fans "
+            "and whose masses are scaled"
+        )
 
 
 def _idle_newton() -> wrapper.Engine:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TypedDict
 
 from ..errors import InputError
+from ..kinds.model_names import BLOCK_MODELS as SOLID_MODELS
 from ..kinds.model_names import GRAIN_MODELS, INNER_MODELS, MODELS, SPHERE_MODELS
 from ..require import (
     NOT_NEGATIVE,
@@ -16,7 +17,7 @@ from ..require import (
     require_whole,
 )
 
-__all__ = ["GRAIN_MODELS", "INNER_MODELS", "MODELS", "SPHERE_MODELS"]
+__all__ = ["GRAIN_MODELS", "INNER_MODELS", "MODELS", "SOLID_MODELS", "SPHERE_MODELS"]
 
 #: Triangles in each grain.
 MESHES = ("refined", "fan")

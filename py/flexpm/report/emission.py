@@ -17,6 +17,7 @@ from ..results.cracks import MODES, SHEAR, TENSILE
 from ..results.emission import BIN, FEWEST, Event, binned, fits
 from ..results.result import Result
 from ..results.snapshot import Snapshot
+from ..results.solid_snapshot import SolidSnapshot
 from ..text import label_of
 from .curves import fits_a_picture, places_of
 from .maps import draw_grains
@@ -46,6 +47,8 @@ def emission_picture(path: Path | str, result: Result, caption: str = "") -> Non
         caption: Line above the picture.
     """
     snapshot, events = result.snapshot, result.emission
+    if isinstance(snapshot, SolidSnapshot):
+        snapshot = snapshot.section
     drawable = snapshot is not None and can_be_drawn(snapshot.positions)
     if snapshot is None or not events or not drawable or not fits_a_picture(result.curve):
         remove_earlier(path)
@@ -62,7 +65,9 @@ def emission_picture(path: Path | str, result: Result, caption: str = "") -> Non
 
 def _draw_places(axes: Axes, snapshot: Snapshot, events: list[Event]) -> None:
     draw_grains(axes, snapshot)
-    places = 1e3 * np.array([(one.x, one.y) for one in events])
+    places = 1e3 * np.array(
+        [(one.x, one.z if np.isfinite(one.z) else one.y) for one in events]  # in a section x, z
+    )
     magnitudes = _magnitudes(events)
     areas = _LARGEST * 10.0 ** (magnitudes - np.nanmax(magnitudes, initial=-np.inf))
     areas = np.fmax(areas, _SMALLEST)

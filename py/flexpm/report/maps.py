@@ -22,6 +22,7 @@ from matplotlib.patches import Patch
 from ..arrays import FloatArray, IntArray
 from ..files import remove_earlier
 from ..results.cracks import ERASED, SHEAR, TENSILE
+from ..results.fragments import Fragments
 from ..results.snapshot import Snapshot
 from ..text import label_of
 from .style import COLOURS, CUT, MODE_NAMES, STYLE, can_be_drawn, save
@@ -221,7 +222,9 @@ def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     return [Line2D([], [], color=colour, lw=2.0, label=label)]
 
 
-def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") -> None:
+def fragment_picture(
+    path: Path | str, snapshot: Snapshot, caption: str = "", of: Fragments | None = None
+) -> None:
     """Draw the deformed grains in the colour of their fragment.
 
     Grains of the largest fragment are pale, grains that hang on no other one are dark.
@@ -230,17 +233,18 @@ def fragment_picture(path: Path | str, snapshot: Snapshot, caption: str = "") ->
         path: Picture to write.
         snapshot: The state.
         caption: Line above the number of fragments.
+        of: Fragments of the solid that the state is a section of; None: of the state.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        save(fragment_figure(snapshot, caption), path)
+        save(fragment_figure(snapshot, caption, of), path)
 
 
-def fragment_figure(snapshot: Snapshot, caption: str = "") -> Figure:
+def fragment_figure(snapshot: Snapshot, caption: str = "", of: Fragments | None = None) -> Figure:
     """The figure of `fragment_picture`."""
-    found = snapshot.fragments
+    found = snapshot.fragments if of is None else of
     colours = [
         _FRAGMENTS[rank % len(_FRAGMENTS)] if grains > 1 else _LOOSE
         for rank, grains in enumerate(found.grains)
@@ -250,8 +254,9 @@ def fragment_figure(snapshot: Snapshot, caption: str = "") -> Figure:
         figure, axes = map_figure([snapshot.positions])
         _draw_rock(axes, snapshot, [colours[rank] for rank in found.labels])
         draw_scale_bar(axes)
+        size = "area" if of is None or of is snapshot.fragments else "volume"
         largest = 100.0 * found.areas[0] / found.areas.sum()
-        text = f"{len(found)} fragments, the largest has {largest:.0f} % of the area"
+        text = f"{len(found)} fragments, the largest has {largest:.0f} % of the {size}"
         lines = [line for line in (label_of(caption), text) if line]
         axes.set_title("\n".join(lines), fontsize=9.5, loc="left")
     return figure

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib import rc_context
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
@@ -54,12 +55,42 @@ def outside_picture(
         grains: Grain of each of these faces.
         caption: Line above the picture.
     """
+    with rc_context(STYLE):
+        tall = 5.6
+        figure = Figure(figsize=(tall, tall), layout="constrained")
+        axes = figure.add_subplot()
+        width, height = draw_faces(axes, vertices, faces, grains)
+        figure.set_figwidth(max(2.6, tall * width / height + 0.4))
+        axes.set_title(label_of(caption), fontsize=9.5, loc="left")
+        save(figure, path)
+
+
+def draw_faces(
+    axes: Axes,
+    vertices: FloatArray,
+    faces: Sequence[IntArray],
+    grains: IntArray,
+    *,
+    edges: bool = True,
+) -> tuple[float, float]:
+    """Draw the faces that are turned to the eye, the farther ones first.
+
+    Args:
+        axes: Where to draw.
+        vertices: Places (n, 3) [m].
+        faces: Vertices of each face on the outside, counter-clockwise as seen from there.
+        grains: Grain of each of these faces.
+        edges: Draw their edges, too.
+
+    Returns:
+        Width and height of what is drawn [mm].
+    """
     eye = _EYE / np.linalg.norm(_EYE)
     right = np.cross([0.0, 0.0, 1.0], eye)
     right /= np.linalg.norm(right)
     axes_of_picture = np.column_stack((right, np.cross(eye, right)))
     light = _LIGHT / np.linalg.norm(_LIGHT)
-    seen, colours = [], []
+    seen, colours, depths = [], [], []
     for face, grain in zip(faces, grains, strict=True):
         corners = vertices[face]
         normal = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
@@ -70,20 +101,20 @@ def outside_picture(
         # neighbours in number are neighbours in space: steps by 3 of 7 colours tell them apart
         colours.append((_SHADE + (1.0 - _SHADE) * lit) * _GRAINS[3 * int(grain) % len(_GRAINS)])
         seen.append(1e3 * corners @ axes_of_picture)
+        depths.append(float(corners.mean(axis=0) @ eye))
     places = np.vstack(seen)
     low, high = places.min(axis=0), places.max(axis=0)
     width, height = high - low
-    with rc_context(STYLE):
-        tall = 5.6
-        figure = Figure(figsize=(max(2.6, tall * width / height + 0.4), tall), layout="constrained")
-        axes = figure.add_subplot()
-        axes.add_collection(
-            PolyCollection(seen, facecolors=colours, edgecolors=_EDGE, linewidths=0.3)
-        )
-        margin = 0.02 * height
-        axes.set_xlim(low[0] - margin, high[0] + margin)
-        axes.set_ylim(low[1] - margin, high[1] + margin)
-        axes.set_aspect("equal")
-        axes.set_axis_off()
-        axes.set_title(label_of(caption), fontsize=9.5, loc="left")
-        save(figure, path)
+    shown = PolyCollection(
+        [seen[k] for k in np.argsort(depths)],
+        facecolors=[colours[k] for k in np.argsort(depths)],
+        edgecolors=_EDGE if edges else "face",
+        linewidths=0.3,
+    )
+    axes.add_collection(shown)
+    margin = 0.02 * height
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    return float(width), float(height)

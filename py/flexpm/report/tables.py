@@ -86,6 +86,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("first tensile, shear crack", _first_cracks(result)),
         ("acoustic events", _events(result)),
         ("fragments", _fragments(result)),
+        *_overlap(result),
         ("unbalanced-force ratio", scaled(result.unbalanced_ratio, 1.0, "", 2)),
         ("energy error", scaled(result.energy_error, 100.0, "%", 2)),
         ("steps", f"{result.steps} of {scaled(result.step_time, 1e3, 'ms', 3)}"),
@@ -126,7 +127,12 @@ def size_text(result: Result) -> str:
     """Size of a specimen, its grains and its seed in one line."""
     specimen = (result.inputs or {}).get("specimen") or {}
     parts = []
-    if specimen.get("width") and specimen.get("height"):
+    if specimen.get("depth"):
+        sizes = (specimen[name] for name in ("width", "depth", "height"))
+        parts.append(" x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
+    elif specimen.get("kind") == "cylinder":
+        parts.append(f"{1e3 * specimen['diameter']:g} x {1e3 * specimen['height']:g} mm cylinder")
+    elif specimen.get("width") and specimen.get("height"):
         parts.append(f"{1e3 * specimen['width']:g} x {1e3 * specimen['height']:g} mm")
     elif specimen.get("diameter"):
         half = "half a " if specimen.get("kind") == "half-disc" else ""
@@ -134,6 +140,14 @@ def size_text(result: Result) -> str:
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
+
+
+def _overlap(result: Result) -> list[tuple[str, str]]:
+    """Of a solid, how far grains that nothing keeps apart lie on each other."""
+    if result.largest_overlap is None:
+        return []
+    share = scaled(result.largest_overlap, 100.0, "% of a diameter", 2)
+    return [("deepest overlap at the end", share)]
 
 
 def _rates(result: Result) -> list[tuple[str, str]]:
@@ -168,7 +182,8 @@ def _fragments(result: Result) -> str:
     if result.fragments is None:
         return "-"
     share = scaled(result.largest_fragment, 100.0, "%", 3)
-    return f"{result.fragments}, the largest with {share} of the area"
+    size = "area" if result.tetrahedra is None else "volume"
+    return f"{result.fragments}, the largest with {share} of the {size}"
 
 
 def columns(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -16,8 +16,10 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
+from .heights import with_heights, without_heights
 from .record import Curve
 from .snapshot import Snapshot, numbers_within
+from .solid_snapshot import SolidSnapshot
 
 TENSILE, SHEAR, ERASED = 1, 2, 3
 #: Name of each mode of a crack.
@@ -38,10 +40,11 @@ class Crack(NamedTuple):
     point: int  #: index of the point in its contact
     energy: float = math.nan  #: that damage took until then [J]; nan where that is not known
     pair: str = ""  #: minerals of both grains, with a slash between; empty if all are alike
+    z: float = math.nan  #: height when it broke, in a solid [m]; nan in the plane
 
 
-#: Columns of a table of cracks of grains that are alike.
-_COLUMNS = Crack._fields[:-1]
+#: Columns of a table of cracks of grains that are alike, and of several minerals.
+_COLUMNS, _WITH_PAIRS = Crack._fields[:8], Crack._fields[:9]
 
 
 def cracks_csv(cracks: Sequence[Crack]) -> str:
@@ -57,7 +60,7 @@ def cracks_csv(cracks: Sequence[Crack]) -> str:
         )[:width]
         for one in cracks
     )
-    return csv_text(Crack._fields[:width], rows)
+    return csv_text(*with_heights(Crack._fields[:width], rows, [one.z for one in cracks]))
 
 
 def read_cracks(path: Path) -> list[Crack]:
@@ -69,9 +72,10 @@ def read_cracks(path: Path) -> list[Crack]:
     names, rows = load_csv(path, "cracks")
     modes = {name: mode for mode, name in NAMES.items()}
     try:
-        if tuple(names) not in (Crack._fields, _COLUMNS, _COLUMNS[:-1]):
+        names, rows, heights = without_heights(names, rows)
+        if tuple(names) not in (_WITH_PAIRS, _COLUMNS, _COLUMNS[:-1]):
             raise ValueError(f"columns {', '.join(names)}")
-        return [
+        found = [
             Crack(
                 *(int(step), float(strain), float(x), float(y)),
                 *(modes[mode], int(at), int(point)),
@@ -80,6 +84,7 @@ def read_cracks(path: Path) -> list[Crack]:
             )
             for step, strain, x, y, mode, at, point, *others in rows
         ]
+        return [one._replace(z=z) for one, z in zip(found, heights, strict=True)]
     except (ValueError, KeyError) as error:
         raise InputError(f"cracks = {str(path)!r}, holds no cracks: {error}") from None
 
@@ -95,7 +100,7 @@ def count_by_pair(cracks: Sequence[Crack]) -> dict[str, dict[str, int]] | None:
 
 
 def cracks_from_snapshot(
-    snapshot: Snapshot, curve: Curve, minerals: Sequence[str] = ()
+    snapshot: Snapshot | SolidSnapshot, curve: Curve, minerals: Sequence[str] = ()
 ) -> list[Crack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`.
 
@@ -116,28 +121,31 @@ def cracks_from_snapshot(
         if len(curve)
         else np.full(len(steps), np.nan)
     )
+    places = places[order]
+    heights = places[:, 2:].ravel() if places.shape[1] > 2 else np.full(len(places), np.nan)
     return [
         Crack(*one)
         for one in zip(
             steps.tolist(),
             strains.tolist(),
-            *places[order].T.tolist(),
+            *places[:, :2].T.tolist(),
             modes[order].tolist(),
             numbers[rows].tolist(),
             points.tolist(),
             energies[order].tolist(),
             [pairs[row] for row in rows],
+            heights.tolist(),
             strict=True,
         )
     ]
 
 
-def _pairs(snapshot: Snapshot, minerals: Sequence[str], count: int) -> list[str]:
+def _pairs(snapshot: Snapshot | SolidSnapshot, minerals: Sequence[str], count: int) -> list[str]:
     """Names of both minerals of each bond with a record, in the order of ``_records``."""
     if not minerals or snapshot.grain_mineral is None:
         return [""] * count
     grains = snapshot.contact_grains
-    if snapshot.erased_grains is not None:
+    if isinstance(snapshot, Snapshot) and snapshot.erased_grains is not None:
         grains = np.concatenate([grains, snapshot.erased_grains])
     kinds = snapshot.grain_mineral[grains].tolist()
     return ["/".join(sorted(minerals[kind] for kind in pair)) for pair in kinds]
@@ -155,7 +163,7 @@ class _Records(NamedTuple):
     energies: FloatArray
 
 
-def _records(snapshot: Snapshot) -> _Records:
+def _records(snapshot: Snapshot | SolidSnapshot) -> _Records:
     """All bonds, those that exist before those that are erased."""
     exist = _Records(
         snapshot.contact,
@@ -167,7 +175,8 @@ def _records(snapshot: Snapshot) -> _Records:
         _energies(snapshot.crack_energy, snapshot.crack_step),
     )
     if (
-        snapshot.erased_contact is None
+        isinstance(snapshot, SolidSnapshot)
+        or snapshot.erased_contact is None
         or snapshot.erased_point_bond is None
         or snapshot.erased_crack_step is None
         or snapshot.erased_crack_mode is None

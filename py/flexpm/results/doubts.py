@@ -72,6 +72,8 @@ LARGEST_PARTING = 2.0
 FEWEST_GRAINS_ACROSS = 6.0
 #: Difference of Poisson's ratio from the elastic one that is none [-].
 LARGEST_POISSON_CHANGE = 0.05
+#: Grains of a solid that nothing keeps apart lie on each other by more than this [diameters].
+LARGEST_OVERLAP = 0.02
 #: Line about a pulse that has not passed both sections in one piece.
 NO_PULSE = (
     "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
@@ -131,6 +133,20 @@ def of_gravity(gravity: float, damping: float) -> list[str]:
     return [
         f"damping = {damping:g}, is above {LARGEST_DAMPING:g} with gravity: what falls or slides "
         f"gains {1.0 - damping:.3g} of its acceleration, and slopes hold; take 0 for motion"
+    ]
+
+
+def of_overlap(part: float) -> list[str]:
+    """Grains of a solid that were never neighbours and lie on each other.
+
+    Args:
+        part: The deepest of these overlaps over the mean diameter [-].
+    """
+    if not part > LARGEST_OVERLAP:
+        return []
+    return [
+        f"overlap = {100.0 * part:.3g} % of a diameter, of grains that were never neighbours and "
+        f"do not meet, is above {100.0 * LARGEST_OVERLAP:g} %; what is past the peak does not count"
     ]
 
 

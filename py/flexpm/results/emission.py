@@ -56,6 +56,7 @@ class Event(NamedTuple):
     mode: int  #: TENSILE or SHEAR: that which took more energy
     energy: float  #: that damage took [J]
     magnitude: float  #: nan without energy [-]
+    z: float = math.nan  #: height, in a solid [m]; nan in the plane
 
 
 class Fit(NamedTuple):
@@ -96,9 +97,11 @@ def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
     kept = [one for one in cracks if one.mode in MODES and math.isfinite(one.x + one.y)]
     if not kept:
         return []
-    table = np.array([one[:-1] for one in kept], dtype=float)  # all but the names of minerals
+    table = np.array([one[:8] for one in kept], dtype=float)  # all but the names of minerals
     steps, strains, modes, energies = table[:, 0], table[:, 1], table[:, 4], table[:, 7]
     places = table[:, 2:4]
+    if heights := [one.z for one in kept if math.isfinite(one.z)]:
+        places = np.column_stack((places, heights))
     near = np.clip(places, -_FAR, _FAR)
     pairs = cKDTree(near).query_pairs(rule.distance, output_type="ndarray")
     apart = np.abs(steps[pairs[:, 0]] - steps[pairs[:, 1]])
@@ -117,9 +120,11 @@ def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
         np.bincount(labels, weights * values) / np.bincount(labels, weights) for values in places.T
     ]
     order = np.argsort(first)
+    if len(centres) == 2:
+        centres.append(np.full(count, np.nan))
     return [
-        Event(int(steps[first[k]]), float(strains[first[k]]), x, y, n, mode, taken, magnitude)
-        for k, x, y, n, mode, taken, magnitude in zip(
+        Event(int(steps[first[k]]), float(strains[first[k]]), x, y, n, mode, taken, magnitude, z)
+        for k, x, y, z, n, mode, taken, magnitude in zip(
             order.tolist(),
             *(values[order].tolist() for values in (*centres, points)),
             np.where(by_shear > 0.5 * energy, SHEAR, TENSILE)[order].tolist(),
@@ -194,8 +199,8 @@ def binned(magnitudes: FloatArray) -> IntArray:
 
 def events_csv(events: Sequence[Event]) -> str:
     """Events as CSV text in the order given; numbers read back unchanged."""
-    rows = ((*one[:5], MODES[one.mode], *one[6:]) for one in events)
-    return csv_text(Event._fields, rows)
+    rows = ((*one[:5], MODES[one.mode], *one[6:8]) for one in events)
+    return csv_text(*with_heights(Event._fields[:-1], rows, [one.z for one in events]))
 
 
 def read_events(path: Path) -> list[Event]:
@@ -207,14 +212,17 @@ def read_events(path: Path) -> list[Event]:
     names, rows = load_csv(path, "events")
     modes = {name: mode for mode, name in MODES.items()}
     try:
-        if tuple(names) != Event._fields:
+        names, rows, heights = without_heights(names, rows)
+        if tuple(names) != Event._fields[:-1]:
             raise ValueError(f"columns {', '.join(names)}")
         return [
             Event(
                 *(int(step), float(strain), float(x), float(y)),
-                *(int(points), modes[mode], float(energy), float(magnitude)),
+                *(int(points), modes[mode], float(energy), float(magnitude), z),
             )
-            for step, strain, x, y, points, mode, energy, magnitude in rows
+            for (step, strain, x, y, points, mode, energy, magnitude), z in zip(
+                rows, heights, strict=True
+            )
         ]
     except (ValueError, KeyError) as error:
         raise InputError(f"events = {str(path)!r}, holds no events: {error}") from None

@@ -23,15 +23,15 @@ class Fragments:
 
     labels: IntArray  #: fragment of each grain, -1 of a grain that is gone
     grains: IntArray  #: number of grains of each fragment
-    areas: FloatArray  #: area of each fragment, undeformed [m2]
+    areas: FloatArray  #: area of each fragment, undeformed [m2]; of a solid its volume [m3]
 
     def __len__(self) -> int:
         return len(self.areas)
 
-    def csv(self) -> str:
-        """One line for each fragment: number, grains, area [m2]."""
+    def csv(self, size: str = "area") -> str:
+        """One line for each fragment: number, grains, area [m2], or volume [m3] of a solid's."""
         rows = zip(range(len(self)), self.grains.tolist(), self.areas.tolist(), strict=True)
-        return csv_text(("fragment", "grains", "area"), rows)
+        return csv_text(("fragment", "grains", size), rows)
 
 
 def connected(pairs: IntArray, bonded: BoolArray, areas: FloatArray) -> Fragments:

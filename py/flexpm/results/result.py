@@ -20,11 +20,16 @@ from .emission import Event, EventRule, events_csv, find_events, frequencies, re
 from .record import Curve
 from .result_checks import require_sense
 from .snapshot import Snapshot
+from .solid_snapshot import SolidSnapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
 #: Models whose damage energy is that of the contacts between grains alone, and exactly 0 before.
 _SOFTENING = ("flexible", "rigid")
+
+
+#: Keys that only results of solids have.
+_OF_SOLIDS = ("tetrahedra", "largest_overlap")
 
 
 @dataclass
@@ -44,6 +49,7 @@ class Result(Shown):
     contacts: int
     nodes: int | None
     triangles: int | None
+    tetrahedra: int | None = None  #: of a solid
     grains_across: float | None = None  #: smallest size, or ligament, over the mean grain [-]
     particles: int | None = None  #: what moves: grains, or inner particles
     inner_contacts: int | None = None  #: between particles of the same grain
@@ -83,6 +89,8 @@ class Result(Shown):
     loose_grains: int | None = None  #: joined by no contact to what is held, at the end
     #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
     largest_parting: float | None = None
+    #: deepest overlap of grains of a solid that were never neighbours, in mean diameters [-]
+    largest_overlap: float | None = None
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
@@ -102,7 +110,7 @@ class Result(Shown):
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[Crack] = field(default_factory=list, repr=False)
     emission: list[Event] | None = field(default=None, repr=False)  #: events, where known
-    snapshot: Snapshot | None = field(default=None, repr=False)  #: final state
+    snapshot: Snapshot | SolidSnapshot | None = field(default=None, repr=False)  #: final state
     resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
 
     @property
@@ -128,6 +136,7 @@ class Result(Shown):
         if self.joint_bend:
             found.append(doubts.of_bend(self.joint_bend))
         found += doubts.of_cuts(self.joint_cuts or {})
+        found += doubts.of_overlap(self.largest_overlap or 0.0)
         found += doubts.of_grains(self.grains_across)
         found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
@@ -198,7 +207,7 @@ class Result(Shown):
         """
         setattr(self, waves.name_of(wave), waves.speed(self.curve, distance))
 
-    def measure_fragments(self, snapshot: Snapshot) -> None:
+    def measure_fragments(self, snapshot: Snapshot | SolidSnapshot) -> None:
         """Keep the final state and count what hangs together in it."""
         found = snapshot.fragments
         self.snapshot = snapshot
@@ -240,6 +249,9 @@ class Result(Shown):
             if name not in hidden
         }
         inputs = content.pop("inputs")
+        for name in _OF_SOLIDS:
+            if content[name] is None:
+                del content[name]
         return content | {"warnings": self.warnings, "inputs": inputs}
 
     @classmethod
@@ -271,8 +283,13 @@ class Result(Shown):
         if self.emission is not None:
             write_text(folder / "events.csv", events_csv(self.emission))
         if self.snapshot is not None:
-            write_text(folder / "fragments.csv", self.snapshot.fragments.csv())
+            write_text(folder / "fragments.csv", self.snapshot.fragments.csv(_size(self.snapshot)))
         write_text(folder / "result.json", json_text(self.as_dict()))
+
+
+def _size(snapshot: Snapshot | SolidSnapshot) -> str:
+    """What fragments are measured by."""
+    return "volume" if isinstance(snapshot, SolidSnapshot) else "area"
 
 
 def _plain(value: object) -> object:

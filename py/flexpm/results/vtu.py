@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     VTK_LINE,
     VTK_TRIANGLE,
     vtkCellArray,
     vtkDataSetAttributes,
-    vtkFieldData,
     vtkUnstructuredGrid,
 )
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
@@ -29,40 +28,26 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import whole_file
 from ..require import quoted
-from ..text import printable
 from .snapshot import Snapshot, triangle_areas
+from .solid_snapshot import SolidSnapshot
 from .stress.tensors import means_by
 from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
-from .vtu_reader import Arrays, Grid, grid_of, silence
+from .vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined
+from .vtu_arrays import UNITS as UNITS
+from .vtu_arrays import written as written
+from .vtu_reader import Arrays, Grid, grid_of
+from .vtu_solid import state_of_grid, write_solid_state
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
 _FARTHEST = 1e100
 
-GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
-
 #: Share of a contact's area that each of its points stands for, by number of points.
 _SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
 
-#: Unit of each array that has one.
-UNITS = {
-    "displacement": "m",
-    "velocity": "m/s",
-    **dict.fromkeys(("opening", "slip", "point_opening", "point_slip"), "m"),
-    **dict.fromkeys(("stress", "grain_stress", "nodal_stress"), "Pa"),
-    **dict.fromkeys(("principal_stress_1", "principal_stress_2"), "Pa"),
-    **dict.fromkeys(("normal_traction", "shear_traction"), "Pa"),
-    **dict.fromkeys(("point_normal_traction", "point_shear_traction"), "Pa"),
-}
-
-_TENSOR = ("XX", "YY", "ZZ", "XY", "YZ", "XZ")
-_VECTOR = ("X", "Y", "Z")
-
-#: An array and the names of its components.
-Named = tuple[FloatArray | IntArray, tuple[str, ...]]
-
-
 def write_vtu(
-    path: Path | str, snapshot: Snapshot, about: Mapping[str, object] | None = None
+    path: Path | str,
+    snapshot: Snapshot | SolidSnapshot,
+    about: Mapping[str, object] | None = None,
 ) -> None:
     """Write `snapshot` as one VTK unstructured grid, whole or not at all.
 
@@ -74,6 +59,8 @@ def write_vtu(
     Raises:
         InputError: for what is no state, as the plain arrays of ``solver.snapshot()``.
     """
+    if isinstance(snapshot, SolidSnapshot):
+        return write_solid_state(path, snapshot, about)
     if not isinstance(snapshot, Snapshot):
         raise InputError(
             f"write_vtu: snapshot = {quoted(snapshot)}, must be that of `built.snapshot()`, behind "
@@ -82,11 +69,11 @@ def write_vtu(
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)
     for name, array in point_arrays(snapshot).items():
-        _add(grid.GetPointData(), name, array)
+        add(grid.GetPointData(), name, array)
     for name, array in cell_arrays(snapshot).items():
-        _add(grid.GetCellData(), name, array)
+        add(grid.GetCellData(), name, array)
     for name, value in (about or {}).items():
-        _describe(grid.GetFieldData(), name, value)
+        describe(grid.GetFieldData(), name, value)
     grid.GetPointData().SetActiveVectors("displacement")
     grid.GetCellData().SetActiveAttribute("stress", vtkDataSetAttributes.TENSORS)
     writer = vtkXMLUnstructuredGridWriter()
@@ -99,22 +86,23 @@ def write_vtu(
         temporary.write_bytes(content)
 
 
-def written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
-    """Return what VTK writes, as a text: of a file it does not tell that a part was refused."""
-    writer.SetWriteToOutputString(True)
-    with silence():
-        done = writer.Write()
-    if done != 1:
-        raise MemoryError("VTK could not write a grid into memory")
-    content: str = writer.GetOutputString()
-    return content.encode()
-
-
 def read_vtu(path: Path | str) -> Snapshot:
     """Read the state that ``write_vtu`` has written; where points cracked is not in it.
 
+    Of a solid it is the section through its middle, see ``read_state``.
+
     Raises:
         InputError: if the file cannot be read or is no such file.
+    """
+    found = read_state(path)
+    return found.section if isinstance(found, SolidSnapshot) else found
+
+
+def read_state(path: Path | str) -> Snapshot | SolidSnapshot:
+    """The same, of a solid its whole state; points of a contact are alike there.
+
+    Raises:
+        InputError: as for ``read_vtu``.
     """
     name = f"state = {str(path)!r}"
     try:
@@ -122,7 +110,8 @@ def read_vtu(path: Path | str) -> Snapshot:
     except (OSError, ValueError):
         raise InputError(f"{name}, cannot be read; give a .vtu file of a run") from None
     try:
-        return _snapshot_of(grid_of(content))
+        grid = grid_of(content)
+        return state_of_grid(grid) if "neighbour" in grid.cells else _snapshot_of(grid)
     except (ValueError, LookupError, ElementTree.ParseError):
         raise InputError(f"{name}, is damaged or has no grains of flexpm; give a run's") from None
 
@@ -207,19 +196,19 @@ def point_arrays(snapshot: Snapshot) -> dict[str, Named]:
     nearest = _nearest_nodes(snapshot)
     displacement = snapshot.positions - snapshot.reference
     found: dict[str, Named] = {
-        name: (_three(np.concatenate([values, values[nearest]])), _VECTOR)
+        name: (_three(np.concatenate([values, values[nearest]])), VECTOR)
         for name, values in (
             ("displacement", displacement),
             ("velocity", snapshot.velocities),
         )
     }
     nodal = _mean_by(snapshot, snapshot.triangles, len(snapshot.positions))
-    return found | {"nodal_stress": (np.concatenate([nodal, nodal[nearest]]), _TENSOR)}
+    return found | {"nodal_stress": (np.concatenate([nodal, nodal[nearest]]), TENSOR)}
 
 
 def cell_arrays(snapshot: Snapshot) -> dict[str, Named]:
     """Arrays over cells: the M triangles, then the C contacts; nan or -1 where undefined."""
-    return _joined(_grain_arrays(snapshot), _contact_arrays(snapshot))
+    return joined(_grain_arrays(snapshot), _contact_arrays(snapshot))
 
 
 def _grain_arrays(snapshot: Snapshot) -> dict[str, Named]:
@@ -233,8 +222,8 @@ def _grain_arrays(snapshot: Snapshot) -> dict[str, Named]:
         "particle": (grain if particle is None else particle, ()),
         "mineral": (_minerals(snapshot)[grain], ()),
         "fragment": (snapshot.fragments.labels[grain], ()),
-        "stress": (tensor, _TENSOR),
-        "grain_stress": (means[grain], _TENSOR),
+        "stress": (tensor, TENSOR),
+        "grain_stress": (means[grain], TENSOR),
         "principal_stress_1": (largest, ()),
         "principal_stress_2": (smallest, ()),
     }
@@ -306,22 +295,6 @@ def _contact_arrays(snapshot: Snapshot) -> dict[str, Named]:
     return found | {name: (values, names) for name, values in by_point.items()}
 
 
-def _joined(first: dict[str, Named], second: dict[str, Named]) -> dict[str, Named]:
-    """Stack the arrays of two blocks of cells; a block without an array gets nan, or -1."""
-    lengths = [len(next(iter(block.values()))[0]) for block in (first, second)]
-    joined = {}
-    for name in [*first, *(name for name in second if name not in first)]:
-        given = first.get(name) or second[name]
-        values, components = given
-        blank = -1 if np.issubdtype(values.dtype, np.integer) else np.nan
-        parts = [
-            block[name][0] if name in block else np.full((length, *values.shape[1:]), blank)
-            for block, length in zip((first, second), lengths, strict=True)
-        ]
-        joined[name] = (np.concatenate(parts), components)
-    return joined
-
-
 def _set_geometry(grid: vtkUnstructuredGrid, snapshot: Snapshot) -> None:
     triangles = np.asarray(snapshot.triangles, dtype=np.int64)
     ends = snapshot.contact_ends
@@ -367,28 +340,3 @@ def _largest(values: FloatArray) -> FloatArray:
 
 def _three(plane: FloatArray) -> FloatArray:
     return np.column_stack([np.asarray(plane, dtype=float), np.zeros(len(plane))])
-
-
-def _describe(data: vtkFieldData, name: str, value: object) -> None:
-    """Add one value that holds for the whole file."""
-    if value is None:
-        return
-    if isinstance(value, int | float):
-        made = numpy_to_vtk(np.array([value]), deep=True)
-    else:
-        made = vtkStringArray()
-        made.InsertNextValue(printable(value))  # VTK reads no further than a NUL, or too far
-    made.SetName(printable(name))
-    data.AddArray(made)
-
-
-def _add(data: vtkDataSetAttributes, name: str, array: Named) -> None:
-    values, components = array
-    if np.issubdtype(values.dtype, np.integer):
-        values = values.astype(np.int32)
-    made = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    made.SetName(name)
-    made.GetInformation().Set(vtkDataArray.UNITS_LABEL(), UNITS.get(name, "-"))
-    for number, component in enumerate(components):
-        made.SetComponentName(number, component)
-    data.AddArray(made)

@@ -37,6 +37,7 @@ class Grid(NamedTuple):
     cells: Arrays
     places: Array  #: of the points, (N, 3)
     corners: Array  #: points of all cells, one cell after the other
+    ends: Array  #: number of these up to the end of each cell
 
 
 @contextlib.contextmanager
@@ -82,6 +83,7 @@ def grid_of(content: bytes) -> Grid:
             arrays("CellData", counts["Cells"]),
             arrays("Points", counts["Points"])["Points"],
             arrays("Cells")["connectivity"],
+            arrays("Cells")["offsets"],
         )
 
 

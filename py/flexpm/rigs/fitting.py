@@ -9,14 +9,15 @@ from ..errors import InputError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..runs.runner import Runner
-from .grain_rig import NodeRig, PlateRig
+from ..specimens.spec_of import SOLIDS, is_solid
+from .grain_rig import EndRig, NodeRig, PlateRig
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig
 from .sphere_rig import SphereRig
 
 #: Rigs that note what a script calls, for its folder.
-_RIGS = [recording(kind) for kind in (NodeRig, PlateRig, SphereRig)]
+_RIGS = [recording(kind) for kind in (NodeRig, PlateRig, EndRig, SphereRig)]
 
 
 def rig(
@@ -30,7 +31,7 @@ def rig(
 
     Args:
         built: A rectangle, which is compressed or pulled between its bottom and top, or a disc,
-            which is compressed between two plates.
+            which is compressed between two plates; or a solid, between its ends along z.
         tension: Pull instead of press; a rectangle only.
         runner: Steps, shows progress and saves checkpoints; None for one that only steps.
         leaves: What the test leaves, by these names:
@@ -49,9 +50,9 @@ def rig(
         InputError: for a specimen of another outline, or a folder that holds something else.
         BusyError: if another process uses the folder.
     """
-    if built.specimen.kind not in ("rectangle", "disc"):
+    if built.specimen.kind not in ("rectangle", "disc", *SOLIDS):
         raise InputError(
-            f"rig: specimen = {built.specimen.kind}, must be a rectangle or a disc; flexpm.PartRig "
+            f"rig: specimen = {built.specimen.kind}, must be a rectangle, a disc or a solid; flexpm.PartRig "
             "holds any other"
         )
     kept = KeptTest.of(built, "rig", leaves, pull=tension)
@@ -64,5 +65,7 @@ def rig(
 def _fitting(built: Model | SphereModel, tension: bool, runner: Runner | None) -> TestRig:
     if isinstance(built, SphereModel):
         return SphereRig(built, tension=tension, runner=runner)
+    if is_solid(built.specimen.kind):
+        return EndRig(built, tension=tension, runner=runner)
     kind = NodeRig if built.name == "flexible" and built.specimen.kind == "rectangle" else PlateRig
     return kind(built, tension=tension, runner=runner)

@@ -22,6 +22,7 @@ from ..files import csv_text, load_csv, write_text
 from ..require import quoted
 from ..results.result import Result
 from ..results.snapshot import Snapshot
+from ..results.solid_snapshot import SolidSnapshot
 from ..results.vtu import write_vtu
 from .rig import TestRig
 
@@ -67,7 +68,7 @@ class FrameWriter:
         self._spacing = 0.0
         self._next = -math.inf
         self._confinement = 0.0
-        self._peak: tuple[Frame, Snapshot] | None = None
+        self._peak: tuple[Frame, Snapshot | SolidSnapshot] | None = None
         self._growing, self._falls = 0.0, list[float]()
         (folder / FOLDER).mkdir(exist_ok=True)
         kept = {one.file for one in self.frames}
@@ -136,7 +137,7 @@ class FrameWriter:
             self._write(*self._peak)
             self._peak = None
 
-    def _write(self, frame: Frame, snapshot: Snapshot) -> None:
+    def _write(self, frame: Frame, snapshot: Snapshot | SolidSnapshot) -> None:
         if any(one.step == frame.step for one in self.frames):
             return
         about = {name: value for name, value in frame._asdict().items() if name != "file"}

@@ -22,6 +22,7 @@ from ..models.spheres import SphereModel
 from ..results import doubts, measures
 from ..results.record import Curve
 from ..runs.loading_rate import Loading, Scales, Schedule, schedule
+from ..specimens.spec_of import is_solid
 
 
 @dataclass(frozen=True)
@@ -70,12 +71,14 @@ class RigReadings(ABC):
         built: The specimen and its model.
         tension: The ends pull; else they press.
         disc: The specimen is a disc between two plates.
+        solid: The specimen is one of space.
     """
 
     def __init__(self, built: Model | SphereModel, *, tension: bool = False) -> None:
         """Take a specimen that has just been built, or whose scene has been loaded."""
         self.built, self.tension = built, tension
         self.disc = built.specimen.kind == "disc"
+        self.solid = is_solid(built.specimen.kind)
 
     @property
     def kind(self) -> str:
@@ -127,7 +130,8 @@ class RigReadings(ABC):
         mismatch = measures.median_end_mismatch(record)
         specimen = self.built.specimen
         lines = [doubts.of_divergence(yade.O.iter)] if self.diverged else []
-        lines += doubts.of_specimen({**specimen.dimensions, "thickness": specimen.thickness})
+        plane = {} if self.solid else {"thickness": specimen.thickness}
+        lines += doubts.of_specimen({**specimen.dimensions, **plane})
         return lines + doubts.of_result("", error, mismatch, None)
 
     @property
@@ -179,4 +183,9 @@ class RigReadings(ABC):
     def _schedule(self, loading: Loading) -> Schedule:
         pressure, dt = self.confinement or 0.0, yade.O.dt
         scales = self.scales()
-        return schedule(self.kind, self.built.name, loading, scales, confinement=pressure, dt=dt)
+        return schedule(
+            *(self.kind, self.built.name, loading, scales),
+            confinement=pressure,
+            dt=dt,
+            solid=self.solid,
+        )

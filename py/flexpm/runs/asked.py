@@ -20,7 +20,8 @@ from ..kinds.registry import options
 from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
-from ..specimens.spec import GRAINS_FILE, SIZES, SpecimenSpec
+from ..specimens.spec import GRAINS_FILE
+from ..specimens.spec_of import SIZES, AnySpec, field_names, is_solid, spec_of
 from .input_names import INPUT_UNITS, UNUSED
 from .run_inputs import RunInputs
 from .run_spec import RunSpec, described
@@ -103,9 +104,9 @@ def _own_inputs(inputs: Table) -> RunInputs:
     """Specimen, material and model of a script's own test."""
     names = {field.name for field in fields(RunInputs)}
     plain = {name: value for name, value in inputs.items() if name in names}
-    known = {field.name for field in fields(SpecimenSpec)}
+    known = field_names(plain["specimen"]["kind"])
     specimen = {key: value for key, value in plain["specimen"].items() if key in known}
-    return RunInputs(**{**plain, "specimen": SpecimenSpec(**specimen)})
+    return RunInputs(**{**plain, "specimen": spec_of(specimen)})
 
 
 @contextlib.contextmanager
@@ -217,6 +218,8 @@ def command(spec: RunSpec) -> str:
         return ""
     words = ["flexpm", spec.test] if spec.kind.is_solve else ["flexpm", "run", spec.test]
     changes = [one for one in _changes(spec) if not _follows(spec, one[0])]
+    if spec.is_solid:
+        words += ["--shape", spec.specimen.kind]
     if spec.specimen.is_packed:
         renamed = {one.size: one.name for one in spec.kind.options if one.size}
         sizes = [(renamed.get(name, name), value) for name, value in _changes(spec.specimen)]
@@ -243,7 +246,7 @@ def _material_options(spec: RunSpec, preset: str) -> Iterator[str]:
             yield from ("--set", f"{key}={_text(value)}")
 
 
-def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
+def _of_specimen(spec: AnySpec) -> Iterator[Input]:
     usual: Table = {field.name: field.default for field in fields(spec)} | SIZES[spec.kind]
     for name, default in usual.items():
         value = getattr(spec, name)
@@ -256,7 +259,7 @@ def _of_specimen(spec: SpecimenSpec) -> Iterator[Input]:
         if name in ("discs", "outline", "cells", "minerals", "joints", "strengths"):
             source = f"checksum of what is in {GRAINS_FILE}"
         elif name == "kind":
-            source = "by the test"
+            source = "given" if is_solid(value) else "by the test"
         label = "shape" if name == "kind" else name
         yield Input(label, value, INPUT_UNITS.get(name, ""), source)
 
@@ -325,8 +328,8 @@ def _follows(spec: RunSpec, name: str) -> bool:
     return bool(getattr(plain, name) == getattr(spec, name))
 
 
-def _changes(spec: RunSpec | SpecimenSpec) -> Iterator[tuple[str, object]]:
-    sizes = SIZES[spec.kind] if isinstance(spec, SpecimenSpec) else {}
+def _changes(spec: RunSpec | AnySpec) -> Iterator[tuple[str, object]]:
+    sizes = {} if isinstance(spec, RunSpec) else SIZES[spec.kind]
     for field in fields(spec):
         value = getattr(spec, field.name)
         default = sizes.get(field.name, field.default)

@@ -14,7 +14,7 @@ from ..kinds.registry import KINDS, kind_of, options
 from ..kinds.test_kind import TestKind
 from ..models.options import SPHERE_MODELS
 from ..require import quoted
-from ..specimens.spec import SIZES
+from ..specimens.spec_of import SIZES
 
 #: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
 #: where the first contact point is about to leave its elastic branch.
@@ -27,7 +27,8 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
     """Options that a test has no use for."""
     others = [name for name in options() if not kind.has(name)]
     renamed = [one.size for one in kind.options if one.size]
-    sizes = [name for name in _SIZES if name not in SIZES[kind.shape] or name in renamed]
+    takes = [name for shape in (kind.shape, *kind.solids) for name in SIZES[shape]]
+    sizes = [name for name in _SIZES if name not in takes or name in renamed]
     pressure = () if kind.confined else ("confinement",)
     start = () if kind.static_models else ("start",)
     halved = ("halvings",) if "rate" in kind.without else ()
@@ -60,7 +61,7 @@ AUTO, HALVINGS = "auto", 5
 #: Options that are sizes of the specimen.
 SIZE_NAMES = (*_SIZES, *_OTHER_NAMES)
 #: Options of the command by their names.
-OPTIONS = (*SIZE_NAMES, *PACKING, *SIMULATION)
+OPTIONS = ("shape", *SIZE_NAMES, *PACKING, *SIMULATION)
 
 
 def with_unit(name: str, value: object) -> str:

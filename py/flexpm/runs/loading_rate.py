@@ -43,6 +43,8 @@ LOADINGS = ("constant", "adaptive", "waiting")
 LARGEST_STOP_RATIO = 0.9
 #: A fall of the stress counts once this share of the reference strength has been reached [-].
 _LEAST_PEAK = 0.2
+#: Tests that rates are looked for in.
+_RATED = (*KINDS.values(), OWN)
 #: Most steps of a test: a day for the smallest specimens, and numbers that a double counts.
 _MOST_STEPS = 10**10
 
@@ -114,29 +116,31 @@ class Schedule:
     softening_growth: float = 0.0
 
 
-def rates_of(test: str, model: str) -> Rates:
-    """Rates of a test on a model.
+def rates_of(test: str, model: str, *, solid: bool = False) -> Rates:
+    """Rates of a test on a model, of a specimen of the plane or of space.
 
     Raises:
         InputError: for a test that the model has none for.
     """
-    known = {kind.name: kind.rates for kind in (*KINDS.values(), OWN) if model in kind.rates}
+    all_kinds = [(kind.name, kind.solid_rates if solid else kind.rates) for kind in _RATED]
+    known = {name: rates for name, rates in all_kinds if model in rates}
     require_one_of(f"test of model {model}", test, tuple(known))
     return known[test][model]
 
 
-def fastest_factor(test: str, model: str, rate: float = 1.0) -> float:
+def fastest_factor(test: str, model: str, rate: float = 1.0, *, solid: bool = False) -> float:
     """Largest factor on the velocity [-]: the rate over that of the constant times `rate`.
 
     A lower `rate` slows the whole test; a higher one does not raise the fastest rate.
     """
-    constant = rates_of(test, model).constant
+    constant = rates_of(test, model, solid=solid).constant
     return max(FASTEST_CONSTANT * min(rate, 1.0) / (rate * constant), 1.0)
 
 
-def _waiting(test: str, model: str, damage_share: float) -> tuple[float, tuple[float, float]]:
+def _waiting(
+    rates: Rates, model: str, damage_share: float
+) -> tuple[float, tuple[float, float]]:
     """Largest factor and running shares of a loading that waits for cracks [-]."""
-    rates = rates_of(test, model)
     if rates.running_share is None:
         raise InputError(
             f"Loading: kind = waiting, must be another for model {model}; waiting is for "
@@ -146,24 +150,24 @@ def _waiting(test: str, model: str, damage_share: float) -> tuple[float, tuple[f
     return rates.waiting_constant / rates.constant, (share, _SHARE_AFTER_PEAK * share)
 
 
-def _fastest_ends(test: str, model: str, rate: float) -> float:
+def _fastest_ends(rates: Rates, model: str, rate: float) -> float:
     """Largest factor on the velocity of ends that a servo drives [-]: that of a waiting loading."""
-    if rates_of(test, model).running_share is None:
+    if rates.running_share is None:
         raise InputError(
             f"Loading: control, must be left out for model {model}; it is for "
             f"{' and '.join(WAITING_MODELS)} grains"
         )
-    return _waiting(test, model, 1.0)[0] / min(rate, 1.0)
+    return _waiting(rates, model, 1.0)[0] / min(rate, 1.0)
 
 
 def quasistatic_ratio(
-    test: str, model: str, *, waiting: bool = False, brittle: bool = False
+    test: str, model: str, *, waiting: bool = False, brittle: bool = False, solid: bool = False
 ) -> float:
     """Largest unbalanced-force ratio of a quasi-static test on a model [-].
 
     The median, or that under way of a loading that waits for cracks.
     """
-    rates = rates_of(test, model)
+    rates = rates_of(test, model, solid=solid)
     ratio = rates.quasistatic
     if waiting:
         ratio = None if rates.waiting_ratios is None else rates.waiting_ratios[brittle]
@@ -179,6 +183,7 @@ def schedule(
     *,
     confinement: float = 0.0,
     dt: float = 1.0,
+    solid: bool = False,
 ) -> Schedule:
     """Loading rate and end of a test.
 
@@ -192,11 +197,12 @@ def schedule(
         scales: Scales of the specimen.
         confinement: Lateral pressure [Pa].
         dt: Time step [s], or 1 with scaled masses.
+        solid: The specimen is one of space.
 
     Raises:
         InputError: for a test that would never end.
     """
-    kind, rates = kind_of(test), rates_of(test, model)
+    kind, rates = kind_of(test), rates_of(test, model, solid=solid)
     # each pascal of confinement adds at least one to the strength of a frictional contact
     reference = (scales.strength + confinement) / scales.modulus
     crossing_time = scales.crossing_steps * dt
@@ -210,9 +216,9 @@ def schedule(
         )
     fastest, shares, slowest, growth = 1.0, None, 1.0, 0.0
     if loading.kind == "adaptive":
-        fastest = fastest_factor(test, model, loading.rate)
+        fastest = fastest_factor(test, model, loading.rate, solid=solid)
     elif loading.kind == "waiting":
-        fastest, shares = _waiting(test, model, scales.damage_share)
+        fastest, shares = _waiting(rates, model, scales.damage_share)
         slowest = min(SLOWEST_WAIT * fastest, 1.0)
         growth = SOFTENING_GROWTH * loading.rate
     if loading.kind == "waiting":
@@ -236,7 +242,7 @@ def schedule(
         math.ceil(steps / slowest),
         math.ceil(min(likely, steps / slowest)),
         control=loading.control,
-        fastest_ends=_fastest_ends(test, model, loading.rate) if loading.control else 1.0,
+        fastest_ends=_fastest_ends(rates, model, loading.rate) if loading.control else 1.0,
         # deviation D57
         fastest_descent=reference / crossing_time * scales.height,
         softening_growth=growth,

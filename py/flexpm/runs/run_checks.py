@@ -10,6 +10,7 @@ from typing import NoReturn
 from ..errors import InputError
 from ..kinds.option import Asked
 from ..kinds.registry import KINDS, names
+from ..kinds.test_kind import TestKind
 from ..materials.joint import require_joints
 from ..models.options import (
     DAMPING,
@@ -26,6 +27,7 @@ from ..require import (
     require_one_of,
     require_whole,
 )
+from ..specimens.spec_of import is_solid
 from .input_names import AUTO, OWN_OPTIONS, STARTS, UNUSED, with_unit
 from .loading_rate import HALVING_BOUNDS, LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 from .run_inputs import RunInputs
@@ -107,6 +109,8 @@ def _check_numbers(run: RunInputs) -> None:
 
 
 def _check_start(run: RunInputs) -> None:
+    if run.is_solid and not run.start:
+        _set(run, "start", "rest")
     if not run.start:
         first = run.kind.static_first and run.model in run.kind.static_models
         static = first and not run.dynamic and run.specimen.joints is None
@@ -148,22 +152,47 @@ def _check_waiting(run: RunInputs) -> None:
 
 
 def _check_test(run: RunInputs) -> None:
+    _check_solid(run)
     label = "run: model" if run.kind.is_solve else f"run: model of {run.test}"
-    require_one_of(label, run.model, run.kind.models)
+    require_one_of(label, run.model, run.kind.models_of(run.specimen.kind))
     if run.model in SPHERE_MODELS:
         run.specimen.require_discs(run.model)
     if run.model in INNER_MODELS:
         run.specimen.require_alike(run.model)
     laws = [joint["name"] for joint in run.material.get("joints", ())]
     require_joints(run.specimen.joint_names or (), laws)
-    shape = run.kind.shape
-    if run.specimen.kind != shape:
-        raise InputError(f"run: specimen = {run.specimen.kind}, must be a {shape} for {run.test}")
+    require_shape(run.kind, run.specimen.kind)
     if not run.kind.confined and run.confinement != 0.0:
         raise InputError(
             f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}"
             f"{run.kind.confine_hint}"
         )
+
+
+def require_shape(kind: TestKind, shape: str) -> None:
+    """Refuse a shape that a test does not take.
+
+    Raises:
+        InputError: naming those that it takes.
+    """
+    shapes = (kind.shape, *kind.solids)
+    if shape not in shapes:
+        hint = kind.solid_hint if is_solid(shape) else ""
+        raise InputError(
+            f"run: specimen = {shape}, must be a {' or a '.join(shapes)} for {kind.name}{hint}"
+        )
+
+
+def _check_solid(run: RunInputs) -> None:
+    """Refuse what is of the plane alone."""
+    if not run.is_solid:
+        return
+    for name in ("points", "mesh", "dynamic", "gravity", "start", "control"):
+        value, usual = getattr(run, name), getattr(type(run), name, None)
+        if value != usual and (name, value) != ("start", "rest"):
+            raise InputError(
+                f"run: {with_unit(name, value)}, must be left out for a {run.specimen.kind}"
+            )
 
 
 def _settle_own(run: RunInputs) -> None:

@@ -13,7 +13,7 @@ from ..kinds.registry import kind_of
 from ..kinds.test_kind import STOP_RATIO, TestKind
 from ..materials.mixing import is_brittle
 from ..models.options import DAMPING, GRAIN_MODELS, local_damping
-from ..specimens.spec import SpecimenSpec
+from ..specimens.spec_of import AnySpec, is_solid
 from .loading_rate import WAITING_MODELS
 
 
@@ -62,7 +62,7 @@ class RunInputs:
     """
 
     test: str
-    specimen: SpecimenSpec
+    specimen: AnySpec
     material: Table
     model: str = "flexible"
     points: int = 3
@@ -97,6 +97,11 @@ class RunInputs:
     def kind(self) -> TestKind:
         """The test."""
         return kind_of(self.test)
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the specimen is one of space."""
+        return is_solid(self.specimen.kind)
 
     @property
     def options(self) -> dict[str, Value]:

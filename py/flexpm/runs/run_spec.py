@@ -18,9 +18,9 @@ from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
 from ..models.options import DAMPING
 from ..require import require_known
-from ..specimens.spec import SIZES, SpecimenSpec
+from ..specimens.spec_of import SIZES, AnySpec, field_names, is_solid, spec_of, spec_type
 from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced
-from .run_checks import settle
+from .run_checks import require_shape, settle
 from .run_inputs import RunInputs
 
 __all__ = ["ELASTIC", "TESTS", "RunSpec"]
@@ -47,7 +47,7 @@ class RunSpec(RunInputs):
         test: str,
         options: Table,
         material: Material,
-        specimen: SpecimenSpec | None = None,
+        specimen: AnySpec | None = None,
     ) -> RunSpec:
         """Describe the run of a specimen by options of the command.
 
@@ -69,15 +69,21 @@ class RunSpec(RunInputs):
         return cls(test, specimen, described(material, model), **split(others))
 
     @staticmethod
-    def packed(test: str, options: Table) -> SpecimenSpec:
+    def packed(test: str, options: Table) -> AnySpec:
         """The packed specimen that options of the command describe for a test."""
         kind = kind_of(test)
-        given = {name: options.get(name) for name in (*SIZES[kind.shape], *PACKING)}
+        shape = options.get("shape") or kind.shape
+        if is_solid(shape):
+            require_shape(kind, shape)
+        known = set(field_names(shape))
+        packing = [name for name in PACKING if name in known]
+        given = {name: options.get(name) for name in (*SIZES[shape], *packing)}
+        if is_solid(shape):
+            return spec_type(shape)(shape, **_named(given))
         given |= {
             one.size: options.get(one.name) or given[one.size] for one in kind.options if one.size
         }
-        named = {name: value for name, value in given.items() if value is not None}
-        return SpecimenSpec(kind.shape, **{**kind.sizes, **named})
+        return spec_type(shape)(kind.shape, **{**kind.sizes, **_named(given)})
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:
@@ -94,14 +100,15 @@ class RunSpec(RunInputs):
         dynamic = isinstance(test, str) and kind_of(test).dynamic
         if plain.get("dynamic") and not dynamic:
             plain.setdefault("damping", DAMPING)  # of a run before it could be chosen
-        parts = [field.name for field in fields(SpecimenSpec)]
-        plain["specimen"] = SpecimenSpec(**_known(parts, plain["specimen"]))
+        given = plain["specimen"]
+        parts = field_names(given.get("kind") if isinstance(given, Mapping) else None)
+        plain["specimen"] = spec_of(_known(parts, given))
         return cls(**split(plain))
 
     @property
     def results(self) -> int:
         """Number of the results, see ``results_number``."""
-        return results_number(self.test, self.model)
+        return results_number(self.test, self.model, solid=self.is_solid)
 
     def key(self, results: int | None = None) -> str:
         """Name of the run: a short hash of what differs from the defaults.
@@ -141,9 +148,10 @@ class RunSpec(RunInputs):
         return keys
 
 
-def results_number(test: str, model: str) -> int:
+def results_number(test: str, model: str, *, solid: bool = False) -> int:
     """Number that tells results of a test and model from those before they changed."""
-    return kind_of(test).results.get(model, 1)
+    kind = kind_of(test)
+    return (kind.solid_results if solid else kind.results).get(model, 1)
 
 
 def described(material: Material, model: str) -> Table:
@@ -151,11 +159,17 @@ def described(material: Material, model: str) -> Table:
     return {"name": material.name, **description(material, model)}
 
 
-def _changes(spec: RunSpec | SpecimenSpec) -> Table:
+def _named(values: Table) -> Table:
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _changes(spec: RunSpec | AnySpec) -> Table:
     """Fields that have another value than their default."""
     values = {field.name: (getattr(spec, field.name), field.default) for field in fields(spec)}
     nested = ("specimen", "material", "own")
     own = spec.own if isinstance(spec, RunSpec) else {}
+    if not isinstance(spec, RunSpec) and is_solid(spec.kind):
+        own = {"kind": spec.kind}  # also the default one: no key of the plane's
     return {
         **own,
         **{

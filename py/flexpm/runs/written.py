@@ -13,17 +13,22 @@ from ..kinds.test_kind import Rig
 from ..report.curves import curve_picture, wave_picture
 from ..report.emission import emission_picture
 from ..report.maps import crack_picture, fragment_picture
+from ..report.solid_maps import draw_solid
 from ..report.tables import size_text
 from ..results.result import Result
+from ..results.solid_snapshot import SolidSnapshot
 from ..results.vtu import read_vtu, write_vtu
 from ..specimens.files import given
 
+#: Picture of the outside of a solid.
+OUTSIDE = "outside.png"
 #: Names of the files of a test.
 FILES = (
     *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
     *("final.vtu", given.FILE),
     *("curve.png", "cracks.png", "events.png", "fragments.png"),
     "report.html",
+    OUTSIDE,
 )
 
 
@@ -50,12 +55,17 @@ def draw_pictures(folder: Path, result: Result, notches: Sequence[int] = ()) -> 
     """Draw the pictures of a result into `folder`; arguments as for `write_files`."""
     draw = wave_picture if kind_of(result.test).rig is Rig.WAVE else curve_picture
     draw(folder / "curve.png", result)
+    if isinstance(result.snapshot, SolidSnapshot):
+        draw_solid(folder / OUTSIDE, result.snapshot, size_text(result))
     if result.snapshot is not None:
+        plane = result.snapshot
+        if isinstance(plane, SolidSnapshot):
+            plane = plane.section
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
         broken = result.cracks_by_pair
-        crack_picture(folder / "cracks.png", result.snapshot, caption, minerals, notches, broken)
-        fragment_picture(folder / "fragments.png", result.snapshot, caption)
+        crack_picture(folder / "cracks.png", plane, caption, minerals, notches, broken)
+        fragment_picture(folder / "fragments.png", plane, caption, result.snapshot.fragments)
         emission_picture(folder / "events.png", result, caption)
 
 

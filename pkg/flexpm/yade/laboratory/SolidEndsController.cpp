@@ -21,7 +21,7 @@ void SolidEndsController::action()
 	if (gripped)
 		flexpm::drive_top(*state, drivenAt, scene->dt);
 	else
-		flexpm::start_ends(*state, flexpm::elastic_field(*state), 0, drivenAt, undampedLoading);
+		flexpm::start_ends(*state, flexpm::elastic_field(*state), 0, drivenAt, undampedLoading, scene->dt);
 	gripped = true;
 }
 

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solid_tests/solid_record.hpp>
 #include <flexpm/kernel/solid_tests/solid_snapshot.hpp>
+#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 
 namespace yade {
 
@@ -16,7 +17,8 @@ py::dict SolidSolver::counts()
 	int         nodes = 0, tetrahedra = 0;
 	for (int grain = 0; grain < grains.count; ++grain)
 		nodes += grains.nodes_of(grain);
-	flexpm::for_each_tetrahedron(state, [&](auto&&...) { ++tetrahedra; });
+	for (int block = 0; block < grains.blocks(); ++block)
+		flexpm::for_each_tetrahedron(state, block, [&](auto&&...) { ++tetrahedra; });
 	py::dict d;
 	d["grains"]         = grains.count;
 	d["particles"]      = grains.count;
@@ -63,10 +65,12 @@ py::dict SolidSolver::snapshot()
 	d["surface_side"]       = copied(s.surface_side, 0);
 	d["contact_grains"]     = copied(s.contact_grains, 2);
 	d["corner_offsets"]     = copied(s.corner_offsets, 0);
+	d["corner_nodes"]       = copied(s.corner_nodes, 2);
 	d["corners"]            = copied(s.corners, 3);
 	d["areas"]              = copied(s.areas, 0);
 	d["point_offsets"]      = copied(s.point_offsets, 0);
 	d["point_area"]         = copied(s.point_area, 0);
+	d["point_position"]     = copied(s.point_position, 3);
 	d["point_opening"]      = copied(s.point_opening, 0);
 	d["point_slip"]         = copied(s.point_slip, 2);
 	d["point_damage"]       = copied(s.point_damage, 0);

@@ -9,6 +9,7 @@ _SPHERES = Rates(0.0025, 0.02)
 
 KIND = TestKind(
     name="biaxial",
+    solid_hint="; triaxial, the test of solids under pressure, is still to come",
     order=3,
     about="compression under the confinement, which acts on all sides first",
     # the last: a pressure is balanced once reactions and mean stress are; loose grains bear none

@@ -11,6 +11,7 @@ KIND = TestKind(
     name="tension",
     order=2,
     about="direct tension of the same ends",
+    solids=("box", "cylinder"),
     results={
         **dict.fromkeys(("flexible", "rigid"), 5),
         **dict.fromkeys(("inner", "inner-un"), 3),
@@ -26,6 +27,10 @@ KIND = TestKind(
         "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=58),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+    },
+    solid_rates={
+        "flexible": Rates(0.01, 0.0045, (0.005, 0.6), 0.01, likely_crossings=19),
+        "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=58),
     },
     falls_freely=True,
     pulled=True,

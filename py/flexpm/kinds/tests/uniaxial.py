@@ -12,7 +12,9 @@ _SPHERES = Rates(0.0025, 0.02)
 KIND = TestKind(
     name="uniaxial",
     order=1,
-    about="compression of a rectangle between frictionless ends, along its height",
+    about="compression of a rectangle, a box or a cylinder between frictionless ends, along its "
+    "height",
+    solids=("box", "cylinder"),
     results={
         **{"flexible": 5, "rigid": 6, "inner": 4, "inner-un": 3},
         **dict.fromkeys(("jcfpm", "cohfrict"), 2),
@@ -26,6 +28,10 @@ KIND = TestKind(
         "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+    },
+    solid_rates={
+        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=60),
+        "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
     },
     falls_freely=True,
     calibrates={"compressive_strength": "peak_stress"},

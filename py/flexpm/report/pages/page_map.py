@@ -18,6 +18,7 @@ from ...results.fragments import Fragments, connected
 from ...results.record import Curve
 from ...results.result import Result
 from ...results.snapshot import Snapshot
+from ...results.solid_snapshot import SolidSnapshot
 from ..maps import MINERALS
 from ..words import words_of_test
 from .page import Map, rows_to_draw
@@ -33,7 +34,7 @@ _COLOURS = 7
 def crack_map(
     name: str,
     title: str,
-    drawing: Snapshot,
+    specimen: Snapshot | SolidSnapshot,
     result: Result,
     rows: IntArray | None = None,
     chart: str = "",
@@ -43,11 +44,12 @@ def crack_map(
     Args:
         name: Name of its element, a word.
         title: Heading.
-        drawing: The specimen before the test.
+        specimen: The specimen before the test; of a solid its section is drawn.
         result: The test, with at least one row in its record.
         rows: Rows of the record that a chart shows; positions are some of these. None: of all.
         chart: Name of that chart.
     """
+    drawing = specimen.section if isinstance(specimen, SolidSnapshot) else specimen
     record, cracks = result.curve, result.cracks
     names = words_of_test(result.test)
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
@@ -59,7 +61,7 @@ def crack_map(
     outlines = _outlines(drawing, scale, corner)
     at = np.searchsorted(record["step"][positions], [crack.step for crack in cracks])
     at = np.minimum(at, len(positions) - 1)
-    found = _fragments(drawing, cracks, at, len(positions))
+    found = _fragments(specimen, cracks, at, len(positions))
     width, height = np.ptp(drawing.positions, axis=0) * scale
     return Map(
         name=name,
@@ -212,7 +214,7 @@ def _crack_paths(
     return [(mode, position, "".join(steps)) for (mode, position), steps in parts.items()]
 
 
-def _first_points(drawing: Snapshot) -> dict[int, int]:
+def _first_points(drawing: Snapshot | SolidSnapshot) -> dict[int, int]:
     """Row of the first point of each contact, by the number of the contact."""
     rows = np.flatnonzero(drawing.point_number == 0)
     return dict(
@@ -221,7 +223,7 @@ def _first_points(drawing: Snapshot) -> dict[int, int]:
 
 
 def _fragments(
-    drawing: Snapshot, cracks: Sequence[Crack], at: IntArray, positions: int
+    drawing: Snapshot | SolidSnapshot, cracks: Sequence[Crack], at: IntArray, positions: int
 ) -> list[Fragments]:
     """Fragments at each position: grains hang together while a point of their contact holds."""
     left = drawing.point_damage < 1.0

@@ -16,7 +16,7 @@ from ...kinds.registry import kind_of
 from ...results import measures
 from ...results.cracks import SHEAR, TENSILE
 from ...results.result import Result
-from ...results.vtu import read_vtu
+from ...results.vtu import read_state
 from ...text import words_of
 from ..curves import fits_a_picture
 from ..emission import emission_table
@@ -31,7 +31,11 @@ _POINTS = 700
 #: Energies that a page shows, in the order of their colours.
 _ENERGIES = ("elastic", "damage", "friction", "damping", "kinetic", "potential")
 #: Pictures that a page shows where a run has them.
-_PICTURES = {"network.png": "Fracture network", "events.png": "Acoustic emission"}
+_PICTURES = {
+    "outside.png": "Outside and section",
+    "network.png": "Fracture network",
+    "events.png": "Acoustic emission",
+}
 #: Those of a script's own test, which has no map.
 _OWN_PICTURES = {"cracks.png": "Cracks", "fragments.png": "Fragments"}
 #: Values of a list that are shown.
@@ -269,7 +273,7 @@ def run_map(
     """
     if not len(result.curve):
         return None
-    drawing = read_vtu(folder / "specimen.vtu")
+    drawing = read_state(folder / "specimen.vtu")
     shown = rows if rows is not None and len(rows) else None
     try:
         return crack_map(name, title, drawing, result, shown, chart)

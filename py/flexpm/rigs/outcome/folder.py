@@ -26,6 +26,7 @@ from ...report.pages.page import FILE as REPORT
 from ...results.cracks import MODES
 from ...results.result import Result
 from ...results.snapshot import Snapshot
+from ...results.solid_snapshot import SolidSnapshot
 from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
@@ -144,7 +145,7 @@ def result_so_far(rig: RigReadings, inputs: Table) -> Result:
 
 def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
     """Largest unbalanced-force ratio that is quasi-static [-], infinite where none is known."""
-    rates = rates_of(rig.kind, rig.built.name)
+    rates = rates_of(rig.kind, rig.built.name, solid=rig.solid)
     ratio = rates.quasistatic
     if waiting:
         brittle = is_brittle(described(rig.built.material, rig.built.name))
@@ -152,7 +153,7 @@ def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
     return math.inf if ratio is None else ratio
 
 
-def notches_in(rig: RigReadings, snapshot: Snapshot) -> list[int]:
+def notches_in(rig: RigReadings, snapshot: Snapshot | SolidSnapshot) -> list[int]:
     """Numbers of the contacts of open joints, which no test has opened."""
     specimen = rig.built.specimen
     if specimen.edge_joints is None:

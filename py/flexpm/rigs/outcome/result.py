@@ -9,10 +9,11 @@ from yade import wrapper
 
 from ..._version import __version__
 from ...kinds.registry import kind_of
-from ...models.grains import Model
+from ...models.grains import Model, SolidModel
 from ...results.cracks import count_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
+from ...specimens.spec_of import is_solid
 from ...specimens.specimen import Specimen
 from ..readings import RigReadings
 
@@ -59,6 +60,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     )
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
+    if isinstance(built, SolidModel):
+        result.tetrahedra = counts["tetrahedra"]
+        result.largest_overlap = built.solver.overlaps()["of_diameter"]
     if isinstance(built, Model):  # bonds of spheres tell no energy
         result.measure_emission(_event_rule(built.specimen, built.solver))
         result.joint_bend = built.joint_bend
@@ -71,6 +75,8 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
 
 def grains_across(specimen: Specimen) -> float:
     """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
+    if is_solid(specimen.kind):
+        return min(specimen.dimensions.values()) / specimen.mean_diameter
     if not isinstance(specimen.outline, np.ndarray):
         return specimen.dimensions["diameter"] / specimen.mean_diameter
     sizes = np.ptp(specimen.outline, axis=0)

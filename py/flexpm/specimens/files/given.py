@@ -7,20 +7,24 @@ from pathlib import Path
 
 from ...errors import InputError
 from ...progress import Progress
+from ..space.specimen import SolidSpecimen
 from ..spec import GRAINS_FILE, SpecimenSpec
+from ..spec_of import AnySpec
 from ..specimen import Specimen
 
 #: Name of the file.
 FILE = GRAINS_FILE
 
 
-def save(folder: Path, specimen: Specimen) -> None:
+def save(folder: Path, specimen: Specimen | SolidSpecimen) -> None:
     """Save a specimen that was made from what a script has given; others need no file."""
     if not specimen.spec.is_packed:
         specimen.save(folder / FILE)
 
 
-def load(spec: SpecimenSpec, folder: Path, progress: Progress | None = None) -> Specimen:
+def load(
+    spec: AnySpec, folder: Path, progress: Progress | None = None
+) -> Specimen | SolidSpecimen:
     """Make the specimen of a run again: packed from its seed, or from its file.
 
     Args:
@@ -31,9 +35,15 @@ def load(spec: SpecimenSpec, folder: Path, progress: Progress | None = None) -> 
     Raises:
         InputError: if the file is not there any more, or holds another specimen.
     """
-    if spec.is_packed:
-        return Specimen.pack(spec, progress)
-    made = Specimen.load(folder / FILE)
+    made: Specimen | SolidSpecimen
+    if isinstance(spec, SpecimenSpec):
+        if spec.is_packed:
+            return Specimen.pack(spec, progress)
+        made = Specimen.load(folder / FILE)
+    elif spec.is_packed:
+        return SolidSpecimen.pack(spec, progress)
+    else:
+        made = SolidSpecimen.load(folder / FILE)
     if made.spec != spec:
         raise InputError(
             f"specimen = {str(folder / FILE)!r}, is not that of the run; put the file of that run "

@@ -14,12 +14,18 @@ from ...errors import InputError
 from ...joints import geojson
 from ...joints import lines as joint_lines
 from ...progress import Progress
+from ..space import file as solid_file
+from ..space.spec import SolidSpec
 from ..spec import SpecimenSpec
+from ..spec_of import AnySpec
 from . import specimen_file
 
 if TYPE_CHECKING:
     from ...joints.network import Network
+    from ..space.specimen import SolidSpecimen
     from ..specimen import Specimen
+
+    AnySpecimen = Specimen | SolidSpecimen
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,7 @@ class SpecimenSource:
         notes: What the reader of a map has to tell, a line each.
     """
 
-    plain: SpecimenSpec
+    plain: AnySpec
     file: Path | None = None
     lines: joint_lines.Lines | None = None
     network: Network | None = None
@@ -47,7 +53,7 @@ class SpecimenSource:
     @classmethod
     def read(
         cls,
-        packed: SpecimenSpec | None,
+        packed: AnySpec | None,
         file: Path | None = None,
         joints: Path | None = None,
         network: Path | None = None,
@@ -73,9 +79,19 @@ class SpecimenSource:
         """
         outline = None
         if file is not None:
-            content = specimen_file.read(file)
-            packed, outline = specimen_file.spec_of(content), content["outline"]
+            if solid_file.is_one(file):
+                packed = SolidSpec(**solid_file.read(file)["spec"])
+            else:
+                content = specimen_file.read(file)
+                packed, outline = specimen_file.spec_of(content), content["outline"]
         assert packed is not None
+        if isinstance(packed, SolidSpec):
+            if joints is not None or network is not None:
+                raise InputError(
+                    f"joints = {joints or network}, must not be given for a {packed.kind}; leave "
+                    "them out"
+                )
+            return cls(packed, file)
         lines, origin = None, None
         notes: tuple[str, ...] = ()
         if joints is not None and joints.suffix.lower() in geojson.SUFFIXES:
@@ -101,16 +117,18 @@ class SpecimenSource:
         return cls(packed, file, lines, chosen, traces, origin, notes)
 
     @property
-    def spec(self) -> SpecimenSpec:
+    def spec(self) -> AnySpec:
         """What the specimen is made from, joints included."""
         spec = self.plain
+        if isinstance(spec, SolidSpec):
+            return spec
         if self.lines is not None:
             spec = spec.with_joints(self.lines, self.origin)
         if self.network is None:
             return spec
         return spec.with_network(self.network.to_json(), self.traces)
 
-    def make(self, progress: Progress | None = None) -> Specimen:
+    def make(self, progress: Progress | None = None) -> AnySpecimen:
         """Pack or load the specimen and cut it; YADE must be loaded.
 
         Args:
@@ -119,6 +137,12 @@ class SpecimenSource:
         Raises:
             InputError: for discs that do not fit, and lines that cut nothing.
         """
+        if isinstance(self.plain, SolidSpec):
+            from ..space.specimen import SolidSpecimen
+
+            if self.file is not None:
+                return SolidSpecimen.load(self.file)
+            return SolidSpecimen.pack(self.plain, progress)
         from ..specimen import Specimen
 
         found = (

@@ -27,6 +27,15 @@ def write(path: Path, fields: Table) -> None:
     write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
 
 
+def is_one(path: Path) -> bool:
+    """Whether a file is that of a solid; one that cannot be read is none."""
+    try:
+        with path.open(encoding="utf-8") as file:
+            return FORMAT in file.read(len(FORMAT) + 40)
+    except (OSError, ValueError):
+        return False
+
+
 def read(path: Path) -> Table:
     """Read the content of a file.
 

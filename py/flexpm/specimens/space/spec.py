@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass
+from typing import ClassVar
 
 from ...errors import InputError
 from ..checks import (
@@ -59,6 +60,14 @@ class SolidSpec:
     short_edge: float = SHORT_EDGE
     spheres: str | None = None
 
+    # what specimens of the plane may have, and solids do not
+    joints: ClassVar[None] = None
+    joint_names: ClassVar[None] = None
+    networks: ClassVar[None] = None
+    strengths: ClassVar[None] = None
+    minerals: ClassVar[None] = None
+    cells: ClassVar[None] = None
+
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
             raise InputError(f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}")
@@ -82,6 +91,18 @@ class SolidSpec:
     def sizes(self) -> dict[str, float]:
         """``width``, ``depth`` and ``height``, or ``diameter`` and ``height`` [m]."""
         return {name: getattr(self, name) for name in SIZES[self.kind]}
+
+    @property
+    def is_packed(self) -> bool:
+        """Whether a packing gives the specimen again, without a file."""
+        return self.spheres is None
+
+    def require_alike(self, model: str) -> None:
+        """A solid has neither joints nor strengths of its own: any model takes it."""
+
+    def require_discs(self, model: str) -> None:
+        """Refuse YADE's own bonded spheres, which take no solid yet."""
+        raise InputError(f"model = {model}, must be flexible or rigid for a {self.kind}")
 
     @property
     def volume(self) -> float:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from ..._flexpm import FanMeshes, Polyhedra, Solid, fan_meshes
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
+from ...joints.cuts import Cut
 from ...progress import Progress
 from ...require import require_flag
 from ..kernel_input import call, checksum
@@ -120,6 +122,42 @@ class SolidSpecimen:
     def dimensions(self) -> dict[str, float]:
         """``width``, ``depth`` and ``height``, or ``diameter`` and ``height`` [m]."""
         return self.spec.sizes
+
+    @property
+    def seed(self) -> int | None:
+        """Seed of the packing; None for given spheres."""
+        return self.spec.seed
+
+    @property
+    def thickness(self) -> float:
+        """Root of the section's area [m]: with the scales' width, which is the same, the area."""
+        return math.sqrt(self.outline().volume / self.dimensions["height"])
+
+    @property
+    def equal_diameter(self) -> float:
+        """Diameter of a ball of the specimen's volume [m]."""
+        return float(np.cbrt(6.0 / math.pi * self.spec.volume))
+
+    def joint_bends(self) -> dict[str, float]:
+        """None: a solid has no joints."""
+        return {}
+
+    def network_intensities(self) -> Table:
+        """None: a solid has no joints."""
+        return {}
+
+    @property
+    def joint_cuts(self) -> dict[str, Cut]:
+        """None: a solid has no joints."""
+        return {}
+
+    @property
+    def edge_joints(self) -> None:
+        """None: a solid has no joints."""
+
+    @property
+    def minerals(self) -> None:
+        """None: minerals of solids are drawn."""
 
     @property
     def centres(self) -> FloatArray:

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Specs of specimens of the plane and of space, told apart by their kind. SI units.
+
+Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from ..files import Table
+from .space.spec import SIZES as SOLID_SIZES
+from .space.spec import SolidSpec
+from .spec import SIZES as PLANE_SIZES
+from .spec import SpecimenSpec
+
+#: What a specimen of any dimension is made from.
+AnySpec = SpecimenSpec | SolidSpec
+
+#: Shapes of space.
+SOLIDS = tuple(SOLID_SIZES)
+#: Sizes of each shape of any dimension and their defaults [m].
+SIZES = {**PLANE_SIZES, **SOLID_SIZES}
+
+
+def is_solid(kind: object) -> bool:
+    """Whether a kind of specimen is one of space."""
+    return kind in SOLIDS
+
+
+def spec_type(kind: object) -> type[SpecimenSpec] | type[SolidSpec]:
+    """The class of a kind's specs; that of the plane for what is no kind."""
+    return SolidSpec if is_solid(kind) else SpecimenSpec
+
+
+def field_names(kind: object) -> list[str]:
+    """Names of the fields of a kind's specs."""
+    return [field.name for field in fields(spec_type(kind))]
+
+
+def spec_of(values: Table) -> AnySpec:
+    """The spec that the fields of a file make.
+
+    Raises:
+        InputError: for a value out of range.
+    """
+    return spec_type(values.get("kind"))(**values)
