@@ -172,8 +172,8 @@ SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
         }
     }
     rigid.gather(on_nodes, load.data());
-    const FreeSolution found
-        = solve_free(rigid, std::vector<std::uint8_t>(guess.size(), 0), load, guess);
+    const FreeSolution found =
+        solve_free(rigid, std::vector<std::uint8_t>(guess.size(), 0), load, guess);
     SolidField field;
     for (int g = 0; g < s.grains.count; ++g) {
         field.ways.push_back(triple_at(found.u.data(), 2 * g));
@@ -183,8 +183,8 @@ SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
 }
 
 /// Way of a node in a field.
-Vector way_in(const SolidState& s, const SolidField& field, const NodeNumbers& numbers, int grain,
-    int node)
+Vector way_in(
+    const SolidState& s, const SolidField& field, const NodeNumbers& numbers, int grain, int node)
 {
     if (field.turns.empty()) return field.ways[numbers.of(grain, node)];
     const Vector arm = space_vector(s.grains.reference, node)
@@ -230,8 +230,7 @@ double elastic_strain(const SolidState& s, const SolidField& field, double sense
         for (int p = 0; p < c.points_of(contact); ++p) {
             Vector jump;
             for (int k = 0; k < c.corners_of(contact); ++k) {
-                const Vector apart
-                    = way_in(s, field, numbers, pair[1], c.node(contact, 1, k))
+                const Vector apart = way_in(s, field, numbers, pair[1], c.node(contact, 1, k))
                     - way_in(s, field, numbers, pair[0], c.node(contact, 0, k));
                 jump = jump + (sense * c.share(contact, p, k)) * apart;
             }
