@@ -7,6 +7,7 @@
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solid_tests/solid_record.hpp>
 #include <flexpm/kernel/solid_tests/solid_snapshot.hpp>
+#include <flexpm/kernel/solid_tests/solid_softening.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include "solids/solid_states.hpp"

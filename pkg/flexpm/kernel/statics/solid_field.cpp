@@ -4,12 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
-#include <flexpm/kernel/space/face_frame.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace flexpm {
 
@@ -48,16 +43,6 @@ void add_elements(const SolidState& s, const NodeNumbers& numbers, LinearSolid& 
                 solid.elements.push_back({ nodes, t, s.grains.material[g] });
             });
     }
-}
-
-/// Frame of a contact when it was bonded.
-FaceFrame bonded_frame(const SolidState& s, int contact)
-{
-    const FaceContacts& c = s.contacts;
-    std::vector<Vector> corners;
-    for (int k = 0; k < c.corners_of(contact); ++k)
-        corners.push_back(space_vector(s.grains.reference, c.node(contact, 0, k)));
-    return face_frame(corners, { 0, c.line[c.slot[contact]] });
 }
 
 void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
@@ -182,31 +167,16 @@ SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
     return field;
 }
 
-/// Way of a node in a field.
-Vector way_in(
-    const SolidState& s, const SolidField& field, const NodeNumbers& numbers, int grain, int node)
-{
-    if (field.turns.empty()) return field.ways[numbers.of(grain, node)];
-    const Vector arm = space_vector(s.grains.reference, node)
-        - space_vector(s.grains.reference, s.grains.centre(grain));
-    return field.ways[grain] + cross(field.turns[grain], arm);
-}
-
-/// Multiple of a jump at which a point leaves its branch.
-double limit_of(const LawParameters& law, const FaceFrame& frame, Vector jump)
-{
-    double least = std::numeric_limits<double>::infinity();
-    const double opening = dot(frame.normal, jump);
-    const double shear = law.shear_stiffness * norm(jump - opening * frame.normal);
-    const double normal = law.normal_stiffness * opening;
-    if (normal > 0.0) least = std::min(least, law.tensile_strength / normal);
-    // shear = c - friction * normal
-    const double towards = shear + law.friction * normal;
-    if (towards > 0.0) least = std::min(least, law.cohesion / towards);
-    return least;
-}
-
 }  // namespace
+
+FaceFrame bonded_frame(const SolidState& s, int contact)
+{
+    const FaceContacts& c = s.contacts;
+    std::vector<Vector> corners;
+    for (int k = 0; k < c.corners_of(contact); ++k)
+        corners.push_back(space_vector(s.grains.reference, c.node(contact, 0, k)));
+    return face_frame(corners, { 0, c.line[c.slot[contact]] });
+}
 
 SolidField elastic_field(const SolidState& s)
 {
@@ -217,27 +187,6 @@ SolidField elastic_field(const SolidState& s)
             "must be 2 of rigid grains; call hold_ends() first");
     }
     return rigid ? field_of_bodies(s, numbers) : field_of_nodes(s, numbers);
-}
-
-double elastic_strain(const SolidState& s, const SolidField& field, double sense)
-{
-    const NodeNumbers numbers(s);
-    const FaceContacts& c = s.contacts;
-    double least = std::numeric_limits<double>::infinity();
-    for (int contact = 0; contact < c.count; ++contact) {
-        const FaceFrame frame = bonded_frame(s, contact);
-        const GrainPair pair = c.pairs[contact];
-        for (int p = 0; p < c.points_of(contact); ++p) {
-            Vector jump;
-            for (int k = 0; k < c.corners_of(contact); ++k) {
-                const Vector apart = way_in(s, field, numbers, pair[1], c.node(contact, 1, k))
-                    - way_in(s, field, numbers, pair[0], c.node(contact, 0, k));
-                jump = jump + (sense * c.share(contact, p, k)) * apart;
-            }
-            least = std::min(least, limit_of(c.law_of(contact), frame, jump));
-        }
-    }
-    return least;
 }
 
 }  // namespace flexpm

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/space/face_frame.hpp>
 
 namespace flexpm {
 
@@ -14,8 +15,7 @@ namespace flexpm {
 /// @throws std::runtime_error  if the forces do not come to balance
 SolidField elastic_field(const SolidState& s);
 
-/// Strain, positive, along `sense` (-1: compression) times the field at which the first point
-/// leaves its elastic branch [-]; infinite if none does.
-double elastic_strain(const SolidState& s, const SolidField& field, double sense);
+/// Frame of a contact when it was bonded.
+FaceFrame bonded_frame(const SolidState& s, int contact);
 
 }  // namespace flexpm
