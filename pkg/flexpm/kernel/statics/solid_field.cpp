@@ -18,7 +18,6 @@ public:
         for (int g = 0; g < grains_.count; ++g)
             first_.push_back(first_.back() + grains_.nodes_of(g));
     }
-    int count() const { return first_.back(); }
     int of(int grain, int node) const
     {
         const int first = grains_.block_nodes[grains_.block_of(grain)];
@@ -81,18 +80,6 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
     }
 }
 
-LinearSolid linear_solid(const SolidState& s, const NodeNumbers& numbers)
-{
-    LinearSolid solid;
-    for_each_node(s, [&](int grain, int number) {
-        solid.places.push_back(space_vector(s.grains.reference, s.grains.node(grain, number)));
-    });
-    add_elements(s, numbers, solid);
-    add_faces(s, numbers, solid);
-    add_presses(s, numbers, solid);
-    return solid;
-}
-
 /// z of an end at the reference.
 double end_of(const SolidState& s, SolidSide side)
 {
@@ -104,16 +91,17 @@ double end_of(const SolidState& s, SolidSide side)
     return s.grains.reference[s.grains.component(nodes.front(), 2)];
 }
 
-SolidField field_of_nodes(const SolidState& s, const NodeNumbers& numbers)
+SolidField field_of_nodes(const SolidState& s)
 {
-    const LinearSolid solid = linear_solid(s, numbers);
+    const LinearSolid solid = linear_solid(s);
     const double low = end_of(s, SolidSide::bottom);
     const std::size_t size = 3 * solid.places.size();
     std::vector<std::uint8_t> held(size, 0);
+    std::size_t next = 0;
     for_each_node(s, [&](int grain, int number) {
-        const int node = s.grains.node(grain, number), n = numbers.of(grain, node);
+        const int node = s.grains.node(grain, number);
         for (int axis = 0; axis < 3; ++axis)
-            held[3 * n + axis] = s.grains.prescribed[s.grains.component(node, axis)];
+            held[next++] = s.grains.prescribed[s.grains.component(node, axis)];
     });
     std::vector<double> given(size, 0.0), guess(size, 0.0), load(size, 0.0);
     for (std::size_t n = 0; n < solid.places.size(); ++n)
@@ -129,22 +117,15 @@ SolidField field_of_nodes(const SolidState& s, const NodeNumbers& numbers)
     return field;
 }
 
-SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
+SolidField field_of_bodies(const SolidState& s)
 {
-    const LinearSolid solid = linear_solid(s, numbers);
-    RigidSolid rigid(solid);
+    const LinearSolid solid = linear_solid(s);
+    const RigidSolid rigid = rigid_solid(s, solid);
     const double low = end_of(s, SolidSide::bottom);
     const double height = end_of(s, SolidSide::top) - low;
-    rigid.grain.resize(numbers.count());
-    for_each_node(s, [&](int grain, int number) {
-        rigid.grain[numbers.of(grain, s.grains.node(grain, number))] = grain;
-    });
-    rigid.radii = s.grains.radius;
     std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
-    for (int g = 0; g < s.grains.count; ++g) {
-        rigid.centres.push_back(space_vector(s.grains.reference, s.grains.centre(g)));
-        guess[6 * g + 2] = rigid.centres.back().z - low;
-    }
+    for (int g = 0; g < s.grains.count; ++g)
+        guess[6 * g + 2] = rigid.centres[g].z - low;
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0), load(guess.size(), 0.0);
     std::size_t next = 0;
     for (const Plate& plate : s.plates) {
@@ -178,15 +159,37 @@ FaceFrame bonded_frame(const SolidState& s, int contact)
     return face_frame(corners, { 0, c.line[c.slot[contact]] });
 }
 
-SolidField elastic_field(const SolidState& s)
+LinearSolid linear_solid(const SolidState& s)
 {
     const NodeNumbers numbers(s);
+    LinearSolid solid;
+    for_each_node(s, [&](int grain, int number) {
+        solid.places.push_back(space_vector(s.grains.reference, s.grains.node(grain, number)));
+    });
+    add_elements(s, numbers, solid);
+    add_faces(s, numbers, solid);
+    add_presses(s, numbers, solid);
+    return solid;
+}
+
+RigidSolid rigid_solid(const SolidState& s, const LinearSolid& solid)
+{
+    RigidSolid rigid(solid);
+    for_each_node(s, [&](int grain, int) { rigid.grain.push_back(grain); });
+    for (int g = 0; g < s.grains.count; ++g)
+        rigid.centres.push_back(space_vector(s.grains.reference, s.grains.centre(g)));
+    rigid.radii = s.grains.radius;
+    return rigid;
+}
+
+SolidField elastic_field(const SolidState& s)
+{
     const bool rigid = !s.bodies.empty();
     if (rigid && s.plates.size() != 2) {
         refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
             "must be 2 of rigid grains; call hold_ends() first");
     }
-    return rigid ? field_of_bodies(s, numbers) : field_of_nodes(s, numbers);
+    return rigid ? field_of_bodies(s) : field_of_nodes(s);
 }
 
 }  // namespace flexpm
