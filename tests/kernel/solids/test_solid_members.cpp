@@ -22,8 +22,8 @@ SolidState torn(bool rigid)
     SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
     hold_ends(s, true);
     scale_masses(s, each.damping);
-    start_ends(s, elastic_field(s), 1e-4, 1e-6 * p.solid.high.z, true, each.dt);
-    for (int k = 0; k < 250; ++k)
+    start_ends(s, elastic_field(s), 1e-4, 2e-6 * p.solid.high.z, true, each.dt);
+    for (int k = 0; k < 800; ++k)
         step(s, each);
     REQUIRE(count_cracks(s).tensile > 3);
     for (int look = 0; look < 2; ++look) {
