@@ -223,7 +223,8 @@ TEST_CASE("What no solid can be made of is refused in one line", "[solids]")
     CHECK_THROWS_WITH(begin_from(s, {}, 1.0, 0.0), Catch::Contains("vectors of the field = 0"));
     SolidState stiff =
         make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
-    CHECK_THROWS_WITH(begin_from(stiff, {}, 1.0, 0.0), Catch::Contains("must be those of 12 rigid grains"));
+    CHECK_THROWS_WITH(
+        begin_from(stiff, {}, 1.0, 0.0), Catch::Contains("must be those of 12 rigid grains"));
     s.plan = {};
     CHECK_THROWS_WITH(step(s, {}), Catch::Contains("call prepare_step()"));
     prepare_step(s);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace flexpm {
@@ -42,18 +43,6 @@ struct Strengths {
     double cohesion;
     double friction;  ///< [-]
 };
-
-/// Way of a point to its strength.
-struct Approach {
-    double time = infinite;  ///< until it is reached [s]
-    double growth = 0.0;     ///< of the traction in a unit of time, over that at the strength [1/s]
-};
-
-/// The earlier of two.
-Approach earlier(const Approach& one, const Approach& other)
-{
-    return other.time < one.time ? other : one;
-}
 
 /// How a point comes to its strengths at a steady growth of its tractions: to that in tension or,
 /// in either sense, to |shear| = c - mu normal.
@@ -112,6 +101,34 @@ double cut_area(const Assembly& a)
 
 }  // namespace
 
+Approach earlier(const Approach& one, const Approach& other)
+{
+    return other.time < one.time ? other : one;
+}
+
+SofteningBound softening_bound(
+    const Approach& to, double area, double telling, double crossing, double growth)
+{
+    const double slow = growth / (to.growth * crossing);
+    return { std::max(slow, to.time / crossing), area / telling };
+}
+
+double factor_of(std::vector<SofteningBound> bounds, double cut)
+{
+    const auto free = [](const SofteningBound& bound) { return !std::isfinite(bound.factor); };
+    bounds.erase(std::remove_if(bounds.begin(), bounds.end(), free), bounds.end());
+    std::sort(
+        bounds.begin(), bounds.end(), [](const SofteningBound& one, const SofteningBound& other) {
+            return one.factor < other.factor;
+        });
+    double left = few * cut;
+    for (const SofteningBound& bound : bounds) {
+        left -= bound.untold;
+        if (left <= 0.0) return bound.factor;
+    }
+    return infinite;
+}
+
 double elastic_time(const Assembly& a, const Array<double>& velocity)
 {
     double least = infinite;
@@ -131,29 +148,16 @@ double factor_before_softening(
     check_positive("growth of a traction in a crossing", rule.growth, "");
     check_positive("steps of a crossing", rule.crossing, "");
     const double crossing = rule.crossing * dt;
-    struct Bound {
-        double factor;
-        double untold;  ///< area, the larger the less its damage tells [m^2]
-    };
-    std::vector<Bound> bounds;
+    std::vector<SofteningBound> bounds;
     for_each_point(a.contacts, a, [&](int c, int p, Point n) {
         const Approach to = approach_of(a, velocity, c, p, n);
-        const double slow = rule.growth / (to.growth * crossing);
-        const double factor = std::max(slow, to.time / crossing);
-        if (!std::isfinite(factor)) return;
         // a crack that slides releases nothing at once
         const bool cracked = damage_of(a.contacts, c, p) >= 1.0;
         const double telling = cracked ? 1.0 : damage_share(a.contacts.law_of(c));
-        bounds.push_back({ factor, a.contacts.area(c, p) / telling });
+        bounds.push_back(
+            softening_bound(to, a.contacts.area(c, p), telling, crossing, rule.growth));
     });
-    std::sort(bounds.begin(), bounds.end(),
-        [](const Bound& one, const Bound& other) { return one.factor < other.factor; });
-    double left = few * cut_area(a);
-    for (const Bound& bound : bounds) {
-        left -= bound.untold;
-        if (left <= 0.0) return bound.factor;
-    }
-    return infinite;
+    return factor_of(std::move(bounds), cut_area(a));
 }
 
 }  // namespace flexpm

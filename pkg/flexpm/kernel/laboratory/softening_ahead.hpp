@@ -11,6 +11,9 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 
+#include <limits>
+#include <vector>
+
 namespace flexpm {
 
 struct SofteningRule {
@@ -19,6 +22,29 @@ struct SofteningRule {
     double growth = 0.01;
     double crossing = 1.0;  ///< steps in which a wave crosses the specimen
 };
+
+/// Way of a point to its strength.
+struct Approach {
+    double time = std::numeric_limits<double>::infinity();  ///< until it is reached [s]
+    double growth = 0.0;  ///< of the traction in a unit of time, over that at the strength [1/s]
+};
+
+/// The earlier of two.
+Approach earlier(const Approach& one, const Approach& other);
+
+/// What a point on its way asks of the loading.
+struct SofteningBound {
+    double factor;  ///< on the velocity, at most [-]
+    double untold;  ///< area, the larger the less its damage tells [m^2]
+};
+
+/// Bound of a point whose damage tells a share of what it dissipates.
+SofteningBound softening_bound(
+    const Approach& to, double area, double telling, double crossing, double growth);
+
+/// Factor that all bounds allow but those of few points, see factor_before_softening().
+/// @param cut  area of a cut through the specimen [m^2]
+double factor_of(std::vector<SofteningBound> bounds, double cut);
 
 /// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
 /// elastic branch, at small displacements [s]; infinite if none does.

@@ -30,8 +30,7 @@ template <class State> struct StateFrame {
     Sense sense = Sense::compression;
     std::function<EndForces(const State&)> ends;  ///< at the last step
     std::function<TestStrains(const State&)> strains;
-    std::function<double(const State&)>
-        confinement;  ///< [Pa]; none: there is no lateral pressure
+    std::function<double(const State&)> confinement;  ///< [Pa]; none: there is no lateral pressure
 };
 using TestFrame = StateFrame<Assembly>;
 

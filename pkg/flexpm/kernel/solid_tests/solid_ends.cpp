@@ -57,8 +57,7 @@ void update_prescribed_work(SolidState& s, double dt)
         for (int n = 0; n < grains.nodes_of(g); ++n) {
             for (int axis = 0; axis < grains.layout.dimension; ++axis) {
                 const int i = grains.component(grains.node(g, n), axis);
-                if (grains.prescribed[i])
-                    work -= 0.5 * dt * grains.force[i] * grains.velocity[i];
+                if (grains.prescribed[i]) work -= 0.5 * dt * grains.force[i] * grains.velocity[i];
             }
         }
         s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
@@ -76,8 +75,7 @@ void change_loading(SolidState& s, double ratio)
     }
     for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g) {
         const Vector spin = spin_in(given, g);
-        if (!s.bodies[g].spin_held)
-            set_spin(s, g, s.bodies[g].spin + (ratio - 1.0) * spin, false);
+        if (!s.bodies[g].spin_held) set_spin(s, g, s.bodies[g].spin + (ratio - 1.0) * spin, false);
         set_space_vector(given.spin, 3 * g, ratio * spin);
     }
 }
@@ -195,8 +193,7 @@ double top_velocity(const SolidState& s)
 {
     need_held(s);
     if (!s.bodies.empty()) return s.plates[find_plate(s, SolidSide::top)].velocity.z;
-    return s.grains
-        .velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
+    return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
 }
 
 void follow_steady_motion(SolidState& s, double dt, double fastest)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Ends of a specimen in space that move along z, and the motion that they give to it:
-/// end_displacement.hpp, loading_motion.hpp and steady_motion.hpp there. Ends are free laterally:
-/// of deformable grains their nodes are driven, rigid ones lie between plates. SI units, tension
+/// end_displacement.hpp, loading_motion.hpp and steady_motion.hpp there. Ends are free laterally.
+/// Nodes of deformable grains are driven, rigid ones lie between plates. SI units, tension
 /// positive.
 #pragma once
 

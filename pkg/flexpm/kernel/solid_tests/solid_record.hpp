@@ -27,7 +27,7 @@ std::vector<std::uint8_t> intact_contacts(const SolidState& s);
 
 /// Two grains that were never neighbours, which nothing keeps apart, and lie on each other.
 struct SolidOverlap {
-    double depth = 0.0;       ///< [m]; 0: there is none
+    double depth = 0.0;  ///< [m]; 0: there is none
     GrainPair pair { -1, -1 };
     double of_diameter = 0.0;  ///< depth over the mean diameter [-]
     int pairs = 0;             ///< that overlap

@@ -129,8 +129,8 @@ Vector normal_of(const std::vector<Vector>& corners)
     return size > 0.0 ? (1.0 / size) * twice : Vector {};
 }
 
-void add_point(const SolidState& s, int contact, int p, const std::vector<Vector>& middle,
-    SolidSnapshot& to)
+void add_point(
+    const SolidState& s, int contact, int p, const std::vector<Vector>& middle, SolidSnapshot& to)
 {
     const FaceContacts& c = s.contacts;
     Vector at;

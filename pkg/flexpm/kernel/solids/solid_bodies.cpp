@@ -119,8 +119,7 @@ void place_body(SolidState& s, int grain, Vector way)
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
         const Vector arm = space_vector(grains.reference, node) - middle;
-        set_space_vector(
-            grains.displacement, node, way + turned_by(s.bodies[grain].turn, arm));
+        set_space_vector(grains.displacement, node, way + turned_by(s.bodies[grain].turn, arm));
     }
 }
 

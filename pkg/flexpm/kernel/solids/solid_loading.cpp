@@ -52,8 +52,7 @@ void check_field(const SolidState& s, const SolidField& field)
     const std::size_t wanted = rigid ? grains : nodes;
     if (field.ways.size() != wanted) {
         refuse("begin_from: vectors of the field", static_cast<double>(field.ways.size()), "",
-            "must be those of " + std::to_string(wanted)
-                + (rigid ? " rigid grains" : " nodes"));
+            "must be those of " + std::to_string(wanted) + (rigid ? " rigid grains" : " nodes"));
     }
     if (field.turns.size() != (rigid ? grains : 0)) {
         refuse("begin_from: turns of the field", static_cast<double>(field.turns.size()), "",

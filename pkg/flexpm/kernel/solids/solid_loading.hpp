@@ -21,7 +21,7 @@ double holding_force(const SolidState& s, const std::vector<int>& nodes, int axi
 
 /// A displacement of all grains.
 struct SolidField {
-    /// Of each node, grain after grain, the centre last; of rigid grains of the centres alone [m].
+    /// Ways of nodes, grain after grain, the centre last; of rigid grains those of centres [m].
     std::vector<Vector> ways;
     std::vector<Vector> turns;  ///< of rigid grains, small [rad]; else empty
 };

@@ -105,8 +105,7 @@ void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& b
     Vector place;
     for (int n : s.surface.nodes[triangle])
         place = place + (1.0 / 3.0) * space_vector(s.grains.reference, n);
-    const double arm =
-        norm(place - space_vector(s.grains.reference, s.grains.centre(grain))) / r;
+    const double arm = norm(place - space_vector(s.grains.reference, s.grains.centre(grain))) / r;
     const double all = point_stiffness(plate, index) * (1.0 + arm);
     bound.node[s.grains.scalar_index(s.grains.centre(grain))] += all;
     bound.turn[grain] += r * r * arm * all;

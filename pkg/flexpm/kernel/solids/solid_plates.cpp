@@ -81,7 +81,10 @@ int find_plate(const SolidState& s, SolidSide side)
     return -1;
 }
 
-double point_stiffness(const Plate& plate, int index) { return plate.stiffness * plate.area[index]; }
+double point_stiffness(const Plate& plate, int index)
+{
+    return plate.stiffness * plate.area[index];
+}
 
 void add_plate_forces(SolidState& s, int block)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Smooth plates on the ends of a specimen of rigid grains in space: plate_contact.hpp there.
-/// A contact lies in the middle of each surface triangle. SI units; forces of a plate on the
+/// @file  Smooth plates on the ends of a specimen of rigid grains in space: plate_contact.hpp
+/// there. A contact lies in the middle of each surface triangle. SI units; forces of a plate on the
 /// specimen are positive along its normal, which points into it.
 /// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area.
 #pragma once

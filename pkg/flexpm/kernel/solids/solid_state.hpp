@@ -282,7 +282,7 @@ struct SolidPlan {
     std::vector<int> first_tile;     ///< of each block of grains: tile of its first contact
 
     // contacts of plates on each block of grains, in the order of plates
-    std::vector<int> first_press;    ///< of each block, in `presses`, and the end; empty: no plates
+    std::vector<int> first_press;  ///< of each block, in `presses`, and the end; empty: no plates
     std::vector<PlateTouch> presses;
 
     int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
@@ -294,7 +294,7 @@ struct SolidState {
     std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
     SurfaceTriangles surface;
-    std::vector<Plate> plates;      ///< on ends of rigid grains; facets are surface triangles
+    std::vector<Plate> plates;  ///< on ends of rigid grains; facets are surface triangles
     EnergyLedger ledger;
     /// Motions as of the plane; `spin` is [grain][x y z], `angle` the turn, [grain][w x y z].
     LoadingMotion loading;

@@ -35,7 +35,10 @@ SpaceGradient press_block(const LinearSolid::Press& p)
     return { (p.stiffness * n.x) * n, (p.stiffness * n.y) * n, (p.stiffness * n.z) * n };
 }
 
-Vector product(const SpaceGradient& k, Vector v) { return { dot(k.x, v), dot(k.y, v), dot(k.z, v) }; }
+Vector product(const SpaceGradient& k, Vector v)
+{
+    return { dot(k.x, v), dot(k.y, v), dot(k.z, v) };
+}
 
 /// Stiffness against a turn, times the radius, of what moves by it as turn x arm.
 SpaceGradient turning_block(const SpaceGradient& k, Vector arm, double radius)
@@ -126,8 +129,7 @@ void RigidSolid::add(const double* u, double* forces) const
     for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
         const int g = grain[n];
         const Vector turn = (1.0 / radii[g]) * triple_at(u, 2 * g + 1);
-        add_triple(
-            ways.data(), n, triple_at(u, 2 * g) + cross(turn, solid.places[n] - centres[g]));
+        add_triple(ways.data(), n, triple_at(u, 2 * g) + cross(turn, solid.places[n] - centres[g]));
     }
     solid.add(ways.data(), on_nodes.data());
     gather(on_nodes, forces);

@@ -163,9 +163,9 @@ SolidExtension solid_extension(
         for (int n : f.nodes)
             widening += f.area / 3.0 * dot(wall.normal, triple_at(u.data(), n));
     }
-    SolidExtension result { { reaction / section, -0.5 * widening / solid.volume,
-                                found.iterations, found.residual },
-        {} };
+    SolidExtension result {
+        { reaction / section, -0.5 * widening / solid.volume, found.iterations, found.residual }, {}
+    };
     for (int n = 0; n < static_cast<int>(g.solid.places.size()); ++n)
         result.field.push_back(triple_at(u.data(), n));
     return result;

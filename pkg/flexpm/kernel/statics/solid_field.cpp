@@ -4,12 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
-#include <flexpm/kernel/space/face_frame.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace flexpm {
 
@@ -23,7 +18,6 @@ public:
         for (int g = 0; g < grains_.count; ++g)
             first_.push_back(first_.back() + grains_.nodes_of(g));
     }
-    int count() const { return first_.back(); }
     int of(int grain, int node) const
     {
         const int first = grains_.block_nodes[grains_.block_of(grain)];
@@ -48,16 +42,6 @@ void add_elements(const SolidState& s, const NodeNumbers& numbers, LinearSolid& 
                 solid.elements.push_back({ nodes, t, s.grains.material[g] });
             });
     }
-}
-
-/// Frame of a contact when it was bonded.
-FaceFrame bonded_frame(const SolidState& s, int contact)
-{
-    const FaceContacts& c = s.contacts;
-    std::vector<Vector> corners;
-    for (int k = 0; k < c.corners_of(contact); ++k)
-        corners.push_back(space_vector(s.grains.reference, c.node(contact, 0, k)));
-    return face_frame(corners, { 0, c.line[c.slot[contact]] });
 }
 
 void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
@@ -96,18 +80,6 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
     }
 }
 
-LinearSolid linear_solid(const SolidState& s, const NodeNumbers& numbers)
-{
-    LinearSolid solid;
-    for_each_node(s, [&](int grain, int number) {
-        solid.places.push_back(space_vector(s.grains.reference, s.grains.node(grain, number)));
-    });
-    add_elements(s, numbers, solid);
-    add_faces(s, numbers, solid);
-    add_presses(s, numbers, solid);
-    return solid;
-}
-
 /// z of an end at the reference.
 double end_of(const SolidState& s, SolidSide side)
 {
@@ -119,16 +91,17 @@ double end_of(const SolidState& s, SolidSide side)
     return s.grains.reference[s.grains.component(nodes.front(), 2)];
 }
 
-SolidField field_of_nodes(const SolidState& s, const NodeNumbers& numbers)
+SolidField field_of_nodes(const SolidState& s)
 {
-    const LinearSolid solid = linear_solid(s, numbers);
+    const LinearSolid solid = linear_solid(s);
     const double low = end_of(s, SolidSide::bottom);
     const std::size_t size = 3 * solid.places.size();
     std::vector<std::uint8_t> held(size, 0);
+    std::size_t next = 0;
     for_each_node(s, [&](int grain, int number) {
-        const int node = s.grains.node(grain, number), n = numbers.of(grain, node);
+        const int node = s.grains.node(grain, number);
         for (int axis = 0; axis < 3; ++axis)
-            held[3 * n + axis] = s.grains.prescribed[s.grains.component(node, axis)];
+            held[next++] = s.grains.prescribed[s.grains.component(node, axis)];
     });
     std::vector<double> given(size, 0.0), guess(size, 0.0), load(size, 0.0);
     for (std::size_t n = 0; n < solid.places.size(); ++n)
@@ -144,22 +117,15 @@ SolidField field_of_nodes(const SolidState& s, const NodeNumbers& numbers)
     return field;
 }
 
-SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
+SolidField field_of_bodies(const SolidState& s)
 {
-    const LinearSolid solid = linear_solid(s, numbers);
-    RigidSolid rigid(solid);
+    const LinearSolid solid = linear_solid(s);
+    const RigidSolid rigid = rigid_solid(s, solid);
     const double low = end_of(s, SolidSide::bottom);
     const double height = end_of(s, SolidSide::top) - low;
-    rigid.grain.resize(numbers.count());
-    for_each_node(s, [&](int grain, int number) {
-        rigid.grain[numbers.of(grain, s.grains.node(grain, number))] = grain;
-    });
-    rigid.radii = s.grains.radius;
     std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
-    for (int g = 0; g < s.grains.count; ++g) {
-        rigid.centres.push_back(space_vector(s.grains.reference, s.grains.centre(g)));
-        guess[6 * g + 2] = rigid.centres.back().z - low;
-    }
+    for (int g = 0; g < s.grains.count; ++g)
+        guess[6 * g + 2] = rigid.centres[g].z - low;
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0), load(guess.size(), 0.0);
     std::size_t next = 0;
     for (const Plate& plate : s.plates) {
@@ -172,8 +138,8 @@ SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
         }
     }
     rigid.gather(on_nodes, load.data());
-    const FreeSolution found
-        = solve_free(rigid, std::vector<std::uint8_t>(guess.size(), 0), load, guess);
+    const FreeSolution found =
+        solve_free(rigid, std::vector<std::uint8_t>(guess.size(), 0), load, guess);
     SolidField field;
     for (int g = 0; g < s.grains.count; ++g) {
         field.ways.push_back(triple_at(found.u.data(), 2 * g));
@@ -182,63 +148,48 @@ SolidField field_of_bodies(const SolidState& s, const NodeNumbers& numbers)
     return field;
 }
 
-/// Way of a node in a field.
-Vector way_in(const SolidState& s, const SolidField& field, const NodeNumbers& numbers, int grain,
-    int node)
-{
-    if (field.turns.empty()) return field.ways[numbers.of(grain, node)];
-    const Vector arm = space_vector(s.grains.reference, node)
-        - space_vector(s.grains.reference, s.grains.centre(grain));
-    return field.ways[grain] + cross(field.turns[grain], arm);
-}
-
-/// Multiple of a jump at which a point leaves its branch.
-double limit_of(const LawParameters& law, const FaceFrame& frame, Vector jump)
-{
-    double least = std::numeric_limits<double>::infinity();
-    const double opening = dot(frame.normal, jump);
-    const double shear = law.shear_stiffness * norm(jump - opening * frame.normal);
-    const double normal = law.normal_stiffness * opening;
-    if (normal > 0.0) least = std::min(least, law.tensile_strength / normal);
-    // shear = c - friction * normal
-    const double towards = shear + law.friction * normal;
-    if (towards > 0.0) least = std::min(least, law.cohesion / towards);
-    return least;
-}
-
 }  // namespace
+
+FaceFrame bonded_frame(const SolidState& s, int contact)
+{
+    const FaceContacts& c = s.contacts;
+    std::vector<Vector> corners;
+    for (int k = 0; k < c.corners_of(contact); ++k)
+        corners.push_back(space_vector(s.grains.reference, c.node(contact, 0, k)));
+    return face_frame(corners, { 0, c.line[c.slot[contact]] });
+}
+
+LinearSolid linear_solid(const SolidState& s)
+{
+    const NodeNumbers numbers(s);
+    LinearSolid solid;
+    for_each_node(s, [&](int grain, int number) {
+        solid.places.push_back(space_vector(s.grains.reference, s.grains.node(grain, number)));
+    });
+    add_elements(s, numbers, solid);
+    add_faces(s, numbers, solid);
+    add_presses(s, numbers, solid);
+    return solid;
+}
+
+RigidSolid rigid_solid(const SolidState& s, const LinearSolid& solid)
+{
+    RigidSolid rigid(solid);
+    for_each_node(s, [&](int grain, int) { rigid.grain.push_back(grain); });
+    for (int g = 0; g < s.grains.count; ++g)
+        rigid.centres.push_back(space_vector(s.grains.reference, s.grains.centre(g)));
+    rigid.radii = s.grains.radius;
+    return rigid;
+}
 
 SolidField elastic_field(const SolidState& s)
 {
-    const NodeNumbers numbers(s);
     const bool rigid = !s.bodies.empty();
     if (rigid && s.plates.size() != 2) {
         refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
             "must be 2 of rigid grains; call hold_ends() first");
     }
-    return rigid ? field_of_bodies(s, numbers) : field_of_nodes(s, numbers);
-}
-
-double elastic_strain(const SolidState& s, const SolidField& field, double sense)
-{
-    const NodeNumbers numbers(s);
-    const FaceContacts& c = s.contacts;
-    double least = std::numeric_limits<double>::infinity();
-    for (int contact = 0; contact < c.count; ++contact) {
-        const FaceFrame frame = bonded_frame(s, contact);
-        const GrainPair pair = c.pairs[contact];
-        for (int p = 0; p < c.points_of(contact); ++p) {
-            Vector jump;
-            for (int k = 0; k < c.corners_of(contact); ++k) {
-                const Vector apart
-                    = way_in(s, field, numbers, pair[1], c.node(contact, 1, k))
-                    - way_in(s, field, numbers, pair[0], c.node(contact, 0, k));
-                jump = jump + (sense * c.share(contact, p, k)) * apart;
-            }
-            least = std::min(least, limit_of(c.law_of(contact), frame, jump));
-        }
-    }
-    return least;
+    return rigid ? field_of_bodies(s) : field_of_nodes(s);
 }
 
 }  // namespace flexpm

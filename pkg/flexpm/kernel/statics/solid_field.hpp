@@ -4,6 +4,8 @@
 #pragma once
 
 #include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/space/face_frame.hpp>
+#include <flexpm/kernel/statics/linear_solid.hpp>
 
 namespace flexpm {
 
@@ -14,8 +16,14 @@ namespace flexpm {
 /// @throws std::runtime_error  if the forces do not come to balance
 SolidField elastic_field(const SolidState& s);
 
-/// Strain, positive, along `sense` (-1: compression) times the field at which the first point
-/// leaves its elastic branch [-]; infinite if none does.
-double elastic_strain(const SolidState& s, const SolidField& field, double sense);
+/// Forces of an intact specimen; nodes grain after grain, the centre last.
+LinearSolid linear_solid(const SolidState& s);
+
+/// Forces of an intact specimen of rigid grains on their centres and turns.
+/// @param solid  its linear_solid(), which must outlive it
+RigidSolid rigid_solid(const SolidState& s, const LinearSolid& solid);
+
+/// Frame of a contact when it was bonded.
+FaceFrame bonded_frame(const SolidState& s, int contact);
 
 }  // namespace flexpm

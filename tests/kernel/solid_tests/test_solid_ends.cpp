@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Ends of solids: moduli, works against energies, plates of rigid grains, changes of the
+/// velocity.
+#include "support/catch.hpp"
+
+#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solid_tests/solid_softening.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/statics/solid_constants.hpp>
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+#include "solids/solid_states.hpp"
+
+using namespace solid_states;
+
+namespace {
+
+constexpr double damping = 0.7, dt = 1.0;
+
+Packing column(int nx, int ny, int nz)
+{
+    const double d = solid_samples::side;
+    return { Solid::box(nx * d, ny * d, nz * d), solid_samples::brick(nx, ny, nz) };
+}
+
+/// A random box twice as high as wide.
+Packing box(int grains, std::uint64_t seed)
+{
+    const double edge = solid_samples::side * std::cbrt(0.3 * grains);
+    const auto solid = Solid::box(edge, edge, 2.0 * edge);
+    return { solid,
+        polyhedra(flexpm_test::packed_spheres(solid, grains, seed), solid,
+            { 0.1 * solid_samples::side, false }) };
+}
+
+/// Held at its ends, with scaled masses.
+SolidState held(const Packing& p, bool rigid, bool pulled)
+{
+    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+    hold_ends(s, pulled);
+    scale_masses(s, damping);
+    return s;
+}
+
+double balance_of(const Energies& e)
+{
+    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.drag - e.boundary_work
+        - e.initial;
+}
+
+}  // namespace
+
+TEST_CASE("The linear field of deformable grains is that of their elastic constants", "[solids]")
+{
+    const Packing p = box(60, 2);
+    const auto grain = specimens::granite();
+    const auto contact = specimens::granite_contact();
+    const SolidExtension expected = solid_extension(p.cells, p.solid,
+        { grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
+    const SolidField found = elastic_field(held(p, false, false));
+    REQUIRE(found.ways.size() == expected.field.size());
+    CHECK(found.turns.empty());
+    // nothing holds it laterally
+    double worst = 0.0;
+    for (std::size_t n = 0; n < found.ways.size(); ++n)
+        worst = std::max(worst, std::fabs(found.ways[n].z - expected.field[n].z));
+    CHECK(worst < 1e-7 * p.solid.high.z);
+}
+
+TEST_CASE("A solid keeps the modulus of its linear field, and its Poisson's ratio", "[solids]")
+{
+    for (const bool rigid : { false, true }) {
+        for (const Sense sense : { Sense::compression, Sense::tension }) {
+            const double sign = sense == Sense::tension ? 1.0 : -1.0;
+            const Packing p = box(120, 2);
+            SolidState s = held(p, rigid, sense == Sense::tension);
+            const SolidField field = elastic_field(s);
+            const SolidFrame frame = solid_frame(s, sense);
+            CHECK(frame.area == Approx(p.solid.volume / p.solid.high.z).epsilon(1e-9));
+            CHECK(frame.height == Approx(p.solid.high.z).epsilon(1e-9));
+            const double strain = 2e-5, rate = 2e-8;
+            start_ends(s, field, sign * strain, sign * rate * frame.height, true, dt);
+            const AxialObservation start = observe(s, frame);
+            CHECK(start.axial_stress > 0.0);
+            CHECK(start.end_mismatch < 1e-3);
+            for (int k = 0; k < 200; ++k)
+                step(s, { dt, damping, 1, true });
+            const AxialObservation now = observe(s, frame);
+            CAPTURE(rigid, sign, start.axial_stress, now.axial_stress, now.axial_strain,
+                now.lateral_strain, now.unbalanced_ratio);
+            CHECK(now.step == 200);
+            CHECK(now.axial_stress / now.axial_strain
+                == Approx(start.axial_stress / start.axial_strain).epsilon(2e-3));
+            CHECK(now.lateral_strain / now.axial_strain
+                == Approx(start.lateral_strain / start.axial_strain).epsilon(1e-2));
+            if (!rigid) {
+                const auto grain = specimens::granite();
+                const auto contact = specimens::granite_contact();
+                const SolidConstants e = solid_constants(p.cells, p.solid,
+                    { grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
+                CHECK(
+                    now.axial_stress / now.axial_strain == Approx(e.youngs_modulus).epsilon(2e-3));
+                CHECK(now.lateral_strain / now.axial_strain
+                    == Approx(e.poissons_ratio).epsilon(1e-2));
+            }
+            CHECK(now.end_mismatch < 0.01);
+            CHECK(now.cracks.tensile == 0);
+            CHECK(std::fabs(balance_of(now.energies)) < 1e-4 * now.energies.elastic);
+            CHECK(now.energies.boundary_work > 0.0);
+            CHECK(find_bad_value(now) == nullptr);
+            CHECK(find_bad_number(s).empty());
+        }
+    }
+}
+
+TEST_CASE("A column of rigid grains between plates is springs in a row", "[solids]")
+{
+    const int grains = 6;
+    const double stiffness = specimens::granite_contact().normal_stiffness;
+    const Packing p = column(1, 1, grains);
+    for (const bool pulled : { false, true }) {
+        SolidState s = held(p, true, pulled);
+        const SolidField field = elastic_field(s);
+        // each contact and each plate takes an equal part of the way
+        const double part = p.solid.high.z / (grains + 1);
+        for (int g = 0; g < grains; ++g) {
+            const double z = space_vector(s.grains.reference, s.grains.centre(g)).z;
+            const int below = static_cast<int>(std::lround(z / solid_samples::side - 0.5));
+            CHECK(field.ways[g].z == Approx((below + 1) * part).epsilon(1e-8));
+            CHECK(norm(field.turns[g]) < 1e-9);
+        }
+        const double strain = pulled ? 1e-6 : -1e-6;
+        start_ends(s, field, strain, 0.0, true, dt);
+        const Sense sense = pulled ? Sense::tension : Sense::compression;
+        const SolidFrame frame = solid_frame(s, sense);
+        const double expected = stiffness * std::fabs(strain) * part;
+        CHECK(observe(s, frame).axial_stress == Approx(expected).epsilon(1e-6));
+        CHECK(energies(s).elastic
+            == Approx(0.5 * expected * frame.area * std::fabs(strain) * p.solid.high.z)
+                   .epsilon(1e-6));
+        // without the plates' part
+        CHECK(observe(s, frame).axial_strain
+            == Approx(expected / (stiffness * solid_samples::side)).epsilon(1e-6));
+        for (int k = 0; k < 50; ++k)
+            step(s, { dt, damping, 1, true });
+        CHECK(observe(s, frame).axial_stress == Approx(expected).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("The strain of the elastic limit is that at which the first point softens", "[solids]")
+{
+    for (const bool rigid : { false, true }) {
+        for (const double sense : { -1.0, 1.0 }) {
+            SolidState s = held(box(60, 2), rigid, sense > 0.0);
+            const SolidField field = elastic_field(s);
+            const double limit = elastic_strain(s, field, sense);
+            CAPTURE(rigid, sense, limit);
+            REQUIRE(limit > 0.0);
+            SolidState below = s;
+            start_ends(below, field, 0.98 * sense * limit, 0.0, true, dt);
+            CHECK(energies(below).damage == 0.0);
+            start_ends(s, field, 1.05 * sense * limit, 0.0, true, dt);
+            CHECK(energies(s).damage > 0.0);
+        }
+    }
+}
+
+TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "[solids]")
+{
+    const Packing p = column(1, 1, 2);
+    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
+    add_end_plate(s, SolidSide::top, false);
+    CHECK_THROWS_WITH(add_end_plate(s, SolidSide::top, false), Catch::Contains("it has one"));
+    CHECK_THROWS_WITH(add_end_plate(s, SolidSide::left, false), Catch::Contains("side = 3"));
+    add_end_plate(s, SolidSide::bottom, false);
+    scale_masses(s, damping);
+    CHECK_THROWS_WITH(hold_ends(s, false), Catch::Contains("held already"));
+    drive_top(s, 1e-9, dt);
+    for (int k = 0; k < 10; ++k)
+        step(s, { dt, damping, 1, true });
+    CHECK(end_forces(s).top == 0.0);
+    CHECK(s.plates.front().opening.front() == Approx(1e-8));
+    CHECK(energies(s).boundary_work == 0.0);
+
+    SolidState soft = make_solid(p.cells, p.solid, granite());
+    CHECK_THROWS_WITH(
+        add_end_plate(soft, SolidSide::top, false), Catch::Contains("drive the nodes"));
+    CHECK_THROWS_WITH(drive_top(soft, 1.0, dt), Catch::Contains("call hold_ends()"));
+}
+
+TEST_CASE("A change of the velocity raises no wave and is work of the ends", "[solids]")
+{
+    for (const bool rigid : { false, true }) {
+        SolidState s = held(box(60, 2), rigid, false);
+        const SolidFrame frame = solid_frame(s, Sense::compression);
+        start_ends(s, elastic_field(s), -2e-5, -2e-7 * frame.height, true, dt);
+        double largest = 0.0;
+        for (int k = 0; k < 100; ++k) {
+            if (k % 20 == 10) drive_top(s, (k % 40 == 10 ? 0.1 : 10.0) * top_velocity(s), dt);
+            step(s, { dt, damping, 1, true });
+            const AxialObservation now = observe(s, frame);
+            largest = std::max(largest, now.end_mismatch);
+            CHECK(std::fabs(balance_of(now.energies)) < 2e-3 * now.energies.elastic);
+        }
+        CAPTURE(rigid, largest);
+        CHECK(largest < 0.02);
+        CHECK(top_velocity(s) == Approx(-0.1 * 2e-7 * frame.height));
+    }
+}
+
+TEST_CASE("Steady motion is what damping leaves alone", "[solids]")
+{
+    // a solid that falls as a whole: nothing holds it up, and its motion is not damped
+    for (const bool rigid : { false, true }) {
+        const Packing p = packing(20, 3);
+        SolidState s =
+            make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+        scale_masses(s, damping);
+        const Vector velocity { 1e-9, -2e-9, 3e-9 };
+        for (int g = 0; g < s.grains.count; ++g)
+            for (int n = 0; n < s.grains.nodes_of(g); ++n)
+                set_space_vector(s.grains.velocity, s.grains.node(g, n), velocity);
+        for (int look = 0; look < 3; ++look) {
+            follow_steady_motion(s, dt, 1e-6);
+            for (int k = 0; k < 10; ++k)
+                step(s, { dt, 0.0, 1, true });
+        }
+        const int node = s.grains.centre(0);
+        CHECK(norm(space_vector(s.undamped().velocity, node) - velocity) < 1e-6 * norm(velocity));
+        CHECK(damping_power(s, damping) < 1e-9 * energies(s).kinetic);
+        follow_steady_motion(s, dt, 0.1 * norm(velocity));
+        CHECK(norm(space_vector(s.undamped().velocity, node)) == Approx(0.1 * norm(velocity)));
+        end_steady_motion(s);
+        CHECK(norm(space_vector(s.undamped().velocity, node)) == 0.0);
+    }
+}
+
+TEST_CASE("Scales of a solid are those of the plane's formulas", "[solids]")
+{
+    const Packing p = box(60, 2);
+    const SolidState s = held(p, false, false);
+    const TestScales scales = solid_scales(s, Sense::compression, dt);
+    const auto grain = specimens::granite();
+    const auto contact = specimens::granite_contact();
+    double diameter = 0.0;
+    for (double r : s.grains.radius)
+        diameter += 2.0 * r / s.grains.count;
+    CHECK(scales.modulus
+        == Approx(
+            series_modulus(grain.young, contact_modulus(contact.normal_stiffness, diameter))));
+    CHECK(scales.height == Approx(p.solid.high.z));
+    CHECK(scales.width * scales.width == Approx(p.solid.volume / p.solid.high.z));
+    CHECK(scales.strength
+        == Approx(reference_strength(
+            Sense::compression, { contact.tensile_strength, contact.cohesion, contact.friction })));
+    double mass = 0.0;
+    for (double m : s.grains.inverse_mass)
+        if (m > 0.0) mass += 1.0 / m;
+    CHECK(scales.crossing_steps
+        == Approx(
+            std::sqrt(mass * scales.height * p.solid.high.z / (scales.modulus * p.solid.volume))));
+}
