@@ -22,6 +22,7 @@ from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options
 from .parameters import Each, Name, Quantity
+from .solids import shape_options
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
 _SHARED = (
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
     "more give c, phi, sigma_ci and m_i.",
 )
 @cli_options.material_options
+@shape_options
 @cli_options.rectangle_options
 @cli_options.disc_options
 @cli_options.own_options

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import contextlib
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import click
 
@@ -21,12 +21,13 @@ from ..runs.output import refuse_other_kind
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
 from ..specimens.spec import SpecimenSpec
-from ..specimens.spec_of import SIZES, AnySpec, is_solid
+from ..specimens.space.any_spec import SIZES, SOLIDS, AnySpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..specimens.files.source import AnySpecimen
+    from ..specimens.specimen import Specimen
 
 
 def load_yade() -> None:
@@ -140,6 +141,13 @@ def packed(kind: str, options: Table) -> SpecimenSource:
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     spec = SpecimenSpec(kind, **{name: options[name] for name in names})
     return _source(spec, None, options)
+
+
+def made_plane(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
+    """The same of one that is of the plane."""
+    found = made(specimen, progress)
+    assert found.spec.kind not in SOLIDS
+    return cast("Specimen", found)
 
 
 def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:

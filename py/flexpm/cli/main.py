@@ -93,7 +93,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A rectangular specimen, as in compression tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = inputs.made(inputs.packed("rectangle", options), progress)
+        made = inputs.made_plane(inputs.packed("rectangle", options), progress)
     _describe(made, folder, mesh)
 
 
@@ -108,7 +108,7 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
     """A disc, as in Brazilian tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
-        made = inputs.made(inputs.packed("disc", options), progress)
+        made = inputs.made_plane(inputs.packed("disc", options), progress)
     _describe(made, folder, mesh)
 
 

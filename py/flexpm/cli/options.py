@@ -20,7 +20,7 @@ from ..runs.loading_rate import HALVING_BOUNDS, LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import RunSpec
 from ..specimens.spec import SpecimenSpec
-from ..specimens.spec_of import SIZES, SOLIDS
+from ..specimens.space.any_spec import SIZES
 from .parameters import Count, Name, Place, Quantity, Range, Rate, Seeds
 
 #: Adds an option to the function of a command.
@@ -61,16 +61,6 @@ def _by_test(value: Callable[[TestKind], float], option: str) -> str:
     )
 
 
-shape_options = combined(
-    click.option(
-        "--shape",
-        type=Name(*SOLIDS),
-        metavar="|".join(SOLIDS),
-        help=f"Test a solid, in {' and '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
-        "the shape of the test in the plane]",
-    ),
-    length_option("--depth", SIZES["box"]["depth"], "Depth of a box, along y"),
-)
 rectangle_options = combined(
     length_option("--width", SIZES["rectangle"]["width"], "Width"),
     length_option("--height", SIZES["rectangle"]["height"], "Height"),

@@ -24,6 +24,7 @@ from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
 from .parameters import Quantity
+from .solids import shape_options
 
 if TYPE_CHECKING:
     from ..specimens.files.source import AnySpecimen
@@ -42,7 +43,7 @@ _discard_option = click.option(
 )
 @click.argument("test", metavar="TEST")
 @cli_options.model_options
-@cli_options.shape_options
+@shape_options
 @cli_options.rectangle_options
 @cli_options.disc_options
 @cli_options.own_options

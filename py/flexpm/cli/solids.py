@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that make solid specimens: ``flexpm specimen box`` and ``cylinder``. SI units."""
+"""Commands that make solids: ``flexpm specimen box`` and ``cylinder``; their options. SI units."""
 
 from __future__ import annotations
 
@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..files import json_text, write_text
+from ..kinds.registry import names
 from ..report import tables
+from ..specimens.space.any_spec import SOLIDS
 from ..specimens.space.spec import SIZES, SolidSpec
 from . import inputs, terminal
 from . import options as cli_options
 from .options import combined, length_option
+from .parameters import Name
 
 if TYPE_CHECKING:
     from ..specimens.space.specimen import SolidSpecimen
@@ -23,6 +26,17 @@ box_options = combined(
     length_option("--width", _BOX["width"], "Width, along x"),
     length_option("--depth", _BOX["depth"], "Depth, along y"),
     length_option("--height", _BOX["height"], "Height, along z"),
+)
+#: What makes the specimen of a test a solid.
+shape_options = combined(
+    click.option(
+        "--shape",
+        type=Name(*SOLIDS),
+        metavar="|".join(SOLIDS),
+        help=f"Test a solid, in {' and '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
+        "the shape of the test in the plane]",
+    ),
+    length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
 )
 cylinder_options = combined(
     length_option("--diameter", _CYLINDER["diameter"], "Diameter"),
@@ -36,7 +50,7 @@ cylinder_options = combined(
 @cli_options.out_option
 @cli_options.quiet_option
 def box(out: Path, quiet: bool, **options: Any) -> None:
-    """A box of polyhedral grains; solids are not tested yet."""
+    """A box of polyhedral grains."""
     _make(SolidSpec("box", **options), out, quiet)
 
 
@@ -46,7 +60,7 @@ def box(out: Path, quiet: bool, **options: Any) -> None:
 @cli_options.out_option
 @cli_options.quiet_option
 def cylinder(out: Path, quiet: bool, **options: Any) -> None:
-    """An upright cylinder of polyhedral grains; solids are not tested yet."""
+    """An upright cylinder of polyhedral grains."""
     _make(SolidSpec("cylinder", **options), out, quiet)
 
 
@@ -63,7 +77,7 @@ def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:
 def _describe(made: SolidSpecimen, folder: Path) -> None:
     """Print the statistics and write them with the specimen, its mesh and its picture."""
     from ..report.outside import outside_picture
-    from ..results.vtu_solid import SolidShape, write_solid_vtu
+    from ..results.solids.vtu import SolidShape, write_solid_vtu
 
     found, cells = made.statistics(), made.cells
     pairs, outer = cells.faces[: cells.contacts, :2], cells.faces[cells.contacts :, 0]

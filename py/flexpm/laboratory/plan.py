@@ -19,7 +19,7 @@ from ..runs.checkpoint import INTERVAL, Checkpoint
 from ..runs.output import BEGUN, ROSE, Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec
 from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import Specimen, require_specimen
 
 #: Names of the files of a run.
 FILES = (*written.FILES, "specimen.vtu", BEGUN, ROSE, TABLE, COLLECTION, STATE)
@@ -79,6 +79,16 @@ def plan_run(
     if folder is not None and checkpoint is not None and checkpoint.found:
         _require_frames(folder, output)
     return Plan(spec, specimen, material, folder, checkpoint, output)
+
+
+def require_tested(where: str, given: object) -> None:
+    """Refuse what is no specimen, of the plane or of space.
+
+    Raises:
+        InputError: for anything else.
+    """
+    if not isinstance(given, SolidSpecimen):
+        require_specimen(where, given)
 
 
 def _require_frames(folder: Path, output: Output) -> None:

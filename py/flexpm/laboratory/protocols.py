@@ -16,9 +16,9 @@ from ..runs.input_names import paced
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described
 from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen, require_specimen
+from ..specimens.specimen import Specimen
 from .carrying_out import carry_out
-from .plan import plan_run
+from .plan import plan_run, require_tested
 
 
 def run(
@@ -131,7 +131,7 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    require_specimen("run", specimen)
+    require_tested("run", specimen)
     output = Output(report, frames, film)
     chosen = load_material(material, model)
     factor, halvings = paced(rate, halvings)

@@ -23,7 +23,7 @@ from ..materials.material import load as load_material
 from ..materials.mixing import description
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
-from ..results.solid_snapshot import SolidSnapshot
+from ..results.solids.state import SolidSnapshot
 from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import mineral_map
 from ..specimens.space.specimen import SolidSpecimen

@@ -17,7 +17,7 @@ from .assembly import grain_material
 from .options import SOLID_MODELS
 
 if TYPE_CHECKING:
-    from ..results.solid_snapshot import SolidSnapshot
+    from ..results.solids.state import SolidSnapshot
 
 
 def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.SolidSolver:
@@ -28,7 +28,7 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
             of it out of range.
     """
     require_one_of(f"build: model for a {specimen.kind}", model, SOLID_MODELS)
-    _require_alike("build", chosen)
+    _require_alike("build: material", chosen)
     solver = wrapper.SolidSolver()
     try:
         solver.assembleSolid(
@@ -49,7 +49,7 @@ def snapshot_of(solver: wrapper.SolidSolver, source: str) -> SolidSnapshot:
         solver: Holds the grains.
         source: What the stress of a tetrahedron is: its own or its grain's.
     """
-    from ..results.solid_snapshot import SolidSnapshot
+    from ..results.solids.state import SolidSnapshot
 
     found = solver.snapshot()
     nodes = found.pop("corner_nodes")
@@ -60,7 +60,7 @@ def snapshot_of(solver: wrapper.SolidSolver, source: str) -> SolidSnapshot:
 def _require_alike(call_name: str, chosen: Material) -> None:
     if chosen.minerals:
         raise InputError(
-            f"{call_name}: material = {chosen.name!r} has minerals, must have one kind of grain for "
+            f"{call_name} = {chosen.name!r} has minerals, must have one kind of grain for "
             "a solid; give another material"
         )
 
@@ -74,7 +74,7 @@ def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> d
     """
     if model != "flexible":
         raise InputError(f"elastic: model = {model}, must be flexible for a solid")
-    _require_alike("elastic", chosen)
+    _require_alike("elastic: material", chosen)
     law = chosen.law(model)
     assert law["young"] is not None and law["poisson"] is not None
     try:

@@ -18,6 +18,7 @@ from ..arrays import FloatArray
 from ..materials.references import Reference
 from ..results.cracks import SHEAR, TENSILE
 from ..results.result import Result
+from ..results.solids.state import drawn_state
 from ..results.strength import Envelope, MohrCoulomb
 from ..text import label_of
 from .curves import fits_a_picture, peak_place
@@ -69,9 +70,9 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
 def cracks_picture(path: Path | str, runs: Runs) -> None:
     """Draw the crack maps of all runs in one scale; confinements of a model stand in a row."""
     drawn = [
-        (label, one, one.snapshot)
+        (label, one, state)
         for label, one in runs
-        if one.snapshot is not None and can_be_drawn(one.snapshot.positions)
+        if (state := drawn_state(one.snapshot)) is not None and can_be_drawn(state.positions)
     ]
     if not drawn:
         return

@@ -17,7 +17,7 @@ from ..results.cracks import MODES, SHEAR, TENSILE
 from ..results.emission import BIN, FEWEST, Event, binned, fits
 from ..results.result import Result
 from ..results.snapshot import Snapshot
-from ..results.solid_snapshot import SolidSnapshot
+from ..results.solids.state import drawn_state
 from ..text import label_of
 from .curves import fits_a_picture, places_of
 from .maps import draw_grains
@@ -46,9 +46,7 @@ def emission_picture(path: Path | str, result: Result, caption: str = "") -> Non
         result: The run, with its final state.
         caption: Line above the picture.
     """
-    snapshot, events = result.snapshot, result.emission
-    if isinstance(snapshot, SolidSnapshot):
-        snapshot = snapshot.section
+    snapshot, events = drawn_state(result.snapshot), result.emission
     drawable = snapshot is not None and can_be_drawn(snapshot.positions)
     if snapshot is None or not events or not drawable or not fits_a_picture(result.curve):
         remove_earlier(path)

@@ -22,7 +22,8 @@ from ..kinds.registry import kind_of
 from ..results.cracks import MODES
 from ..results.result import Result
 from ..results.snapshot import Snapshot
-from ..results.vtu import GRAIN, principal_stresses, read_vtu
+from ..results.vtu import principal_stresses, read_vtu
+from ..results.arrays.vtu_arrays import GRAIN
 from .style import COLOURS, MODE_NAMES, can_be_drawn
 from .tables import size_text, test_text
 

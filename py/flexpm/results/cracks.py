@@ -19,7 +19,7 @@ from ..files import csv_text, load_csv
 from .heights import with_heights, without_heights
 from .record import Curve
 from .snapshot import Snapshot, numbers_within
-from .solid_snapshot import SolidSnapshot
+from .solids.state import SolidSnapshot
 
 TENSILE, SHEAR, ERASED = 1, 2, 3
 #: Name of each mode of a crack.
@@ -69,10 +69,10 @@ def read_cracks(path: Path) -> list[Crack]:
     Raises:
         InputError: if the file cannot be read or holds no cracks.
     """
-    names, rows = load_csv(path, "cracks")
+    read, lines = load_csv(path, "cracks")
     modes = {name: mode for mode, name in NAMES.items()}
     try:
-        names, rows, heights = without_heights(names, rows)
+        names, rows, heights = without_heights(read, lines)
         if tuple(names) not in (_WITH_PAIRS, _COLUMNS, _COLUMNS[:-1]):
             raise ValueError(f"columns {', '.join(names)}")
         found = [

@@ -21,6 +21,7 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
 from .cracks import MODES, SHEAR, TENSILE, Crack
+from .heights import with_heights, without_heights
 
 #: Speed at which a fracture runs over that of a compressional wave [-].
 _RUPTURE_SPEED = 0.5
@@ -209,16 +210,17 @@ def read_events(path: Path) -> list[Event]:
     Raises:
         InputError: if the file cannot be read or holds no events.
     """
-    names, rows = load_csv(path, "events")
+    read, lines = load_csv(path, "events")
     modes = {name: mode for mode, name in MODES.items()}
     try:
-        names, rows, heights = without_heights(names, rows)
+        names, rows, heights = without_heights(read, lines)
         if tuple(names) != Event._fields[:-1]:
             raise ValueError(f"columns {', '.join(names)}")
         return [
             Event(
                 *(int(step), float(strain), float(x), float(y)),
-                *(int(points), modes[mode], float(energy), float(magnitude), z),
+                *(int(points), modes[mode], float(energy), float(magnitude)),
+                z,
             )
             for (step, strain, x, y, points, mode, energy, magnitude), z in zip(
                 rows, heights, strict=True

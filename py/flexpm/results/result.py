@@ -20,7 +20,7 @@ from .emission import Event, EventRule, events_csv, find_events, frequencies, re
 from .record import Curve
 from .result_checks import require_sense
 from .snapshot import Snapshot
-from .solid_snapshot import SolidSnapshot
+from .solids.state import SolidSnapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")

@@ -29,14 +29,14 @@ from ..errors import InputError
 from ..files import whole_file
 from ..require import quoted
 from .snapshot import Snapshot, triangle_areas
-from .solid_snapshot import SolidSnapshot
+from .solids.state import SolidSnapshot
 from .stress.tensors import means_by
 from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
-from .vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined
-from .vtu_arrays import UNITS as UNITS
-from .vtu_arrays import written as written
-from .vtu_reader import Arrays, Grid, grid_of
-from .vtu_solid import state_of_grid, write_solid_state
+from .arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined
+from .arrays.vtu_arrays import UNITS as UNITS
+from .arrays.vtu_arrays import written as written
+from .arrays.vtu_reader import Arrays, Grid, grid_of
+from .solids.vtu import state_of_grid, write_solid_state
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
 _FARTHEST = 1e100

@@ -9,11 +9,12 @@ from ..errors import InputError
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..runs.runner import Runner
-from ..specimens.spec_of import SOLIDS, is_solid
-from .grain_rig import EndRig, NodeRig, PlateRig
+from ..specimens.space.any_spec import SOLIDS, is_solid
+from .grain_rig import NodeRig, PlateRig
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig
+from .solids.end_rig import EndRig
 from .sphere_rig import SphereRig
 
 #: Rigs that note what a script calls, for its folder.

@@ -22,7 +22,7 @@ from ..files import csv_text, load_csv, write_text
 from ..require import quoted
 from ..results.result import Result
 from ..results.snapshot import Snapshot
-from ..results.solid_snapshot import SolidSnapshot
+from ..results.solids.state import SolidSnapshot
 from ..results.vtu import write_vtu
 from .rig import TestRig
 

@@ -22,7 +22,7 @@ from ..models.spheres import SphereModel
 from ..results import doubts, measures
 from ..results.record import Curve
 from ..runs.loading_rate import Loading, Scales, Schedule, schedule
-from ..specimens.spec_of import is_solid
+from ..specimens.space.any_spec import is_solid
 
 
 @dataclass(frozen=True)

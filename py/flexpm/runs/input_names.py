@@ -14,7 +14,7 @@ from ..kinds.registry import KINDS, kind_of, options
 from ..kinds.test_kind import TestKind
 from ..models.options import SPHERE_MODELS
 from ..require import quoted
-from ..specimens.spec_of import SIZES
+from ..specimens.space.any_spec import SIZES
 
 #: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
 #: where the first contact point is about to leave its elastic branch.

@@ -27,7 +27,7 @@ from ..require import (
     require_one_of,
     require_whole,
 )
-from ..specimens.spec_of import is_solid
+from ..specimens.space.any_spec import is_solid
 from .input_names import AUTO, OWN_OPTIONS, STARTS, UNUSED, with_unit
 from .loading_rate import HALVING_BOUNDS, LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 from .run_inputs import RunInputs

@@ -13,7 +13,7 @@ from ..kinds.registry import kind_of
 from ..kinds.test_kind import STOP_RATIO, TestKind
 from ..materials.mixing import is_brittle
 from ..models.options import DAMPING, GRAIN_MODELS, local_damping
-from ..specimens.spec_of import AnySpec, is_solid
+from ..specimens.space.any_spec import AnySpec, is_solid
 from .loading_rate import WAITING_MODELS
 
 

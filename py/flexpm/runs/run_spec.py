@@ -18,7 +18,7 @@ from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
 from ..models.options import DAMPING
 from ..require import require_known
-from ..specimens.spec_of import SIZES, AnySpec, field_names, is_solid, spec_of, spec_type
+from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of, spec_type
 from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced
 from .run_checks import require_shape, settle
 from .run_inputs import RunInputs

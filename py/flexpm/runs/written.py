@@ -13,10 +13,10 @@ from ..kinds.test_kind import Rig
 from ..report.curves import curve_picture, wave_picture
 from ..report.emission import emission_picture
 from ..report.maps import crack_picture, fragment_picture
-from ..report.solid_maps import draw_solid
+from ..report.outside import draw_solid
 from ..report.tables import size_text
 from ..results.result import Result
-from ..results.solid_snapshot import SolidSnapshot
+from ..results.solids.state import SolidSnapshot, drawn_state
 from ..results.vtu import read_vtu, write_vtu
 from ..specimens.files import given
 
@@ -58,9 +58,8 @@ def draw_pictures(folder: Path, result: Result, notches: Sequence[int] = ()) -> 
     if isinstance(result.snapshot, SolidSnapshot):
         draw_solid(folder / OUTSIDE, result.snapshot, size_text(result))
     if result.snapshot is not None:
-        plane = result.snapshot
-        if isinstance(plane, SolidSnapshot):
-            plane = plane.section
+        plane = drawn_state(result.snapshot)
+        assert plane is not None
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
         broken = result.cracks_by_pair

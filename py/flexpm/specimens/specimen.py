@@ -386,15 +386,14 @@ class Specimen(PlaneShapes, SolidShapes, Shown):
 
 
 def require_specimen(where: str, given: object) -> None:
-    """Refuse what is no plane specimen, the only ones that are tested so far.
+    """Refuse what is no specimen of the plane.
 
     Raises:
         InputError: for a solid, and for anything else.
     """
     if isinstance(given, SolidSpecimen):
         raise InputError(
-            f"{where}: specimen = {given.kind}, must be plane: solids can be packed, measured, "
-            "saved and drawn so far (flexpm specimen box, cylinder), not tested"
+            f"{where}: specimen = {given.kind}, must be plane; solids are for uniaxial and tension"
         )
     if not isinstance(given, Specimen):
         raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")

@@ -16,7 +16,7 @@ from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..kinds.registry import kind_of
 from ..laboratory.carrying_out import carry_out
-from ..laboratory.plan import plan_run
+from ..laboratory.plan import plan_run, require_tested
 from ..materials.material import COMPARED, Material
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
@@ -30,7 +30,8 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.input_names import ranges
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described, split
-from ..specimens.specimen import Specimen, require_specimen
+from ..specimens.space.specimen import SolidSpecimen
+from ..specimens.specimen import Specimen
 from ..text import name_of
 from .jobs import place_of
 
@@ -107,7 +108,7 @@ class Comparison:
 
 def compare(
     test: str,
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     models: Sequence[str] = ("flexible", "rigid"),
     material: Material | str | Mapping[str, Material | str] | None = None,
     *,
@@ -138,7 +139,7 @@ def compare(
     Raises:
         InputError: for an argument that is wrong for any of the runs.
     """
-    require_specimen("compare", specimen)
+    require_tested("compare", specimen)
     folder = None if out is None else output_folder(out)
     threads, interval = options.pop("threads", 1), options.pop("checkpoint_interval", INTERVAL)
     report = options.pop("report", True)

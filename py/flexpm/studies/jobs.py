@@ -26,7 +26,7 @@ from ..runs import input_names
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.spec import SpecimenSpec
+from ..specimens.space.any_spec import AnySpec
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = tuple(KINDS)
@@ -184,7 +184,7 @@ def has_use(key: str, test: str, model: object) -> bool:
     return not known or is_used(key, str(model))
 
 
-def _specimen(test: str, used: Table) -> SpecimenSpec:
+def _specimen(test: str, used: Table) -> AnySpec:
     """The specimen that inputs describe: packed or from a file, with its joints."""
     if "specimen" in used:
         for key in _PACKED:

@@ -5,7 +5,7 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from flexpm._flexpm import AssemblyInput, EnumClass_TestState
+from flexpm._flexpm import AssemblyInput, EnumClass_TestState, Polyhedra, Solid
 
 # ---- values
 
@@ -161,6 +161,9 @@ class EndDisplacementController(LoadingController):
     def preload(self, share: float, steps: int) -> None: ...
     def release(self) -> None: ...
 
+class SolidEndsController(LoadingController):
+    velocity: float
+
 class PlateController(LoadingController):
     plates: list[int]
     nodeSets: list[int]
@@ -195,6 +198,7 @@ class Gauge(Serializable):
 class TestFrame(Serializable): ...
 class RectangleFrame(TestFrame): ...
 class DiscFrame(TestFrame): ...
+class EndFrame(TestFrame): ...
 
 class PartFrame(TestFrame):
     driven: list[int]
@@ -309,6 +313,19 @@ class GrainSolver(Engine):
     def resetEnergyBalance(self) -> None: ...
 
 # ---- the scene
+
+class SolidSolver(GrainSolver):
+    def assembleSolid(
+        self,
+        cells: Polyhedra,
+        outline: Solid,
+        materials: Sequence[GrainMat],
+        pairs: Sequence[GrainMat] = ...,
+        minerals: Sequence[int] = ...,
+        rigid: bool = ...,
+    ) -> None: ...
+    def holdEnds(self, bonded: bool = ...) -> None: ...
+    def overlaps(self) -> dict[str, Any]: ...
 
 class BodyContainer:
     def __getitem__(self, index: int) -> Body: ...

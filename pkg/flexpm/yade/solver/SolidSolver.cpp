@@ -6,8 +6,8 @@
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
-#include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/statics/solid_spectrum.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
 
 namespace yade {
@@ -40,7 +40,7 @@ void SolidSolver::assembleSolid(
 void SolidSolver::scaleMasses()
 {
 	const Real dt = Omega::instance().getScene()->dt;
-	flexpm::scale_masses(state, damping, dt);
+	flexpm::scale_masses_closely(state, damping, dt);
 	scaled      = true;
 	massStep    = dt;
 	massDamping = damping;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/space/polyhedra.hpp>
-#include <flexpm/yade/bindings/solid_archive.hpp>
+#include <flexpm/yade/solver/solid_archive.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

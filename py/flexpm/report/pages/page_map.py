@@ -18,7 +18,7 @@ from ...results.fragments import Fragments, connected
 from ...results.record import Curve
 from ...results.result import Result
 from ...results.snapshot import Snapshot
-from ...results.solid_snapshot import SolidSnapshot
+from ...results.solids.state import SolidSnapshot
 from ..maps import MINERALS
 from ..words import words_of_test
 from .page import Map, rows_to_draw

@@ -26,7 +26,7 @@ from ...report.pages.page import FILE as REPORT
 from ...results.cracks import MODES
 from ...results.result import Result
 from ...results.snapshot import Snapshot
-from ...results.solid_snapshot import SolidSnapshot
+from ...results.solids.state import SolidSnapshot
 from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind

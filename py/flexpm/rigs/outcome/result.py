@@ -13,7 +13,7 @@ from ...models.grains import Model, SolidModel
 from ...results.cracks import count_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
-from ...specimens.spec_of import is_solid
+from ...specimens.space.any_spec import is_solid
 from ...specimens.specimen import Specimen
 from ..readings import RigReadings
 

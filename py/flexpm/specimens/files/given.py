@@ -9,7 +9,7 @@ from ...errors import InputError
 from ...progress import Progress
 from ..space.specimen import SolidSpecimen
 from ..spec import GRAINS_FILE, SpecimenSpec
-from ..spec_of import AnySpec
+from ..space.any_spec import AnySpec
 from ..specimen import Specimen
 
 #: Name of the file.

@@ -17,7 +17,7 @@ from ...progress import Progress
 from ..space import file as solid_file
 from ..space.spec import SolidSpec
 from ..spec import SpecimenSpec
-from ..spec_of import AnySpec
+from ..space.any_spec import AnySpec
 from . import specimen_file
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from vtkmodules.vtkCommonCore import vtkDataArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkFieldData
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from ..arrays import FloatArray, IntArray
-from ..text import printable
+from ...arrays import FloatArray, IntArray
+from ...text import printable
 from .vtu_reader import silence
 
 GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`

@@ -11,11 +11,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
-from .fragments import Fragments, connected
-from .snapshot import Snapshot
-from .stress.point_stress import OF_TRIANGLES
-from .stress.tensors import means_by
+from ...arrays import BoolArray, FloatArray, IntArray
+from ..fragments import Fragments, connected
+from ..snapshot import Snapshot
+from ..stress.point_stress import OF_TRIANGLES
+from ..stress.tensors import means_by
 
 #: Axes of a section in space: across, and along the load.
 _PLANE = (0, 2)
@@ -206,6 +206,11 @@ class SolidSnapshot:
         share = _shares(np.column_stack((away[first], away[second])))[:, None]
         ends = self.corners[first] + share * (self.corners[second] - self.corners[first])
         return np.flatnonzero(twice), ends[:, _PLANE].reshape(-1, 2, 2)
+
+
+def drawn_state(state: Snapshot | SolidSnapshot | None) -> Snapshot | None:
+    """What maps draw of a state: itself, or the section of a solid."""
+    return state.section if isinstance(state, SolidSnapshot) else state
 
 
 def _turned(triangles: IntArray, places: FloatArray) -> IntArray:

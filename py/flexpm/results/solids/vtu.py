@@ -21,11 +21,11 @@ from vtkmodules.vtkCommonDataModel import (
 )
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from ..arrays import FloatArray, IntArray
-from ..files import whole_file
-from .solid_snapshot import SolidSnapshot
-from .vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined, written
-from .vtu_reader import Grid
+from ...arrays import FloatArray, IntArray
+from ...files import whole_file
+from .state import SolidSnapshot
+from ..arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined, written
+from ..arrays.vtu_reader import Grid
 
 #: Components xx, yy, zz, yz, xz, xy in the order of a tensor's: XX, YY, ZZ, XY, YZ, XZ.
 _ORDER = [0, 1, 2, 5, 3, 4]
@@ -111,7 +111,7 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
     points = np.concatenate(([0], np.cumsum(each)))
     row = np.repeat(np.arange(len(each)), each)
     cracked = np.arange(len(row)) - points[row] < bonds["cracked_points"][row]
-    volumes = np.bincount(owner, _volumes(reference[tetrahedra]))
+    volumes = np.bincount(owner, _volumes(reference[tetrahedra])).astype(float, copy=False)
     if not (0 <= owner.min() and len(volumes) <= count and offsets[-1] == len(reference) - nodes):
         raise ValueError("grains or contacts")
     blank = np.full((len(row), 3), np.nan)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import fields
 
-from ..files import Table
-from .space.spec import SIZES as SOLID_SIZES
-from .space.spec import SolidSpec
-from .spec import SIZES as PLANE_SIZES
-from .spec import SpecimenSpec
+from ...files import Table
+from .spec import SIZES as SOLID_SIZES
+from .spec import SolidSpec
+from ..spec import SIZES as PLANE_SIZES
+from ..spec import SpecimenSpec
 
 #: What a specimen of any dimension is made from.
 AnySpec = SpecimenSpec | SolidSpec
