@@ -91,7 +91,13 @@ def source(test: str, options: Table) -> SpecimenSource:
     else:
         refuse_packing()
     packed = RunSpec.packed(test, options) if file is None else None
-    return _source(packed, file, options)
+    found = _source(packed, file, options)
+    if solid not in (None, found.plain.kind):
+        raise InputError(
+            f"specimen = {str(file)!r}, is a {found.plain.kind}, must be a {solid} as shape says; "
+            "leave one out"
+        )
+    return found
 
 
 def _source(packed: AnySpec | None, file: Path | None, options: Table) -> SpecimenSource:
@@ -165,12 +171,17 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
     return found
 
 
+#: Options that name a file of lines.
+_FILES = ("joints_file", "network_file")
+
+
 def _refuse_plane(shape: str) -> None:
     """Refuse options of specimens of the plane beside a solid."""
     context = click.get_current_context()
     for name in ("thickness", "joints_file", "network_file", "points", "mesh"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
-            told = with_unit(name.removesuffix("_file"), context.params.get(name))
+            value = context.params.get(name)
+            told = with_unit(name.removesuffix("_file"), str(value) if name in _FILES else value)
             raise InputError(f"{told}, must not be given for a {shape}; leave it out")
 
 

@@ -136,7 +136,7 @@ def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> 
         snapshot: The state.
         caption: Line above the picture.
     """
-    if not can_be_drawn(snapshot.positions):
+    if not can_be_drawn(snapshot.positions[:, [0, 2]]):
         remove_earlier(path)
         return
     with rc_context(STYLE):

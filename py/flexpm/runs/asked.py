@@ -22,7 +22,7 @@ from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
 from ..specimens.spec import GRAINS_FILE
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of
-from .input_names import INPUT_UNITS, UNUSED
+from .input_names import INPUT_UNITS, unused
 from .run_inputs import RunInputs
 from .run_spec import RunSpec, described
 
@@ -303,9 +303,9 @@ def _of_law(where: str, law: Table, preset: Table, source: str) -> Iterator[Inpu
 
 
 def _of_test(spec: RunSpec) -> Iterator[Input]:
-    unused = UNUSED[spec.test]
+    unknown = unused(spec.test, spec.specimen.kind)
     for field in fields(spec):
-        if field.name in (*_NESTED, *unused):
+        if field.name in (*_NESTED, *unknown):
             continue
         value = getattr(spec, field.name)
         if _follows(spec, field.name):

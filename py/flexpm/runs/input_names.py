@@ -37,6 +37,21 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
 
 #: Options that a test has no use for.
 UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
+#: Options that no solid has; the first is one of its packing.
+OF_THE_PLANE = ("thickness", "points", "mesh", "dynamic", "gravity", "start", "control")
+
+
+def unused(test: str, shape: object = None) -> tuple[str, ...]:
+    """Options that a test has no use for on a shape; None: that of the test in the plane."""
+    kind = KINDS[test]
+    if shape not in kind.solids:
+        shape = kind.shape
+    others = OF_THE_PLANE if shape in kind.solids else ()
+    own = (*SIZES[str(shape)], *(one.name for one in kind.options))
+    sizes = [name for name in _SIZES if name not in own]
+    return tuple(dict.fromkeys((*UNUSED[test], *sizes, *others)))
+
+
 #: Units of inputs that have one.
 INPUT_UNITS = {
     **dict.fromkeys((*_SIZES, "thickness", "diameters", "joint_origin"), "m"),

@@ -28,7 +28,7 @@ from ..require import (
     require_whole,
 )
 from ..specimens.space.any_spec import is_solid
-from .input_names import AUTO, OWN_OPTIONS, STARTS, UNUSED, with_unit
+from .input_names import AUTO, OF_THE_PLANE, OWN_OPTIONS, STARTS, UNUSED, with_unit
 from .loading_rate import HALVING_BOUNDS, LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 from .run_inputs import RunInputs
 
@@ -165,7 +165,7 @@ def _check_test(run: RunInputs) -> None:
     if not run.kind.confined and run.confinement != 0.0:
         raise InputError(
             f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}"
-            f"{run.kind.confine_hint}"
+            f"{'; triaxial is still to come' if run.is_solid else run.kind.confine_hint}"
         )
 
 
@@ -187,7 +187,7 @@ def _check_solid(run: RunInputs) -> None:
     """Refuse what is of the plane alone."""
     if not run.is_solid:
         return
-    for name in ("points", "mesh", "dynamic", "gravity", "start", "control"):
+    for name in OF_THE_PLANE[1:]:
         value, usual = getattr(run, name), getattr(type(run), name, None)
         if value != usual and (name, value) != ("start", "rest"):
             raise InputError(

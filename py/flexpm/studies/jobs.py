@@ -147,7 +147,7 @@ def make(inputs: Table, base: Path) -> Job:
     used = {
         key: value
         for key, value in given.items()
-        if has_use(key, test, given.get("model", RunSpec.model))
+        if has_use(key, test, given.get("model", RunSpec.model), given.get("shape"))
     }
     changes = {key.removeprefix("set."): key for key in used if key.startswith("set.")}
     for key in used:
@@ -174,13 +174,13 @@ def spelt(key: str) -> str:
     return f"{names}{dot}{name.replace('-', '_')}"
 
 
-def has_use(key: str, test: str, model: object) -> bool:
-    """Whether an option, or ``set.KEY``, means something for a test on a model."""
+def has_use(key: str, test: str, model: object, shape: object = None) -> bool:
+    """Whether an option, or ``set.KEY``, means something for a test on a model and a shape."""
     known = isinstance(model, str) and model in ELASTIC_SET  # what is not known is refused later
     if key == "interaction_range":
         return not known or input_names.takes_range(model)
     if not key.startswith("set.") or joint.is_key(key.removeprefix("set.")):
-        return key not in input_names.UNUSED[test]
+        return key not in input_names.unused(test, shape)
     return not known or is_used(key, str(model))
 
 

@@ -56,7 +56,7 @@ def plan(
         options = {
             key: value
             for key, value in inputs.items()
-            if key != "test" and jobs.has_use(key, spec.test, spec.model)
+            if key != "test" and jobs.has_use(key, spec.test, spec.model, spec.specimen.kind)
         }
         packed = replace(spec, specimen=replace(spec.specimen, seed=seed))
         folder = str(Path(place) / f"seed-{seed}")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/space/polyhedra.hpp>
+#include <flexpm/kernel/space/solid.hpp>
 #include <flexpm/yade/solver/solid_archive.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
