@@ -173,13 +173,12 @@ def require_shape(kind: TestKind, shape: str) -> None:
     """Refuse a shape that a test does not take.
 
     Raises:
-        InputError: naming those that it takes.
+        InputError: naming that of the plane, which it takes.
     """
-    shapes = (kind.shape, *kind.solids)
-    if shape not in shapes:
+    if shape not in (kind.shape, *kind.solids):
         hint = kind.solid_hint if is_solid(shape) else ""
         raise InputError(
-            f"run: specimen = {shape}, must be a {' or a '.join(shapes)} for {kind.name}{hint}"
+            f"run: specimen = {shape}, must be a {kind.shape} for {kind.name}{hint}"
         )
 
 

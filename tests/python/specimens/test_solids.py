@@ -139,16 +139,23 @@ def test_wrong_input_is_refused_in_one_line(make, message):
 
 
 @pytest.mark.parametrize(
-    "use",
+    ("use", "message"),
     [
-        lambda solid: flexpm.run("uniaxial", solid),
-        lambda solid: flexpm.build(solid),
-        lambda solid: flexpm.compare("uniaxial", solid),
+        (lambda solid: flexpm.run("biaxial", solid), "must be a rectangle for biaxial; triaxial"),
+        (lambda solid: flexpm.run("brazilian", solid), "must be a disc for brazilian"),
+        (lambda solid: flexpm.compare("shear", solid), "must be a rectangle for shear"),
+        (lambda solid: flexpm.run("uniaxial", solid, model="inner"), "one of flexible, rigid"),
+        (lambda solid: flexpm.run("uniaxial", solid, model="jcfpm"), "one of flexible, rigid"),
+        (lambda solid: flexpm.run("uniaxial", solid, points=1), "points = 1, must be left out"),
+        (lambda solid: flexpm.run("tension", solid, start="static"), "static, must be left out"),
+        (lambda solid: flexpm.build(solid, mesh="fan"), "must be left out for a solid"),
+        (lambda solid: flexpm.build(solid, model="inner"), "one of flexible, rigid"),
     ],
 )
-def test_solids_are_not_tested_yet(use, box):
-    with pytest.raises(InputError, match=r"specimen = box, must be plane: .*, not tested"):
+def test_what_is_of_the_plane_alone_is_refused(use, message, box):
+    with pytest.raises(InputError, match=message) as refused:
         use(box)
+    assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize("kind", ["box", "cylinder"])
@@ -189,8 +196,46 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
     assert "smallest dimension, 0.0015 m" in capsys.readouterr().err
     box.save(tmp_path / "solid.json")
     file = str(tmp_path / "solid.json")
-    for command in (["run", "uniaxial"], ["elastic"], ["compare", "uniaxial"]):
+    for command in (["run", "shear"], ["elastic"], ["compare", "shear"]):
         assert main([*command, "--specimen", file, "--out", str(tmp_path / "out")]) == 2
         told = capsys.readouterr().err
-        assert "is a solid, must be plane" in told
+        assert "specimen = box, must be a rectangle" in told
         assert told.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ("uniaxial --shape cylinder --diameter 0.003", "smallest dimension, 0.0015 m"),
+        ("uniaxial --shape cylinder --diameter nan", "must be finite"),
+        ("uniaxial --shape box --depth -1", "must be > 0"),
+        ("uniaxial --shape box --diameter 0.05", "must not be given for a box"),
+        ("uniaxial --shape box --thickness 0.1", "thickness = 0.1 m, must not be given for a box"),
+        ("uniaxial --depth 0.05", "must not be given for a rectangle"),
+        ("uniaxial --shape box --joints a.csv", "joints = a.csv, must not be given for a box"),
+        ("uniaxial --shape box --notch 0.01", "must not be given for uniaxial"),
+        ("uniaxial --shape box --model inner", "must be one of flexible, rigid"),
+        ("uniaxial --shape box --dynamic", "must be left out for a box"),
+        ("uniaxial --shape box --control lateral", "must be left out for a box"),
+        ("uniaxial --shape box --confinement 1e6", "triaxial is still to come"),
+        ("biaxial --shape cylinder --confinement 1e6", "triaxial, the test of solids under"),
+        ("uniaxial --shape cylinder --diameter 5 --height 10", "GB of memory, must be at most"),
+    ],
+)
+def test_runs_refuse_in_one_line(options, message, tmp_path, capsys):
+    from flexpm.cli.main import main
+
+    assert main(["run", *options.split(), "--out", str(tmp_path / "out")]) == 2
+    told = capsys.readouterr().err
+    assert message in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_plane_file_is_no_box(tmp_path, capsys):
+    from flexpm.cli.main import main
+
+    Specimen.rectangle(0.012, 0.016, 0.01, seed=1).save(tmp_path / "plane.json")
+    asked = ["run", "uniaxial", "--shape", "box", "--specimen", str(tmp_path / "plane.json")]
+    assert main([*asked, "--out", str(tmp_path / "out")]) == 2
+    assert "is a rectangle, must be a box as shape says" in capsys.readouterr().err
