@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of solids from the packing to the files: numbers, balance, same bits, restart, repetition."""
+
+import json
+
+import numpy as np
+import pytest
+
+import flexpm
+from flexpm import Specimen
+from flexpm.cli import main as cli
+from flexpm.results.result import Result
+from flexpm.results.vtu import read_state
+
+#: A few dozen grains: a test takes some seconds.
+SIZES = {"diameter": 0.01, "height": 0.016}
+BOX = {"width": 0.009, "depth": 0.009, "height": 0.014}
+#: Breaks soon; the start of a test is the same.
+FAST = {"rate": 4.0}
+
+
+@pytest.fixture(scope="module")
+def core():
+    return Specimen.cylinder(**SIZES, seed=1)
+
+
+@pytest.fixture(scope="module")
+def broken(core, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("core")
+    return flexpm.run("uniaxial", core, out=folder, frames=4, **FAST), folder
+
+
+def rows_of(result):
+    return {name: result.curve[name] for name in result.curve.columns}
+
+
+def same(one, other):
+    mine, others = rows_of(one), rows_of(other)
+    return mine.keys() == others.keys() and all(
+        np.array_equal(mine[name], others[name], equal_nan=True) for name in mine
+    )
+
+
+@pytest.mark.long
+def test_a_cylinder_breaks_and_its_energies_sum(core, broken):
+    result, _ = broken
+    assert result.peak_stress > 50e6
+    assert result.energy_error < 0.01
+    assert result.tensile_cracks > 20
+    stress = result.curve["axial_stress"]
+    assert stress[-1] <= 0.5 * stress.max()
+    assert result.fragments >= 1
+    assert result.tetrahedra == core.statistics()["tetrahedra"]
+    # the load is along z, on the area of the prism
+    heights = np.array([one.z for one in result.cracks])
+    assert 0.0 <= heights.min() < heights.max() <= 0.0161
+    counted = sum(one.mode == 1 for one in result.cracks)
+    assert counted == result.tensile_cracks
+
+
+@pytest.mark.long
+def test_the_elastic_part_is_that_of_the_static_solve(core):
+    solved = flexpm.elastic(core, "augig-table7")
+    tested = flexpm.run("uniaxial", core, "augig-table7", max_strain=2e-4)
+    assert tested.youngs_modulus == pytest.approx(solved["youngs_modulus"], rel=0.002)
+    assert tested.poissons_ratio == pytest.approx(solved["poissons_ratio"], rel=0.01)
+
+
+@pytest.mark.long
+def test_the_folder_has_what_a_run_leaves(core, broken):
+    result, folder = broken
+    names = {one.name for one in folder.iterdir()}
+    assert {"result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"} <= names
+    assert {"specimen.vtu", "final.vtu", "frames.pvd", "report.html", "outside.png"} <= names
+    assert (folder / "outside.png").stat().st_size > 10_000
+    read = Result.read(folder)
+    assert read.cracks == result.cracks
+    assert read.emission == result.emission
+    assert same(read, result)
+    assert read.tetrahedra == result.tetrahedra
+    found = read_state(folder / "final.vtu")
+    assert len(found.tetrahedra) == result.tetrahedra
+    assert np.count_nonzero(found.crack_step >= 0) == len(result.cracks)
+    inputs = json.loads((folder / "result.json").read_text())["inputs"]
+    assert inputs["specimen"]["kind"] == "cylinder"
+    assert "no map" not in (folder / "report.html").read_text()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+@pytest.mark.parametrize("test", ["uniaxial", "tension"])
+def test_boxes_and_both_models_break(test, model):
+    box = Specimen.box(**BOX, seed=2)
+    result = flexpm.run(test, box, model=model, rate=4.0)
+    assert result.peak_stress > 0.0
+    assert result.status in ("ok", "not_quasistatic")
+    assert result.energy_error < 0.02
+    assert result.tensile_cracks + result.shear_cracks > 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_threads_change_no_bit(core, model):
+    runs = [
+        flexpm.run("uniaxial", core, model=model, max_strain=8e-4, threads=threads, **FAST)
+        for threads in (1, 2)
+    ]
+    assert same(*runs)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, model, tmp_path):
+    class Stop(Exception):
+        pass
+
+    def stop(done, expected, text):
+        if done > 300:
+            raise Stop
+
+    asked = {"model": model, "max_strain": 8e-4, **FAST}
+    whole = flexpm.run("uniaxial", core, **asked)
+    with pytest.raises(Stop):
+        flexpm.run(
+            "uniaxial", core, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked
+        )
+    again = flexpm.run("uniaxial", core, out=tmp_path, **asked)
+    assert again.resumed_at > 0
+    assert same(again, whole)
+
+
+@pytest.mark.long
+def test_the_command_repeats_a_run(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sizes = [f"--{name}={value}" for name, value in BOX.items()]
+    asked = ["uniaxial", "--shape", "box", *sizes, "--max-strain", "4e-4", "--rate", "4"]
+    assert cli.main(["run", *asked, "--quiet", "--out", "box", "--no-report"]) in (0, 3)
+    capsys.readouterr()
+    assert cli.main(["rerun", "box", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
+    assert "the same as in" in capsys.readouterr().out
+
+
+@pytest.mark.long
+def test_a_saved_solid_is_tested(core, tmp_path):
+    core.save(tmp_path / "core.json")
+    asked = ["run", "uniaxial", "--specimen", str(tmp_path / "core.json"), "--max-strain", "4e-4"]
+    out = tmp_path / "out"
+    assert cli.main([*asked, "--quiet", "--out", str(out), "--no-report"]) in (0, 3)
+    assert Result.read(out).grains == core.cells.cells
