@@ -20,8 +20,8 @@ from ..runs.input_names import PACKING, SIZE_NAMES, UNUSED, shape_of, with_unit
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.spec import SpecimenSpec
 from ..specimens.space.any_spec import SIZES, SOLIDS, AnySpec
+from ..specimens.spec import SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:

@@ -19,8 +19,8 @@ from ..runs.input_names import HALVINGS, STARTS
 from ..runs.loading_rate import HALVING_BOUNDS, LOADINGS
 from ..runs.output import FILMS, MOST_FRAMES
 from ..runs.run_spec import RunSpec
-from ..specimens.spec import SpecimenSpec
 from ..specimens.space.any_spec import SIZES
+from ..specimens.spec import SpecimenSpec
 from .parameters import Count, Name, Place, Quantity, Range, Rate, Seeds
 
 #: Adds an option to the function of a command.

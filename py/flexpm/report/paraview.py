@@ -19,11 +19,11 @@ from matplotlib import colormaps, colors
 from ..arrays import FloatArray
 from ..files import write_text
 from ..kinds.registry import kind_of
+from ..results.arrays.vtu_arrays import GRAIN
 from ..results.cracks import MODES
 from ..results.result import Result
 from ..results.snapshot import Snapshot
 from ..results.vtu import principal_stresses, read_vtu
-from ..results.arrays.vtu_arrays import GRAIN
 from .style import COLOURS, MODE_NAMES, can_be_drawn
 from .tables import size_text, test_text
 

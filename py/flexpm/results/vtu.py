@@ -28,21 +28,22 @@ from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import whole_file
 from ..require import quoted
-from .snapshot import Snapshot, triangle_areas
-from .solids.state import SolidSnapshot
-from .stress.tensors import means_by
-from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
 from .arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined
 from .arrays.vtu_arrays import UNITS as UNITS
 from .arrays.vtu_arrays import written as written
 from .arrays.vtu_reader import Arrays, Grid, grid_of
+from .snapshot import Snapshot, triangle_areas
+from .solids.state import SolidSnapshot
 from .solids.vtu import state_of_grid, write_solid_state
+from .stress.tensors import means_by
+from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
 
 #: Coordinates [m] beyond this are nowhere; nan is, too.
 _FARTHEST = 1e100
 
 #: Share of a contact's area that each of its points stands for, by number of points.
 _SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
+
 
 def write_vtu(
     path: Path | str,

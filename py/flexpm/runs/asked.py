@@ -20,8 +20,8 @@ from ..kinds.registry import options
 from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
-from ..specimens.spec import GRAINS_FILE
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of
+from ..specimens.spec import GRAINS_FILE
 from .input_names import INPUT_UNITS, unused
 from .run_inputs import RunInputs
 from .run_spec import RunSpec, described

@@ -137,9 +137,7 @@ def fastest_factor(test: str, model: str, rate: float = 1.0, *, solid: bool = Fa
     return max(FASTEST_CONSTANT * min(rate, 1.0) / (rate * constant), 1.0)
 
 
-def _waiting(
-    rates: Rates, model: str, damage_share: float
-) -> tuple[float, tuple[float, float]]:
+def _waiting(rates: Rates, model: str, damage_share: float) -> tuple[float, tuple[float, float]]:
     """Largest factor and running shares of a loading that waits for cracks [-]."""
     if rates.running_share is None:
         raise InputError(

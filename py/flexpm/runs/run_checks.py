@@ -177,9 +177,7 @@ def require_shape(kind: TestKind, shape: str) -> None:
     """
     if shape not in (kind.shape, *kind.solids):
         hint = kind.solid_hint if is_solid(shape) else ""
-        raise InputError(
-            f"run: specimen = {shape}, must be a {kind.shape} for {kind.name}{hint}"
-        )
+        raise InputError(f"run: specimen = {shape}, must be a {kind.shape} for {kind.name}{hint}")
 
 
 def _check_solid(run: RunInputs) -> None:

@@ -121,9 +121,7 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, model, tmp_path):
     asked = {"model": model, "max_strain": 8e-4, **FAST}
     whole = flexpm.run("uniaxial", core, **asked)
     with pytest.raises(Stop):
-        flexpm.run(
-            "uniaxial", core, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked
-        )
+        flexpm.run("uniaxial", core, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked)
     again = flexpm.run("uniaxial", core, out=tmp_path, **asked)
     assert again.resumed_at > 0
     assert same(again, whole)

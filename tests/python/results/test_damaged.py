@@ -17,9 +17,9 @@ from sample_snapshot import wall
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.results.arrays.vtu_reader import grid_of
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu, write_vtu
-from flexpm.results.arrays.vtu_reader import grid_of
 
 NUMBERS = ["0", "1", "-1", "5", "99999999999", "2147483648", "1e9", "a"]
 

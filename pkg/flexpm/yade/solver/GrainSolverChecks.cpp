@@ -37,7 +37,8 @@ namespace {
 void GrainSolver::requireAssembled() const
 {
 	requireGrains();
-	if (assembly.grains.count == 0) fail("GrainSolver: grains", "those of a solid", "must be of the plane for this; a solid is held and loaded by its ends");
+	if (assembly.grains.count == 0)
+		fail("GrainSolver: grains", "those of a solid", "must be of the plane for this; a solid is held and loaded by its ends");
 }
 
 void GrainSolver::requireGrains() const

@@ -21,8 +21,7 @@ void SolidSolver::postLoad(SolidSolver&)
 	if (hasGrains()) flexpm::prepare_step(state);
 }
 
-void SolidSolver::assembleSolid(
-        const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid)
+void SolidSolver::assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid)
 {
 	if (hasGrains()) flexpm::refuse("SolidSolver: grains", state.grains.count, "", "are assembled already; make another SolidSolver");
 	flexpm::SolidInput input;

@@ -4,8 +4,8 @@
 
 #include <flexpm/kernel/space/polyhedra.hpp>
 #include <flexpm/kernel/space/solid.hpp>
-#include <flexpm/yade/solver/solid_archive.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
+#include <flexpm/yade/solver/solid_archive.hpp>
 
 namespace yade {
 
@@ -28,7 +28,7 @@ public:
 	py::dict counts();
 	py::dict overlaps();
 	Real     crossingSteps(Real diameter);
-	py::list plates() { return {}; }
+	py::list nothing() { return py::list(); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidSolver, GrainSolver,
@@ -46,7 +46,8 @@ public:
 		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")
 		.def("overlaps", WithGrains<&SolidSolver::overlaps>::call, "The deepest overlap of grains that share no contact, which nothing keeps apart, as a dictionary: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
 		.def("crossingSteps", WithGrains<&SolidSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a ball of the grains of a diameter [m] [-].")
-		.def("plates", WithGrains<&SolidSolver::plates>::call, "No plates of a script: those on the ends of rigid grains are the solver's.")
+		.def("plates", &SolidSolver::nothing, "None: those on the ends of rigid grains are the solver's own.")
+		.def("nodeSets", &SolidSolver::nothing, "None.")
 	);
 	// clang-format on
 

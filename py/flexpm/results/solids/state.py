@@ -62,7 +62,9 @@ class SolidSnapshot:
     crack_position: FloatArray  #: (P, 3) [m]
     crack_energy: FloatArray  #: that damage took until the crack, (P,) [J]
     grain_mineral: IntArray | None = None  #: of each grain, if there are minerals
-    stress_source: str = OF_TRIANGLES  #: what the stress of a tetrahedron is: its own or its grain's
+    stress_source: str = (
+        OF_TRIANGLES  #: what the stress of a tetrahedron is: its own or its grain's
+    )
 
     @property
     def contact(self) -> IntArray:
@@ -132,7 +134,10 @@ class SolidSnapshot:
         depth = 0.5 * (low[1] + high[1]) + 1e-6 * (high[1] - low[1])
         side = self.reference[:, 1] - depth
         corners, triangles, owners = self._cut_tetrahedra(side)
-        moved, before = self._between(corners, self.positions), self._between(corners, self.reference)
+        moved, before = (
+            self._between(corners, self.positions),
+            self._between(corners, self.reference),
+        )
         triangles = _turned(triangles, before)
         rows, ends = self._cut_contacts(self.corner_reference[:, 1] - depth)
         each = np.diff(self.point_offsets)[rows]

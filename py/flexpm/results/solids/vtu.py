@@ -23,9 +23,19 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from ...arrays import FloatArray, IntArray
 from ...files import whole_file
-from .state import SolidSnapshot
-from ..arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined, written
+from ..arrays.vtu_arrays import (
+    CONTACT,
+    GRAIN,
+    TENSOR,
+    VECTOR,
+    Named,
+    add,
+    describe,
+    joined,
+    written,
+)
 from ..arrays.vtu_reader import Grid
+from .state import SolidSnapshot
 
 #: Components xx, yy, zz, yz, xz, xy in the order of a tensor's: XX, YY, ZZ, XY, YZ, XZ.
 _ORDER = [0, 1, 2, 5, 3, 4]
@@ -112,7 +122,7 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
     row = np.repeat(np.arange(len(each)), each)
     cracked = np.arange(len(row)) - points[row] < bonds["cracked_points"][row]
     volumes = np.bincount(owner, _volumes(reference[tetrahedra])).astype(float, copy=False)
-    if not (0 <= owner.min() and len(volumes) <= count and offsets[-1] == len(reference) - nodes):
+    if not (owner.min() >= 0 and len(volumes) <= count and offsets[-1] == len(reference) - nodes):
         raise ValueError("grains or contacts")
     blank = np.full((len(row), 3), np.nan)
     return SolidSnapshot(

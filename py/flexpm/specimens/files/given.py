@@ -7,9 +7,9 @@ from pathlib import Path
 
 from ...errors import InputError
 from ...progress import Progress
+from ..space.any_spec import AnySpec
 from ..space.specimen import SolidSpecimen
 from ..spec import GRAINS_FILE, SpecimenSpec
-from ..space.any_spec import AnySpec
 from ..specimen import Specimen
 
 #: Name of the file.
@@ -22,9 +22,7 @@ def save(folder: Path, specimen: Specimen | SolidSpecimen) -> None:
         specimen.save(folder / FILE)
 
 
-def load(
-    spec: AnySpec, folder: Path, progress: Progress | None = None
-) -> Specimen | SolidSpecimen:
+def load(spec: AnySpec, folder: Path, progress: Progress | None = None) -> Specimen | SolidSpecimen:
     """Make the specimen of a run again: packed from its seed, or from its file.
 
     Args:

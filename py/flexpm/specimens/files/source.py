@@ -15,9 +15,8 @@ from ...joints import geojson
 from ...joints import lines as joint_lines
 from ...progress import Progress
 from ..space import file as solid_file
-from ..space.spec import SolidSpec
-from ..spec import SpecimenSpec
 from ..space.any_spec import AnySpec
+from ..space.spec import SolidSpec
 from . import specimen_file
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import fields
 
 from ...files import Table
-from .spec import SIZES as SOLID_SIZES
-from .spec import SolidSpec
 from ..spec import SIZES as PLANE_SIZES
 from ..spec import SpecimenSpec
+from .spec import SIZES as SOLID_SIZES
+from .spec import SolidSpec
 
 #: What a specimen of any dimension is made from.
 AnySpec = SpecimenSpec | SolidSpec
