@@ -143,7 +143,7 @@ def size_text(result: Result) -> str:
 
 
 def _overlap(result: Result) -> list[tuple[str, str]]:
-    """Of a solid, how far grains that nothing keeps apart lie on each other."""
+    """How far grains of a solid that nothing keeps apart lie on each other."""
     if result.largest_overlap is None:
         return []
     share = scaled(result.largest_overlap, 100.0, "% of a diameter", 2)

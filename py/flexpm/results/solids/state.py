@@ -179,7 +179,7 @@ class SolidSnapshot:
         count = crossed.sum(axis=1)
         three, four = np.flatnonzero(count == 3), np.flatnonzero(count == 4)
         order = np.argsort(~crossed, axis=1, kind="stable")
-        # of four crossed edges the first and the last share no corner: they lie across
+        # the first and the last of four crossed edges share no corner: they lie across
         around = order[four][:, [0, 1, 3, 2]]
         chosen = np.concatenate([order[three][:, :3], around[:, [0, 1, 2]], around[:, [0, 2, 3]]])
         owner = np.concatenate([three, four, four])
