@@ -247,7 +247,7 @@ def build(
     Bodies that the scene has already are kept, its engines are replaced.
 
     Args:
-        specimen: The grains.
+        specimen: The grains; a solid has flexible or rigid ones.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.

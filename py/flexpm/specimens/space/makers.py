@@ -15,7 +15,7 @@ from .specimen import SolidSpecimen
 
 
 class SolidShapes:
-    """Makers of solid specimens. Solids are not tested yet; see doc/solids."""
+    """Makers of solid specimens; see doc/solids."""
 
     @staticmethod
     def box(width: float, depth: float, height: float, **packing: Unpack[Packing]) -> SolidSpecimen:
