@@ -157,7 +157,10 @@ void add_grains(Building& b)
             set_space_vector(grains.reference, grains.node(g, n),
                 vertex < 0 ? cells.centres[g] : cells.vertices[vertex]);
         }
-        const PlaneStiffness c = solid_stiffness(grains.elastic[grains.material[g]]);
+        // rigid grains need none, and their materials may have no modulus
+        const PlaneStiffness c = b.input.rigid
+            ? PlaneStiffness {}
+            : solid_stiffness(grains.elastic[grains.material[g]]);
         const int row = row_count<PlaneStiffness> * lanes * grains.block_of(g);
         for (int l = 0; l < lanes; ++l)
             store_rows(c, &grains.stiffness[row], l);
