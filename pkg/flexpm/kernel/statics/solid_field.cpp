@@ -31,6 +31,7 @@ private:
 
 void add_elements(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
 {
+    if (!s.bodies.empty()) return;  // rigid grains need no modulus
     for (const ElasticMaterial& m : s.grains.elastic)
         solid.kinds.push_back(solid_stiffness(m));
     for (int g = 0; g < s.grains.count; ++g) {
