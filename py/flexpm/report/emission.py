@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from matplotlib.lines import Line2D
 from ..arrays import FloatArray
 from ..files import remove_earlier
 from ..results.cracks import MODES, SHEAR, TENSILE
-from ..results.emission import BIN, FEWEST, Event, binned, fits
+from ..results.emission import BIN, FEWEST, AnyEvent, binned, fits
 from ..results.result import Result
 from ..results.snapshot import Snapshot
 from ..results.solids.state import drawn_state
@@ -61,10 +62,10 @@ def emission_picture(path: Path | str, result: Result, caption: str = "") -> Non
         save(figure, path)
 
 
-def _draw_places(axes: Axes, snapshot: Snapshot, events: list[Event]) -> None:
+def _draw_places(axes: Axes, snapshot: Snapshot, events: Sequence[AnyEvent]) -> None:
     draw_grains(axes, snapshot)
     places = 1e3 * np.array(
-        [(one.x, one.z if np.isfinite(one.z) else one.y) for one in events]  # in a section x, z
+        [(one.x, one.y if one.z is None else one.z) for one in events]  # in a section x, z
     )
     magnitudes = _magnitudes(events)
     areas = _LARGEST * 10.0 ** (magnitudes - np.nanmax(magnitudes, initial=-np.inf))
@@ -90,11 +91,11 @@ def _draw_places(axes: Axes, snapshot: Snapshot, events: list[Event]) -> None:
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.02), frameon=False)
 
 
-def _label(mode: int, events: list[Event]) -> str:
+def _label(mode: int, events: Sequence[AnyEvent]) -> str:
     return f"{MODES[mode]} events ({sum(one.mode == mode for one in events)})"
 
 
-def _draw_growth(axes: Axes, result: Result, events: list[Event]) -> None:
+def _draw_growth(axes: Axes, result: Result, events: Sequence[AnyEvent]) -> None:
     record, names = result.curve, words_of_test(result.test)
     places = places_of(result, np.sort([one.strain for one in events]))
     counts = axes.twinx()
@@ -111,7 +112,7 @@ def _draw_growth(axes: Axes, result: Result, events: list[Event]) -> None:
     axes.set_ylim(bottom=0.0)
 
 
-def _draw_frequencies(axes: Axes, result: Result, events: list[Event]) -> None:
+def _draw_frequencies(axes: Axes, result: Result, events: Sequence[AnyEvent]) -> None:
     bins = binned(_magnitudes(events))
     axes.set_xlabel("magnitude M [-]")
     axes.set_ylabel("events of M or more [-]")
@@ -175,5 +176,5 @@ def _without_line(result: Result) -> str:
     return f"their numbers follow no line, whose slope would be {', '.join(lines)}"
 
 
-def _magnitudes(events: list[Event]) -> FloatArray:
+def _magnitudes(events: Sequence[AnyEvent]) -> FloatArray:
     return np.array([one.magnitude for one in events])

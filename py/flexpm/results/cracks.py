@@ -40,7 +40,7 @@ class Crack(NamedTuple):
     point: int  #: index of the point in its contact
     energy: float = math.nan  #: that damage took until then [J]; nan where that is not known
     pair: str = ""  #: minerals of both grains, with a slash between; empty if all are alike
-    z: float = math.nan  #: height when it broke, in a solid [m]; nan in the plane
+    z: float | None = None  #: height when it broke, in a solid [m]; None in the plane
 
 
 #: Columns of a table of cracks of grains that are alike, and of several minerals.
@@ -122,7 +122,7 @@ def cracks_from_snapshot(
         else np.full(len(steps), np.nan)
     )
     places = places[order]
-    heights = places[:, 2:].ravel() if places.shape[1] > 2 else np.full(len(places), np.nan)
+    heights = places[:, 2].tolist() if places.shape[1] > 2 else [None] * len(places)
     return [
         Crack(*one)
         for one in zip(
@@ -134,7 +134,7 @@ def cracks_from_snapshot(
             points.tolist(),
             energies[order].tolist(),
             [pairs[row] for row in rows],
-            heights.tolist(),
+            heights,
             strict=True,
         )
     ]

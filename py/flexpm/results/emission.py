@@ -57,7 +57,28 @@ class Event(NamedTuple):
     mode: int  #: TENSILE or SHEAR: that which took more energy
     energy: float  #: that damage took [J]
     magnitude: float  #: nan without energy [-]
-    z: float = math.nan  #: height, in a solid [m]; nan in the plane
+
+    @property
+    def z(self) -> None:
+        """None: it has no height in the plane."""
+
+
+class SolidEvent(NamedTuple):
+    """The same in a solid."""
+
+    step: int
+    strain: float
+    x: float
+    y: float
+    points: int
+    mode: int
+    energy: float
+    magnitude: float
+    z: float  #: height of the centre [m]
+
+
+#: An event in the plane or in space.
+AnyEvent = Event | SolidEvent
 
 
 class Fit(NamedTuple):
@@ -89,7 +110,7 @@ def event_rule(mean_diameter: float, height: float, crossing_steps: float) -> Ev
     return EventRule(mean_diameter, steps)
 
 
-def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
+def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[AnyEvent]:
     """Events of cracked points, in the order of their first cracks.
 
     A point belongs to an event if it has cracked close to any of its points. What scripts have
@@ -101,7 +122,7 @@ def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
     table = np.array([one[:8] for one in kept], dtype=float)  # all but the names of minerals
     steps, strains, modes, energies = table[:, 0], table[:, 1], table[:, 4], table[:, 7]
     places = table[:, 2:4]
-    if heights := [one.z for one in kept if math.isfinite(one.z)]:
+    if heights := [one.z for one in kept if one.z is not None]:
         places = np.column_stack((places, heights))
     near = np.clip(places, -_FAR, _FAR)
     pairs = cKDTree(near).query_pairs(rule.distance, output_type="ndarray")
@@ -121,18 +142,26 @@ def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[Event]:
         np.bincount(labels, weights * values) / np.bincount(labels, weights) for values in places.T
     ]
     order = np.argsort(first)
-    if len(centres) == 2:
-        centres.append(np.full(count, np.nan))
-    return [
-        Event(int(steps[first[k]]), float(strains[first[k]]), x, y, n, mode, taken, magnitude, z)
-        for k, x, y, z, n, mode, taken, magnitude in zip(
+    found = [
+        Event(int(steps[first[k]]), float(strains[first[k]]), x, y, n, mode, taken, magnitude)
+        for k, x, y, n, mode, taken, magnitude in zip(
             order.tolist(),
-            *(values[order].tolist() for values in (*centres, points)),
+            *(values[order].tolist() for values in (*centres[:2], points)),
             np.where(by_shear > 0.5 * energy, SHEAR, TENSILE)[order].tolist(),
             energy[order].tolist(),
             magnitudes_of(energy[order]).tolist(),
             strict=True,
         )
+    ]
+    known = centres[2][order].tolist() if len(centres) > 2 else [None] * count
+    return _with_heights(found, known)
+
+
+def _with_heights(found: list[Event], heights: Sequence[float | None]) -> list[AnyEvent]:
+    """Events of the plane, or of a solid if their heights are known."""
+    return [
+        one if height is None else SolidEvent(*one, height)
+        for one, height in zip(found, heights, strict=True)
     ]
 
 
@@ -198,13 +227,13 @@ def binned(magnitudes: FloatArray) -> IntArray:
     return found
 
 
-def events_csv(events: Sequence[Event]) -> str:
+def events_csv(events: Sequence[AnyEvent]) -> str:
     """Events as CSV text in the order given; numbers read back unchanged."""
     rows = ((*one[:5], MODES[one.mode], *one[6:8]) for one in events)
-    return csv_text(*with_heights(Event._fields[:-1], rows, [one.z for one in events]))
+    return csv_text(*with_heights(Event._fields, rows, [one.z for one in events]))
 
 
-def read_events(path: Path) -> list[Event]:
+def read_events(path: Path) -> list[AnyEvent]:
     """Read what ``events_csv`` gave.
 
     Raises:
@@ -214,17 +243,15 @@ def read_events(path: Path) -> list[Event]:
     modes = {name: mode for mode, name in MODES.items()}
     try:
         names, rows, heights = without_heights(read, lines)
-        if tuple(names) != Event._fields[:-1]:
+        if tuple(names) != Event._fields:
             raise ValueError(f"columns {', '.join(names)}")
-        return [
+        found = [
             Event(
                 *(int(step), float(strain), float(x), float(y)),
                 *(int(points), modes[mode], float(energy), float(magnitude)),
-                z,
             )
-            for (step, strain, x, y, points, mode, energy, magnitude), z in zip(
-                rows, heights, strict=True
-            )
+            for step, strain, x, y, points, mode, energy, magnitude in rows
         ]
+        return _with_heights(found, heights)
     except (ValueError, KeyError) as error:
         raise InputError(f"events = {str(path)!r}, holds no events: {error}") from None

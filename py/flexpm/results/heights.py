@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 #: Name of the column, and the one that it follows.
@@ -11,30 +10,30 @@ _NAME, _BEFORE = "z", "y"
 
 
 def with_heights(
-    names: Sequence[str], rows: Iterable[Sequence[object]], heights: Sequence[float]
+    names: Sequence[str], rows: Iterable[Sequence[object]], heights: Sequence[float | None]
 ) -> tuple[tuple[str, ...], list[tuple[object, ...]]]:
-    """Put heights [m] into a table, if any of them is known."""
-    if not any(math.isfinite(height) for height in heights):
+    """Put heights [m] into a table that has any."""
+    if not heights or heights[0] is None:
         return tuple(names), [tuple(row) for row in rows]
     at = list(names).index(_BEFORE) + 1
     return (*names[:at], _NAME, *names[at:]), [
-        (*row[:at], float(height), *row[at:]) for row, height in zip(rows, heights, strict=True)
+        (*row[:at], height, *row[at:]) for row, height in zip(rows, heights, strict=True)
     ]
 
 
 def without_heights(
     names: Sequence[str], rows: Sequence[Sequence[str]]
-) -> tuple[Sequence[str], Sequence[Sequence[str]], list[float]]:
-    """Take the heights [m] out of a table; nan where it has none.
+) -> tuple[Sequence[str], Sequence[Sequence[str]], list[float | None]]:
+    """Take the heights [m] out of a table; None where it has none.
 
     Raises:
         ValueError: if one is no number, or a row has not as many columns as the table.
     """
     if _NAME not in names:
-        return names, rows, [math.nan] * len(rows)
+        return names, rows, [None] * len(rows)
     at = list(names).index(_NAME)
     if any(len(row) != len(names) for row in rows):
         raise ValueError("rows of different lengths")
-    heights = [float(row[at]) for row in rows]
+    heights: list[float | None] = [float(row[at]) for row in rows]
     kept = [[*row[:at], *row[at + 1 :]] for row in rows]
     return [*names[:at], *names[at + 1 :]], kept, heights
