@@ -184,6 +184,7 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
     CHECK(energies(s).boundary_work == 0.0);
 
     SolidState soft = make_solid(p.cells, p.solid, granite());
+    CHECK_THROWS_WITH(elastic_field(soft), Catch::Contains("held nodes = 0"));
     CHECK_THROWS_WITH(
         add_end_plate(soft, SolidSide::top, false), Catch::Contains("drive the nodes"));
     CHECK_THROWS_WITH(drive_top(soft, 1.0, dt), Catch::Contains("call hold_ends()"));

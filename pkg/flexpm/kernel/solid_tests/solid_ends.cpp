@@ -53,6 +53,7 @@ void update_prescribed_work(SolidState& s, double dt)
 {
     const Grains& grains = s.grains;
     for (int g = 0; g < grains.count; ++g) {
+        if (grains.is_rigid(g)) continue;
         double work = 0.0;
         for (int n = 0; n < grains.nodes_of(g); ++n) {
             for (int axis = 0; axis < grains.layout.dimension; ++axis) {

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <Eigen/IterativeLinearSolvers>
 
+#include <cmath>
 #include <string>
 
 namespace flexpm {
@@ -108,6 +109,7 @@ public:
                 blocks_[n].col(k).setZero();
                 blocks_[n](k, k) = 1.0;
             }
+            stiffen(blocks_[n]);
             blocks_[n] = blocks_[n].inverse().eval();
         }
         return *this;
@@ -127,6 +129,15 @@ public:
 
 private:
     std::vector<Eigen::Matrix3d> blocks_;
+
+    /// A block that resists no motion in some way, as of a grain that one point holds, gets a
+    /// little stiffness there: it has no inverse otherwise.
+    static void stiffen(Eigen::Matrix3d& block)
+    {
+        const double size = block.norm();
+        if (std::fabs(block.determinant()) > 1e-12 * size * size * size) return;
+        block.diagonal().array() += size > 0.0 ? 1e-3 * size : 1.0;
+    }
 };
 
 Numbers numbers(const std::vector<double>& values)

@@ -6,6 +6,8 @@
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
+#include <algorithm>
+
 namespace flexpm {
 
 namespace {
@@ -104,6 +106,8 @@ SolidField field_of_nodes(const SolidState& s)
         for (int axis = 0; axis < 3; ++axis)
             held[next++] = s.grains.prescribed[s.grains.component(node, axis)];
     });
+    if (std::find(held.begin(), held.end(), 1) == held.end())
+        refuse("elastic_field: held nodes", 0.0, "", "must be those of both ends; hold them first");
     std::vector<double> given(size, 0.0), guess(size, 0.0), load(size, 0.0);
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - low;

@@ -19,7 +19,10 @@ namespace {
 
 using Numbers = Eigen::VectorXd;
 
-constexpr int most_rounds = 80;
+/// A few rounds may mistake a lower frequency for the largest.
+constexpr int least_rounds = 20, most_rounds = 80;
+/// Part of the eigenvalue below which what is left of a vector is round-off [-].
+constexpr double round_off = 1e-10;
 /// Residual of the largest eigenvalue at which it is known well enough [-].
 constexpr double known = 0.01;
 
@@ -79,7 +82,8 @@ double largest_eigenvalue(const LinearForces& forces, const Numbers& roots)
             Eigen::Map<Numbers>(beside.data(), size - 1));
         found = solver.eigenvalues()[size - 1];
         const double open = beside.back() * std::fabs(solver.eigenvectors()(size - 1, size - 1));
-        if (!(open > known * found)) return found + open;
+        const bool over = !(beside.back() > round_off * found);
+        if (over || (round >= least_rounds && open < known * found)) return found + open;
         before = now;
         now = next / beside.back();
     }
