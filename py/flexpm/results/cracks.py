@@ -40,14 +40,36 @@ class Crack(NamedTuple):
     point: int  #: index of the point in its contact
     energy: float = math.nan  #: that damage took until then [J]; nan where that is not known
     pair: str = ""  #: minerals of both grains, with a slash between; empty if all are alike
-    z: float | None = None  #: height when it broke, in a solid [m]; None in the plane
+
+    @property
+    def z(self) -> None:
+        """None: it has no height in the plane."""
+
+
+class SolidCrack(NamedTuple):
+    """The same in a solid."""
+
+    step: int
+    strain: float
+    x: float
+    y: float
+    mode: int
+    contact: int
+    point: int
+    energy: float
+    pair: str
+    z: float  #: height when it broke [m]
+
+
+#: A crack in the plane or in space.
+AnyCrack = Crack | SolidCrack
 
 
 #: Columns of a table of cracks of grains that are alike, and of several minerals.
-_COLUMNS, _WITH_PAIRS = Crack._fields[:8], Crack._fields[:9]
+_COLUMNS, _WITH_PAIRS = Crack._fields[:-1], Crack._fields
 
 
-def cracks_csv(cracks: Sequence[Crack]) -> str:
+def cracks_csv(cracks: Sequence[AnyCrack]) -> str:
     """Cracks as CSV text in the order given; numbers read back unchanged.
 
     The column ``pair`` is there if grains are of several minerals.
@@ -63,7 +85,7 @@ def cracks_csv(cracks: Sequence[Crack]) -> str:
     return csv_text(*with_heights(Crack._fields[:width], rows, [one.z for one in cracks]))
 
 
-def read_cracks(path: Path) -> list[Crack]:
+def read_cracks(path: Path) -> list[AnyCrack]:
     """Read what ``cracks_csv`` gave; energies that an older flexpm did not write are nan.
 
     Raises:
@@ -84,12 +106,12 @@ def read_cracks(path: Path) -> list[Crack]:
             )
             for step, strain, x, y, mode, at, point, *others in rows
         ]
-        return [one._replace(z=z) for one, z in zip(found, heights, strict=True)]
+        return _at_heights(found, heights)
     except (ValueError, KeyError) as error:
         raise InputError(f"cracks = {str(path)!r}, holds no cracks: {error}") from None
 
 
-def count_by_pair(cracks: Sequence[Crack]) -> dict[str, dict[str, int]] | None:
+def count_by_pair(cracks: Sequence[AnyCrack]) -> dict[str, dict[str, int]] | None:
     """Cracked points of each pair of minerals by mode; None if all grains are alike."""
     found: dict[str, dict[str, int]] = {}
     for one in cracks:
@@ -101,7 +123,7 @@ def count_by_pair(cracks: Sequence[Crack]) -> dict[str, dict[str, int]] | None:
 
 def cracks_from_snapshot(
     snapshot: Snapshot | SolidSnapshot, curve: Curve, minerals: Sequence[str] = ()
-) -> list[Crack]:
+) -> list[AnyCrack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`.
 
     Those of erased bonds are among them, and what was erased of these.
@@ -123,7 +145,7 @@ def cracks_from_snapshot(
     )
     places = places[order]
     heights = places[:, 2].tolist() if places.shape[1] > 2 else [None] * len(places)
-    return [
+    found = [
         Crack(*one)
         for one in zip(
             steps.tolist(),
@@ -134,9 +156,17 @@ def cracks_from_snapshot(
             points.tolist(),
             energies[order].tolist(),
             [pairs[row] for row in rows],
-            heights,
             strict=True,
         )
+    ]
+    return _at_heights(found, heights)
+
+
+def _at_heights(found: list[Crack], heights: Sequence[float | None]) -> list[AnyCrack]:
+    """Cracks of the plane, or of a solid if their heights are known."""
+    return [
+        one if height is None else SolidCrack(*one, height)
+        for one, height in zip(found, heights, strict=True)
     ]
 
 

@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
-from .cracks import MODES, SHEAR, TENSILE, Crack
+from .cracks import MODES, SHEAR, TENSILE, AnyCrack
 from .heights import with_heights, without_heights
 
 #: Speed at which a fracture runs over that of a compressional wave [-].
@@ -110,7 +110,7 @@ def event_rule(mean_diameter: float, height: float, crossing_steps: float) -> Ev
     return EventRule(mean_diameter, steps)
 
 
-def find_events(cracks: Sequence[Crack], rule: EventRule) -> list[AnyEvent]:
+def find_events(cracks: Sequence[AnyCrack], rule: EventRule) -> list[AnyEvent]:
     """Events of cracked points, in the order of their first cracks.
 
     A point belongs to an event if it has cracked close to any of its points. What scripts have

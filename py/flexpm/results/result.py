@@ -15,7 +15,7 @@ from ..kinds.registry import kind_of
 from ..kinds.test_kind import Rig
 from ..notebook import Shown
 from . import doubts, measures, waves
-from .cracks import MODES, Crack, cracks_csv, read_cracks
+from .cracks import MODES, AnyCrack, cracks_csv, read_cracks
 from .emission import AnyEvent, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
 from .result_checks import require_sense
@@ -108,7 +108,7 @@ class Result(Shown):
     status: str = "ok"  #: ok, no_peak, not_quasistatic, diverged or unfinished
     inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
-    cracks: list[Crack] = field(default_factory=list, repr=False)
+    cracks: list[AnyCrack] = field(default_factory=list, repr=False)
     emission: list[AnyEvent] | None = field(default=None, repr=False)  #: events, where known
     snapshot: Snapshot | SolidSnapshot | None = field(default=None, repr=False)  #: final state
     resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used

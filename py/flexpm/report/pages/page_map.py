@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import FloatArray, IntArray
-from ...results.cracks import NAMES, Crack
+from ...results.cracks import NAMES, AnyCrack
 from ...results.fragments import Fragments, connected
 from ...results.record import Curve
 from ...results.result import Result
@@ -193,7 +193,7 @@ def _ways(ends: IntArray) -> str:
 
 def _crack_paths(
     drawing: Snapshot,
-    cracks: Sequence[Crack],
+    cracks: Sequence[AnyCrack],
     at: IntArray,
     scale: float,
     corner: FloatArray,
@@ -223,7 +223,7 @@ def _first_points(drawing: Snapshot | SolidSnapshot) -> dict[int, int]:
 
 
 def _fragments(
-    drawing: Snapshot | SolidSnapshot, cracks: Sequence[Crack], at: IntArray, positions: int
+    drawing: Snapshot | SolidSnapshot, cracks: Sequence[AnyCrack], at: IntArray, positions: int
 ) -> list[Fragments]:
     """Fragments at each position: grains hang together while a point of their contact holds."""
     left = drawing.point_damage < 1.0
