@@ -160,7 +160,7 @@ def _check_test(run: RunInputs) -> None:
     if run.model in INNER_MODELS:
         run.specimen.require_alike(run.model)
     laws = [joint["name"] for joint in run.material.get("joints", ())]
-    require_joints(run.specimen.joint_names or (), laws)
+    require_joints(run.specimen.joints_with_law, laws)
     require_shape(run.kind, run.specimen.kind)
     if not run.kind.confined and run.confinement != 0.0:
         raise InputError(

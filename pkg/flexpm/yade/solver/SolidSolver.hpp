@@ -5,7 +5,7 @@
 #include <flexpm/kernel/space/polyhedra.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
-#include <flexpm/yade/solver/solid_archive.hpp>
+#include <flexpm/yade/bindings/assembly_archive.hpp>
 
 namespace yade {
 
