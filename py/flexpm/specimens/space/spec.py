@@ -63,6 +63,7 @@ class SolidSpec:
     # what specimens of the plane may have, and solids do not
     joints: ClassVar[None] = None
     joint_names: ClassVar[None] = None
+    joints_with_law: ClassVar[tuple[str, ...]] = ()
     networks: ClassVar[None] = None
     strengths: ClassVar[None] = None
     minerals: ClassVar[None] = None

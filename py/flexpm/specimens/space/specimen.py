@@ -147,7 +147,7 @@ class SolidSpecimen:
         return {}
 
     @property
-    def joint_cuts(self) -> dict[str, Cut]:
+    def told_cuts(self) -> dict[str, Cut]:
         """None: a solid has no joints."""
         return {}
 
