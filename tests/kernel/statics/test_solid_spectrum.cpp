@@ -26,7 +26,7 @@ double growth(SolidState s, double dt, double damping, int steps = 600)
         last = e.kinetic + e.elastic;
         if (k == 0) first = last;
     }
-    return last / first;
+    return std::fabs(last / first);
 }
 
 }  // namespace

@@ -158,9 +158,8 @@ void add_grains(Building& b)
                 vertex < 0 ? cells.centres[g] : cells.vertices[vertex]);
         }
         // rigid grains need none, and their materials may have no modulus
-        const PlaneStiffness c = b.input.rigid
-            ? PlaneStiffness {}
-            : solid_stiffness(grains.elastic[grains.material[g]]);
+        const PlaneStiffness c =
+            b.input.rigid ? PlaneStiffness {} : solid_stiffness(grains.elastic[grains.material[g]]);
         const int row = row_count<PlaneStiffness> * lanes * grains.block_of(g);
         for (int l = 0; l < lanes; ++l)
             store_rows(c, &grains.stiffness[row], l);

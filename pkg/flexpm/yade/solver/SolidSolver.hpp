@@ -4,8 +4,8 @@
 
 #include <flexpm/kernel/space/polyhedra.hpp>
 #include <flexpm/kernel/space/solid.hpp>
-#include <flexpm/yade/solver/GrainSolver.hpp>
 #include <flexpm/yade/bindings/assembly_archive.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
 
