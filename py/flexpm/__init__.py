@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         rig,
         run,
     )
+    from .studies.own.calibration import calibrate
 
 #: What users call; imported when first used. The classes of the plugin are added as they load.
 __all__ = [
@@ -41,6 +42,7 @@ __all__ = [
     "SimulationError",
     "Specimen",
     "build",
+    "calibrate",
     "compare",
     "elastic",
     "load",
@@ -67,6 +69,11 @@ def __getattr__(name: str) -> Any:
         from .studies import study
 
         return study
+    if name == "calibrate":  # likewise
+        _load_classes()
+        from .studies.own import calibration
+
+        return calibration.calibrate
     if name in __all__ or name in _MODULES:
         _load_classes()
         from . import _api

@@ -166,7 +166,7 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
     load_yade()
     found = specimen.make(progress)
     if specimen.lines is not None or specimen.network is not None:
-        for line in doubts.of_cuts({name: one.to_json() for name, one in found.joint_cuts.items()}):
+        for line in doubts.of_cuts({name: one.to_json() for name, one in found.told_cuts.items()}):
             _warn(line)
     return found
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..errors import InputError
@@ -79,6 +79,12 @@ class Target:
     def residual(self, found: float) -> float:
         """Weighted deviation in tolerances [-]."""
         return math.sqrt(self.weight) * (found / self.value - 1.0) / self.tolerance
+
+    def corrected(self, small: float | None, full: float | None) -> Target:
+        """That of a small specimen for which the full one should meet it, from what both gave."""
+        if small is None or full is None:
+            return self
+        return replace(self, value=self.value * small / full)
 
 
 @dataclass(frozen=True)
@@ -189,11 +195,11 @@ def read(path: Path | str) -> Calibration:
     for table in content:
         require_known("calibration table", table, _TABLES)
     about = _about(content, path)
-    targets = [_target(name, entry) for name, entry in _table(content, "target").items()]
-    free = {key: _bounds(f"[free] {key}", b) for key, b in _table(content, "free").items()}
-    for key in free:
-        name = _last(key) if interface.is_key(key) else key
-        require_known("calibration [free] key", name, [name for name in UNITS if UNITS[name]])
+    wanted = _table(content, "target")
+    for name in wanted:
+        require_known("calibration [target] key", name, list(MEASURES))
+    targets = [target_of(name, entry) for name, entry in wanted.items()]
+    free = free_of(_table(content, "free"))
     ratios = require_tables("calibration [[ratio]]", content.get("ratio", []))
     return Calibration(
         base=path.parent,
@@ -204,6 +210,19 @@ def read(path: Path | str) -> Calibration:
         verify=_runs(content, "verify", (11, 12, 13, 14, 15)),
         **about,
     )
+
+
+def free_of(bounds: Mapping[str, object]) -> dict[str, tuple[float, float]]:
+    """Free keys with their bounds.
+
+    Raises:
+        InputError: for a key that there is not, and for what are no bounds.
+    """
+    free = {key: _bounds(f"[free] {key}", b) for key, b in bounds.items()}
+    for key in free:
+        name = _last(key) if interface.is_key(key) else key
+        require_known("calibration [free] key", name, [name for name in UNITS if UNITS[name]])
+    return free
 
 
 def _about(content: Table, path: Path) -> Table:
@@ -233,8 +252,8 @@ def _table(content: Table, name: str) -> Table:
     return entries
 
 
-def _target(name: str, entry: object) -> Target:
-    require_known("calibration [target] key", name, list(MEASURES))
+def target_of(name: str, entry: object) -> Target:
+    """A target, from its value or a table with ``value``, ``tolerance`` and ``weight``."""
     given = entry if isinstance(entry, Mapping) else {"value": entry}
     for key in given:
         require_known(f"calibration [target] {name} key", key, ("value", "tolerance", "weight"))

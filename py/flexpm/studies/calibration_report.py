@@ -16,7 +16,7 @@ from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..report.style import drawing
 from ..text import label_of, words_of
-from .calibration_problem import ELASTIC_MEASURES, Calibration
+from .calibration_problem import ELASTIC_MEASURES, MEASURES, Calibration
 from .calibration_search import Outcome
 
 #: Digits of the values in a preset.
@@ -36,7 +36,8 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
     """Name and text of each target: result, spread, error of the mean, target, met or not."""
     rows = []
     for target in plan.targets:
-        factor, unit = _UNITS.get(target.name, (1e-6, "MPa"))
+        usual = (1e-6, "MPa") if target.name in MEASURES else (1.0, "")
+        factor, unit = _UNITS.get(target.name, usual)
         best = outcome.best
         mean, spread, error = (of(target.name) for of in (best.mean, best.spread, best.error))
         text = "-" if mean is None else f"{factor * mean:.4g}"
@@ -70,17 +71,22 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
             {"pair": list(one["pair"]), **one["values"], "factor": one["factors"]} for one in pairs
         ]
     notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]
+    head = ["# SPDX-License-Identifier: GPL-3.0-or-later", *_tested_on(plan), *notes]
+    write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))
+    return load_material(path)
+
+
+def _tested_on(plan: Calibration) -> list[str]:
+    """What the results are of."""
     packings = ", ".join(map(str, plan.verify.seeds))
     discs = ", ".join(map(str, plan.verify.disc_seeds))
-    head = [
-        "# SPDX-License-Identifier: GPL-3.0-or-later",
+    if not packings:
+        return [f"# Calibrated for the {plan.model} model by a function of a script:"]
+    return [
         f"# Calibrated for the {plan.model} model. Mean and standard deviation over the packings",
         f"# with the seeds {packings}" + (":" if discs == packings else ""),
         *([] if discs == packings else [f"# and of discs with the seeds {discs}:"]),
-        *notes,
     ]
-    write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))
-    return load_material(path)
 
 
 def _only_of(model: str, sets: Mapping[str, Table]) -> Table:

@@ -116,11 +116,11 @@ def run(
         SimulationError: if no set gave all measures.
     """
     folder = output_folder(out)
-    values = {key: _started(plan, key, start) for key in plan.free}
+    values = {key: started(plan, key, start) for key in plan.free}
     for runs in (plan.screen, plan.verify):
         _jobs(plan, runs, values, plan.targets)  # refuses what no run could do
     with Pool(folder / "runs", **pool_options) as pool:
-        search = _Search(plan, pool, progress or (lambda *_: None))
+        search = Search(plan, pool, progress or (lambda *_: None))
         try:
             values |= search.elastic(values)
             best = search.strengths(values)
@@ -128,10 +128,11 @@ def run(
             if search.history:
                 write_table(history_table(search.history), folder / "history")
     met = {t.name: is_met(t, best.mean(t.name)) for t in plan.targets}
-    return Outcome(best, met, search.history, _judged(plan, best, search.history))
+    return Outcome(best, met, search.history, judged(plan, best, search.history))
 
 
-def _judged(plan: Calibration, best: Evaluation, history: Sequence[Evaluation]) -> Verdict:
+def judged(plan: Calibration, best: Evaluation, history: Sequence[Evaluation]) -> Verdict:
+    """Judge the set that was taken of all that were tried."""
     parts = []
     for elastic, stage in ((True, "elastic"), (False, "screen")):
         targets, keys = plan.of_kind(elastic=elastic)
@@ -155,10 +156,10 @@ def history_table(history: Sequence[Evaluation]) -> pandas.DataFrame:
     )
 
 
-class _Search:
-    """State of a calibration: the runs' pool, the round, and what has been tried."""
+class Search:
+    """State of a calibration: the round, what has been tried, the runs' pool if it has runs."""
 
-    def __init__(self, plan: Calibration, pool: Pool, progress: Progress) -> None:
+    def __init__(self, plan: Calibration, pool: Pool | None, progress: Progress) -> None:
         self._plan, self._pool, self._progress = plan, pool, progress
         self._round = 1
         if plan.of_kind(elastic=False)[1]:
@@ -203,7 +204,7 @@ class _Search:
             verified += best
             if self._plan.rounds == 1 or all(is_met(t, best[0].mean(t.name)) for t in targets):
                 break
-            aims = [_corrected(t, tried[0], best[0]) for t in targets]
+            aims = [t.corrected(tried[0].mean(t.name), best[0].mean(t.name)) for t in targets]
             values = tried[0].values
         complete = [e for e in verified if all(e.mean(t.name) is not None for t in targets)]
         if not complete:
@@ -316,6 +317,7 @@ class _Search:
             # keys that do not go together
             return {t.name: [None] * len(runs.seeds_of(t)) for t in targets}
         done = len(self.history)
+        assert self._pool is not None
         outcomes = self._pool.run(
             [*wanted.values()],
             lambda d, n, text: self._progress(
@@ -379,7 +381,8 @@ def _optimiser() -> ModuleType:
     return module
 
 
-def _started(plan: Calibration, key: str, start: Mapping[str, object]) -> float:
+def started(plan: Calibration, key: str, start: Mapping[str, object]) -> float:
+    """Value of a key from which the search starts, within its bounds."""
     if not is_used(key, plan.model):
         raise InputError(f"calibration [free] {key}, is not used by model {plan.model}; remove it")
     low, high = plan.free[key]
@@ -390,11 +393,3 @@ def _started(plan: Calibration, key: str, start: Mapping[str, object]) -> float:
             f"one between {low:g} and {high:g}"
         )
     return float(min(max(value, low), high))
-
-
-def _corrected(target: Target, small: Evaluation, full: Evaluation) -> Target:
-    """The target of the small specimen for which the full one should meet the true one."""
-    there, here = full.mean(target.name), small.mean(target.name)
-    if there is None or here is None:
-        return target
-    return Target(target.name, target.value * here / there, target.tolerance, target.weight)

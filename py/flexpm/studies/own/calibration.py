@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calibrations to what a function of a script measures: own tests in the place of flexpm's."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypedDict, Unpack
+
+from ...errors import InputError, SimulationError
+from ...files import FolderLock, output_folder
+from ...materials.keys import ELASTIC_SET
+from ...materials.material import Material
+from ...materials.material import load as load_material
+from ...materials.mixing import value_of
+from ...progress import Progress
+from ...require import Bounds, quoted, require_known, require_whole
+from ...runs.output import refuse_other_kind
+from .. import calibration_report, calibration_verdict, pages
+from ..calibration_problem import Calibration, Runs, Target, free_of, target_of
+from ..calibration_search import Outcome, Search, Values, history_table, judged, started
+from ..study import MOST_RUNS
+from ..tables import write_table
+
+#: Measures of a material, by their names.
+Measure = Callable[[Material], Mapping[str, float]]
+_NO_RUNS = Runs({}, (), ())
+
+
+class CalibrationOptions(TypedDict, total=False):
+    """What a calibration may be given by name."""
+
+    material: Material | str | None
+    model: str
+    evaluations: int
+    report: bool
+    progress: Progress | None
+
+
+def calibrate(
+    measure: Measure,
+    free: Mapping[str, Sequence[float]],
+    targets: Mapping[str, float | Mapping[str, float]],
+    out: Path | str,
+    **options: Unpack[CalibrationOptions],
+) -> Outcome:
+    """Find the material with which a function of one's own gives what it is to give.
+
+    The search, its verdict and its page are those of ``flexpm calibrate``: all keys are searched
+    as logarithms by DFO-LS, after a first guess by measures with the names of flexpm's. The
+    function does its own packings, and gives means of them. It is called once for each material.
+
+    Args:
+        measure: Takes a `Material`, does tests with it, and gives numbers by their names; others
+            than the targets are left out. What raises ``SimulationError``, or gives nan, counts as
+            a set without measures.
+        free: Bounds of each key that may change, as in ``[free]`` of a file, SI units.
+        targets: By the name of a measure its value, or a table with ``value``, ``tolerance`` (0.05)
+            and ``weight`` (1), as in ``[target]``. Values are above 0.
+        out: Folder; it gets ``history.csv``, the material as ``NAME.toml`` with the name of the
+            folder, ``calibration.png``, ``verdict.json`` and ``report.html``.
+        options: By these names:
+
+            - ``material``: preset, file or material to start from; None for that of the model.
+            - ``model``: ``flexible``, the default, or another one whose law the keys are of.
+            - ``evaluations``: most sets that are tried, 40.
+            - ``report``: whether to write the page; True.
+            - ``progress``: called with (sets done, sets expected, text).
+
+    Returns:
+        ``best`` with ``values`` and ``mean(name)``, ``met`` by target, and the ``verdict``.
+
+    Raises:
+        InputError: for a key or a value out of range, a function without one of the targets, or
+            a folder with other results.
+        SimulationError: if no set gave all measures.
+    """
+    if not callable(measure):
+        raise InputError(f"calibrate: measure = {quoted(measure)}, must be a function")
+    for name, given in (("free", free), ("targets", targets)):
+        if not isinstance(given, Mapping) or not given:
+            raise InputError(f"calibrate: {name} = {quoted(given)}, must be a table with entries")
+    folder = output_folder(out)
+    model = options.get("model", "flexible")
+    require_known("calibrate: model", model, list(ELASTIC_SET))
+    most = Bounds(at_least=1, at_most=MOST_RUNS)
+    plan = _OwnCalibration(
+        name=folder.resolve().name,
+        model=model,
+        material=None,
+        base=folder,
+        targets=[target_of(name, entry) for name, entry in targets.items()],
+        free=free_of({key: [*bounds] for key, bounds in free.items()}),
+        ratios=(),
+        screen=_NO_RUNS,
+        verify=_NO_RUNS,
+        evaluations=require_whole("calibrate: evaluations", options.get("evaluations", 40), most),
+        rounds=1,
+        candidates=1,
+    )
+    start = load_material(options.get("material"), model)
+    found = {key: value_of(start, key, model) for key in plan.free}
+    values = {key: started(plan, key, found) for key in plan.free}
+    refuse_other_kind(folder, "calibrate")
+    lock = FolderLock(folder)
+    try:
+        calibration_verdict.forget(folder)
+        search = _OwnSearch(plan, measure, start, options.get("progress") or (lambda *_: None))
+        try:
+            best = search.strengths(values)
+        finally:
+            if search.history:
+                write_table(history_table(search.history), folder / "history")
+        verdict = judged(plan, best, search.history)
+        met = {target.name: target.name not in verdict.missed for target in plan.targets}
+        outcome = Outcome(best, met, search.history, verdict)
+        calibration_report.write_preset(folder / f"{plan.name}.toml", start, plan, outcome)
+        calibration_report.picture(folder / "calibration.png", plan, outcome)
+        verdict.write(folder)
+        if options.get("report", True):
+            pages.write(folder)
+    finally:
+        lock.release()
+    return outcome
+
+
+@dataclass(frozen=True)
+class _OwnCalibration(Calibration):
+    """A calibration whose measures are all searched for alike."""
+
+    def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
+        return ([], []) if elastic else ([*self.targets], [*self.free])
+
+
+class _OwnSearch(Search):
+    """A search whose measures come from a function."""
+
+    def __init__(
+        self, plan: Calibration, measure: Measure, start: Material, progress: Progress
+    ) -> None:
+        super().__init__(plan, None, progress)
+        self._measure, self._start = measure, start
+        self._known: dict[tuple[float, ...], dict[str, list[float | None]]] = {}
+
+    def _measures(
+        self, runs: Runs, values: Values, targets: Sequence[Target]
+    ) -> dict[str, list[float | None]]:
+        key = tuple(values.values())
+        if key not in self._known:
+            self._progress(len(self.history), self._expected(), "calibrating")
+            self._known[key] = self._called(values, targets)
+        return self._known[key]
+
+    def _called(self, values: Values, targets: Sequence[Target]) -> dict[str, list[float | None]]:
+        assignments = [f"{key}={value!r}" for key, value in values.items()]
+        try:
+            found = self._measure(self._start.with_set(assignments, self._plan.model))
+        except SimulationError:  # a specimen that bears nothing has no measures
+            return {target.name: [None] for target in targets}
+        if not isinstance(found, Mapping):
+            raise InputError(f"calibrate: measures = {quoted(found)}, must be a table of numbers")
+        for target in targets:
+            require_known("calibrate: target", target.name, [*found])
+        return {target.name: [_number(target.name, found)] for target in targets}
+
+
+def _number(name: str, found: Mapping[str, object]) -> float | None:
+    value = found[name]
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise InputError(f"calibrate: {name} = {quoted(value)}, must be a number") from None
+    return number if math.isfinite(number) else None
