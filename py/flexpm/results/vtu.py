@@ -61,7 +61,8 @@ def write_vtu(
         InputError: for what is no state, as the plain arrays of ``solver.snapshot()``.
     """
     if isinstance(snapshot, SolidSnapshot):
-        return write_solid_state(path, snapshot, about)
+        write_solid_state(path, snapshot, about)
+        return
     if not isinstance(snapshot, Snapshot):
         raise InputError(
             f"write_vtu: snapshot = {quoted(snapshot)}, must be that of `built.snapshot()`, behind "

@@ -53,8 +53,8 @@ def rig(
     """
     if built.specimen.kind not in ("rectangle", "disc", *SOLIDS):
         raise InputError(
-            f"rig: specimen = {built.specimen.kind}, must be a rectangle, a disc or a solid; flexpm.PartRig "
-            "holds any other"
+            f"rig: specimen = {built.specimen.kind}, must be a rectangle, a disc or a solid; "
+            "flexpm.PartRig holds any other"
         )
     kept = KeptTest.of(built, "rig", leaves, pull=tension)
     made = _fitting(built, tension, runner if kept is None else kept.runner)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of solids from the packing to the files: numbers, balance, same bits, restart, repetition."""
+"""Tests of solids, from the packing to the files: numbers, same bits, restart, repetition."""
 
 import itertools
 import json
@@ -119,16 +119,16 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, model, tmp_path, m
     seconds = itertools.count(step=runner._LOOK_UP / 10)  # a look at each tenth step
     monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
 
-    class Stop(Exception):
+    class StopError(Exception):
         pass
 
     def stop(done, expected, text):
         if done > 60:
-            raise Stop
+            raise StopError
 
     asked = {"model": model, "max_strain": 8e-4, "rate": 0.1}
     whole = flexpm.run("uniaxial", core, **asked)
-    with pytest.raises(Stop):
+    with pytest.raises(StopError):
         flexpm.run("uniaxial", core, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked)
     again = flexpm.run("uniaxial", core, out=tmp_path, **asked)
     assert again.resumed_at > 0

@@ -74,6 +74,7 @@ def describe(data: vtkFieldData, name: str, value: object) -> None:
 
 
 def add(data: vtkDataSetAttributes, name: str, array: Named) -> None:
+    """Add an array with its unit and the names of its components."""
     values, components = array
     if np.issubdtype(values.dtype, np.integer):
         values = values.astype(np.int32)

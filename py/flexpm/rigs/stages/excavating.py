@@ -28,9 +28,9 @@ class PartExcavation(PartCycles):
         """Take away the cells within a line of ``Specimen.with_excavations``, until all balances.
 
         They leave at once; what they bore falls on the wall as a wave. What they store and how they
-        move leaves as ``erased_energy``, by which ``boundary_work`` of the record is less. Pressures
-        stay, what is driven stands, and damping is on meanwhile, as in `relax`. Strains and gauges
-        of a record that begins later count from there on.
+        move leaves as ``erased_energy``, by which ``boundary_work`` of the record is less.
+        Pressures stay, what is driven stands, and damping is on meanwhile, as in `relax`. Strains
+        and gauges of a record that begins later count from there on.
 
         Args:
             name: Name of the excavation.
