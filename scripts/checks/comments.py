@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check comments: they begin with their subject, and no line of the kernel passes 100 columns.
 
-    scripts/checks/comments.py [--fix] [--subject] [ROOT]
+    scripts/checks/comments.py [--fix] [ROOT]
 
---fix breaks comments that are too wide, --subject looks at the beginnings alone.
+--fix breaks comments that are too wide.
 
 A comment that begins "Of ..." leaves its subject to the reader. One behind a member on its line may
 begin "of ...": its subject is the name before it. clang-format breaks code at 100 columns; comments
@@ -98,7 +98,6 @@ def rewrapped(lines: list[str]) -> list[str]:
 def main() -> int:
     """Report what breaks a rule; 1 if anything does."""
     fix = "--fix" in sys.argv[1:]
-    widths = "--subject" not in sys.argv[1:]
     given = [Path(one) for one in sys.argv[1:] if not one.startswith("--")]
     root = given[0] if given else Path(__file__).resolve().parents[2]
     faults = 0
@@ -112,7 +111,7 @@ def main() -> int:
                 continue
             name = str(path.relative_to(root))
             lines = text.split("\n")
-            narrow = widths and name.startswith(NARROW) and path.suffix in (".cpp", ".hpp")
+            narrow = name.startswith(NARROW) and path.suffix in (".cpp", ".hpp")
             if fix and narrow:
                 lines = rewrapped(lines)
                 if "\n".join(lines) != text:

@@ -14,8 +14,9 @@
 namespace flexpm {
 
 struct SofteningRule {
-    double growth =
-        0.01;  ///< of a plane's traction in a crossing as it begins to soften, at most, over what it bears then [-]
+    /// Growth of a plane's traction in a crossing as it begins to soften, at most, over what it
+    /// bears then [-].
+    double growth = 0.01;
     double crossing = 1.0;  ///< steps in which a wave crosses the specimen
 };
 

@@ -16,8 +16,8 @@ struct Overlap {
     double part;  ///< of the smaller grain [-]
     bool bonded;  ///< the two were bonded once, not on a joint
     bool facing;  ///< bonded, and the faces of such a bond lie as they did, is_facing()
-    double
-        closed;  ///< normal force of the pair over stiffness and thickness: the area that it accounts for [m^2]
+    /// Normal force of the pair over stiffness and thickness: the area that it accounts for [m^2].
+    double closed;
 };
 
 /// Pairs of grains that overlap by more than a part of the smaller one, ascending. Corners are
