@@ -191,7 +191,7 @@ def test_every_public_name_has_its_docstring_and_its_place_in_the_reference():
         ("deviations", "dilation does not raise the strength"),
         ("record/numbers", "E changed by 2.6e-5, and where joints bend up to 0.74 of a mean cell"),
         ("specimens", "Defaults are those of intact specimens: ``--rate 1``"),
-        ("theory", "630 of 1087 triangles are not mirrored"),
+        ("record/numbers", "630 of 1087 triangles are not mirrored"),
         ("choosing", "Specimens with joints need no other options"),
         ("choosing", "A beam of four was right in its stiffness"),
     ],

@@ -27,9 +27,8 @@ constexpr double fallen_from_peak = 0.9;
 
 /// What a controller sees of a test at two measured steps.
 struct CrackWatch {
-    double dissipated;  ///< by damage, friction and the damping of waves in between [J]
-    /// Work of the loading in that time, at the present stress and the fastest velocity [J].
-    double fastest_work;
+    double dissipated;    ///< by damage, friction and the damping of waves in between [J]
+    double fastest_work;  ///< of the loading at its fastest velocity, at the present stress [J]
     double stress, peak;  ///< now and the largest so far, above the confinement [Pa]
     double steps;         ///< in between
 

@@ -14,7 +14,7 @@
 namespace flexpm {
 
 struct SofteningRule {
-    /// Growth of a plane's traction in a crossing as it begins to soften, at most, over what it
+    /// Most that a plane's traction grows by in a crossing as it begins to soften, over what it
     /// bears then [-].
     double growth = 0.01;
     double crossing = 1.0;  ///< steps in which a wave crosses the specimen

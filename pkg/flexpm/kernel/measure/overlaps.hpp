@@ -16,7 +16,7 @@ struct Overlap {
     double part;  ///< of the smaller grain [-]
     bool bonded;  ///< the two were bonded once, not on a joint
     bool facing;  ///< bonded, and the faces of such a bond lie as they did, is_facing()
-    /// Normal force of the pair over stiffness and thickness: the area that it accounts for [m^2].
+    /// Area that the pair's normal force accounts for: over stiffness and thickness [m^2].
     double closed;
 };
 
