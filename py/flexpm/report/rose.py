@@ -99,7 +99,7 @@ def _draw(
     angles = np.linspace(-90.0, 90.0, 361)
     density = one.orientation.density(angles)
     if density is None:  # all traces have one angle
-        angle = one.orientation.draw(np.random.default_rng(), 1)[0]
+        angle = one.orientation.draw(np.random.default_rng(0), 1)[0]
         for sense in (0.0, 180.0):
             axes.plot(np.radians([angle + sense] * 2), [0.0, one.intensity], color=_ASKED, lw=1.6)
     else:

@@ -20,8 +20,12 @@ from ..results.cracks import ERASED, SHEAR, TENSILE
 #: Apart for colour-blind readers (Okabe and Ito); one for each line of a picture.
 CYCLE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 #: Colours of the modes of cracks, and of what scripts have erased.
-COLOURS = {TENSILE: CYCLE[0], SHEAR: CYCLE[1], ERASED: "black"}
-MODE_NAMES = {TENSILE: "tensile cracks", SHEAR: "shear cracks", ERASED: "erased bonds"}
+COLOURS: dict[int, str] = {TENSILE: CYCLE[0], SHEAR: CYCLE[1], ERASED: "black"}
+MODE_NAMES: dict[int, str] = {
+    TENSILE: "tensile cracks",
+    SHEAR: "shear cracks",
+    ERASED: "erased bonds",
+}
 #: Colour of notches.
 CUT = "#1c1c1c"
 #: Settings of all pictures.

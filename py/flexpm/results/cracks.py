@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from enum import IntEnum
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,11 +20,25 @@ from ..files import csv_text, load_csv
 from .record import Curve
 from .snapshot import Snapshot, numbers_within
 
-TENSILE, SHEAR, ERASED = 1, 2, 3
+
+class CrackMode(IntEnum):
+    """Way in which a point has lost its bond; its number stands in states and their files."""
+
+    TENSILE = 1
+    SHEAR = 2
+    ERASED = 3  #: by a script, which is no crack
+
+    @property
+    def word(self) -> str:
+        """Word for it in tables and pages."""
+        return self.name.lower()
+
+
+TENSILE, SHEAR, ERASED = CrackMode
 #: Name of each mode of a crack.
-MODES = {TENSILE: "tensile", SHEAR: "shear"}
+MODES: dict[int, str] = {mode: mode.word for mode in (TENSILE, SHEAR)}
 #: The same of all that the table has.
-NAMES = {**MODES, ERASED: "erased"}
+NAMES: dict[int, str] = {mode: mode.word for mode in CrackMode}
 
 
 class Crack(NamedTuple):

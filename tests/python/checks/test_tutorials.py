@@ -127,7 +127,7 @@ def test_toppling(package_parent):
     assert "topples: by 5 degrees after 0." in text
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_calibration(package_parent, tmp_path):
     text = printed("calibration.py", package_parent, str(tmp_path / "rock"))
     assert text.count(": met") == 3

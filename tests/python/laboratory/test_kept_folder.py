@@ -174,7 +174,7 @@ def test_a_killed_script_goes_on_to_the_same_bits(whole, tmp_path):
         require_same(tmp_path / str(number), whole)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_kills_over_all_stages(whole, tmp_path):
     last, both = content(whole)["steps"], [signal.SIGTERM, signal.SIGKILL, signal.SIGKILL]
     moments = [drawn(seed, both, last) for seed in range(10, 34)]

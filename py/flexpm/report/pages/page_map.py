@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import FloatArray, IntArray
-from ...results.cracks import NAMES, Crack
+from ...results.cracks import MODES, NAMES, Crack
 from ...results.fragments import Fragments, connected
 from ...results.record import Curve
 from ...results.result import Result
@@ -87,7 +87,7 @@ def _text(result: Result, row: int, fragments: int) -> str:
         f"{axis.name} {axis.factor * record[axis.column][row]:.4g} {axis.unit}"
         for axis in (names.x, names.y)
     )
-    tensile, shear = (int(record[f"{mode}_cracks"][row]) for mode in ("tensile", "shear"))
+    tensile, shear = (int(record[f"{mode}_cracks"][row]) for mode in MODES.values())
     return (
         f"step {int(record['step'][row])}: {strain}, {stress}; cracked points: {tensile} in "
         f"tension, {shear} in shear; fragments: {fragments}"

@@ -14,7 +14,7 @@ from ...errors import InputError
 from ...files import Table
 from ...kinds.registry import kind_of
 from ...results import measures
-from ...results.cracks import SHEAR, TENSILE
+from ...results.cracks import MODES, SHEAR, TENSILE
 from ...results.result import Result
 from ...results.vtu import read_vtu
 from ...text import words_of
@@ -316,10 +316,10 @@ def _pairs_table(result: Result) -> Rows | None:
     if not result.cracks_by_pair:
         return None
     rows = [
-        (pair, str(counts["tensile"]), str(counts["shear"]))
+        (pair, *(str(counts[mode]) for mode in MODES.values()))
         for pair, counts in result.cracks_by_pair.items()
     ]
-    return Rows("Cracked points by pair of minerals", ("pair", "tensile", "shear"), rows)
+    return Rows("Cracked points by pair of minerals", ("pair", *MODES.values()), rows)
 
 
 def _rates_table(result: Result) -> Rows | None:
