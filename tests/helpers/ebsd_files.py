@@ -19,10 +19,11 @@ ANG = {
 }
 
 
-def ctf_text(phase, angles, phases, steps=(1.0, 1.0)):
+def ctf_text(phase, angles, phases, steps=(1.0, 1.0), hexagonal=False):
     """A .ctf file: phase (rows, columns), 0 not indexed; angles (rows, columns, 3) [degree].
 
-    Phases are pairs of name and Laue group.
+    Phases are pairs of name and Laue group; every second row of a hexagonal grid begins half a step
+    later.
     """
     rows, columns = phase.shape
     head = ["Channel Text File", "Prj\tdrawn", "Author\t[Unknown]", "JobMode\tGrid"]
@@ -33,15 +34,16 @@ def ctf_text(phase, angles, phases, steps=(1.0, 1.0)):
     head += [f"4.9;4.9;5.4\t90;90;120\t{name}\t{CTF[group]}\t0\t\t\t" for name, group in phases]
     head += ["Phase\tX\tY\tBands\tError\tEuler1\tEuler2\tEuler3\tMAD\tBC\tBS"]
     for row in range(rows):
-        for column in range(columns):
+        late = hexagonal and row % 2 == 1
+        for column in range(columns - late):
             turn = "\t".join(f"{angle:.4f}" for angle in angles[row, column])
-            x, y = column * steps[0], row * steps[1]
+            x, y = (column + 0.5 * late) * steps[0], row * steps[1]
             head.append(f"{phase[row, column]}\t{x:.4f}\t{y:.4f}\t7\t0\t{turn}\t0.5\t99\t99")
     return "\n".join([*head, ""])
 
 
 def ang_text(phase, angles, phases, steps=(1.0, 1.0), hexagonal=False):
-    """A .ang file of the same; every second row of a hexagonal grid begins half a step later."""
+    """A .ang file of the same."""
     rows, columns = phase.shape
     head = ["# TEM_PIXperUM 1.0", "# x-star 0.5", "#"]
     for number, (name, group) in enumerate(phases, 1):

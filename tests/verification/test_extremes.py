@@ -158,18 +158,16 @@ def test_whatever_is_asked_for_ends_with_a_status_and_numbers(child, seed):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(
-    ("name", "start"),
-    [
-        # half a disc that an open joint cuts off from its supports
-        ("cut-off", "InputError: load: stiffness that the driven parts feel = "),
-        # the notch of a beam of few grains cuts it through
-        ("cut-through", "InputError: run: notch = "),
-    ],
-)
-def test_what_cannot_be_loaded_is_refused(child, name, start):
-    error = child.run(KEPT[name])["error"]
-    assert error.startswith(start), error
+def test_a_notch_that_cuts_a_beam_of_few_grains_through_is_refused(child):
+    error = child.run(KEPT["cut-through"])["error"]
+    assert error.startswith("InputError: run: notch = "), error
+
+
+@pytest.mark.long
+def test_half_a_disc_that_an_open_joint_cuts_is_loaded(child):
+    """Its faces bear pressure, though points of the platen lift off in the elastic solution."""
+    found = child.run(KEPT["on-a-joint"])
+    assert found.get("status") in STATUSES or found["error"].startswith("LongError"), found
 
 
 @pytest.mark.long

@@ -28,12 +28,6 @@ def asked(options: Table) -> Sequence[int]:
         )
     if options["workers"] and not seeds:
         raise InputError(f"workers = {options['workers']}, must be given with seeds only")
-    for key in ("joint_name", "joint_origin"):
-        if seeds and options.get(key) is not None:
-            raise InputError(
-                f"{key.removeprefix('joint_')} = {options[key]}, must not be given with seeds; put "
-                "it into the map"
-            )
     return seeds
 
 
@@ -91,8 +85,9 @@ def _given(options: Table) -> Table:
         found["joints"] = str(options["joints_file"].resolve())  # runs have folders of their own
     if options["network_file"] is not None:
         found["network"] = str(options["network_file"].resolve())
-    if options["network_seed"] is not None:
-        found["network_seed"] = options["network_seed"]
+    for name in ("joint_name", "joint_origin", "network_seed"):
+        if options[name] is not None:
+            found[name] = options[name]
     parts = (one.partition("=") for one in options["assignments"])
     return found | {f"set.{key.strip()}": value.strip() for key, _, value in parts}
 

@@ -21,7 +21,7 @@ from ..kinds.registry import KINDS, kind_of
 from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
-from ..require import require_known, require_text
+from ..require import quoted, require_known, require_number, require_text
 from ..runs import input_names
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
@@ -34,8 +34,10 @@ _TESTS = tuple(KINDS)
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Keys that name files: a saved specimen, lines of joints, and a fracture network.
 _FILES = ("specimen", "joints", "network")
+#: Keys of how a map of joints is read, by the options of the command.
+_OF_MAPS = {"joint_name": "name", "joint_origin": "origin"}
 #: Keys that say how a specimen is cut, which no run asks for: it has the specimen.
-_CUTS = (*_FILES, "network_seed")
+_CUTS = (*_FILES, *_OF_MAPS, "network_seed")
 #: Keys of what a run writes beside its results; they are no inputs of it.
 _OUTPUTS = ("frames", "film")
 #: Keys of a packing.
@@ -159,13 +161,29 @@ def make(inputs: Table, base: Path) -> Job:
             require_text(f"study {key}", used[key])
             if key in _FILES or used[key].endswith(".toml"):
                 used[key] = str(base / used[key])
+    if "joint_name" in used:
+        require_text("study joint_name", used["joint_name"])
+    if "joint_origin" in used:
+        used["joint_origin"] = _place("study joint_origin", used["joint_origin"])
     model = used.get("model", RunSpec.model)
-    assigned = [f"{name}={used[key]}" for name, key in changes.items()]
+    assigned = [f"{name}={text_of(used[key])}" for name, key in changes.items()]
     material = load_material(used.get("material"), model).with_set(assigned, model)
     spec = RunSpec.from_options(test, used, material, _specimen(test, used))
     if kind_of(test).is_solve:
         output = Output(report=False)  # nothing moves
     return Job({"test": test, **used}, tuple(arguments(test, used)), spec, output=output)
+
+
+def _place(label: str, value: object) -> tuple[float, float]:
+    """A point of two numbers [m].
+
+    Raises:
+        InputError: for anything else.
+    """
+    if not isinstance(value, list | tuple) or len(value) != 2:
+        raise InputError(f"{label} = {quoted(value)} m, must be two numbers, x and y")
+    x, y = (require_number(label, one, unit="m") for one in value)
+    return x, y
 
 
 def spelt(key: str) -> str:
@@ -195,7 +213,8 @@ def _specimen(test: str, used: Table) -> SpecimenSpec:
                 )
     packed = None if "specimen" in used else RunSpec.packed(test, used)
     file, joints, network = (Path(used[key]) if key in used else None for key in _FILES)
-    return SpecimenSource.read(packed, file, joints, network, used.get("network_seed")).spec
+    seed, of_map = used.get("network_seed"), {key: used.get(key) for key in _OF_MAPS}
+    return SpecimenSource.read(packed, file, joints, network, seed, **of_map).spec
 
 
 def place_of(model: str, confinement: float, confinements: int) -> str:
@@ -315,7 +334,7 @@ def arguments(test: str, used: Table) -> Iterator[str]:
         if key.startswith("set."):
             yield from ("--set", f"{key.removeprefix('set.')}={text_of(value)}")
         elif not isinstance(value, bool):
-            yield from (f"--{key.replace('_', '-')}", text_of(value))
+            yield from (f"--{_OF_MAPS.get(key, key).replace('_', '-')}", text_of(value))
         elif value:
             yield f"--{key.replace('_', '-')}"
     yield "--quiet"
@@ -323,4 +342,6 @@ def arguments(test: str, used: Table) -> Iterator[str]:
 
 def text_of(value: object) -> str:
     """A value as an option has it."""
+    if isinstance(value, bool):
+        return str(value).lower()
     return ",".join(map(str, value)) if isinstance(value, list | tuple) else str(value)

@@ -14,6 +14,7 @@ from flexpm.errors import InputError
 from flexpm.joints import geojson
 from flexpm.joints.lines import read as read_csv
 from flexpm.specimens.specimen import Specimen
+from flexpm.studies import jobs
 
 EAST, NORTH = 691_000.0, 5_334_000.0
 METRES = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
@@ -163,3 +164,20 @@ def test_names_and_origins_are_of_maps_alone(tmp_path, capsys):
         given = ["--joints", str(tmp_path / "a.csv"), *option, "--quiet"]
         assert cli.main(["specimen", "rectangle", *given, "--out", str(tmp_path / "o")]) == 2
         assert "must be given with a map of joints" in capsys.readouterr().err
+
+
+def test_a_study_reads_a_map_as_the_command_does(file):
+    asked = {"test": "uniaxial", "joints": file.name, "width": WIDTH, "height": HEIGHT}
+    asked |= {f"set.joint.{name}.open": True for name in ("bedding", "joints")}
+    asked |= {"joint-name": "set", "joint_origin": [EAST, NORTH]}
+    job = jobs.make(asked, file.parent)
+    assert job.spec.specimen.joint_names == ("bedding", "joints")
+    assert job.spec.specimen.joint_origin == (EAST, NORTH)
+    place = job.arguments.index("--origin")
+    assert job.arguments[place + 1] == f"{EAST},{NORTH}"
+    assert job.arguments[job.arguments.index("--name") + 1] == "set"
+    elsewhere = jobs.make({**asked, "joint_origin": [EAST, NORTH + 1e-3]}, file.parent)
+    assert elsewhere.key != job.key
+    for key, value in (("joint_name", 3), ("joint_origin", [1.0]), ("joint_origin", ["a", 1.0])):
+        with pytest.raises(InputError, match=f"study {key} = "):
+            jobs.make({**asked, key: value}, file.parent)

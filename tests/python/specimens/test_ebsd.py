@@ -106,21 +106,18 @@ def of(path, **options):
     return ebsd.grains(ebsd.read(path), **options)
 
 
-@pytest.mark.parametrize("kind", ["ctf", "ang", "hexagonal"])
-def test_grains_are_those_that_were_drawn(tmp_path, kind):
-    steps = (2.0, 3.0**0.5) if kind == "hexagonal" else (2.0, 1.5)
-    number, phase, angles = map_of(40, 50, 30, 3, steps, kind == "hexagonal")
-    if kind == "ctf":
-        (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, PHASES, steps))
-    else:
-        text = ang_text(phase, angles, PHASES, steps, kind == "hexagonal")
-        (tmp_path / "a.ang").write_text(text)
-    path = next(tmp_path.iterdir())
+@pytest.mark.parametrize("hexagonal", [False, True])
+@pytest.mark.parametrize(("kind", "text"), [("ctf", ctf_text), ("ang", ang_text)])
+def test_grains_are_those_that_were_drawn(tmp_path, kind, text, hexagonal):
+    steps = (2.0, 3.0**0.5) if hexagonal else (2.0, 1.5)
+    number, phase, angles = map_of(40, 50, 30, 3, steps, hexagonal)
+    path = tmp_path / f"a.{kind}"
+    path.write_text(text(phase, angles, PHASES, steps, hexagonal))
     found = of(path)
     assert found.counts["not_indexed"] == 0 and found.counts["missing"] == 0
     raster = ebsd.read(path).raster
     drawn = number.ravel()
-    if kind == "hexagonal":
+    if hexagonal:
         late = np.arange(40) % 2 == 1
         drawn = np.concatenate([row[: 50 - end] for row, end in zip(number, late, strict=True)])
     drawn = drawn[raster]

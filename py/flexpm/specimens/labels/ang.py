@@ -66,7 +66,7 @@ def read(path: Path) -> OrientationMap:
     values = text.table(first, _COLUMNS)
     indexed = (values[:, 5] >= 0.0) & (np.abs(values[:, :3]) < _NO_ANGLE).all(axis=1)
     phase = _indices(text, values[:, 6], indexed, list(phases))
-    raster, sides = _raster(text, values[:, 3], values[:, 4], steps, kind == "HexGrid")
+    raster, sides = text.raster(values[:, 3], values[:, 4], steps, kind == "HexGrid")
     turned = laue.orientations(np.where(indexed[:, None], values[:, :3], 0.0), degrees=False)
     return OrientationMap.of(list(phases.values()), phase, turned, raster, sides)
 
@@ -85,29 +85,3 @@ def _indices(text: MapText, phase: FloatArray, indexed: BoolArray, numbers: list
             f"{', '.join(map(str, numbers))}, as in the head"
         )
     return np.where(indexed, found, -1)
-
-
-def _raster(
-    text: MapText, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
-) -> tuple[IntArray, tuple[float, float]]:
-    """Point of each pixel, -1 where there is none, and the sides of a pixel [m].
-
-    A point of a hexagonal grid has two pixels beside each other, so that each second row lies half
-    a step aside, and has its six neighbours. What is left at both ends goes to the last point.
-    """
-    if not hexagonal:
-        columns, rows = text.places(x, y, steps, np.zeros(2))
-        raster = np.full((rows.max() + 1, columns.max() + 1), -1)
-        raster[rows, columns] = np.arange(len(x))
-        return raster, steps
-    near = np.abs(y - y.min()) < 0.5e6 * steps[1]
-    late = near.any() and x[near].min() - x.min() > 0.25e6 * steps[0]
-    shift = np.array([0.5, 0.0]) if late else np.array([0.0, 0.5])
-    columns, rows = text.places(x, y, steps, shift)
-    places = 2 * columns + (rows % 2 == (0 if late else 1))
-    raster = np.full((rows.max() + 1, places.max() + 2), -1)
-    for beside in (0, 1):
-        raster[rows, places + beside] = np.arange(len(x))
-    for end, inner in ((0, 1), (-1, -2)):
-        raster[:, end] = np.where(raster[:, end] < 0, raster[:, inner], raster[:, end])
-    return raster, (0.5 * steps[0], steps[1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps of orientations as Channel Text Files, ``.ctf``, of HKL and Oxford Instruments."""
+"""Maps of orientations as Channel Text Files, ``.ctf``, on square and hexagonal grids."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ...arrays import FloatArray
 from . import laue
-from .orientation_map import MapText, OrientationMap, Phase
+from .orientation_map import ON_GRID, MapText, OrientationMap, Phase
 
 #: Laue groups by their number in these files, from 1.
 _GROUPS = ("-1", "2/m", "mmm", "4/m", "4/mmm", "-3", "-3m", "6/m", "6/mmm", "m-3", "m-3m")
@@ -52,11 +53,15 @@ def read(path: Path) -> OrientationMap:
     if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
         wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
         raise text.refused(f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}")
-    columns, rows = text.places(x, y, steps, np.zeros(2))
-    raster = np.full((rows.max() + 1, columns.max() + 1), -1)
-    raster[rows, columns] = np.arange(len(x))
+    raster, sides = text.raster(x, y, steps, _is_hexagonal(x, steps[0]))
     turned = laue.orientations(values[:, 3:], degrees=True)
-    return OrientationMap.of(phases, phase.astype(int) - 1, turned, raster, steps)
+    return OrientationMap.of(phases, phase.astype(int) - 1, turned, raster, sides)
+
+
+def _is_hexagonal(x: FloatArray, step: float) -> bool:
+    """Whether some rows begin half a step aside; the head of these files does not say so."""
+    along = (x - x.min(initial=np.inf)) / (1e6 * step)
+    return bool(np.any(np.abs(along % 1.0 - 0.5) < ON_GRID))
 
 
 def _phase(text: MapText, line: int) -> Phase:

@@ -17,7 +17,7 @@ from ...require import quoted
 from .given import MOST_PIXELS
 
 #: Steps from point to point differ by less [-].
-_ON_GRID = 0.1
+ON_GRID = 0.1
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ class MapText:
         rows = np.rint(down).astype(int)
         along = np.minimum((x - x.min()) / (1e6 * steps[0]), most) - shift[rows % 2]
         columns = np.rint(along).astype(int)
-        wrong = (np.abs(down - rows) > _ON_GRID) | (np.abs(along - columns) > _ON_GRID)
+        wrong = (np.abs(down - rows) > ON_GRID) | (np.abs(along - columns) > ON_GRID)
         wrong |= (columns < 0) | (columns > MOST_PIXELS) | (rows > MOST_PIXELS)
         if wrong.any():
             point = int(np.flatnonzero(wrong)[0])
@@ -178,3 +178,29 @@ class MapText:
                 "twice; correct the steps"
             )
         return columns, rows
+
+    def raster(
+        self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
+    ) -> tuple[IntArray, tuple[float, float]]:
+        """Point of each pixel, -1 where there is none, and the sides of a pixel [m].
+
+        A point of a hexagonal grid has two pixels beside each other, so that each second row lies
+        half a step aside, and has its six neighbours. What is left at both ends goes to the last
+        point.
+        """
+        if not hexagonal:
+            columns, rows = self.places(x, y, steps, np.zeros(2))
+            raster = np.full((rows.max() + 1, columns.max() + 1), -1)
+            raster[rows, columns] = np.arange(len(x))
+            return raster, steps
+        near = np.abs(y - y.min()) < 0.5e6 * steps[1]
+        late = near.any() and x[near].min() - x.min() > 0.25e6 * steps[0]
+        shift = np.array([0.5, 0.0]) if late else np.array([0.0, 0.5])
+        columns, rows = self.places(x, y, steps, shift)
+        places = 2 * columns + (rows % 2 == (0 if late else 1))
+        raster = np.full((rows.max() + 1, places.max() + 2), -1)
+        for beside in (0, 1):
+            raster[rows, places + beside] = np.arange(len(x))
+        for end, inner in ((0, 1), (-1, -2)):
+            raster[:, end] = np.where(raster[:, end] < 0, raster[:, inner], raster[:, end])
+        return raster, (0.5 * steps[0], steps[1])
