@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The documentation names what exists: functions, tests, files' columns and arrays, deviations."""
 
+import functools
 import html
 import inspect
 import re
@@ -28,6 +29,7 @@ ROOT = Path(__file__).resolve().parents[3]
 DOC = ROOT / "doc"
 
 
+@functools.cache
 def text_of(*folders, suffixes):
     files = (file for folder in folders for file in (ROOT / folder).rglob("*"))
     return "\n".join(file.read_text() for file in files if file.suffix in suffixes)
@@ -49,14 +51,30 @@ def test_functions_and_tests_of_the_theory_exist():
     functions, tests = theory_table()
     assert len(functions) > 10
     assert len(tests) > 5
-    code = text_of("pkg", "py", suffixes={".cpp", ".hpp", ".py"})
+    code = text_of("pkg", "py", suffixes=(".cpp", ".hpp", ".py"))
     assert {name for name in functions if not re.search(rf"\b{name}\(", code)} == set()
     found = {file.name for file in (ROOT / "tests").rglob("test_*")}
     assert tests - found == set()
 
 
+@pytest.mark.parametrize("page", ["architecture", "contributing", "layout"])
+def test_what_pages_on_the_sources_name_exists(page):
+    """Names of functions, types, members and files, the placeholder ``NAME`` apart."""
+    code = text_of("pkg", "py", "tests/kernel", suffixes=(".cpp", ".hpp", ".py"))
+    files = {str(file) for top in ("pkg", "py", "tests", "scripts") for file in (ROOT / top).rglob("*")}
+    named = literals((DOC / f"{page}.rst").read_text())
+    assert len(named) > 20
+    words = {name.removesuffix("()") for name in named}
+    words = {re.split(r"\.|::", name)[-1] for name in words if re.fullmatch(r"[\w.:]+", name)}
+    paths = {name for name in named if re.fullmatch(r"[\w./]+\.(hpp|cpp|py|toml|txt)", name)}
+    absent = {name for name in paths if not any(one.endswith(f"/{name}") for one in files)}
+    assert absent - {"py/flexpm/kinds/tests/NAME.py"} == set()
+    words -= {name.rpartition(".")[2] for name in paths} | {"cff"}
+    assert {name for name in words if not re.search(rf"\b{name}\b", code)} == set()
+
+
 def test_every_deviation_in_the_code_is_in_the_document():
-    code = text_of("pkg", "py", suffixes={".cpp", ".hpp", ".py"})
+    code = text_of("pkg", "py", suffixes=(".cpp", ".hpp", ".py"))
     cited = set(re.findall(r"Deviations? (D\d+)", code))
     numbered = re.findall(r"^(D\d+), ", (DOC / "deviations.rst").read_text(), re.MULTILINE)
     assert numbered == sorted(set(numbered), key=lambda name: int(name[1:]))
