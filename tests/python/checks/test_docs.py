@@ -61,7 +61,9 @@ def test_functions_and_tests_of_the_theory_exist():
 def test_what_pages_on_the_sources_name_exists(page):
     """Names of functions, types, members and files, the placeholder ``NAME`` apart."""
     code = text_of("pkg", "py", "tests/kernel", suffixes=(".cpp", ".hpp", ".py"))
-    files = {str(file) for top in ("pkg", "py", "tests", "scripts") for file in (ROOT / top).rglob("*")}
+    files = {
+        str(file) for top in ("pkg", "py", "tests", "scripts") for file in (ROOT / top).rglob("*")
+    }
     named = literals((DOC / f"{page}.rst").read_text())
     assert len(named) > 20
     words = {name.removesuffix("()") for name in named}
