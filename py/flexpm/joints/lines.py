@@ -19,6 +19,8 @@ from ..require import quoted
 
 #: Columns of a file of joints.
 COLUMNS = ("x1", "y1", "x2", "y2", "name")
+#: How the names of closed lines begin that are excavated in a test, and rock until then (D77).
+EXCAVATION = "excavation:"
 _NOT_IN_NAMES = set(". =,\"'")
 Point = tuple[float, float]
 Line = list[Point]

@@ -123,9 +123,15 @@ def _tell_joints(cells: AssemblyInput, grains: Grains, chosen: Material) -> list
         return []
     laws = {law["name"]: law for law in chosen.joint_laws(grains.model)}
     names = specimen.spec.joint_names or ()
-    require_joints(names, list(laws))
-    cells.edge_joints = np.ascontiguousarray(specimen.edge_joints, dtype=np.int32)
-    return [_joint_material(laws[name]) for name in names]
+    bearing = specimen.spec.joints_with_law
+    require_joints(bearing, list(laws))
+    if not bearing:
+        return []
+    # lines of excavations are rock until then
+    numbers = [bearing.index(name) if name in bearing else -1 for name in names]
+    joints = np.array([*numbers, -1], dtype=np.int32)[specimen.edge_joints]
+    cells.edge_joints = np.ascontiguousarray(joints)
+    return [_joint_material(laws[name]) for name in bearing]
 
 
 def _joint_material(law: Table) -> wrapper.GrainMat:

@@ -70,7 +70,7 @@ class GrainRig(TestRig):
         lines = super().warnings
         if bend := self.built.joint_bend:
             lines.append(doubts.of_bend(bend))
-        cuts = {name: cut.to_json() for name, cut in self.built.specimen.joint_cuts.items()}
+        cuts = {name: cut.to_json() for name, cut in self.built.specimen.told_cuts.items()}
         lines += doubts.of_cuts(cuts)
         lines += doubts.of_gravity(self.built.gravity, self.built.damping)
         if recorder.controlled:

@@ -28,14 +28,14 @@ from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .part_columns import PartColumns
 from .parts import Part, require_part
-from .stages.cycles import PartCycles
+from .stages.excavating import PartExcavation
 
 #: Least cosine between a plate's normal and its way at which it still pushes [-].
 _PUSHES = 1e-9
 
 
 @recording
-class PartRig(PartColumns, PartCycles):
+class PartRig(PartColumns, PartExcavation):
     """A specimen of any outline between parts.
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,

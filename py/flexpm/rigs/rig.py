@@ -293,6 +293,7 @@ class TestRig(RigReadings):
             raise SimulationError(
                 f"{stage}: axial strain = {self.strain:.6g}, must come to {strain:.6g}; "
                 + ("lower the rate" if self.diverged else "the specimen strains elsewhere")
+                + self._borne
             )
 
     def _go_to_stress(self, stage: str, stress: float, rate: float) -> None:
@@ -309,8 +310,13 @@ class TestRig(RigReadings):
         if self.diverged or (entered and not there()):
             raise SimulationError(
                 f"{stage}: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
-                "the specimen does not bear it"
+                f"the specimen does not bear it{self._borne}"
             )
+
+    @property
+    def _borne(self) -> str:
+        """What bears the load that is not what it was to be, to be added to a message."""
+        return ""
 
     def _step_through(self, over: Callable[[], bool], text: str) -> None:
         frames = self.kept is not None and self.kept.has_frames
@@ -356,8 +362,8 @@ class TestRig(RigReadings):
         return _span(plan)
 
     def _sense_to(self, stress: float, step: int) -> float:
-        """1 if the stress must rise from what the record has at a step, else -1."""
-        return 1.0 if stress > self._stress_at(step) else -1.0
+        """-1 if the stress must fall from what the record has at a step, else 1."""
+        return 1.0 if stress >= self._stress_at(step) else -1.0
 
     def _stress_at(self, step: int) -> float:
         """Stress of the last row of the record up to a step, 0 before the first [Pa]."""

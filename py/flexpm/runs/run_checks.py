@@ -155,7 +155,7 @@ def _check_test(run: RunInputs) -> None:
     if run.model in INNER_MODELS:
         run.specimen.require_alike(run.model)
     laws = [joint["name"] for joint in run.material.get("joints", ())]
-    require_joints(run.specimen.joint_names or (), laws)
+    require_joints(run.specimen.joints_with_law, laws)
     shape = run.kind.shape
     if run.specimen.kind != shape:
         raise InputError(f"run: specimen = {run.specimen.kind}, must be a {shape} for {run.test}")

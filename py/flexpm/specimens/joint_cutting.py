@@ -1,19 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cells cut by lines of joints (D35 to D37). Lengths in metres."""
+"""Cells cut by lines of joints (D35 to D37), and of excavations (D77). Lengths in metres."""
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import Self
 
 import numpy as np
 
 from .._flexpm import Tessellation, Tiling, cut_by_joints
 from ..arrays import FloatArray, IntArray
+from ..errors import InputError
 from ..joints.cuts import Cut, require_any, require_within
-from ..joints.lines import Lines
+from ..joints.excavation import Excavation as Excavation
+from ..joints.excavation import excavation_of, line_from_edge, ring_of
+from ..joints.lines import EXCAVATION, Lines
 from ..progress import Progress
+from ..require import quoted, require_known, require_text
 from .kernel_input import call, columns
+from .outlines import polygon_outline
+
+#: Part of a line outside of the specimen that is round-off [-].
+_NOTHING = 1e-9
 
 
 def cut_cells(
@@ -76,3 +87,87 @@ def cut_cells(
         )
     require_any(cuts, lines, low, high)
     return tiling, cuts
+
+
+class Excavatable(ABC):
+    """Closed lines that are sawn into the cells of a specimen and excavated in a test."""
+
+    tessellation: Tessellation
+    joints: Lines
+    joint_cuts: dict[str, Cut]
+
+    @property
+    def told_cuts(self) -> dict[str, Cut]:
+        """What came of the lines of joints with a law; an excavation tells of its wall itself."""
+        there = self.joint_cuts.items()
+        return {name: cut for name, cut in there if not name.startswith(EXCAVATION)}
+
+    @property
+    @abstractmethod
+    def mean_diameter(self) -> float:
+        """Mean diameter of the discs [m]."""
+
+    @abstractmethod
+    def with_joints(self, joints: Mapping[str, object]) -> Self:
+        """Return the specimen cut by joints."""
+
+    def with_excavations(self, excavations: Mapping[str, object]) -> Self:
+        """Return the specimen cut along closed lines, within which a test excavates later (D77).
+
+        The lines are cut as those of joints are (D35), and are among them under the name
+        ``excavation:NAME``; their contacts have the law and the strength of the rock.
+        `PartRig.excavate` takes the cells within away. Joints that are cut first keep their edges.
+
+        Args:
+            excavations: By its name a polygon, rows x, y, or a circle, ``((x, y), radius)`` [m].
+
+        Returns:
+            Cells in their order, second parts of cut cells last.
+
+        Raises:
+            InputError: for a line that crosses itself, leaves the specimen, or meets no edge of a
+                cell, for one that is there already, and as ``with_joints``.
+        """
+        if not isinstance(excavations, Mapping) or not excavations:
+            raise InputError(
+                f"excavations = {quoted(excavations)}, must be polygons or circles by their name"
+            )
+        cut = self
+        for name, given in excavations.items():
+            label = EXCAVATION + require_text("excavation: name", name)
+            if label in cut.joints:
+                raise InputError(f"excavation {name}: name = {name}, is there, must be another one")
+            ring = ring_of(name, given, cut.mean_diameter)
+            polygon_outline(f"excavation {name}", ring)
+            cells = cut.tessellation
+            edges = cells.vertices[cells.shared_edges[:, 2:]]
+            cut = cut.with_joints({label: line_from_edge(name, ring, edges)})
+            found = cut.joint_cuts[label]
+            if found.outside > _NOTHING * found.length:
+                raise InputError(
+                    f"excavation {name}: length outside of the specimen = {found.outside:.4g} m, "
+                    "must be 0; move the line into it"
+                )
+        return cut
+
+    def excavation(self, name: str) -> Excavation:
+        """What lies within a line of ``with_excavations``: cells, areas, raggedness.
+
+        Raises:
+            InputError: for a name that there is not.
+        """
+        there = [one.removeprefix(EXCAVATION) for one in self.joints if one.startswith(EXCAVATION)]
+        if not there:
+            raise InputError(
+                f"excavation = {quoted(name)}, the specimen has none; make it by with_excavations"
+            )
+        require_known("excavation", name, there)
+        cells = self.tessellation
+        corners, ends = cells.vertices[cells.cell_vertices], cells.cell_offsets.tolist()
+        return excavation_of(
+            name,
+            self.joints[EXCAVATION + name][0],
+            [corners[start:end] for start, end in itertools.pairwise(ends)],
+            cells.shared_edges[:, :2],
+            cells.vertices[cells.shared_edges[:, 2:]],
+        )

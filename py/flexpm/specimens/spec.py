@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..files import Table
-from ..joints.lines import Lines, checksum
+from ..joints.lines import EXCAVATION, Lines, checksum
 from .checks import (
     SHORT_EDGE,
     require_diameters,
@@ -157,6 +157,11 @@ class SpecimenSpec:
                     "has; take another name"
                 )
         return replace(self.with_joints(lines), networks=(*(self.networks or ()), network))
+
+    @property
+    def joints_with_law(self) -> list[str]:
+        """Names of the joints but lines of excavations, which are rock until then."""
+        return [name for name in self.joint_names or () if not name.startswith(EXCAVATION)]
 
     @property
     def asked_intensities(self) -> list[tuple[str, float]]:

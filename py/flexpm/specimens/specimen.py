@@ -27,7 +27,7 @@ from . import statistics
 from . import strengths as contact_strengths
 from .checks import SHORT_EDGE as SHORT_EDGE
 from .files import specimen_file
-from .joint_cutting import cut_cells
+from .joint_cutting import Excavatable, cut_cells
 from .kernel_input import Circle, call, checksum, columns, mineral_indices
 from .plane import Filling
 from .shapes import PlaneShapes
@@ -40,7 +40,7 @@ _STRAIGHT = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Specimen(PlaneShapes, SolidShapes, Shown):
+class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
     """Bonded grains that fill an outline.
 
     Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,

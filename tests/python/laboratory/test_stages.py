@@ -282,3 +282,8 @@ def test_a_load_that_a_specimen_does_not_bear_ends_in_one_line():
     ) as raised:
         rig.cycle(load)
     assert "\n" not in str(raised.value)
+    assert "; plate at (" in str(raised.value) and " bears (0, -" in str(raised.value)
+    rig, _, _ = between("rigid")
+    with pytest.raises(SimulationError, match="follow: .*; plate at .* bears .0, -") as raised:
+        rig.follow([0.0, 1.0], [0.0, load], by="load")  # from nothing, by a plate that only presses
+    assert "\n" not in str(raised.value)

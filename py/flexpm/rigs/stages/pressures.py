@@ -83,7 +83,9 @@ class PartPressures(PartRest):
         self._press_until_rest("press", begin, least, what)
 
     def _require_free(self, part: Part) -> None:
-        """Refuse to press a part that the loading drives."""
+        """Refuse to press a part that the loading drives, unless it was pressed before that."""
+        if self._runner.has_begun:  # in an earlier start of the script
+            return
         if self._recorder.loading is not None and part.number in self._frame.driven:
             raise InputError(
                 f"press: part = {part}, is driven, must not be; press it before `load`"

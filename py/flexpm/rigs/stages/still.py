@@ -160,7 +160,7 @@ class PartStill(PartStatics, GrainRig):
             f"{stage}: load = {self.stress * area:.6g} of {self._driven_part}, must come to "
             f"{targets[0] * area:.6g} within {AT_REST:g}"
             + (" and to rest" if until == "rest" else "")
-            + "; the specimen does not bear it, or needs more crossings"
+            + f"; the specimen does not bear it, or needs more crossings{self._borne}"
         )
 
     def _begin_steering(
@@ -250,15 +250,18 @@ class PartStill(PartStatics, GrainRig):
         if not parts:
             return "no part bears"
         most = max(parts, key=lambda part: math.hypot(*part.force))
-        x, y = most.force
-        return f"{most} bears ({x:.4g}, {y:.4g}) N"
+        return _bears(most)
 
     @property
-    def _driven_part(self) -> str:
+    def _borne(self) -> str:
+        return f"; {_bears(self._driven_part)}"
+
+    @property
+    def _driven_part(self) -> RigPart:
         frame = self._frame
         kind, number = (Part, frame.driven[0]) if frame.driven else (HeldNodes, frame.drivenSets[0])
         name = "plate" if frame.driven else "held nodes"
-        return str(kind(self, self.built.solver, name, number))
+        return kind(self, self.built.solver, name, number)
 
     def _require_parts(self, stage: str) -> None:
         if not self._all_parts:
@@ -271,6 +274,12 @@ class PartStill(PartStatics, GrainRig):
         self._require_scene(stage)
         if self._recorder.loading is None:
             raise InputError(f"{stage}: loading = none, must have begun; call load or stress_to")
+
+
+def _bears(part: RigPart) -> str:
+    """A part and its force, in words."""
+    x, y = part.force
+    return f"{part} bears ({x:.4g}, {y:.4g}) N"
 
 
 def endless(plan: Schedule) -> Schedule:

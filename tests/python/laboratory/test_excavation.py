@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Excavations: lines that are sawn into the cells, and what is taken away in a test."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.errors import InputError
+
+SIDE, THICKNESS = 0.012, 0.01
+CIRCLE = ((0.006, 0.006), 0.002)
+STRONG = ["tensile_strength=1e10", "cohesion=1e10", "softening=brittle"]
+
+
+@pytest.fixture(scope="module")
+def whole() -> flexpm.Specimen:
+    return flexpm.Specimen.rectangle(SIDE, SIDE, THICKNESS, diameters=(0.8e-3, 1.2e-3), seed=1)
+
+
+@pytest.fixture(scope="module")
+def sawn(whole) -> flexpm.Specimen:
+    return whole.with_excavations({"tunnel": CIRCLE})
+
+
+def made(specimen: flexpm.Specimen, model: str = "flexible", **leaves: object):
+    yade.O.reset()
+    name = "augig-table7" if model == "flexible" else "augig-table2-bilinear"
+    material = flexpm.materials.load(name).with_set(STRONG)
+    rig = flexpm.PartRig(flexpm.build(specimen, material, model), **leaves)
+    return rig, [rig.platen(side) for side in range(4)]
+
+
+def test_a_line_is_sawn_into_the_cells_and_is_rock_until_then(whole, sawn, tmp_path):
+    found = sawn.excavation("tunnel")
+    assert len(found.cells) > 10
+    assert found.asked_area == pytest.approx(np.pi * 0.002**2, rel=0.02)
+    # chords of cells, but where a grain is left whole
+    assert found.area == pytest.approx(found.asked_area, rel=0.05)
+    assert 0.0 < found.raggedness < 0.5 * sawn.mean_diameter
+    inside = np.isin(sawn.tessellation.shared_edges[:, :2], found.cells)
+    wall = inside.any(axis=1) & ~inside.all(axis=1)
+    # some run along edges on the way to where the line was cut
+    assert np.count_nonzero(wall != (sawn.edge_joints >= 0)) <= 0.2 * np.count_nonzero(wall)
+    for model in ("rigid", "flexible"):  # no joint asks for a law
+        rock = flexpm.elastic(replace(sawn, edge_joints=None), model=model)
+        assert flexpm.elastic(sawn, model=model) == rock
+    vein = whole.with_joints({"vein": sawn.joints["excavation:tunnel"][0]})
+    with pytest.raises(InputError, match="joint = 'vein', has no law"):
+        flexpm.elastic(vein)
+    sawn.save(tmp_path / "sawn.json")
+    again = flexpm.Specimen.load(tmp_path / "sawn.json").excavation("tunnel")
+    np.testing.assert_array_equal(again.cells, found.cells)
+    assert (again.area, again.raggedness) == (found.area, found.raggedness)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_an_excavated_hole_has_the_stress_of_one_made_before(sawn, model):
+    asked = (4e6, 2e6)
+    stresses = []
+    for before in (False, True):
+        rig, (_, right, top, _) = made(sawn, model)
+        if before:
+            rig.excavate("tunnel")
+        rig.press({top: asked[0], right: asked[1]})
+        if not before:
+            solver = rig.built.solver
+            stored = solver.energies()["elastic_energy"]
+            solver.resetEnergyBalance()
+            rig.excavate("tunnel")
+            energies = solver.energies()
+            given = energies.pop("boundary_work") + energies.pop("initial_energy")
+            assert abs(given - sum(energies.values())) < 1e-6 * stored
+            assert energies["erased_energy"] > 1e-2 * stored
+        state = rig.built.snapshot()
+        stresses.append(state.grain_stress)
+        static = rig.elastic()
+        moved = state.positions - state.reference
+        np.testing.assert_allclose(static.displacements, moved, atol=2e-3 * np.abs(moved).max())
+    largest = np.nanmax(np.abs(stresses[1]))
+    np.testing.assert_allclose(*stresses, atol=0.01 * largest)
+
+
+def test_a_polygon_is_excavated_after_loading_and_the_record_stays_in_balance(whole):
+    room = [(0.004, 0.004), (0.008, 0.004), (0.008, 0.007), (0.004, 0.007)]
+    rig, (floor, right, top, _) = made(whole.with_excavations({"room": room, "shaft": CIRCLE}))
+    rig.press({top: 4e6, right: 2e6})
+    rig.drive(top, (0.0, -1.0), against=floor, area=SIDE * THICKNESS, length=SIDE)
+    rig.stress_to(8e6)
+    rig.relax()
+    grains = rig.built.counts()["grains"]
+    rig.excavate("room")
+    assert rig.built.counts()["grains"] < grains
+    rig.excavate("shaft")  # what is left of it
+    with pytest.raises(InputError, match="excavate: name = shaft, is excavated"):
+        rig.excavate("shaft")
+    rig.stress_to(9e6)
+    assert rig.warnings == []
+    assert [stage["stage"] for stage in rig.stages][3:6] == ["excavate", "excavate", "stress_to"]
+
+
+@pytest.mark.long
+def test_a_script_that_is_started_again_finds_what_was_excavated(sawn, tmp_path):
+    records, leaves = [], {"out": tmp_path / "out", "report": False}
+    for _ in range(2):
+        rig, (floor, right, top, _) = made(sawn, "rigid", **leaves)
+        rig.press({top: 4e6, right: 2e6})
+        rig.drive(top, (0.0, -1.0), against=floor)
+        rig.stress_to(100.0)
+        rig.excavate("tunnel")
+        rig.finish()
+        records.append((rig.record.array.copy(), rig.built.counts(), rig.stages))
+    np.testing.assert_array_equal(records[0][0], records[1][0])
+    assert records[0][1:] == records[1][1:]
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"a": [(2e-3, 2e-3), (8e-3, 8e-3), (8e-3, 2e-3), (2e-3, 8e-3)]}, "must not cross"),
+        ({"a": ((0.0, 6e-3), 2e-3)}, "length outside of the specimen = 0.00[0-9]* m, must be 0"),
+        ({"a": ((6e-3, 6e-3), 1e-6)}, "edges of cells that its line meets = 0"),
+        ({"a": ((6e-3, 6e-3), -1.0)}, r"excavation a: radius = -1.0 m"),
+        ({"a": ((6e-3,), 1e-3)}, "excavation a: centre = "),
+        ({"a": [(2e-3, 2e-3), (8e-3, 8e-3)]}, "corners = 2, must be at least 3"),
+        ({"a": [(2e-3, 2e-3), (8e-3, 8e-3, 1.0)]}, "must be a polygon"),
+        ({"a b": CIRCLE}, "a b"),
+        ({3: [(2e-3, 2e-3), (8e-3, 8e-3), (8e-3, 2e-3)]}, "name = 3, must be a text"),
+        ({"a": 3.0}, "must be a polygon, rows x, y, or a circle"),
+        ({}, "must be polygons or circles by their name"),
+        ({"tunnel": CIRCLE}, "name = tunnel, is there"),
+    ],
+)
+def test_lines_that_cannot_be_excavated_are_refused_in_one_line(sawn, given, told):
+    with pytest.raises(InputError, match=told) as refused:
+        sawn.with_excavations(given)
+    assert "\n" not in str(refused.value)
+
+
+def test_what_would_hang_on_nothing_is_refused_and_nothing_is_taken(whole):
+    rings = {"outer": ((0.006, 0.006), 0.0045), "inner": ((0.006, 0.006), 0.0015)}
+    rig, _ = made(whole.with_excavations(rings))
+    held = rig.hold(disc=((0.006, 0.006), 2e-4))
+    grains = rig.built.counts()["grains"]
+    with pytest.raises(InputError, match="has held nodes at .* within, must have none") as refused:
+        rig.excavate("outer")
+    assert "\n" not in str(refused.value) and held.nodes
+    with pytest.raises(InputError, match="unknown .did you mean inner"):
+        rig.excavate("iner")
+    assert rig.built.counts()["grains"] == grains
+    assert rig.stages == []
+    plain, _ = made(whole)
+    with pytest.raises(InputError, match="the specimen has none; make it by with_excavations"):
+        plain.excavate("tunnel")
+
+
+def test_an_island_is_refused(whole):
+    slots = {"c": _ring_with_a_gap(0.003, 0.0045), "plug": ((0.006, 0.00225), 0.0012)}
+    rig, _ = made(whole.with_excavations(slots))
+    rig.excavate("c")
+    with pytest.raises(InputError, match=r"leaves \d+ grains at .* that hang on nothing"):
+        rig.excavate("plug")
+
+
+def _ring_with_a_gap(inner: float, outer: float) -> np.ndarray:
+    """A ring but for its lowest part."""
+    angles = np.radians(np.linspace(-75.0, 255.0, 45))
+    ways = np.column_stack([np.cos(angles), np.sin(angles)])
+    return 0.006 + np.vstack([outer * ways, inner * ways[::-1]])
