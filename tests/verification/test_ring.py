@@ -11,7 +11,7 @@ import yade
 
 INNER, OUTER = 0.02, 0.04
 #: Grains over the wall, and corners of each circle.
-ACROSS, CORNERS = 8, 96
+ACROSS, CORNERS = 6, 72
 
 
 def lame(radius: np.ndarray, inside: float, outside: float) -> np.ndarray:
@@ -64,9 +64,9 @@ def test_a_thick_ring_under_a_fluid_has_the_stresses_of_lame():
     strong = {"tensile_strength": 1e10, "cohesion": 1e10, "softening": "brittle"}
     rig = flexpm.PartRig(flexpm.build(ring, rock.with_set({**stiff, **strong}), mesh="fan"))
     rig.fluid(10e6, hole=0)
-    assert misfit(rig.built.snapshot(), 10e6, 0.0) < 0.02
+    assert misfit(rig.built.snapshot(), 10e6, 0.0) < 0.01
     rig.fluid(20e6, side=range(CORNERS))
-    assert misfit(rig.built.snapshot(), 10e6, 20e6) < 0.02
+    assert misfit(rig.built.snapshot(), 10e6, 20e6) < 0.01
     energies = rig.built.solver.energies()
     kept = sum(energies[f"{name}_energy"] for name in ("kinetic", "elastic", "damping"))
     assert energies["boundary_work"] == pytest.approx(kept, rel=1e-6)
