@@ -5,7 +5,6 @@
 #include <flexpm/kernel/space/polyhedra.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
-#include <flexpm/yade/solver/solid_archive.hpp>
 
 namespace yade {
 
