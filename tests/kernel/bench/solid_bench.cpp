@@ -37,10 +37,10 @@ flexpm::SolidState cube(int along, double rate)
             { { specimens::granite() }, { specimens::granite_contact() }, {},
                 flexpm::FacePointRule::corners_and_inner });
     flexpm::scale_masses(s, damping);
-    std::vector<flexpm::Vector> field;
+    flexpm::SolidField field;
     flexpm::for_each_node(s, [&](int grain, int number) {
         const auto p = flexpm::space_vector(s.grains.reference, s.grains.node(grain, number));
-        field.push_back({ -0.2 * p.x, -0.2 * p.y, p.z });
+        field.ways.push_back({ -0.2 * p.x, -0.2 * p.y, p.z });
     });
     for (const auto side : { flexpm::SolidSide::bottom, flexpm::SolidSide::top })
         flexpm::prescribe(s, flexpm::side_nodes(s, side), 2, 0.0);

@@ -48,5 +48,5 @@ def test_what_solids_do_not_have_is_refused(box):
         flexpm.elastic(box, "augig-table2-bilinear", model="rigid")
     with pytest.raises(InputError, match="points, mesh = 1, refined, must be left out"):
         flexpm.elastic(box, points=1)
-    with pytest.raises(InputError, match="build: specimen = box, must be plane"):
-        flexpm.build(box)
+    with pytest.raises(InputError, match="build: points, mesh, dynamic = 1, refined, False, must"):
+        flexpm.build(box, points=1)
