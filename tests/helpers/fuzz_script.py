@@ -118,6 +118,18 @@ class Script:
         if rig := self._parts():
             self._held.append(rig.platen(side, bonded=bonded))
 
+    def do_layer(self, side: int, strip: Any) -> None:
+        if rig := self._parts():
+            self._held.append(rig.platen(side, strip=strip))
+
+    def do_jaw(self, x: float, y: float, radius: float, angle: Any) -> None:
+        if rig := self._parts():
+            self._held.append(rig.jaw((x, y), radius, angle=angle))
+
+    def do_soft(self, way: list[Any], parts: list[Any], machine: float) -> None:
+        if rig := self._parts():
+            rig.drive(self._picked(parts), way, machine=machine)
+
     def do_hold(self, x: float, y: float, radius: float, axes: str) -> None:
         if rig := self._parts():
             self._held.append(rig.hold(disc=((x, y), radius), axes=axes))

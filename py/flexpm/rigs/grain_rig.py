@@ -246,7 +246,7 @@ class GrainRig(TestRig):
             recorder=self._recorder,
             fastest=plan.fastest,
             slowest=SLOWEST_WAIT,
-            sweep=self._loaded_area() * plan.fastest * abs(plan.velocity),
+            sweep=self._loaded_area() * plan.fastest * abs(plan.velocity) / self._ahead,
             runningShare=before,
             shareAfterPeak=after,
             crossingSteps=crossing,

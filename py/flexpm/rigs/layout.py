@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -15,17 +16,25 @@ from ..models.grains import Model
 from ..require import (
     NOT_NEGATIVE,
     POSITIVE,
+    Bounds,
     quoted,
     require_flag,
     require_number,
     require_whole,
 )
+from ..specimens.kernel_input import Circle
 from .parts import HeldNodes, Part, RigPart
 from .places import Place, Where, in_region, require_vector
 
 #: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
 #: turn with a beam, which would rest on the inner end of a long one.
 _SUPPORT = 0.5
+#: Largest angle of a jaw, an edge further round does not face it, and the limits [rad].
+_WIDEST = 2.0 * math.pi / 3.0
+_ANGLE = Bounds(above=0.0, at_most=_WIDEST)
+#: A jaw's place is off the rim by at most this part of the radius; radii that differ by less than
+#: the other part are one [-].
+_OFF_RIM, _SAME = 0.05, 1e-9
 #: Friction of a part that is pinned: it does not slide as long as it presses [-].
 _NO_SLIDING = 1e6
 
@@ -57,6 +66,7 @@ class PartLayout:
         pinned: bool = False,
         friction: float = 0.0,
         bonded: bool = False,
+        strip: float | None = None,
     ) -> Part:
         """Lay a plate against the part of the outline around a place.
 
@@ -67,6 +77,8 @@ class PartLayout:
             pinned: It does not slide along the outline as long as it presses; else it is a roller.
             friction: Coefficient, of one that is neither [-].
             bonded: It pulls, too.
+            strip: Stiffness per area of a soft layer between it and the grains [Pa/m], E / h of one
+                of thickness h; it comes in series with that of the contacts. None: no layer.
 
         Raises:
             InputError: for a place that is not on the outline or that another part has, or a length
@@ -80,6 +92,7 @@ class PartLayout:
             require_vector("support: normal", normal, ""),
             _NO_SLIDING if require_flag("support: pinned", pinned) else friction,
             require_flag("support: bonded", bonded),
+            _strip("support", strip),
         )
         solver = self.built.solver
         return self._plate(
@@ -88,13 +101,21 @@ class PartLayout:
             lambda: solver.addPatchPlate(*values),
         )
 
-    def platen(self, side: int, *, friction: float = 0.0, bonded: bool = False) -> Part:
+    def platen(
+        self,
+        side: int,
+        *,
+        friction: float = 0.0,
+        bonded: bool = False,
+        strip: float | None = None,
+    ) -> Part:
         """Lay a plate along a whole side of the outline.
 
         Args:
             side: Number of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
             friction: Coefficient [-].
             bonded: It pulls, too. It slides freely along itself all the same, without friction.
+            strip: As for `support` [Pa/m].
 
         Raises:
             InputError: for a side that there is not, or on which another part lies.
@@ -102,12 +123,76 @@ class PartLayout:
         side = require_whole("platen: side", side)
         friction = require_number("platen: friction", friction, NOT_NEGATIVE)
         bonded = require_flag("platen: bonded", bonded)
+        layer = _strip("platen", strip)
         solver = self.built.solver
         return self._plate(
             "platen",
-            lambda: solver.findSidePlate(side, bonded, friction),
-            lambda: solver.addSidePlates(side, bonded=bonded, friction=friction)[0],
+            lambda: solver.findSidePlate(side, bonded, friction, layer),
+            lambda: solver.addSidePlates(side, 1, bonded, friction, layer)[0],
         )
+
+    def jaw(
+        self,
+        place: Place,
+        radius: float,
+        *,
+        angle: float | None = None,
+        friction: float = 0.0,
+        strip: float | None = None,
+    ) -> Part:
+        """Lay an arc around the rim of a disc: the curved jaw of a splitting test.
+
+        The disc lies against ever more of it as the load grows; `contact_of` records the angle. A
+        jaw of the disc's own radius touches all of its angle at once (deviation D79).
+
+        Args:
+            place: x and y of the jaw's middle, in whose direction from the disc's centre it lies
+                [m].
+            radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
+            angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
+                of the disc's own radius needs it.
+            friction: Coefficient [-].
+            strip: As for `support` [Pa/m].
+
+        Raises:
+            InputError: for a specimen that is no disc, a place off its rim by more than 5 % of its
+                radius, a radius below the disc's, or an angle out of range or missing.
+        """
+        centre, rim = self._disc()
+        x, y, _ = require_vector("jaw: place", place)
+        way = np.array([x - centre[0], y - centre[1]])
+        off = abs(float(np.hypot(*way)) - rim)
+        if off > _OFF_RIM * rim:
+            raise InputError(
+                f"jaw: place = ({x:g}, {y:g}) m, must be on the rim, is {off:.3g} m off"
+            )
+        radius = require_number("jaw: radius", radius, POSITIVE, "m")
+        if radius < rim * (1.0 - _SAME):
+            raise InputError(f"jaw: radius = {radius:g} m, must be >= {rim:g} m, the disc's")
+        if angle is None and radius <= rim * (1.0 + _SAME):
+            raise InputError("jaw: angle = None, must be given for the disc's own radius")
+        way *= rim / float(np.hypot(*way))
+        values = (
+            (centre[0] + way[0], centre[1] + way[1], 0.0),
+            (*centre, 0.0),
+            max(radius, rim),
+            _WIDEST if angle is None else require_number("jaw: angle", angle, _ANGLE, "rad"),
+            require_number("jaw: friction", friction, NOT_NEGATIVE),
+            _strip("jaw", strip),
+        )
+        solver = self.built.solver
+        return self._plate(
+            "jaw",
+            lambda: solver.findJawPlate(*values),
+            lambda: solver.addJawPlate(*values),
+        )
+
+    def _disc(self) -> tuple[tuple[float, float], float]:
+        """Centre and radius of the disc that the specimen is [m]."""
+        outline = self.built.specimen.outline
+        if not isinstance(outline, Circle):
+            raise InputError("jaw: specimen = no disc, must be one; lay supports")
+        return (outline.x, outline.y), outline.radius
 
     def hold(
         self,
@@ -192,6 +277,7 @@ class PartLayout:
             {
                 "part": "plate",
                 **{name: one[name] for name in ("normal", "width", "friction", "bonded")},
+                **{name: one[name] for name in ("strip", "radius", "machine") if one[name]},
                 "place": _before(one),
             }
             for one in solver.plates()
@@ -219,6 +305,11 @@ class PartLayout:
                 f"{what}: scene = another one than that of the rig, must be the same; after "
                 "O.reset() or O.load() make a new rig"
             )
+
+
+def _strip(label: str, strip: float | None) -> float:
+    """Stiffness per area of a soft layer [Pa/m]; 0: there is none."""
+    return 0.0 if strip is None else require_number(f"{label}: strip", strip, POSITIVE, "Pa/m")
 
 
 def _before(part: Table) -> list[float]:

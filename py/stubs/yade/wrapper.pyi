@@ -190,6 +190,7 @@ class ServoController(LoadingController):
 class Gauge(Serializable):
     name: str
     plate: int
+    reads: str
     nodes: list[int]
 
 class TestFrame(Serializable): ...
@@ -262,7 +263,12 @@ class GrainSolver(Engine):
     def scaleMasses(self) -> None: ...
     def useRealMasses(self) -> float: ...
     def addSidePlates(
-        self, side: int, pieces: int = ..., bonded: bool = ..., friction: float = ...
+        self,
+        side: int,
+        pieces: int = ...,
+        bonded: bool = ...,
+        friction: float = ...,
+        strip: float = ...,
     ) -> list[int]: ...
     def addTouchingPlate(self, normal: _Vector, friction: float = ...) -> int: ...
     def addPatchPlate(
@@ -272,8 +278,21 @@ class GrainSolver(Engine):
         normal: _Vector = ...,
         friction: float = ...,
         bonded: bool = ...,
+        strip: float = ...,
     ) -> int: ...
-    def findSidePlate(self, side: int, bonded: bool = ..., friction: float = ...) -> int: ...
+    def addJawPlate(
+        self,
+        place: _Vector,
+        centre: _Vector,
+        radius: float,
+        angle: float,
+        friction: float = ...,
+        strip: float = ...,
+    ) -> int: ...
+    def findSidePlate(
+        self, side: int, bonded: bool = ..., friction: float = ..., strip: float = ...
+    ) -> int: ...
+    def setMachine(self, plate: int, stiffness: float) -> None: ...
     def findPatchPlate(
         self,
         place: _Vector,
@@ -281,6 +300,16 @@ class GrainSolver(Engine):
         normal: _Vector = ...,
         friction: float = ...,
         bonded: bool = ...,
+        strip: float = ...,
+    ) -> int: ...
+    def findJawPlate(
+        self,
+        place: _Vector,
+        centre: _Vector,
+        radius: float,
+        angle: float,
+        friction: float = ...,
+        strip: float = ...,
     ) -> int: ...
     def gaugePoints(self, first: _Vector, second: _Vector) -> tuple[int, int, float]: ...
     def sectionNodes(

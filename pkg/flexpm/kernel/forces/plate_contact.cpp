@@ -38,18 +38,57 @@ double normal_force(const Plate& plate, const PlatePoint& p, double gap)
     return gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
 }
 
+/// Part of a way that is round-off.
+constexpr double round_off = 1e-15;
+
+/// Let the spring of the machine give way until it bears what the contacts do, at the end of a step
+/// that began at the present displacements of the nodes.
+///
+/// What the spring lacks is concave in its way, in straight pieces: Newton's method ends on the
+/// piece that has the root, after as many looks as there are points at most.
+void give_way(const Assembly& a, Plate& plate, double dt)
+{
+    const int count = plate_points(plate);
+    std::vector<double> gaps;
+    for (int i = 0; i < count; ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const auto nodes = a.facets.nodes(p.facet);
+        const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight)
+            + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
+        gaps.push_back(plate.gap[i] + dot(point_normal(plate, i), way));
+    }
+    double more = 0.0;
+    for (int look = 0; look < count + 2; ++look) {
+        double lacking = plate.machine_stiffness * (plate.machine_give + more);
+        double stiffness = plate.machine_stiffness;
+        for (int i = 0; i < count; ++i) {
+            const double share = dot(plate.normal, point_normal(plate, i));
+            const double gap = gaps[i] + share * more;
+            if (!plate.bonded && !(gap < 0.0)) continue;
+            const double along = share * plate_point(plate, i).stiffness;
+            lacking += along * gap;
+            stiffness += along * share;
+        }
+        const double change = lacking / stiffness;
+        more -= change;
+        if (std::fabs(change) <= round_off * std::fabs(plate.machine_give + more)) break;
+    }
+    plate.machine_give += more;
+    plate.displacement = plate.displacement - more * plate.normal;
+}
+
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
 Vector touch(Assembly& a, Plate& plate, double dt)
 {
-    const Vector tangent = tangent_of(in_plane(plate.normal));
     Vector total;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
+        const Vector along = point_normal(plate, i), tangent = tangent_of(in_plane(along));
         const auto nodes = a.facets.nodes(p.facet);
         const Point u = vector_on_edge(a.grains.displacement, nodes, p.weight);
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Vector way = u + dt * v - plate.displacement;
-        const double gap = plate.gap[i] + dot(plate.normal, way);
+        const double gap = plate.gap[i] + dot(along, way);
         plate.opening[i] = gap;
         const double normal = normal_force(plate, p, gap);
         if (plate.friction > 0.0) {
@@ -57,7 +96,7 @@ Vector touch(Assembly& a, Plate& plate, double dt)
             plate.shear_force[i] = shear_force(plate, p, i, normal, dot(tangent, slip));
         }
         const double shear = plate.shear_force[i];
-        const Vector force = normal * plate.normal + shear * tangent;
+        const Vector force = normal * along + shear * tangent;
         add_force(a.facets, p, force);
         total = total + force;
     }
@@ -97,12 +136,18 @@ void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, doub
 void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 {
     Plate& plate = a.plates[number];
-    const Vector before = plate.force;
+    const Vector before = plate.force, from = plate.displacement;
+    const bool soft = plate.machine_stiffness > 0.0;
     plate.displacement = plate.displacement + dt * plate.velocity;
+    if (soft && !plate.loaded) give_way(a, plate, dt);
     plate.force = touch(a, plate, dt);
+    if (soft && plate.loaded)
+        plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
     if (plate.loaded) {
         const double undamped = dot(plate.normal, a.loading.of_plate(number).velocity);
         integrate_loaded(plate, undamped, bears_any(a, plate), dt, damping);
+    } else if (soft) {
+        plate.boundary_work += dot(0.5 * (before + plate.force), plate.displacement - from);
     } else {
         plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }
@@ -144,6 +189,29 @@ void set_velocity(Assembly& a, int plate, Vector velocity)
     p.velocity = velocity;
 }
 
+void set_machine(Assembly& a, int plate, double stiffness)
+{
+    require_plate(a, plate);
+    check_positive("stiffness of a machine", stiffness, "N/m");
+    Plate& p = a.plates[plate];
+    if (p.machine_stiffness > 0.0) {
+        refuse("stiffness of a machine", stiffness, "N/m",
+            "must be given once, was " + number(p.machine_stiffness) + " N/m");
+    }
+    if (!p.normals.empty() && p.friction > 0.0) {
+        refuse("friction of a jaw in a soft machine", p.friction, "", "must be 0");
+    }
+    p.machine_stiffness = stiffness;
+    p.machine_give = dot(p.normal, p.force) / stiffness;
+}
+
+Vector crosshead_displacement(const Plate& p) { return p.displacement + p.machine_give * p.normal; }
+
+double machine_energy(const Plate& p)
+{
+    return 0.5 * p.machine_stiffness * p.machine_give * p.machine_give;
+}
+
 int plate_points(const Plate& p) { return static_cast<int>(p.facets.size()) * p.points; }
 
 PlatePoint plate_point(const Plate& p, int index)
@@ -155,7 +223,8 @@ PlatePoint plate_point(const Plate& p, int index)
 Vector point_force(const Plate& p, int index)
 {
     const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
-    return normal * p.normal + p.shear_force[index] * tangent_of(in_plane(p.normal));
+    const Vector along = point_normal(p, index);
+    return normal * along + p.shear_force[index] * tangent_of(in_plane(along));
 }
 
 void update_plates(Assembly& a, double dt, double damping)
@@ -216,6 +285,28 @@ double contact_width(const Assembly& a, int plate)
             + vector_on_edge(a.grains.displacement, nodes, point.weight);
         const double place = dot(tangent, x);
         const double half = a.length_of(0.5 * p.area[i]);
+        first = any ? std::min(first, place - half) : place - half;
+        last = any ? std::max(last, place + half) : place + half;
+        any = true;
+    }
+    return last - first;
+}
+
+double contact_angle(const Assembly& a, int plate)
+{
+    const Plate& p = a.plates.at(plate);
+    if (p.jaw_radius == 0.0) return 0.0;
+    const Vector centre = p.position + p.disc_radius * p.normal;
+    const Point tangent = tangent_of(in_plane(p.normal));
+    double first = 0.0, last = 0.0;
+    bool any = false;
+    for (int i = 0; i < plate_points(p); ++i) {
+        if (p.opening[i] >= 0.0 || p.area[i] == 0.0) continue;
+        const PlatePoint point = plate_point(p, i);
+        const Vector arm =
+            vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight) - centre;
+        const double place = std::atan2(dot(tangent, arm), -dot(p.normal, arm));
+        const double half = a.length_of(0.5 * p.area[i]) / p.disc_radius;
         first = any ? std::min(first, place - half) : place - half;
         last = any ? std::max(last, place + half) : place + half;
         any = true;

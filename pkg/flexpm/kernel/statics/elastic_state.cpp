@@ -129,6 +129,7 @@ StaticCase case_at(const Assembly& a, const ElasticLoading& loading, double way)
 struct Motion {
     Array<double> displacement, force;
     std::vector<Vector> plates;
+    std::vector<double> gives;  ///< of the springs of machines, what they are longer by
     std::vector<double> angles;
     double way = 0.0;
 
@@ -187,6 +188,8 @@ Assembly state_after(const Assembly& a, const OneSidedPoints& points, const Clos
         s.grains.displacement[i] += m.displacement[i];
     for (std::size_t i = 0; i < s.plates.size(); ++i)
         s.plates[i].displacement = s.plates[i].displacement + m.plates[i];
+    for (std::size_t i = 0; i < s.plates.size(); ++i)
+        s.plates[i].machine_give -= m.gives[i];
     for (std::size_t i = 0; i < s.node_sets.size(); ++i)
         s.node_sets[i].angle.z += m.angles[i];
     return s;
@@ -205,8 +208,8 @@ double load_of(const Assembly& a, const ElasticLoading& loading)
     return sum;
 }
 
-/// One solution with points open and closed as they are: the plates under a load, and what is
-/// driven by one, find their way.
+/// One solution with points open and closed as they are: the plates under a load or in a soft
+/// machine, and what is driven by a load, find their way.
 class Solution {
 public:
     Solution(const Assembly& a, const ElasticLoading& loading, const OneSidedPoints& points,
@@ -222,7 +225,9 @@ public:
         cases.push_back(case_at(a, loading, loading.load ? 0.0 : loading.way));
         cases.front().loads = &forces;
         for (std::size_t i = 0; i < a.plates.size(); ++i) {
-            if (!a.plates[i].loaded || is_idle(a.plates[i])) continue;
+            trial.plates[i].machine_stiffness = 0.0;  // their springs find their way here
+            const bool soft = !a.plates[i].loaded && a.plates[i].machine_stiffness > 0.0;
+            if (!soft && (!a.plates[i].loaded || is_idle(a.plates[i]))) continue;
             pressed.push_back(static_cast<int>(i));
             cases.push_back(case_at(a, loading, 0.0));
             cases.back().plates[i] = a.plates[i].normal;
@@ -232,6 +237,7 @@ public:
         motion.displacement.assign(forces.size(), 0.0);
         motion.force = forces;
         motion.plates.resize(a.plates.size());
+        motion.gives.assign(a.plates.size(), 0.0);
         motion.angles.assign(a.node_sets.size(), 0.0);
         motion.add(found.front(), cases.front(), 1.0);
         motion.way = loading.load ? 0.0 : loading.way;
@@ -250,7 +256,10 @@ private:
         Eigen::Index row = 0;
         for (int i : pressed) {
             const Vector force = points.plate_force(closed, trial, i, m.displacement, m.plates[i]);
-            out[row++] = a.plates[i].load - dot(a.plates[i].normal, force);
+            const Plate& p = a.plates[i];
+            const double load =
+                p.loaded ? p.load : p.machine_stiffness * (p.machine_give - m.gives[i]);
+            out[row++] = load - dot(p.normal, force);
         }
         if (loading.load) {
             Assembly loaded = a;
@@ -260,19 +269,26 @@ private:
         return out;
     }
 
+    /// Add a part of a case that lets one of them go its way.
+    void add_way(Motion& m, Eigen::Index which, double factor) const
+    {
+        m.add(found[which + 1], cases[which + 1], factor);
+        if (which < static_cast<Eigen::Index>(pressed.size())) m.gives[pressed[which]] += factor;
+    }
+
     void find_ways()
     {
         const Eigen::VectorXd base = missing(motion);
         Eigen::MatrixXd stiffness(base.size(), base.size());
         for (Eigen::Index j = 0; j < base.size(); ++j) {
             Motion one = motion;
-            one.add(found[j + 1], cases[j + 1], 1.0);
+            add_way(one, j, 1.0);
             stiffness.col(j) = base - missing(one);
         }
         require_resistance(stiffness);
         const Eigen::VectorXd ways = stiffness.fullPivLu().solve(base);
         for (Eigen::Index j = 0; j < ways.size(); ++j)
-            motion.add(found[j + 1], cases[j + 1], ways[j]);
+            add_way(motion, j, ways[j]);
         if (loading.load) motion.way = ways[ways.size() - 1];
     }
 

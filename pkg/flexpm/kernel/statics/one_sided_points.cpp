@@ -36,7 +36,7 @@ Closed OneSidedPoints::closed(
         found.plates.emplace_back();
         for (int k = 0; k < plate_points(plate); ++k) {
             const double gap = plate.opening[k]
-                + dot(plate.normal, way_of(a, plate_point(plate, k), moved) - plates[i]);
+                + dot(point_normal(plate, k), way_of(a, plate_point(plate, k), moved) - plates[i]);
             found.plates.back().push_back(plate.bonded || (gap <= none && !is_idle(plate)));
         }
     }
@@ -116,9 +116,9 @@ Vector OneSidedPoints::point_force(
 {
     const Plate& plate = a.plates[i];
     const PlatePoint p = plate_point(trial.plates[i], k);
-    const Vector t = tangent_of(in_plane(plate.normal));
+    const Vector normal = point_normal(plate, k), t = tangent_of(in_plane(normal));
     const double kept = now.plates[i][k] ? plate.shear_force[k] : 0.0;
-    return -p.stiffness * (plate.opening[k] + dot(plate.normal, way)) * plate.normal
+    return -p.stiffness * (plate.opening[k] + dot(normal, way)) * normal
         + (kept - p.shear_stiffness * dot(t, way)) * t;
 }
 

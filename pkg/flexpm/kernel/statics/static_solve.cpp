@@ -31,10 +31,11 @@ void add_plate_loads(
 {
     for (std::size_t number = 0; number < a.plates.size(); ++number) {
         const Plate& plate = a.plates[number];
+        Vector u = displacements[number];
+        if (plate.machine_stiffness > 0.0) u = u - machine_lag(a, plate, u, nullptr) * plate.normal;
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const StiffnessBlock k = plate_springs(plate, i);
-            const Vector u = displacements[number];
             const auto n = a.facets.nodes(p.facet);
             const auto part = facet_parts(p.weight);
             for (int r = 0; r < facet_nodes; ++r) {

@@ -6,6 +6,8 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace flexpm {
 
@@ -94,7 +96,47 @@ void add_contact(const Assembly& a, int contact, const PointSprings& springs,
         a, contact, share, spring_block(n, law.normal_stiffness, law.shear_stiffness), entries);
 }
 
-/// Springs of a plate's points to where the plate is.
+/// Part of a node in what moves the spring of a machine behind a plate.
+struct LagShare {
+    int node;
+    Point pull;  ///< force on the plate along its normal for a unit way [N/m]
+};
+
+/// Those of all nodes before it, and the stiffness of spring and contacts along its normal [N/m].
+std::pair<std::vector<LagShare>, double> lag_shares(const Assembly& a, const Plate& plate)
+{
+    std::vector<LagShare> shares;
+    double stiffness = plate.machine_stiffness;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const Point n = in_plane(point_normal(plate, i));
+        const double share = dot(plate.normal, n);
+        const auto nodes = a.facets.nodes(p.facet);
+        const auto parts = facet_parts(p.weight);
+        stiffness += share * share * p.stiffness;
+        for (int k = 0; k < facet_nodes; ++k) {
+            const double part = parts[k] * share * p.stiffness;
+            if (part != 0.0) shares.push_back({ nodes[k], part * n });
+        }
+    }
+    return { shares, stiffness };
+}
+
+/// What the give of a machine's spring takes from the stiffness of a plate's points: it couples
+/// all of them.
+void add_machine(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
+{
+    const auto [shares, stiffness] = lag_shares(a, plate);
+    for (const LagShare& r : shares) {
+        for (const LagShare& c : shares) {
+            const Point s = (-1.0 / stiffness) * r.pull;
+            add_block(entries, r.node, c.node,
+                { s.x * c.pull.x, s.x * c.pull.y, s.y * c.pull.x, s.y * c.pull.y });
+        }
+    }
+}
+
+/// Springs of a plate's points to where the plate, or its crosshead, is.
 void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
@@ -109,6 +151,7 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
             }
         }
     }
+    if (plate.machine_stiffness > 0.0) add_machine(a, plate, entries);
 }
 
 }  // namespace
@@ -116,7 +159,20 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
 StiffnessBlock plate_springs(const Plate& plate, int point)
 {
     const PlatePoint p = plate_point(plate, point);
-    return spring_block(in_plane(plate.normal), p.stiffness, p.shear_stiffness);
+    return spring_block(in_plane(point_normal(plate, point)), p.stiffness, p.shear_stiffness);
+}
+
+double machine_lag(
+    const Assembly& a, const Plate& plate, Vector displacement, const Array<double>* moved)
+{
+    if (plate.machine_stiffness == 0.0) return 0.0;
+    const auto [shares, stiffness] = lag_shares(a, plate);
+    double force = 0.0;
+    for (const LagShare& s : shares) {
+        const Vector way = moved ? displacement - a.grains.vector_at(*moved, s.node) : displacement;
+        force += dot(s.pull, way);
+    }
+    return force / stiffness;
 }
 
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs)

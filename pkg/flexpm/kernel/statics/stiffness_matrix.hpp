@@ -33,4 +33,10 @@ std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSpri
 /// Springs at one point of a plate: stiffness between the plate and the point [N/m].
 StiffnessBlock plate_springs(const Plate& plate, int point);
 
+/// How far a plate in a soft machine stays behind its crosshead along its normal, as this moves by
+/// `displacement` and nodes move so, in the layout of Grains::displacement, or not at all [m]. All
+/// of its points bear. 0 without a machine.
+double machine_lag(
+    const Assembly& a, const Plate& plate, Vector displacement, const Array<double>* moved);
+
 }  // namespace flexpm

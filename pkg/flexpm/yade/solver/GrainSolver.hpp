@@ -64,11 +64,14 @@ public:
 	Real       useRealMasses();
 	void       mirrorBodies();
 	void       resetEnergyBalance();
-	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
+	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction, Real strip);
 	int        addTouchingPlate(Vector3r normal, Real friction);
-	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
-	int        findSidePlate(int side, bool bonded, Real friction);
-	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
+	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip);
+	int        addJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	int        findSidePlate(int side, bool bonded, Real friction, Real strip);
+	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip);
+	int        findJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	void       setMachine(int plate, Real stiffness);
 	py::tuple  gaugePoints(Vector3r first, Vector3r second);
 	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
 	void       fixTangential(int plate);
@@ -125,16 +128,22 @@ public:
 		.def("addToScene", AfterAssembly<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", AfterAssembly<&GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", AfterAssembly<&GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
-		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0.),
-			"Lay rigid plates on a side of the outline, side by side, and return their numbers. Scale the masses afterwards.")
+		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0.),
+			"Lay rigid plates on a side of the outline, side by side, with a layer of a stiffness per area before them (0: none) [Pa/m], and return their numbers. Scale the masses afterwards.")
 		.def("addTouchingPlate", AfterAssembly<&GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
-		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
-			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number. Scale the masses afterwards.")
-		.def("findSidePlate", AfterAssembly<&GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0.),
+		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0.),
+			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number; strip as above. Scale the masses afterwards.")
+		.def("addJawPlate", AfterAssembly<&GrainSolver::addJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+			"Lay a rigid arc of a radius [m] around the rim of a disc of this centre [m], over an angle of the disc [rad] about a place on the rim [m], and return its number. Scale the masses afterwards.")
+		.def("findSidePlate", AfterAssembly<&GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0.),
 			"Number of the one plate that addSidePlates has laid along a side with the same arguments, -1 if there is none.")
-		.def("findPatchPlate", AfterAssembly<&GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
+		.def("findPatchPlate", AfterAssembly<&GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0.),
 			"Number of the plate that addPatchPlate has laid with the same arguments, -1 if there is none.")
+		.def("findJawPlate", AfterAssembly<&GrainSolver::findJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+			"Number of the plate that addJawPlate has laid with the same arguments, -1 if there is none.")
+		.def("setMachine", AfterAssembly<&GrainSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")),
+			"Lay the spring of a soft machine [N/m] behind a plate, along its normal. What drives the plate then drives its crosshead, the spring's other end.")
 		.def("gaugePoints", AfterAssembly<&GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("sectionNodes", AfterAssembly<&GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),

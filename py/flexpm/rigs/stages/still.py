@@ -169,6 +169,7 @@ class PartStill(PartStatics, GrainRig):
         plan = self._steering_plan()
         scales = self.scales()
         way = 0.0 if stress is None else abs(stress - self.stress) / scales.modulus * scales.height
+        way *= self._ahead
         back = math.ceil(2.0 * way / (rate * plan.fastest * plan.velocity * yade.O.dt))
         self._drive(replace(endless(plan), velocity=_STILL * plan.velocity))
         if damped:
@@ -184,7 +185,7 @@ class PartStill(PartStatics, GrainRig):
         """Velocity of the driven parts that brings the load nearer to a value. Deviation D74."""
         scales, plan = self.scales(), self._steering_plan()
         time = _STEERING_CROSSINGS * scales.crossing_steps * yade.O.dt
-        wanted = (stress - self.stress) / scales.modulus * scales.height / time
+        wanted = (stress - self.stress) / scales.modulus * scales.height / time * self._ahead
         fastest = rate * plan.fastest * plan.velocity
         return float(np.clip(wanted, -fastest, fastest)) or _STILL * plan.velocity
 
