@@ -8,6 +8,8 @@
 #include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
+#include <utility>
+
 namespace yade {
 
 CREATE_LOGGER(GrainSolver);
@@ -34,6 +36,7 @@ void GrainSolver::takeStep()
 	options.damping = damping;
 	options.threads = threads();
 	options.measure = (assembly.step + 1) % measurePeriod == 0;
+	options.outer   = std::exchange(outer, nullptr);
 	flexpm::step(assembly, options);
 }
 

@@ -2,6 +2,7 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
+#include <flexpm/kernel/forces/outer_forces.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
@@ -54,6 +55,9 @@ public:
 	/// @throws std::runtime_error  if O.engines holds none with grains
 	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
 
+	/// Let forces act in the next step alone; they are read there.
+	void act(const flexpm::OuterForces& forces) { outer = &forces; }
+
 	/// Whether the last step was measured.
 	/// @throws std::runtime_error  if measurePeriod is below 1
 	bool measured() const;
@@ -86,6 +90,7 @@ public:
 	py::dict   energies();
 	py::dict   snapshot();
 	py::tuple  cracks();
+	py::tuple  wallForces(vector<int> grains);
 	py::dict   parting();
 	py::dict   counts();
 	py::object sideNodes(int side);
@@ -160,6 +165,7 @@ public:
 		.def("energies", AfterAssembly<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
 		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
 		.def("cracks", AfterAssembly<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
+		.def("wallForces", AfterAssembly<&GrainSolver::wallForces>::call, (py::arg("grains")), "Nodes on which some grains act from outside of them, and their forces there, x and y, at the last step [N], for :yref:`ReleaseController`.")
 		.def("parting", AfterAssembly<&GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
@@ -179,10 +185,11 @@ public:
 
 private:
 	flexpm::NearPairs           nearPairs;
-	vector<flexpm::GrainPair>   candidates;     // near pairs without a contact
-	bool                        listed = false; // the candidates are up to date
-	mutable vector<std::size_t> places;         // of the contacts among the interactions, when last seen
-	vector<shared_ptr<State>>   states;         // of the bodies, by slot; kept alive, so that a body may go at any time
+	vector<flexpm::GrainPair>   candidates;       // near pairs without a contact
+	bool                        listed = false;   // the candidates are up to date
+	const flexpm::OuterForces*  outer  = nullptr; // of the next step
+	mutable vector<std::size_t> places;           // of the contacts among the interactions, when last seen
+	vector<shared_ptr<State>>   states;           // of the bodies, by slot; kept alive, so that a body may go at any time
 	void                        requireReady() const;
 	void                        requireInScene() const;
 	void                        requireMasses() const;

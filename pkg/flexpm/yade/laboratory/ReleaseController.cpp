@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/yade/laboratory/ReleaseController.hpp>
+
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace yade {
+
+YADE_PLUGIN((ReleaseController));
+
+ReleaseController::~ReleaseController() = default;
+
+void ReleaseController::action()
+{
+	const auto solver   = GrainSolver::ofScene(*scene);
+	auto&      assembly = solver->assembly;
+	if (nodes.size() != forces.size()) {
+		throw std::invalid_argument(
+		        "ReleaseController: forces = " + std::to_string(forces.size()) + ", must be " + std::to_string(nodes.size()) + ", one for each node");
+	}
+	if (rampBegin < 0) rampBegin = assembly.step;
+	outer.nodes = nodes;
+	outer.forces.clear();
+	for (const auto& force : forces)
+		outer.forces.push_back({ force[0], force[1] });
+	outer.before = acting;
+	outer.part = acting = flexpm::ramped(startPart, part, assembly.step - rampBegin, rampSteps);
+	solver->act(outer);
+}
+
+} // namespace yade
