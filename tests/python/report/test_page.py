@@ -229,9 +229,12 @@ def test_each_crack_has_a_line_from_its_step_on(ended):
         assert np.array_equal(drawn, np.searchsorted(cracked, steps, side="right"))
 
 
-@pytest.mark.parametrize("model", ["flexible", "inner", "jcfpm"])
+@pytest.mark.parametrize("model", ["flexible", "inner", "jcfpm", "solid"])
 def test_outlines_of_the_grains_fill_the_specimen(tmp_path, model):
+    """The edge of the prism of a cylinder lies in its section, where triangles become lines."""
     specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
+    if model == "solid":
+        specimen, model = flexpm.Specimen.cylinder(0.015, 0.03), "flexible"
     flexpm.run("tension", specimen, model=model, max_strain=2e-5, out=tmp_path)
     found = page_run.run_map(tmp_path, Result.read(tmp_path), "map", "", None)
     area = sum(map(shown_area, found.grains))

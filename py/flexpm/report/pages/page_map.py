@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -119,11 +120,14 @@ def _bar(scale: float, width: float) -> tuple[int, str]:
 def _outlines(drawing: Snapshot, scale: float, corner: FloatArray) -> list[str]:
     """Path of each grain: the edges of its triangles that no other one shares.
 
-    Nodes of inner particles that lie in one place of the map are one.
+    Nodes that lie in one place of the map are one, so that thin triangles become lines, which may
+    leave an edge several times.
     """
     nodes = _units(drawing.positions, scale, corner)
     grains = int(drawing.triangle_grain.max(initial=-1)) + 1
-    edges: list[set[tuple[tuple[int, int], tuple[int, int]]]] = [set() for _ in range(grains)]
+    edges: list[Counter[tuple[tuple[int, int], tuple[int, int]]]] = [
+        Counter() for _ in range(grains)
+    ]
     starts = nodes[drawing.triangles]
     ends = np.roll(starts, -1, axis=1)
     for grain, first, last in zip(
@@ -132,19 +136,19 @@ def _outlines(drawing: Snapshot, scale: float, corner: FloatArray) -> list[str]:
         map(tuple, ends.reshape(-1, 2).tolist()),
         strict=True,
     ):
-        if (last, first) in edges[grain]:
-            edges[grain].remove((last, first))
+        if edges[grain][last, first] > 0:
+            edges[grain][last, first] -= 1
         elif first != last:
-            edges[grain].add((first, last))
+            edges[grain][first, last] += 1
     return ["".join(map(_path, _loops(one))) for one in edges]
 
 
 def _loops(
-    edges: set[tuple[tuple[int, int], tuple[int, int]]],
+    edges: Counter[tuple[tuple[int, int], tuple[int, int]]],
 ) -> list[list[tuple[int, int]]]:
     """Corners of closed ways along edges that have a direction."""
     following: dict[tuple[int, int], list[tuple[int, int]]] = {}
-    for first, last in sorted(edges):
+    for first, last in sorted(edges.elements()):
         following.setdefault(first, []).append(last)
     loops = []
     while following:
