@@ -130,6 +130,41 @@ class Discs:
         return "done"
 
 
+class Spheres:
+    """Solids of any spheres, saved, loaded, built and stepped."""
+
+    def __call__(self, example: dict[str, Any]) -> str:
+        """The error of an example, or what became of it."""
+        import numpy as np
+
+        import flexpm  # first: it knows where YADE is
+        import yade  # isort: skip
+
+        yade.O.reset()
+        try:
+            specimen = flexpm.Specimen.from_spheres(
+                example["spheres"],
+                **example["sizes"],
+                short_edge=example["short_edge"],
+                drop_hidden=example["drop_hidden"],
+            )
+            built = flexpm.build(specimen, None, example["model"])
+        except flexpm.InputError as raised:
+            return f"InputError: {raised}"
+        volume = float(np.sum(specimen.cells.volumes))
+        if not abs(volume / specimen.outline().volume - 1.0) < 1e-9:
+            return f"volume = {volume}"
+        with tempfile.TemporaryDirectory() as folder:
+            specimen.save(f"{folder}/it.json")
+            again = flexpm.Specimen.load_solid(f"{folder}/it.json")
+        if not np.array_equal(again.cells.volumes, specimen.cells.volumes):
+            return "another specimen in its file"
+        built.run(20)
+        if not np.all(np.isfinite(built.snapshot().positions)):
+            return "places that are none"
+        return "done"
+
+
 class Cells:
     """Specimens of any cells, with grains within grains, built, saved, loaded and stepped."""
 
@@ -294,6 +329,7 @@ def serve(kind: str, out: Any) -> None:
         "script": Script,
         "discs": Discs,
         "cells": Cells,
+        "spheres": Spheres,
         "networks": Networks,
         "command": Command,
         "physics": Physics,

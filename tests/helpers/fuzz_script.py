@@ -87,6 +87,12 @@ class Script:
         self._built = self._flexpm.build(cut, rock, model)
         self._solver = self._built.solver
 
+    def do_build_cave(self, model: str, seed: int, line: Any) -> None:
+        self._rig = None
+        specimen = self._specimen(seed).with_excavations({"cave": line})
+        self._built = self._flexpm.build(specimen, None, model)
+        self._solver = self._built.solver
+
     def _specimen(self, seed: int) -> Any:
         if seed not in self._specimens:
             made = self._flexpm.Specimen.rectangle(0.012, 0.016, 0.01, seed=seed)

@@ -19,7 +19,9 @@ from matplotlib.figure import Figure
 from ..arrays import FloatArray
 from ..errors import InputError
 from ..require import quoted, require_one_of
+from ..results.fragments import Fragments
 from ..results.snapshot import Snapshot
+from ..results.solids.state import SolidSnapshot
 from ..results.stress.point_stress import OF_GRAINS
 from ..results.stress.tensors import principal_stresses as principal_stresses
 from ..text import label_of
@@ -48,29 +50,33 @@ DISPLACEMENTS = {
 _COVERED = 0.99
 
 
-def cracks(snapshot: Snapshot, path: Path | str | None = None, *, caption: str = "") -> Figure:
+def cracks(
+    snapshot: Snapshot | SolidSnapshot, path: Path | str | None = None, *, caption: str = ""
+) -> Figure:
     """Draw the deformed grains with their cracks by mode.
 
     Args:
-        snapshot: The state, ``model.snapshot()``.
+        snapshot: The state, ``model.snapshot()``; of a solid its section is drawn.
         path: Picture to write; None: none.
         caption: Line above the picture.
 
     Raises:
         InputError: for what is no state, or one without places, of a run that has diverged.
     """
-    _require_state("cracks", snapshot)
+    snapshot, _ = _drawn("cracks", snapshot)
     return _kept(crack_figure(snapshot, caption), path)
 
 
-def fragments(snapshot: Snapshot, path: Path | str | None = None, *, caption: str = "") -> Figure:
+def fragments(
+    snapshot: Snapshot | SolidSnapshot, path: Path | str | None = None, *, caption: str = ""
+) -> Figure:
     """Draw the deformed grains in the colour of their fragment; see `cracks`."""
-    _require_state("fragments", snapshot)
-    return _kept(fragment_figure(snapshot, caption), path)
+    snapshot, of = _drawn("fragments", snapshot)
+    return _kept(fragment_figure(snapshot, caption, of), path)
 
 
 def stress(
-    snapshot: Snapshot,
+    snapshot: Snapshot | SolidSnapshot,
     component: str = "yy",
     path: Path | str | None = None,
     *,
@@ -86,7 +92,7 @@ def stress(
         path: Picture to write; None: none.
         caption: Line above the picture.
     """
-    _require_state("stress", snapshot)
+    snapshot, _ = _drawn("stress", snapshot)
     require_one_of("plot.stress: component", component, tuple(STRESSES))
     larger, smaller = principal_stresses(snapshot.triangle_stress)
     xx, yy, xy = snapshot.triangle_stress.T
@@ -112,7 +118,7 @@ def stress(
 
 
 def displacement(
-    snapshot: Snapshot,
+    snapshot: Snapshot | SolidSnapshot,
     component: str = "size",
     path: Path | str | None = None,
     *,
@@ -126,7 +132,7 @@ def displacement(
         path: Picture to write; None: none.
         caption: Line above the picture.
     """
-    _require_state("displacement", snapshot)
+    snapshot, _ = _drawn("displacement", snapshot)
     require_one_of("plot.displacement: component", component, tuple(DISPLACEMENTS))
     moved = snapshot.positions - snapshot.reference
     values: FloatArray = np.hypot(*moved.T)
@@ -144,16 +150,20 @@ def displacement(
     return _kept(figure, path)
 
 
-def _require_state(name: str, snapshot: object) -> None:
-    if not isinstance(snapshot, Snapshot):
+def _drawn(name: str, state: object) -> tuple[Snapshot, Fragments]:
+    """What is drawn of a state, the section of a solid, and the fragments of all of it."""
+    if isinstance(state, SolidSnapshot):
+        return _drawn(name, state.section)[0], state.fragments
+    if not isinstance(state, Snapshot):
         raise InputError(
-            f"plot.{name}: snapshot = {quoted(snapshot)}, must be a state, `built.snapshot()`"
+            f"plot.{name}: snapshot = {quoted(state)}, must be a state, `built.snapshot()`"
         )
-    if not can_be_drawn(snapshot.positions):
+    if not can_be_drawn(state.positions):
         raise InputError(
             f"plot.{name}: places of the state = none that can be drawn, must be finite numbers; "
             "the run has diverged"
         )
+    return state, state.fragments
 
 
 def _draw_scale(figure: Figure, axes: Axes, drawn: ScalarMappable, label: str) -> None:

@@ -22,15 +22,22 @@ from vtkmodules.vtkCommonDataModel import (
     vtkDataSetAttributes,
     vtkUnstructuredGrid,
 )
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
-from ..files import whole_file
 from ..require import quoted
-from .arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, add, describe, joined
+from .arrays.vtu_arrays import (
+    CONTACT,
+    GRAIN,
+    TENSOR,
+    VECTOR,
+    Named,
+    add,
+    describe,
+    joined,
+    write_grid,
+)
 from .arrays.vtu_arrays import UNITS as UNITS
-from .arrays.vtu_arrays import written as written
 from .arrays.vtu_reader import Arrays, Grid, grid_of
 from .snapshot import Snapshot, triangle_areas
 from .solids.state import SolidSnapshot
@@ -78,14 +85,7 @@ def write_vtu(
         describe(grid.GetFieldData(), name, value)
     grid.GetPointData().SetActiveVectors("displacement")
     grid.GetCellData().SetActiveAttribute("stress", vtkDataSetAttributes.TENSORS)
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(grid)
-    # as text: raw data are no XML, and VTK up to 9.2 reads none with expat 2.6 or its backports
-    writer.SetDataModeToBinary()
-    writer.SetCompressorTypeToLZ4()
-    content = written(writer)
-    with whole_file(path) as temporary:
-        temporary.write_bytes(content)
+    write_grid(path, grid)
 
 
 def read_vtu(path: Path | str) -> Snapshot:

@@ -24,6 +24,7 @@ from ..require import NOT_NEGATIVE, require_number
 from ..results import doubts, measures
 from ..runs.loading_rate import Scales, Schedule, rates_of
 from ..runs.runner import Runner
+from ..specimens.space.any_spec import is_solid
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .part_columns import PartColumns
@@ -66,6 +67,11 @@ class PartRig(PartColumns, PartExcavation):
             InputError: for a test that is not one of the model's; ``"own"`` is one of deformable
                 and of rigid grains; for a folder that holds something else.
         """
+        if is_solid(built.specimen.kind):
+            raise InputError(
+                f"PartRig: specimen = {built.specimen.kind}, must be plane; flexpm.rig holds a "
+                "solid between its ends"
+            )
         rates_of(kind, built.name)
         kept = KeptTest.of(built, "PartRig", leaves, kind=kind)
         super().__init__(built, runner=runner if kept is None else kept.runner)

@@ -152,6 +152,8 @@ def _check_waiting(run: RunInputs) -> None:
 
 
 def _check_test(run: RunInputs) -> None:
+    if run.is_solid:
+        require_shape(run.kind, run.specimen.kind)
     _check_solid(run)
     label = "run: model" if run.kind.is_solve else f"run: model of {run.test}"
     require_one_of(label, run.model, run.kind.models_of(run.specimen.kind))

@@ -24,16 +24,6 @@ Packing column(int nx, int ny, int nz)
     return { Solid::box(nx * d, ny * d, nz * d), solid_samples::brick(nx, ny, nz) };
 }
 
-/// A random box twice as high as wide.
-Packing box(int grains, std::uint64_t seed)
-{
-    const double edge = solid_samples::side * std::cbrt(0.3 * grains);
-    const auto solid = Solid::box(edge, edge, 2.0 * edge);
-    return { solid,
-        polyhedra(flexpm_test::packed_spheres(solid, grains, seed), solid,
-            { 0.1 * solid_samples::side, false }) };
-}
-
 /// Held at its ends, with scaled masses.
 SolidState held(const Packing& p, bool rigid, bool pulled)
 {

@@ -82,18 +82,24 @@ TEST_CASE("A cylinder breaks between its ends, and its energies add up", "[solid
                 CHECK(b.peak < 40.0 * strength);
             }
 
-            const std::vector<CrackRow> rows = crack_rows(b.state);
-            CHECK(static_cast<int>(rows.size()) == cracks.tensile + cracks.shear);
+            int rows = 0, parted = 0;
             double energy = 0.0;
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                energy += rows[i].energy;
-                CHECK((i == 0 || rows[i].step >= rows[i - 1].step));
-                CHECK((rows[i].step > 0 && rows[i].step <= b.state.step));
+            for (int c = 0; c < b.state.contacts.count; ++c) {
+                bool holds = false;
+                for (int p = 0; p < b.state.contacts.points_of(c); ++p) {
+                    const FaceCrack& crack = b.state.contacts.crack(c, p);
+                    holds = holds || crack.mode == intact;
+                    if (crack.mode == intact) continue;
+                    ++rows;
+                    energy += crack.energy;
+                    CHECK((crack.step > 0 && crack.step <= b.state.step));
+                }
+                parted += !holds;
             }
+            CHECK(rows == cracks.tensile + cracks.shear);
             const Energies e = energies(b.state);
             CHECK(energy == Approx(e.damage - e.softened).epsilon(1e-9));
-            const auto intact = intact_contacts(b.state);
-            CHECK(std::accumulate(intact.begin(), intact.end(), 0) < b.state.contacts.count);
+            CHECK(parted > 0);
 
             const SolidOverlap overlap = largest_overlap(b.state);
             CAPTURE(overlap.depth, overlap.of_diameter, overlap.pairs);

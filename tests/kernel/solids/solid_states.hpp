@@ -31,6 +31,16 @@ inline Packing packing(int grains, std::uint64_t seed)
     return { solid, solid_samples::packing(grains, seed) };
 }
 
+/// A random box twice as high as wide.
+inline Packing box(int grains, std::uint64_t seed)
+{
+    const double edge = solid_samples::side * std::cbrt(0.3 * grains);
+    const auto solid = Solid::box(edge, edge, 2.0 * edge);
+    return { solid,
+        polyhedra(flexpm_test::packed_spheres(solid, grains, seed), solid,
+            { 0.1 * solid_samples::side, false }) };
+}
+
 inline SolidInput granite(FacePointRule rule = FacePointRule::corners_and_inner, bool rigid = false)
 {
     return { { specimens::granite() }, { specimens::granite_contact() }, {}, rule, rigid };

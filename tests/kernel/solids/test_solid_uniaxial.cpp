@@ -12,16 +12,6 @@ namespace {
 
 constexpr double damping = 0.7;
 
-/// A box twice as high as wide.
-Packing box(int grains, std::uint64_t seed)
-{
-    const double edge = solid_samples::side * std::cbrt(0.3 * grains);
-    const auto solid = Solid::box(edge, edge, 2.0 * edge);
-    return { solid,
-        polyhedra(flexpm_test::packed_spheres(solid, grains, seed), solid,
-            { 0.1 * solid_samples::side, false }) };
-}
-
 struct Run {
     SolidState state;
     std::vector<int> bottom, top;

@@ -13,7 +13,8 @@ NUMBERS = st.sampled_from(
 )
 WORDS = st.sampled_from(
     """uniaxial tension biaxial brazilian flexible rigid inner jcfpm static adaptive constant
-    waiting p s axial lateral displacement cmod gif augig-table7 augig-table2-brittle
+    waiting box cylinder p s
+    axial lateral displacement cmod gif augig-table7 augig-table2-brittle
     nofile.toml""".split()
 )
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
@@ -22,13 +23,13 @@ KEYS = st.sampled_from(
     interface.quartz/biotite.cohesion interface.a/b.factor.friction""".split()
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
-    --thickness --diameters --points --gravity --diameter --length --span --notch --distance
-    --normal-stress
+    --thickness --depth --origin --diameters --points --gravity --diameter --length --span --notch
+    --distance --normal-stress
     --max-displacement --network-seed --seeds --frames --workers --damping
     --interaction-range --pixel --edge --smallest""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
-    --joints --network --phases""".split()
+    --joints --name --network --phases --shape""".split()
 OPTIONS = st.one_of(
     st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
     st.tuples(st.sampled_from(NAMED), WORDS),
@@ -40,7 +41,8 @@ COMMANDS = st.sampled_from(
     [
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
         *(("run", test) for test in ("bending", "scb", "shear", "punch", "sonic")),
-        *(("specimen", shape) for shape in ("rectangle", "disc", "box")),
+        *(("run", test, "--shape", "box") for test in ("uniaxial", "tension", "biaxial")),
+        *(("specimen", shape) for shape in ("rectangle", "disc", "box", "cylinder")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
@@ -49,9 +51,14 @@ COMMANDS = st.sampled_from(
 )
 #: A small specimen and few steps, so that what is right soon ends.
 RECTANGLE = ["--width", "0.012", "--height", "0.016"]
+BOX = ["--width", "0.009", "--depth", "0.009", "--height", "0.012"]
 BEAM = ["--length", "0.03", "--height", "0.008"]
 FEW = ["--max-strain", "1e-5", "--rate", "50"]
 SIZES = {
+    "run uniaxial --shape box": [*BOX, *FEW],
+    "run tension --shape box": [*BOX, *FEW],
+    "run biaxial --shape box": [*BOX, *FEW],
+    "specimen cylinder": ["--diameter", "0.009", "--height", "0.012", "--out", "made"],
     "run brazilian": ["--diameter", "0.012", *FEW],
     "run bending": [*BEAM, *FEW],
     "run scb": ["--diameter", "0.024", *FEW],

@@ -32,6 +32,19 @@ CUT = st.tuples(
     st.sampled_from([0.0, 0.3, 1.0]),
     st.sampled_from(LAWS),
 )
+#: A circle within, and lines that cross the outline or themselves.
+CAVES = (
+    ((0.006, 0.008), 0.003),
+    [(0.003, 0.004), (0.009, 0.004), (0.009, 0.01), (0.003, 0.01)],
+    [(0.003, 0.004), (0.009, 0.01), (0.009, 0.004), (0.003, 0.01)],
+    ((0.006, 0.008), 0.02),
+)
+CAVE = st.tuples(
+    st.just("build_cave"),
+    st.sampled_from(["flexible", "rigid"]),
+    st.sampled_from([1, 2]),
+    st.sampled_from(CAVES),
+)
 #: Parts by number, doubles, those of other rigs (from 100 on), and what is no part.
 PICK = st.sampled_from([0, 1, 2, 3, 100, 101, None, 0.5, "part", True])
 PICKS = st.lists(PICK, max_size=3)
@@ -64,6 +77,12 @@ STAGES = st.one_of(
         st.just("follow"),
         st.tuples(st.lists(VALUE, max_size=3), st.none() | st.lists(VALUE, max_size=3)),
         st.fixed_dictionaries({"by": BY}),
+    ),
+    st.tuples(
+        st.just("stage"),
+        st.just("excavate"),
+        st.tuples(st.sampled_from(["cave", "cave", "other", "", None, 5])),
+        st.just({}),
     ),
     st.tuples(
         st.just("stage"),
@@ -116,6 +135,7 @@ PARTS = st.one_of(
 )
 CALLS = st.one_of(
     CUT,
+    CAVE,
     PARTS,
     PARTS,
     st.tuples(
@@ -212,7 +232,7 @@ class Model:
         return None
 
 
-@given(BUILD | CUT, st.lists(PLAIN | PARTS, max_size=8))
+@given(BUILD | CUT | CAVE, st.lists(PLAIN | PARTS, max_size=8))
 @settings(max_examples=examples(60), deadline=None, suppress_health_check=list(HealthCheck))
 def test_parts_laid_in_any_order_end_in_one_line(child, build, calls):
     calls = [build, *calls]

@@ -100,6 +100,48 @@ def child():
     one.close()
 
 
+@st.composite
+def solids(draw):
+    """Spheres in a box or a cylinder: anywhere, on a lattice, and now and then out of all sense."""
+    box = draw(st.booleans())
+    if draw(st.booleans()):
+        edge = draw(st.integers(2, 4))
+        step = 0.01 / edge
+        axis = [step * (place + 0.5) for place in range(edge)]
+        rows = [[*place, 0.5 * step] for place in itertools.product(axis, repeat=3)]
+    else:
+        place = st.floats(1e-4, 0.0099) | st.sampled_from([0.002, 0.005, 0.008])
+        row = st.tuples(place, place, place, st.floats(5e-4, 4e-3))
+        rows = [list(one) for one in draw(st.lists(row, max_size=14))]
+    if not box:  # stands about the z axis
+        rows = [[x - 0.005, y - 0.005, *others] for x, y, *others in rows]
+    if rows and draw(st.integers(0, 4)) == 0:
+        rows[draw(st.integers(0, len(rows) - 1))][draw(st.integers(0, 3))] = draw(ODD)
+    cylinder = {"diameter": 0.016, "height": 0.01}
+    return {
+        "spheres": rows,
+        "sizes": {"width": 0.01, "depth": 0.01, "height": 0.01} if box else cylinder,
+        "drop_hidden": draw(st.booleans()),
+        "short_edge": draw(ODD if draw(st.integers(0, 9)) == 0 else st.sampled_from([0.0, 0.1])),
+        "model": draw(st.sampled_from(["flexible", "rigid", "flexible", "rigid", "inner"])),
+    }
+
+
+@pytest.fixture(scope="module")
+def spheres():
+    one = Child("spheres")
+    yield one
+    one.close()
+
+
+@given(solids())
+@settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
+def test_any_spheres_in_a_solid_step_or_are_refused(spheres, solid):
+    said = spheres.run(solid)
+    assert said.startswith(("done", "InputError: ")), said
+    assert "\n" not in said
+
+
 @pytest.fixture(scope="module")
 def cells():
     one = Child("cells")

@@ -7,10 +7,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import yade
 
 import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
+from flexpm.errors import InputError
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
 from flexpm.runs import runner
@@ -153,3 +155,26 @@ def test_a_saved_solid_is_tested(core, tmp_path):
     out = tmp_path / "out"
     assert cli.main([*asked, "--quiet", "--out", str(out), "--no-report"]) in (0, 3)
     assert Result.read(out).grains == core.cells.cells
+
+
+def test_a_rigid_grain_alone_has_a_mass_and_no_strain_between_its_own_ends():
+    yade.O.reset()
+    alone = Specimen.from_spheres([[0.0, 0.0, 0.005, 0.005]], diameter=0.01, height=0.01)
+    built = flexpm.build(alone, model="rigid")
+    built.run(20)
+    assert np.all(np.isfinite(built.snapshot().positions))
+    with pytest.raises(InputError, match="height between strain gauges = 0 m, must be above 0"):
+        flexpm.run("uniaxial", alone, model="rigid", max_strain=1e-3)
+
+
+def test_what_is_of_the_plane_is_refused_for_a_solid_and_pictures_show_its_section(core):
+    yade.O.reset()
+    built = flexpm.build(core)
+    with pytest.raises(InputError, match="PartRig: specimen = cylinder, must be plane"):
+        flexpm.PartRig(built)
+    with pytest.raises(InputError, match="balance: specimen = a solid, must be plane"):
+        flexpm.rig(built).balance()
+    with pytest.raises(InputError, match="run: specimen = cylinder, must be a rectangle for sonic"):
+        flexpm.run("sonic", core)
+    for draw in (flexpm.plot.cracks, flexpm.plot.fragments, flexpm.plot.stress):
+        assert draw(built.snapshot()).axes

@@ -32,4 +32,12 @@ void need_grains(const Station& station, double height)
     refuse("height of a strain gauge", height, "m", "has no grain near; use smaller grains");
 }
 
+void need_apart(const Station& low, const Station& high)
+{
+    const double apart = high.place_ / high.weight_ - low.place_ / low.weight_;
+    if (apart > 0.0) return;
+    refuse("height between strain gauges", apart, "m",
+        "must be above 0, but both are the same grains; use smaller ones");
+}
+
 }  // namespace flexpm

@@ -36,6 +36,7 @@ public:
     void add(double share, double place, double displacement);
     bool empty() const { return weight_ == 0.0; }
     friend double strain_between(const Station& first, const Station& second);
+    friend void need_apart(const Station& low, const Station& high);
 
 private:
     double weight_ = 0.0, place_ = 0.0, displacement_ = 0.0;
@@ -50,11 +51,14 @@ bool in_band(double above, double station, double mean_diameter);
 /// @throws std::invalid_argument  if the station at `height` above the bottom is empty
 void need_grains(const Station& station, double height);
 
+/// @throws std::invalid_argument  if both stations are at one height, as of few large grains
+void need_apart(const Station& low, const Station& high);
+
 /// Strains of `grains` grains.
 ///
 /// @param place         place(grain, component) of a centre at the reference [m]
 /// @param displacement  displacement(grain, component) of a centre since then [m]
-/// @throws std::invalid_argument  if a band has no grain
+/// @throws std::invalid_argument  if a band has no grain, or both have the same
 template <class Place, class Displacement>
 SpecimenStrain centre_strain(
     const StrainGauge& gauge, int grains, Place place, Displacement displacement)
@@ -71,6 +75,7 @@ SpecimenStrain centre_strain(
     }
     need_grains(at_low, low);
     need_grains(at_high, high);
+    need_apart(at_low, at_high);
     for (const SideShare& s : gauge.left)
         at_left.add(s.length, place(s.grain, 0), displacement(s.grain, 0));
     for (const SideShare& s : gauge.right)

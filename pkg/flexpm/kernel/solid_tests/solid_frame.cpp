@@ -72,6 +72,7 @@ double centre_strain(const SolidState& s)
     }
     for (int k = 0; k < 2; ++k)
         need_grains(stations[k], at[k]);
+    need_apart(stations[0], stations[1]);
     return strain_between(stations[0], stations[1]);
 }
 

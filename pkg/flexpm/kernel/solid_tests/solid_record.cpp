@@ -102,30 +102,6 @@ private:
 
 }  // namespace
 
-std::vector<CrackRow> crack_rows(const SolidState& s)
-{
-    std::vector<CrackRow> rows;
-    for (int c = 0; c < s.contacts.count; ++c) {
-        for (int p = 0; p < s.contacts.points_of(c); ++p) {
-            const FaceCrack& crack = s.contacts.crack(c, p);
-            if (crack.mode == intact) continue;
-            rows.push_back({ crack.step, crack.mode, crack.position, c, p, crack.energy });
-        }
-    }
-    std::stable_sort(rows.begin(), rows.end(),
-        [](const CrackRow& one, const CrackRow& other) { return one.step < other.step; });
-    return rows;
-}
-
-std::vector<std::uint8_t> intact_contacts(const SolidState& s)
-{
-    std::vector<std::uint8_t> found(s.contacts.count, 0);
-    for (int c = 0; c < s.contacts.count; ++c)
-        for (int p = 0; p < s.contacts.points_of(c); ++p)
-            if (s.contacts.crack(c, p).mode == intact) found[c] = 1;
-    return found;
-}
-
 SolidOverlap largest_overlap(const SolidState& s)
 {
     const int grains = s.grains.count;

@@ -1,29 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What a test of a solid leaves beside its curve: cracks, what holds together, grains that
-/// lie on each other. SI units.
+/// @file  Grains of a solid that lie on each other at the end of a test. SI units.
 #pragma once
 
 #include <flexpm/kernel/solids/solid_state.hpp>
 
-#include <vector>
-
 namespace flexpm {
-
-/// A point that has lost its bond.
-struct CrackRow {
-    std::int64_t step;
-    CrackMode mode;
-    Vector position;  ///< when it cracked [m]
-    int contact;
-    int point;
-    double energy;  ///< that its damage had taken by then [J]
-};
-
-/// All cracks by step, then contact, then point.
-std::vector<CrackRow> crack_rows(const SolidState& s);
-
-/// 1 for each contact one of whose points is intact: its two grains hang together.
-std::vector<std::uint8_t> intact_contacts(const SolidState& s);
 
 /// Two grains that were never neighbours, which nothing keeps apart, and lie on each other.
 struct SolidOverlap {

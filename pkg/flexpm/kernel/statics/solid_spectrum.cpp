@@ -102,9 +102,11 @@ double largest_square_frequency(const SolidState& s)
 void scale_masses_closely(SolidState& s, double damping, double dt)
 {
     scale_masses(s, damping, dt);
+    const double largest = largest_square_frequency(s);
+    if (largest == 0.0) return;  // nothing swings, as a rigid grain alone
     // stable below 2 / sqrt(1 + alpha) in a step; the bound never asks for less than is needed
     const double limit = 4.0 / (mass_margin * (1.0 + damping) * dt * dt);
-    const double factor = std::min(largest_square_frequency(s) / limit, 1.0);
+    const double factor = std::min(largest / limit, 1.0);
     for (double& inverse : s.grains.inverse_mass)
         inverse /= factor;
     for (RigidBody& body : s.bodies)

@@ -8,6 +8,7 @@
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_softening.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -33,7 +34,7 @@ void CrackWaitController::action()
 	const flexpm::CrackWatch    watch  = { lost, flexpm::swept_work(recorder->stress, sweep, time), recorder->differential, recorder->peak, steps };
 	const flexpm::CrackWaitRule rule   = { fastest, slowest, runningShare, shareAfterPeak, crossingSteps };
 	Real&                       factor = recorder->loading->velocityFactor;
-	const Real                  most   = mostAhead(solver->assembly);
+	const Real                  most   = mostAhead(*solver);
 	factor                             = flexpm::factor_ahead(flexpm::factor_for_cracks(factor, watch, rule), most, rule);
 	seen                               = now;
 	solver->onState([&](auto& state) {
@@ -44,11 +45,15 @@ void CrackWaitController::action()
 	});
 }
 
-Real CrackWaitController::mostAhead(const flexpm::Assembly& assembly) const
+Real CrackWaitController::mostAhead(GrainSolver& solver) const
 {
 	if (softeningGrowth == 0) return std::numeric_limits<Real>::infinity();
-	const flexpm::SofteningRule rule = { softeningGrowth, crossingSteps };
-	return recorder->loading->velocityFactor * flexpm::factor_before_softening(assembly, flexpm::loading_field(assembly), scene->dt, rule);
+	const flexpm::SofteningRule rule  = { softeningGrowth, crossingSteps };
+	const auto&                 plane = solver.assembly;
+	const auto*                 solid = solver.solid();
+	return recorder->loading->velocityFactor
+	        * (solid ? flexpm::factor_before_softening(*solid, scene->dt, rule)
+	                 : flexpm::factor_before_softening(plane, flexpm::loading_field(plane), scene->dt, rule));
 }
 
 void CrackWaitController::release()

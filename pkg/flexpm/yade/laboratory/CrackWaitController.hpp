@@ -15,7 +15,7 @@ public:
 
 private:
 	/// Largest velocity factor with which the loading may come to points that will soften.
-	Real mostAhead(const flexpm::Assembly& assembly) const;
+	Real mostAhead(GrainSolver& solver) const;
 
 public:
 	// clang-format off

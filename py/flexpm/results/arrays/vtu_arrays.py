@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkFieldData
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes, vtkFieldData, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from ...arrays import FloatArray, IntArray
+from ...files import whole_file
 from ...text import printable
 from .vtu_reader import silence
 
@@ -42,6 +45,18 @@ def written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
         raise MemoryError("VTK could not write a grid into memory")
     content: str = writer.GetOutputString()
     return content.encode()
+
+
+def write_grid(path: Path | str, grid: vtkUnstructuredGrid) -> None:
+    """Write a grid, whole or not at all."""
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    # as text: raw data are no XML, and VTK up to 9.2 reads none with expat 2.6 or its backports
+    writer.SetDataModeToBinary()
+    writer.SetCompressorTypeToLZ4()
+    content = written(writer)
+    with whole_file(path) as temporary:
+        temporary.write_bytes(content)
 
 
 def joined(first: dict[str, Named], second: dict[str, Named]) -> dict[str, Named]:

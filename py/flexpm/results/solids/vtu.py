@@ -19,10 +19,8 @@ from vtkmodules.vtkCommonDataModel import (
     vtkCellArray,
     vtkUnstructuredGrid,
 )
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from ...arrays import FloatArray, IntArray
-from ...files import whole_file
 from ..arrays.vtu_arrays import (
     CONTACT,
     GRAIN,
@@ -32,7 +30,7 @@ from ..arrays.vtu_arrays import (
     add,
     describe,
     joined,
-    written,
+    write_grid,
 )
 from ..arrays.vtu_reader import Grid
 from .state import SolidSnapshot
@@ -72,7 +70,7 @@ def write_solid_vtu(path: Path | str, shape: SolidShape) -> None:
         path: Name of the file, ending in .vtu.
         shape: The solid.
     """
-    _write(path, _grid_of(shape))
+    write_grid(path, _grid_of(shape))
 
 
 def write_solid_state(
@@ -98,7 +96,7 @@ def write_solid_state(
         add(grid.GetCellData(), name, array)
     for name, value in (about or {}).items():
         describe(grid.GetFieldData(), name, value)
-    _write(path, grid)
+    write_grid(path, grid)
 
 
 def state_of_grid(grid: Grid) -> SolidSnapshot:
@@ -250,13 +248,3 @@ def _of_contacts(snapshot: SolidSnapshot) -> dict[str, Named]:
         "crack_mode": mode,
     }
     return {name: (values, ()) for name, values in arrays.items()}
-
-
-def _write(path: Path | str, grid: vtkUnstructuredGrid) -> None:
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(grid)
-    writer.SetDataModeToBinary()
-    writer.SetCompressorTypeToLZ4()
-    content = written(writer)
-    with whole_file(path) as temporary:
-        temporary.write_bytes(content)

@@ -8,6 +8,7 @@ from yade import wrapper
 from ...errors import InputError
 from ...results import doubts
 from ..grain_rig import GrainRig
+from ..readings import Balance
 
 
 class EndRig(GrainRig):
@@ -21,6 +22,10 @@ class EndRig(GrainRig):
             f"confine: pressure = {pressure:g} Pa, must not be put on a solid; triaxial, its test "
             "under pressure, is still to come"
         )
+
+    def balance(self) -> Balance:
+        """Refused: balance is asked of pressures, which solids are not under yet."""
+        raise InputError("balance: specimen = a solid, must be plane; rig.unbalanced() is of both")
 
     def _take_hold(self) -> wrapper.LoadingController:
         solver = self.built.solver

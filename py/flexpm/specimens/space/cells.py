@@ -67,7 +67,8 @@ def outline_of(spheres: FloatArray, spec: SolidSpec) -> Solid:
     """What the cells fill; the facets of a cylinder follow the size of the grains."""
     mean = _mean_diameter(spheres)
     grain = 0.5 * sum(spec.diameters) if spec.diameters is not None else mean
-    return SolidFrame.of(spec, grain if mean > 0.0 else 1.0).solid()
+    # a sphere out of all sense is refused by its number, when the cells are made
+    return SolidFrame.of(spec, grain if 0.0 < mean < math.inf else 1.0).solid()
 
 
 def _mean_diameter(spheres: FloatArray) -> float:
