@@ -160,6 +160,32 @@ def test_the_window_shows_values_with_their_scale_cracks_and_forces(
     assert seen(0.993, 0.906, 0.144) > 100
 
 
+@pytest.mark.long
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run (package xvfb)")
+@pytest.mark.parametrize("shown", ["stress_zz", "cracks"])
+def test_the_window_lays_a_solid_open(package_parent: Path, tmp_path: Path, shown: str) -> None:
+    script = str(ROOT / "scripts" / "tutorials" / "window_solid.py")
+    command = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24", "yade", "-x", script]
+    done = run([*command, shown, "shot-"], package_parent, tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    image = imread(max(tmp_path.glob("shot-*.png")))[:, :, :3]
+
+    def seen(*colour: float) -> int:
+        return int(np.count_nonzero(np.abs(image - colour).max(axis=2) < 0.05))
+
+    tensile, shear = seen(0.0, 0.447, 0.698), seen(0.835, 0.369, 0.0)
+    ink = np.count_nonzero(image.min(axis=2) < 0.95)
+    if shown == "cracks":
+        assert tensile > 2000 and shear > 200
+        return
+    assert tensile > 200, "lines of cracks in the section"
+    # the section has the colours of the scale, unshaded, and hides the faces of cracks
+    low, high = map(float, done.stdout.partition("range ")[2].split(" to "))
+    assert low < -1e8 < high
+    assert tensile + shear < 0.2 * ink
+    assert len(np.unique(image.reshape(-1, 3).round(2), axis=0)) > 80
+
+
 @pytest.mark.parametrize(("wrong", "code"), [(None, 0), (", specimen)", 1)])
 def test_yades_list_of_checks_runs_that_of_flexpm(
     package_parent: Path, tmp_path: Path, wrong: str | None, code: int

@@ -223,8 +223,7 @@ def _build_solid(
 ) -> Model:
     solver = solver_of(specimen, chosen, model)
     solver.damping = damping
-    engines: list[wrapper.Engine] = [solver]
-    set_engines(engines)
+    engines = _in_scene(solver, specimen.mean_diameter)
     built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines)
     built.set_threads(threads)
     built.set_masses()
@@ -306,11 +305,7 @@ def build(
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)
     solver.damping = damping
-    solver.addToScene()
-    mean_diameter = 2.0 * float(np.mean(grains.discs[:, 2]))
-    bounds = [wrapper.Bo1_LaguerreCell_Aabb()]
-    engines = [collider(bounds, mean_diameter), solver, _idle_newton()]
-    set_engines(engines)
+    engines = _in_scene(solver, 2.0 * float(np.mean(grains.discs[:, 2])))
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = Model(
         *(specimen, chosen, model, solver, engines, dynamic, kinds, gravity),
@@ -360,6 +355,15 @@ def elastic(
     solver = assembled(grains, chosen)
     modulus, ratio = constants(solver)
     return {"youngs_modulus": modulus, "poissons_ratio": ratio, **solver.counts()}
+
+
+def _in_scene(solver: wrapper.GrainSolver, mean_diameter: float) -> list[wrapper.Engine]:
+    """Give a scene the bodies and bonds of a solver and its engines, which are returned."""
+    solver.addToScene()
+    bounds = [wrapper.Bo1_LaguerreCell_Aabb()]
+    engines = [collider(bounds, mean_diameter), solver, _idle_newton()]
+    set_engines(engines)
+    return engines
 
 
 def _refuse_second() -> None:

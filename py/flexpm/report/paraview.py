@@ -23,7 +23,8 @@ from ..results.arrays.vtu_arrays import GRAIN
 from ..results.cracks import MODES
 from ..results.result import Result
 from ..results.snapshot import Snapshot
-from ..results.vtu import principal_stresses, read_vtu
+from ..results.solids.state import SolidSnapshot
+from ..results.vtu import principal_stresses, read_state
 from .style import COLOURS, MODE_NAMES, can_be_drawn
 from .tables import size_text, test_text
 
@@ -31,8 +32,9 @@ from .tables import size_text, test_text
 _END = 98.0
 #: Stops of the colours, and half the height of the window over the longer side [-].
 _STOPS, _MARGIN = 17, 0.6
-#: Numbers of ParaView: data of points and cells, colours in RGB, 2D, corners and top of a window.
-_POINTS, _CELLS, _RGB, _PLANE = 0, 1, 0, 1
+#: Numbers of ParaView: data of points and cells, colours in RGB, a view that turns and one that
+#: does not, corners and top of a window.
+_POINTS, _CELLS, _RGB, _TURNED, _FLAT = 0, 1, 0, 0, 1
 _LOWER_LEFT, _LOWER_RIGHT, _TOP = 1, 2, 6
 #: An animation goes from frame to frame.
 _SNAP = 2
@@ -41,7 +43,10 @@ _SERVERS = {
     **dict.fromkeys(("sources", "filters"), "1"),
     **dict.fromkeys(("lookup_tables", "representations", "views"), "21"),
     **dict.fromkeys(("misc", "animation"), "16"),
+    "implicit_functions": "5",
 }
+#: Axes of space; to the viewer of a solid, in lengths of it: from the right, the front and above.
+_SPACE, _FRONT = 3, (1.0, -2.5, 0.8)
 _BLACK, _WHITE = (0, 0, 0), (1, 1, 1)
 
 
@@ -63,6 +68,42 @@ class _Colours(NamedTuple):
     low: float
     high: float
     title: str
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where a bonded specimen lies, and from where it is looked at.
+
+    Attributes:
+        low, high: Corners of the box around it [m].
+    """
+
+    low: FloatArray
+    high: FloatArray
+
+    @property
+    def is_solid(self) -> bool:
+        return len(self.low) == _SPACE
+
+    @property
+    def middle(self) -> list[float]:
+        found = 0.5 * (self.low + self.high)
+        return [*found] if self.is_solid else [*found, 0.0]
+
+    @property
+    def half_height(self) -> float:
+        """Half the height of the window [m]."""
+        return _MARGIN * float(np.max(self.high - self.low))
+
+    @property
+    def camera(self) -> list[float]:
+        if not self.is_solid:
+            return [*self.middle[:2], 1.0]
+        return [*(self.middle + float(np.max(self.high - self.low)) * np.array(_FRONT))]
+
+    @property
+    def up(self) -> tuple[int, int, int]:
+        return (0, 0, 1) if self.is_solid else (0, 1, 0)
 
 
 class _State:
@@ -127,30 +168,35 @@ def write_state(path: Path, result: Result, frames: Sequence[tuple[Path, int, fl
         frames: File, step and axial stress [Pa] of each frame, in their order.
     """
     for file, _, _ in sorted(frames, key=lambda frame: -np.nan_to_num(frame[2])):
-        snapshot = read_vtu(file)
-        if can_be_drawn(snapshot.positions):
+        snapshot = read_state(file)
+        if can_be_drawn(snapshot.positions[:, [0, -1]]):  # across and along the load
             break
     else:
         return
     colours = _colours_of(snapshot, result.test)
-    corners = snapshot.reference.min(axis=0), snapshot.reference.max(axis=0)
+    place = _Place(snapshot.reference.min(axis=0), snapshot.reference.max(axis=0))
     state = _State()
     data = path.with_name("frames.pvd").resolve()
     steps = [step for _, step, _ in frames]
     source: dict[str, _Values] = {"FileName": [data], "TimestepValues": steps}
     made = state.add("sources PVDReader", "sources", "frames", source)
-    shown = _shown(state, made, colours)
+    shown = _shown(state, made, colours, place)
     caption = f"{test_text(result)}\n{size_text(result)}"
     shown.append(_caption(state, caption))
-    _view(state, made, shown, corners, steps)
+    _view(state, made, shown, place, steps)
     write_text(path, state.text())
 
 
-def _colours_of(snapshot: Snapshot, test: str) -> _Colours:
-    """What colours grains at the largest stress: rigid ones have no stress of their own."""
-    larger, smaller = principal_stresses(snapshot.triangle_stress)
-    moved = np.hypot(*(snapshot.positions - snapshot.reference).T)
-    if not np.any(snapshot.triangle_stress):
+def _colours_of(snapshot: Snapshot | SolidSnapshot, test: str) -> _Colours:
+    """What colours grains at the largest stress: rigid ones of the plane have none of their own."""
+    if isinstance(snapshot, SolidSnapshot):
+        smaller, _, larger = snapshot.principal_stresses.T
+        smallest = "principal_stress_3"
+    else:
+        larger, smaller = principal_stresses(snapshot.triangle_stress)
+        smallest = "principal_stress_2"
+    moved = np.hypot.reduce(snapshot.positions - snapshot.reference, axis=1)
+    if not (np.any(larger) or np.any(smaller)):
         end = float(np.percentile(moved, _END)) or 1.0
         return _Colours("displacement", _POINTS, 0.0, end, "displacement [m]")
     if kind_of(test).pulled:
@@ -158,15 +204,22 @@ def _colours_of(snapshot: Snapshot, test: str) -> _Colours:
         title = "larger principal stress, tension > 0 [Pa]"
         return _Colours("principal_stress_1", _CELLS, 0.0, end, title)
     end = min(-float(np.percentile(-smaller, _END)), -1.0)
-    title = "smaller principal stress, tension > 0 [Pa]"
-    return _Colours("principal_stress_2", _CELLS, end, 0.0, title)
+    word = "smallest" if len(snapshot.positions.T) == _SPACE else "smaller"
+    title = f"{word} principal stress, tension > 0 [Pa]"
+    return _Colours(smallest, _CELLS, end, 0.0, title)
 
 
-def _shown(state: _State, frames: _Proxy, colours: _Colours) -> list[_Proxy]:
-    """Add the grains of the frames and their cracks with their scales; what a view shows."""
+def _shown(state: _State, frames: _Proxy, colours: _Colours, place: _Place) -> list[_Proxy]:
+    """Add the grains of the frames and their cracks with their scales; what a view shows.
+
+    Of a solid these are the grains behind a plane through its axis, and where it meets cracks.
+    """
     low, high = colours.low, colours.high
     grains = _threshold(state, frames, "grains", "kind", (GRAIN, GRAIN))
     cracks = _threshold(state, frames, "cracks", "crack_mode", (min(MODES), max(MODES)))
+    if place.is_solid:
+        grains = _cut(state, "Clip", "section of grains", grains, place)
+        cracks = _cut(state, "Cut", "section of cracks", cracks, place)
     stops = np.linspace(0.0, 1.0, _STOPS)
     ramp = colormaps["viridis" if low < 0.0 else "viridis_r"]  # pale where there is no stress
     points = [(low + at * (high - low), *ramp(at)[:3]) for at in stops]
@@ -202,6 +255,15 @@ def _threshold(
         "UpperThreshold": [between[1]],
     }
     return state.add("filters Threshold", "sources", name, properties)
+
+
+def _cut(state: _State, kind: str, name: str, cells: _Proxy, place: _Place) -> _Proxy:
+    """What lies behind the plane through the axis and x (``Clip``), or in it (``Cut``)."""
+    plane: dict[str, _Values] = {"Origin": place.middle, "Normal": (0, -1, 0)}
+    made = state.add("implicit_functions Plane", "pq_helper_proxies", f"plane {kind}", plane)
+    return state.add(
+        f"filters {kind}", "sources", name, {"Input": [cells], f"{kind}Function": [made]}
+    )
 
 
 def _lookup(state: _State, name: str, properties: dict[str, _Values]) -> _Proxy:
@@ -256,12 +318,10 @@ def _view(
     state: _State,
     frames: _Proxy,
     shown: Sequence[_Proxy],
-    corners: tuple[FloatArray, FloatArray],
+    place: _Place,
     steps: Sequence[int],
 ) -> None:
     """Add the window at the last frame, and the time of the frames."""
-    low, high = corners
-    middle = 0.5 * (low + high)
     view = state.add(
         "views RenderView",
         "views",
@@ -269,11 +329,12 @@ def _view(
         {
             "Representations": shown,
             "ViewTime": [steps[-1]],
-            "InteractionMode": [_PLANE],
+            "InteractionMode": [_TURNED if place.is_solid else _FLAT],
             "CameraParallelProjection": [1],
-            "CameraParallelScale": [_MARGIN * float(np.max(high - low))],
-            "CameraFocalPoint": [*middle, 0.0],
-            "CameraPosition": [*middle, 1.0],
+            "CameraParallelScale": [place.half_height],
+            "CameraFocalPoint": place.middle,
+            "CameraPosition": place.camera,
+            "CameraViewUp": place.up,
             "UseColorPaletteForBackground": [0],
             "Background": _WHITE,
             "OrientationAxesVisibility": [0],

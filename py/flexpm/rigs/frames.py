@@ -187,8 +187,7 @@ def show_frames(folder: Path, frames: Sequence[Frame], result: Result, film: str
 
     files = [folder / one.file for one in frames]
     steps, stresses = [one.step for one in frames], [one.axial_stress for one in frames]
-    if result.tetrahedra is None:  # its camera looks at the plane
-        paraview.write_state(folder / STATE, result, [*zip(files, steps, stresses, strict=True)])
+    paraview.write_state(folder / STATE, result, [*zip(files, steps, stresses, strict=True)])
     if film:
         strains = [one.axial_strain for one in frames]
         shown = [*zip(files, strains, stresses, strict=True)]

@@ -54,7 +54,7 @@ double drawn_volume(const SolidState& s, const CutPlane& plane)
         for (const Polygon& face : faces.outside)
             cones += cone_of(face);
         for (const Polygon& face : faces.section)
-            area += norm(area_of(face));
+            area += dot(area_of(face), plane.normal);
     }
     return cones / 6.0 + plane.offset * area / 3.0;
 }
@@ -169,6 +169,39 @@ TEST_CASE("The points of a face share it by their areas", "[view][solids]")
             == Approx(s.contacts.area(c, group.points - 1) / contact_area(s.contacts, c))
                    .epsilon(1e-9));
     }
+}
+
+TEST_CASE("The rims of cracks on the surface are the lines between its grains", "[view][solids]")
+{
+    const SolidState s = sample();
+    const auto outer = surface_nodes(s);
+    const Vector top = corner_of(s);
+    const auto on_wall = [&](Vector p) {
+        const double least = std::min({ p.x, p.y, p.z, top.x - p.x, top.y - p.y, top.z - p.z });
+        return least < 1e-9;
+    };
+    int lines = 0, inner = 0;
+    double length = 0.0;
+    for (int c = 0; c < s.contacts.count; ++c)
+        for (int p = 0; p < s.contacts.points_of(c); ++p)
+            for (const Segment& line : point_rim(s, c, p, 1.0, outer)) {
+                ++lines;
+                length += norm(line[1] - line[0]);
+                inner += !on_wall(line[0]);
+            }
+    CHECK(lines > 100);
+    CHECK(inner == 0);
+    // both halves of each edge
+    double walls = 0.0;
+    for (int c = 0; c < s.contacts.count; ++c)
+        for (int k = 0; k < s.contacts.corners_of(c); ++k) {
+            const int a = s.contacts.node(c, 0, k);
+            const int b = s.contacts.node(c, 0, (k + 1) % s.contacts.corners_of(c));
+            const bool both = outer[s.grains.scalar_index(a)] && outer[s.grains.scalar_index(b)];
+            if (both && s.contacts.group_of(c).at_corners > 0)
+                walls += norm(drawn_place(s.grains, a) - drawn_place(s.grains, b));
+        }
+    CHECK(length == Approx(walls).epsilon(1e-12));
 }
 
 TEST_CASE("Values of solids are those of their strain, cracks and fragments", "[view][solids]")

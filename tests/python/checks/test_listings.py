@@ -8,6 +8,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
+import yade
 
 import flexpm
 from flexpm.cli import main as cli
@@ -90,6 +91,13 @@ def test_the_listings_of_the_page_on_specimens():
     exec(code_after("doc/specimens.rst", "does the same::"), scope)
     assert len(scope["cut"].discs) > len(scope["specimen"].discs)
     assert {0, 1} <= set(scope["cut"].edge_joints)
+
+
+def test_the_listing_of_solids_in_the_scene(capsys):
+    yade.O.reset()
+    words = "scene from which a script has erased any::"
+    exec(code_after("doc/yade_interoperability.rst", words), {"flexpm": flexpm, "O": yade.O})
+    assert capsys.readouterr().out.startswith("Vector3(")
 
 
 def test_the_listing_of_held_nodes():

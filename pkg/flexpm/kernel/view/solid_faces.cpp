@@ -48,6 +48,9 @@ Polygon section_of(const std::array<Vector, 4>& corners, const CutPlane& plane)
     }
     // the first and the last of four crossed edges share no corner: they lie across
     if (found.size() == 4) std::swap(found[2], found[3]);
+    // a window may leave out what is turned away
+    if (found.size() > 2 && dot(normal_of(found), plane.normal) < 0.0)
+        std::reverse(found.begin(), found.end());
     return found;
 }
 
@@ -163,6 +166,33 @@ std::vector<Polygon> point_part(const SolidState& s, int contact, int point, dou
         parts.push_back({ corner, half, inner(half), inner(corner) });
     }
     return parts;
+}
+
+std::vector<bool> surface_nodes(const SolidState& s)
+{
+    std::vector<bool> found(s.grains.inverse_mass.size(), false);
+    for (const auto& triangle : s.surface.nodes)
+        for (int node : triangle)
+            found[s.grains.scalar_index(node)] = true;
+    return found;
+}
+
+std::vector<Segment> point_rim(
+    const SolidState& s, int contact, int point, double factor, const std::vector<bool>& on_surface)
+{
+    const FaceContacts& c = s.contacts;
+    if (point >= c.group_of(contact).at_corners) return {};
+    const auto is_outer = [&](int corner) {
+        return on_surface[s.grains.scalar_index(c.node(contact, 0, corner))];
+    };
+    const Polygon face = middle_face(s, contact, factor);
+    const int count = c.corners_of(contact);
+    std::vector<Segment> found;
+    for (int next : { (point + count - 1) % count, (point + 1) % count }) {
+        if (is_outer(point) && is_outer(next))
+            found.push_back({ face[point], 0.5 * (face[point] + face[next]) });
+    }
+    return found;
 }
 
 double normal_force(const SolidState& s, int contact)

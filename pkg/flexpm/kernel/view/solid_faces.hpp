@@ -40,7 +40,7 @@ std::vector<std::vector<NodePair>> polyhedron_edges(const SolidState& s);
 /// What is drawn of one grain.
 struct GrainFaces {
     std::vector<Polygon> outside;  ///< triangles of the surface, in front of the plane
-    std::vector<Polygon> section;  ///< where the plane cuts the tetrahedra
+    std::vector<Polygon> section;  ///< where the plane cuts the tetrahedra, seen from beyond it
     std::vector<Segment> lines;    ///< edges in front of the plane, and the rim of the section
 };
 
@@ -53,6 +53,14 @@ GrainFaces grain_faces(const SolidState& s, int grain, const std::vector<NodePai
 /// times larger: around a corner, or in the middle, as large as the point's area is of all. Points
 /// that are no corners and more than one stand for the whole face.
 std::vector<Polygon> point_part(const SolidState& s, int contact, int point, double factor);
+
+/// Whether each node, by Layout::scalar_index, is on the surface of the specimen.
+std::vector<bool> surface_nodes(const SolidState& s);
+
+/// Halves of the edges at a point in a corner that lie in the surface of the specimen: where its
+/// crack shows outside.
+std::vector<Segment> point_rim(const SolidState& s, int contact, int point, double factor,
+    const std::vector<bool>& on_surface);
 
 /// Force of a contact along its normal [N], tension positive; 0 if its face has no area.
 double normal_force(const SolidState& s, int contact);

@@ -12,7 +12,10 @@ OwnedAssembly findAssembly(const Scene& scene)
 {
 	for (const auto& engine : scene.engines) {
 		auto* owner = dynamic_cast<AssemblyOwner*>(engine.get());
-		if (owner && owner->assembled()) return { engine, owner->assembled() };
+		if (!owner) continue;
+		flexpm::SolidState* const solid = owner->solid();
+		if (solid && solid->grains.count > 0) return { engine, nullptr, solid };
+		if (owner->assembled()) return { engine, owner->assembled(), nullptr };
 	}
 	return {};
 }
@@ -27,14 +30,30 @@ OwnedAssembly assemblyOf(const Scene& scene)
 OwnedAssembly assemblyOfGrain(int grain)
 {
 	auto found = assemblyOf(*Omega::instance().getScene());
-	if (grain >= 0 && grain < found->grains.count) return found;
+	if (grain >= 0 && grain < found.grains().count) return found;
 	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
+}
+
+Vector3r vectorOf(const flexpm::Grains& grains, const flexpm::Array<double>& values, int node)
+{
+	Vector3r found = Vector3r::Zero();
+	for (int axis = 0; axis < grains.layout.dimension; ++axis)
+		found[axis] = values[grains.component(node, axis)];
+	return found;
+}
+
+Vector3r nodePlace(const flexpm::Grains& grains, int node) { return vectorOf(grains, grains.reference, node) + vectorOf(grains, grains.displacement, node); }
+
+int contactAt(const OwnedAssembly& owned, int contact)
+{
+	if (owned.plane) return flexpm::contact_with_id(*owned.plane, contact);
+	return contact < owned.space->contacts.count ? contact : -1;
 }
 
 OwnedContact ownedContact(int id)
 {
 	OwnedContact found { assemblyOf(*Omega::instance().getScene()), -1 };
-	found.place = flexpm::contact_with_id(*found, id);
+	found.place = contactAt(found, id);
 	if (found.place >= 0 && dynamic_cast<const AssemblyOwner&>(*found.engine).holds(found.place)) return found;
 	throw std::runtime_error(
 	        "contact = " + std::to_string(id) + ", is no contact of the solver, has ended or was erased; take the bonds anew from O.interactions");

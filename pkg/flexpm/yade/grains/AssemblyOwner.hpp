@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/solids/solid_state.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 
 namespace yade {
@@ -11,19 +12,23 @@ namespace yade {
 class AssemblyOwner {
 public:
 	virtual ~AssemblyOwner();
-	/// Null while it has no grains.
+	/// Grains of the plane; null while it has none.
 	virtual flexpm::Assembly* assembled() = 0;
+	/// Grains of space, which a solver of solids has instead.
+	virtual flexpm::SolidState* solid() { return nullptr; }
 	/// Whether no script has erased the contact at this place.
 	virtual bool holds(int place) const = 0;
 };
 
-/// The arrays of a scene's grains, and their engine, which keeps them alive.
+/// The arrays of a scene's grains, of the plane or of space, and their engine, which keeps them alive.
 struct OwnedAssembly {
-	shared_ptr<Engine> engine;
-	flexpm::Assembly*  arrays = nullptr; ///< null if the scene has none
+	shared_ptr<Engine>  engine; ///< null if the scene has none
+	flexpm::Assembly*   plane = nullptr;
+	flexpm::SolidState* space = nullptr;
 
-	flexpm::Assembly& operator*() const { return *arrays; }
-	flexpm::Assembly* operator->() const { return arrays; }
+	/// What `call` says of those that there are.
+	template <class Call> decltype(auto) with(Call call) const { return space ? call(*space) : call(*plane); }
+	flexpm::Grains&                      grains() const { return space ? space->grains : plane->grains; }
 };
 
 /// The same with one contact of it, by its place in the arrays.
@@ -31,8 +36,16 @@ struct OwnedContact : OwnedAssembly {
 	int place = -1;
 };
 
+/// Where a node is, by its offset, or a vector of it in YADE's space [m].
+Vector3r        vectorOf(const flexpm::Grains& grains, const flexpm::Array<double>& values, int node);
+Vector3r        nodePlace(const flexpm::Grains& grains, int node);
+inline Vector3r toYade(flexpm::Vector v) { return Vector3r(v.x, v.y, v.z); }
+
 /// The first grains that the scene's engines own, if any.
 OwnedAssembly findAssembly(const Scene& scene);
+
+/// The place of the contact with a lasting number, -1 without: contacts of space stay in their places.
+int contactAt(const OwnedAssembly& owned, int contact);
 
 /// The same, which must be there; of the current scene, with this grain, or with the contact of this lasting number.
 /// @throws std::runtime_error  if no engine of the scene has grains, or if it has no such grain or contact

@@ -2,7 +2,6 @@
 /// @file  Bounding box of a deformable grain.
 #include <flexpm/yade/grains/LaguerreCell.hpp>
 
-#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 #include <flexpm/yade/grains/Bo1_LaguerreCell_Aabb.hpp>
 
@@ -29,19 +28,18 @@ void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>
 	const int  grain = static_cast<const LaguerreCell&>(*shape).grain;
 	const auto owned = findAssembly(*scene);
 	// an exception would not leave YADE's parallel loop; without a bound the collider passes over the body
-	if (!owned.engine || grain < 0 || grain >= owned->grains.count) return reportOnce(grain, body->getId());
-	const auto& a = *owned;
+	if (!owned.engine || grain < 0 || grain >= owned.grains().count) return reportOnce(grain, body->getId());
+	const auto& grains = owned.grains();
 	if (!bound) bound = boost::make_shared<Aabb>();
-	const Real     r = a.grains.radius[grain];
-	const auto     c = a.grains.position(a.grains.centre(grain));
-	const Vector3r centre(c.x, c.y, 0);
-	bound->min = centre - Vector3r(r, r, r);
-	bound->max = centre + Vector3r(r, r, r);
-	for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
-		const auto     p = a.grains.position(a.grains.node(grain, n));
-		const Vector3r corner(p.x, p.y, 0);
-		bound->min = bound->min.cwiseMin(corner);
-		bound->max = bound->max.cwiseMax(corner);
+	const Vector3r centre = nodePlace(grains, grains.centre(grain));
+	// a disc is as thick as wide; a polyhedron has its corners
+	const Real r = owned.plane ? grains.radius[grain] : 0.;
+	bound->min   = centre - Vector3r(r, r, r);
+	bound->max   = centre + Vector3r(r, r, r);
+	for (int n = 0; n < grains.nodes_of(grain); ++n) {
+		const Vector3r corner = nodePlace(grains, grains.node(grain, n));
+		bound->min            = bound->min.cwiseMin(corner);
+		bound->max            = bound->max.cwiseMax(corner);
 	}
 }
 

@@ -14,7 +14,7 @@ public:
 	FUNCTOR1D(LaguerreCell);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Bo1_LaguerreCell_Aabb, BoundFunctor,
-		"Bounding box of a :yref:`LaguerreCell`: its nodes and its disc, as thick as the disc.");
+		"Bounding box of a :yref:`LaguerreCell`: its nodes and its disc, as thick as the disc; of a polyhedron its nodes.");
 	// clang-format on
 	DECLARE_LOGGER;
 

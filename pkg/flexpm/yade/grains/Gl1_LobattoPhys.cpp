@@ -4,7 +4,9 @@
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/view/bond_lines.hpp>
+#include <flexpm/kernel/view/solid_faces.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
 #include <flexpm/yade/grains/Gl1_LaguerreCell.hpp>
 #include <flexpm/yade/grains/Gl1_LobattoPhys.hpp>
@@ -24,54 +26,103 @@ namespace {
 
 	/// The largest force of the picture that is being drawn: YADE draws one bond after the other.
 	struct Shown {
-		const flexpm::Assembly* of      = nullptr;
-		int                     first   = -1; ///< contact with which the picture has begun
-		long                    step    = -1;
-		Real                    largest = 0.;
+		const flexpm::Grains* of      = nullptr;
+		int                   first   = -1; ///< contact with which the picture has begun
+		long                  step    = -1;
+		Real                  largest = 0.;
+		std::vector<bool>     onSurface; ///< nodes of a solid
+		Vector3r              toViewer;
 
-		void update(const flexpm::Assembly& assembly, int contact)
+		void look(const flexpm::Assembly&) { }
+		void look(const flexpm::SolidState& state)
 		{
-			if (of == &assembly && contact != first && step == long(assembly.step)) return;
-			of      = &assembly;
+			onSurface = flexpm::surface_nodes(state);
+			toViewer  = Gl1_LaguerreCell::toViewer();
+		}
+
+		template <class State> void update(const State& state, int contact)
+		{
+			if (of == &state.grains && contact != first && step == long(state.step)) return;
+			of      = &state.grains;
 			first   = contact;
-			step    = long(assembly.step);
-			largest = flexpm::largest_contact_force(assembly);
+			step    = long(state.step);
+			largest = flexpm::largest_contact_force(state);
+			look(state);
 		}
 	};
 	Shown shown;
 
-	void draw(const flexpm::Line& line, Real width)
+	void draw(const Vector3r& from, const Vector3r& to, Real width)
 	{
 		glLineWidth(float(width));
 		glBegin(GL_LINES);
-		glVertex3d(line.from.x, line.from.y, 0.);
-		glVertex3d(line.to.x, line.to.y, 0.);
+		glVertex3d(from[0], from[1], from[2]);
+		glVertex3d(to[0], to[1], to[2]);
 		glEnd();
 		glLineWidth(1.f);
 	}
 
-	void drawForce(const flexpm::Assembly& assembly, int place)
+	void draw(const flexpm::Line& line, Real width) { draw(toYade(line.from), toYade(line.to), width); }
+	void draw(const flexpm::Segment& line, Real width) { draw(toYade(line[0]), toYade(line[1]), width); }
+
+	/// Between the centres of both grains.
+	flexpm::Line    branchOf(const flexpm::Assembly& a, int place) { return flexpm::branch_line(a, place, Gl1_LaguerreCell::scale); }
+	flexpm::Segment branchOf(const flexpm::SolidState& s, int place)
 	{
-		const Real force = flexpm::normal_force(assembly, place);
+		const auto centre = [&](int grain) { return flexpm::drawn_place(s.grains, s.grains.centre(grain), Gl1_LaguerreCell::scale); };
+		return { centre(s.contacts.pairs[place][0]), centre(s.contacts.pairs[place][1]) };
+	}
+
+	/// Along the normal [N], tension positive.
+	Real normalForce(const flexpm::Assembly& a, int place) { return flexpm::normal_force(a, place); }
+	Real normalForce(const flexpm::SolidState& s, int place) { return flexpm::normal_force(s, place); }
+
+	template <class State> void drawForce(const State& state, int place)
+	{
+		const Real force = normalForce(state, place);
 		if (force == 0. || shown.largest == 0.) return;
 		if (force < 0.)
 			glColor3d(0., 0., 0.);
 		else
 			glColor3d(.85, .1, .1);
-		draw(flexpm::branch_line(assembly, place, Gl1_LaguerreCell::scale), Gl1_LobattoPhys::forceWidth * std::abs(force) / shown.largest);
+		draw(branchOf(state, place), Gl1_LobattoPhys::forceWidth * std::abs(force) / shown.largest);
 	}
 
-	void drawCracks(const flexpm::Assembly& assembly, int place)
+	void setColour(const Vector3r& colour) { glColor3d(colour[0], colour[1], colour[2]); }
+
+	void drawPart(const flexpm::Assembly& a, int place, int point, const Vector3r& colour)
 	{
-		const auto& contacts = assembly.contacts;
+		setColour(colour);
+		draw(flexpm::point_line(a, place, point, Gl1_LaguerreCell::scale), Gl1_LobattoPhys::crackWidth);
+	}
+
+	/// The part of the face, the line of it in a section, and where it shows outside.
+	void drawPart(const flexpm::SolidState& s, int place, int point, const Vector3r& colour)
+	{
+		const auto plane = Gl1_LaguerreCell::cut();
+		const Real scale = Gl1_LaguerreCell::scale, width = Gl1_LobattoPhys::crackWidth;
+		for (const auto& part : flexpm::point_part(s, place, point, scale)) {
+			const auto left = flexpm::in_front(part, plane);
+			if (left.empty()) continue;
+			setColour(Gl1_LaguerreCell::light(part, shown.toViewer) * colour);
+			glBegin(GL_POLYGON);
+			for (const auto& p : left)
+				glVertex3d(p.x, p.y, p.z);
+			glEnd();
+			setColour(colour);
+			draw(flexpm::cut_line(part, plane), width);
+		}
+		for (const auto& line : flexpm::point_rim(s, place, point, scale, shown.onSurface))
+			draw(flexpm::in_front(line, plane), width);
+	}
+
+	template <class State> void drawCracks(const State& state, int place)
+	{
+		const auto& contacts = state.contacts;
 		for (int p = 0; p < contacts.points_of(place); ++p) {
 			const auto mode = contacts.crack(place, p).mode;
 			if (mode != flexpm::tensile_crack && mode != flexpm::shear_crack) continue;
-			if (mode == flexpm::tensile_crack)
-				glColor3d(0., .447, .698);
-			else
-				glColor3d(.835, .369, 0.);
-			draw(flexpm::point_line(assembly, place, p, Gl1_LaguerreCell::scale), Gl1_LobattoPhys::crackWidth);
+			drawPart(state, place, p, mode == flexpm::tensile_crack ? Vector3r(0., .447, .698) : Vector3r(.835, .369, 0.));
 		}
 	}
 
@@ -83,13 +134,18 @@ void Gl1_LobattoPhys::go(const shared_ptr<IPhys>& phys, const shared_ptr<Interac
 {
 	const auto owned = findAssembly(*Omega::instance().getScene());
 	if (!owned.engine) return;
-	const int contact = static_cast<const LobattoPhys&>(*phys).contact, place = flexpm::contact_with_id(*owned, contact);
+	const int contact = static_cast<const LobattoPhys&>(*phys).contact, place = contactAt(owned, contact);
 	if (place < 0) return;
-	shown.update(*owned, contact);
 	glDisable(GL_LIGHTING);
-	glDepthFunc(GL_ALWAYS); // the grains lie in the same plane
-	if (forces) drawForce(*owned, place);
-	if (cracks) drawCracks(*owned, place);
+	glDepthFunc(owned.plane ? GL_ALWAYS : GL_LEQUAL); // grains of the plane lie in the same plane
+	glPushAttrib(GL_ENABLE_BIT);
+	glDisable(GL_CULL_FACE); // faces of cracks are seen from both sides
+	owned.with([&](const auto& state) {
+		shown.update(state, contact);
+		if (forces) drawForce(state, place);
+		if (cracks) drawCracks(state, place);
+	});
+	glPopAttrib();
 	glDepthFunc(GL_LESS);
 	glEnable(GL_LIGHTING);
 }

@@ -3,6 +3,9 @@
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/view/snapshot.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
@@ -19,38 +22,89 @@ YADE_PLUGIN((LobattoGeom)(LobattoPhys));
 
 namespace {
 
-	/// (points,) or (points, columns) copy of what `value(assembly, place, point, all)` appends: the arrays move when contacts come and go.
+	using flexpm::Assembly;
+	using flexpm::Contacts;
+	using flexpm::FaceContacts;
+	using flexpm::FaceRow;
+	using flexpm::SolidState;
+	using Numbers = std::vector<double>;
+
+	/// (points,) or (points, columns) copy of what `value(state, place, point, all)` appends: the arrays move when contacts come and go.
 	template <class T, class Value> py::object pointCopy(int contact, int columns, Value value)
 	{
 		const auto     owned = ownedContact(contact);
 		std::vector<T> all;
-		for (int p = 0; p < owned->contacts.points_of(owned.place); ++p)
-			value(*owned, owned.place, p, all);
+		owned.with([&](const auto& state) {
+			for (int p = 0; p < state.contacts.points_of(owned.place); ++p)
+				value(state, owned.place, p, all);
+		});
 		return flexpm_bindings::copied(all, columns, Access::readOnly);
 	}
 
-	/// The same of a number of each point, read by that function.
-	py::object numbersOf(int contact, double (*read)(const flexpm::Contacts&, int, int))
+	/// Components of a vector: of a contact of the plane, and of one of space.
+	int columnsOf(int contact, int ofPlane, int ofSpace) { return ownedContact(contact).plane ? ofPlane : ofSpace; }
+
+	/// What a contact of space has, and one of the plane tells in other words.
+	OwnedContact requireSpace(int contact, const char* quantity)
 	{
-		return pointCopy<double>(contact, 0, [read](const auto& a, int place, int p, auto& all) { all.push_back(read(a.contacts, place, p)); });
+		const auto owned = ownedContact(contact);
+		if (owned.plane) flexpm::refuse(quantity, "of the plane", "must be of a solid; in the plane take ends, traction and area");
+		return owned;
 	}
 
-	Vector3r vector(flexpm::Point p) { return Vector3r(p.x, p.y, 0); }
-
-	Vector3r normalOf(const flexpm::Assembly& a, int place) { return vector(a.contacts.normal(place)); }
-
-	Vector3r middleOf(const flexpm::Assembly& a, int place)
+	py::object vectorsOf(const std::vector<flexpm::Vector>& vectors)
 	{
-		return .5 * (vector(flexpm::contact_end(a, place, 0)) + vector(flexpm::contact_end(a, place, 1)));
+		Numbers all;
+		for (const auto& v : vectors)
+			all.insert(all.end(), { v.x, v.y, v.z });
+		return flexpm_bindings::copied(all, 3, Access::readOnly);
 	}
 
-	Vector3r normalForceOf(const flexpm::Assembly& a, int place)
+	// what a bond of the plane and one of space tell
+	Vector3r normalOf(const Assembly& a, int place) { return toYade(a.contacts.normal(place)); }
+	Vector3r normalOf(const SolidState& s, int place) { return toYade(flexpm::contact_frame(s, place).normal); }
+
+	Vector3r middleOf(const Assembly& a, int place) { return .5 * (toYade(flexpm::contact_end(a, place, 0)) + toYade(flexpm::contact_end(a, place, 1))); }
+	Vector3r middleOf(const SolidState& s, int place) { return toYade(flexpm::contact_middle(s, place)); }
+
+	template <class State> Vector3r normalForceOf(const State& state, int place)
 	{
-		const Vector3r normal = normalOf(a, place);
-		return vector(flexpm::contact_force(a.contacts, place)).dot(normal) * normal;
+		const Vector3r normal = normalOf(state, place);
+		return toYade(flexpm::contact_force(state.contacts, place)).dot(normal) * normal;
 	}
 
-	Vector3r shearForceOf(const flexpm::Assembly& a, int place) { return vector(flexpm::contact_force(a.contacts, place)) - normalForceOf(a, place); }
+	template <class State> Vector3r shearForceOf(const State& state, int place)
+	{
+		return toYade(flexpm::contact_force(state.contacts, place)) - normalForceOf(state, place);
+	}
+
+	void addOpening(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::opening_of(c, place, p)); }
+	void addOpening(const FaceContacts& c, int place, int p, Numbers& all) { all.push_back(c.place_of(place, p).opening); }
+
+	void addSlip(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::slip_of(c, place, p)); }
+	void addSlip(const FaceContacts& c, int place, int p, Numbers& all)
+	{
+		const auto slip = c.place_of(place, p).slip;
+		all.insert(all.end(), { slip.x, slip.y });
+	}
+
+	void addDamage(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::damage_of(c, place, p)); }
+	void addDamage(const FaceContacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::traction_of(c, place, p).damage); }
+
+	void addTraction(const Contacts& c, int place, int p, Numbers& all)
+	{
+		const auto t = flexpm::traction_of(c, place, p);
+		all.insert(all.end(), { t.normal, t.shear });
+	}
+	void addTraction(const FaceContacts& c, int place, int p, Numbers& all)
+	{
+		const auto t = flexpm::traction_of(c, place, p);
+		all.insert(all.end(), { t.normal, t.shear.x, t.shear.y });
+	}
+
+	/// Radius of a sphere that has the volume of a grain.
+	Real equalSphere(const Assembly& a, int grain) { return flexpm::equal_sphere(a, grain); }
+	Real equalSphere(const SolidState& s, int grain) { return s.grains.radius[grain]; }
 
 } // namespace
 
@@ -65,26 +119,43 @@ LobattoGeom::~LobattoGeom() { ++destroyedContacts(); }
 Vector3r LobattoGeom::presentNormal() const
 {
 	const auto owned = ownedContact(contact);
-	return normalOf(*owned, owned.place);
+	return owned.with([&](const auto& state) { return normalOf(state, owned.place); });
 }
 
 Vector3r LobattoGeom::presentContactPoint() const
 {
 	const auto owned = ownedContact(contact);
-	return middleOf(*owned, owned.place);
+	return owned.with([&](const auto& state) { return middleOf(state, owned.place); });
 }
 
 Real LobattoGeom::presentPenetrationDepth() const
 {
 	const auto owned = ownedContact(contact);
-	return -flexpm::mean_opening(owned->contacts, owned.place);
+	return owned.with([&](const auto& state) { return -flexpm::mean_opening(state.contacts, owned.place); });
 }
 
 py::object LobattoGeom::ends() const
 {
 	const auto owned = ownedContact(contact);
-	const auto start = flexpm::contact_end(*owned, owned.place, 0), end = flexpm::contact_end(*owned, owned.place, 1);
-	return flexpm_bindings::copied(std::vector<double> { start.x, start.y, end.x, end.y }, 2, Access::readOnly);
+	if (owned.space) flexpm::refuse("ends", "of a solid", "must be of the plane; a face in space has corners");
+	const auto start = flexpm::contact_end(*owned.plane, owned.place, 0), end = flexpm::contact_end(*owned.plane, owned.place, 1);
+	return flexpm_bindings::copied(Numbers { start.x, start.y, end.x, end.y }, 2, Access::readOnly);
+}
+
+py::object LobattoGeom::corners() const
+{
+	const auto owned = requireSpace(contact, "corners");
+	return vectorsOf(flexpm::middle_face(*owned.space, owned.place));
+}
+
+py::object LobattoGeom::points() const
+{
+	const auto                  owned  = requireSpace(contact, "points");
+	const auto                  middle = flexpm::middle_face(*owned.space, owned.place);
+	std::vector<flexpm::Vector> all;
+	for (int p = 0; p < owned.space->contacts.points_of(owned.place); ++p)
+		all.push_back(flexpm::point_place(owned.space->contacts, owned.place, p, middle));
+	return vectorsOf(all);
 }
 
 LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
@@ -92,38 +163,42 @@ LobattoPhys::~LobattoPhys() { ++destroyedContacts(); }
 Vector3r LobattoPhys::presentNormalForce() const
 {
 	const auto owned = ownedContact(contact);
-	return normalForceOf(*owned, owned.place);
+	return owned.with([&](const auto& state) { return normalForceOf(state, owned.place); });
 }
 
 Vector3r LobattoPhys::presentShearForce() const
 {
 	const auto owned = ownedContact(contact);
-	return shearForceOf(*owned, owned.place);
+	return owned.with([&](const auto& state) { return shearForceOf(state, owned.place); });
 }
 
-void makeBond(const flexpm::Assembly& assembly, int contact, Interaction& interaction)
+void makeBond(const OwnedAssembly& owned, int contact, Interaction& interaction)
 {
-	auto        geom = boost::make_shared<LobattoGeom>();
-	auto        phys = boost::make_shared<LobattoPhys>();
-	const auto& pair = assembly.contacts.pairs[flexpm::contact_with_id(assembly, contact)];
-	geom->refR1      = flexpm::equal_sphere(assembly, pair[0]);
-	geom->refR2      = flexpm::equal_sphere(assembly, pair[1]);
+	auto geom = boost::make_shared<LobattoGeom>();
+	auto phys = boost::make_shared<LobattoPhys>();
+	owned.with([&](const auto& state) {
+		const auto& pair = state.contacts.pairs[contactAt(owned, contact)];
+		geom->refR1      = equalSphere(state, pair[0]);
+		geom->refR2      = equalSphere(state, pair[1]);
+	});
 	geom->contact    = contact;
 	phys->contact    = contact;
 	interaction.geom = geom;
 	interaction.phys = phys;
 }
 
-void mirrorBond(const flexpm::Assembly& assembly, int place, LobattoGeom& geom, LobattoPhys& phys)
+void mirrorBond(const OwnedAssembly& owned, int place, LobattoGeom& geom, LobattoPhys& phys)
 {
-	geom.normal           = normalOf(assembly, place);
-	geom.contactPoint     = middleOf(assembly, place);
-	geom.penetrationDepth = -flexpm::mean_opening(assembly.contacts, place);
-	const auto stiffness  = flexpm::bond_stiffness(assembly.contacts, place);
-	phys.kn               = stiffness.normal;
-	phys.ks               = stiffness.shear;
-	phys.normalForce      = normalForceOf(assembly, place);
-	phys.shearForce       = shearForceOf(assembly, place);
+	owned.with([&](const auto& state) {
+		geom.normal           = normalOf(state, place);
+		geom.contactPoint     = middleOf(state, place);
+		geom.penetrationDepth = -flexpm::mean_opening(state.contacts, place);
+		const auto stiffness  = flexpm::bond_stiffness(state.contacts, place);
+		phys.kn               = stiffness.normal;
+		phys.ks               = stiffness.shear;
+		phys.normalForce      = normalForceOf(state, place);
+		phys.shearForce       = shearForceOf(state, place);
+	});
 }
 
 void hideBond(LobattoGeom& geom, LobattoPhys& phys)
@@ -133,28 +208,44 @@ void hideBond(LobattoGeom& geom, LobattoPhys& phys)
 	geom.penetrationDepth                                                = none[0];
 }
 
-py::object LobattoPhys::opening() const { return numbersOf(contact, flexpm::opening_of); }
+py::object LobattoPhys::opening() const
+{
+	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { addOpening(s.contacts, place, p, all); });
+}
 
-py::object LobattoPhys::slip() const { return numbersOf(contact, flexpm::slip_of); }
+py::object LobattoPhys::slip() const
+{
+	return pointCopy<double>(contact, columnsOf(contact, 0, 2), [](const auto& s, int place, int p, auto& all) { addSlip(s.contacts, place, p, all); });
+}
 
 py::object LobattoPhys::area() const
 {
-	return pointCopy<double>(contact, 0, [](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.area(place, p)); });
+	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { all.push_back(s.contacts.area(place, p)); });
 }
 
 py::object LobattoPhys::cracked() const
 {
-	return pointCopy<std::uint8_t>(contact, 0, [](const auto& a, int place, int p, auto& all) { all.push_back(a.contacts.crack(place, p).mode); });
+	return pointCopy<std::uint8_t>(
+	        contact, 0, [](const auto& s, int place, int p, auto& all) { all.push_back(std::uint8_t(s.contacts.crack(place, p).mode)); });
 }
 
-py::object LobattoPhys::damage() const { return numbersOf(contact, flexpm::damage_of); }
+py::object LobattoPhys::damage() const
+{
+	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { addDamage(s.contacts, place, p, all); });
+}
 
 py::object LobattoPhys::traction() const
 {
-	return pointCopy<double>(contact, 2, [](const auto& a, int place, int p, auto& all) {
-		const auto t = flexpm::traction_of(a.contacts, place, p);
-		all.insert(all.end(), { t.normal, t.shear });
-	});
+	return pointCopy<double>(contact, columnsOf(contact, 2, 3), [](const auto& s, int place, int p, auto& all) { addTraction(s.contacts, place, p, all); });
+}
+
+py::object LobattoPhys::forces() const
+{
+	const auto                  owned = requireSpace(contact, "forces");
+	std::vector<flexpm::Vector> all;
+	for (int p = 0; p < owned.space->contacts.points_of(owned.place); ++p)
+		all.push_back(flexpm::point_force(*owned.space, owned.place, p));
+	return vectorsOf(all);
 }
 
 } // namespace yade

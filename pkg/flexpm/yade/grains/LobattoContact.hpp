@@ -2,9 +2,9 @@
 /// @file  Geometry and physics of a bond between two grains: handles to its points in the solver's packed arrays.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
+#include <flexpm/yade/grains/AssemblyOwner.hpp>
 
 #include <atomic>
 
@@ -19,17 +19,21 @@ public:
 	Vector3r              presentContactPoint() const;
 	Real                  presentPenetrationDepth() const;
 	boost::python::object ends() const;
+	boost::python::object corners() const;
+	boost::python::object points() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoGeom, ScGeom,
-		"Shared edge of two grains. Its state lives in :yref:`GrainSolver` and is read when it is looked at; what YADE's own functions read of the "
+		"Shared edge of two grains, or face of two polyhedra. Its state lives in :yref:`GrainSolver` and is read when it is looked at; what YADE's own functions read of the "
 		":yref:`base<ScGeom>` is written by :yref:`GrainSolver.mirrorBodies` and when the simulation stops.",
 		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
 		, createIndex(); normal = contactPoint = Vector3r::Zero(); refR1 = refR2 = penetrationDepth = 0;
-		, .add_property("normal", &LobattoGeom::presentNormal, "Unit normal from the first to the second grain, Eq. 5 [-].")
-		.add_property("contactPoint", &LobattoGeom::presentContactPoint, "Middle of the edge [m].")
+		, .add_property("normal", &LobattoGeom::presentNormal, "Unit normal from the first to the second grain, Eq. 5; in space that of the face (D66) [-].")
+		.add_property("contactPoint", &LobattoGeom::presentContactPoint, "Middle of the edge, or centroid of the face [m].")
 		.add_property("penetrationDepth", &LobattoGeom::presentPenetrationDepth, "Mean closing of the points, below 0 where the bond has opened [m].")
-		.add_property("ends", &LobattoGeom::ends, "Ends of the edge, (2, 2) [m]; a copy.")
+		.add_property("ends", &LobattoGeom::ends, "Ends of the edge, (2, 2) [m]; a copy. Of the plane alone.")
+		.add_property("corners", &LobattoGeom::corners, "Corners of the face in the middle of both, counter-clockwise as seen from the second grain, (k, 3) [m]; a copy. Of solids alone.")
+		.add_property("points", &LobattoGeom::points, "Where the points are, (p, 3) [m]; a copy. Of solids alone.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(LobattoGeom, ScGeom);
@@ -48,10 +52,11 @@ public:
 	boost::python::object damage() const;
 	boost::python::object cracked() const;
 	boost::python::object area() const;
+	boost::python::object forces() const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, NormShearPhys,
-		"Points of a bond, from one end of the edge to the other. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. What YADE's own functions read of the "
+		"Points of a bond, from one end of the edge to the other; of a face its corners and an inner one. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. What YADE's own functions read of the "
 		":yref:`base<NormShearPhys>` is written by :yref:`GrainSolver.mirrorBodies` and when the simulation stops; kn and ks are those of the intact bond. "
 		"A kept handle of an erased bond raises an error.",
 		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
@@ -60,10 +65,11 @@ public:
 		.add_property("shearForce", &LobattoPhys::presentShearForce, "The rest of the force on the second grain [N].")
 		.add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], compression below 0; a copy.")
 		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a copy.")
-		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m]; a copy.")
-		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; a copy.")
+		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m], or along both, (p, 2); a copy.")
+		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; of a face both shears, (p, 3); a copy.")
 		.add_property("damage", &LobattoPhys::damage, "Damage of each point, (p,) [-]; a copy.")
 		.add_property("cracked", &LobattoPhys::cracked, "0 intact, 1 cracked in tension, 2 in shear, (p,); a copy.")
+		.add_property("forces", &LobattoPhys::forces, "Force of each point on the second grain, (p, 3) [N]; a copy. Of solids alone.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(LobattoPhys, NormShearPhys);
@@ -71,10 +77,10 @@ public:
 REGISTER_SAVED(LobattoPhys);
 
 /// Make the handles of a contact, by its number; reference radii are those of spheres with the grains' volumes.
-void makeBond(const flexpm::Assembly& assembly, int contact, Interaction& interaction);
+void makeBond(const OwnedAssembly& owned, int contact, Interaction& interaction);
 
 /// Write what YADE's own functions read of a bond into its handles, by the contact's place in the arrays.
-void mirrorBond(const flexpm::Assembly& assembly, int place, LobattoGeom& geom, LobattoPhys& phys);
+void mirrorBond(const OwnedAssembly& owned, int place, LobattoGeom& geom, LobattoPhys& phys);
 
 /// Write numbers that are none instead: the handles would be older than the arrays.
 void hideBond(LobattoGeom& geom, LobattoPhys& phys);

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
@@ -69,9 +70,10 @@ namespace {
 	{
 		const Real margin = .5 * bound.sweepLength;
 		for (int n = 0; n < grains.nodes_of(grain); ++n) {
-			const auto p = grains.position(grains.node(grain, n));
-			if (p.x < bound.min[0] + margin || p.x > bound.max[0] - margin || p.y < bound.min[1] + margin || p.y > bound.max[1] - margin)
-				return true;
+			const Vector3r p = nodePlace(grains, grains.node(grain, n));
+			for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+				if (p[axis] < bound.min[axis] + margin || p[axis] > bound.max[axis] - margin) return true;
+			}
 		}
 		return false;
 	}
@@ -80,15 +82,15 @@ namespace {
 
 void GrainSolver::check()
 {
-	const std::string bad = flexpm::find_bad_number(assembly);
+	const std::string bad = onState([](const auto& state) { return flexpm::find_bad_number(state); });
 	diverged              = !bad.empty();
-	if (diverged) throw std::runtime_error("GrainSolver: " + bad);
+	if (diverged) throw std::runtime_error(getClassName() + ": " + bad);
 	removeErased(); // a script that keeps a handle delays its destruction
 	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
-	for (int grain = 0; grain < assembly.grains.count; ++grain) {
+	for (int grain = 0; grain < grains().count; ++grain) {
 		const Body* b = bodyOf(*scene, grain);
-		if (b && b->bound && nearBound(assembly.grains, grain, *b->bound)) scene->doSort = true;
+		if (b && b->bound && nearBound(grains(), grain, *b->bound)) scene->doSort = true;
 	}
 }
 

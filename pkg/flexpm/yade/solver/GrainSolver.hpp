@@ -54,10 +54,8 @@ public:
 
 	flexpm::Assembly* assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
 	bool              holds(int place) const override;
-	/// Grains of space, which a solver of solids has instead of the assembly.
-	virtual flexpm::SolidState* solid() { return nullptr; }
-	virtual bool                hasGrains() const { return assembly.grains.count > 0; }
-	virtual long                stepsDone() const { return assembly.step; }
+	virtual bool      hasGrains() const { return assembly.grains.count > 0; }
+	virtual long      stepsDone() const { return assembly.step; }
 	/// @throws std::runtime_error  unless there are grains of the plane, or any; all that Python calls goes through one of them
 	void requireAssembled() const;
 	void requireGrains() const;
@@ -67,6 +65,8 @@ public:
 		if (flexpm::SolidState* state = solid()) return call(*state);
 		return call(assembly);
 	}
+	flexpm::Grains&       grains() { return solid() ? solid()->grains : assembly.grains; }
+	const flexpm::Grains& grains() const { return const_cast<GrainSolver*>(this)->grains(); }
 
 	/// The arrays for who looks at them: without all that scripts have erased until now.
 	flexpm::Assembly& current();
@@ -144,7 +144,7 @@ public:
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
 			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j, all that of i without them; joints: of the joints' contacts.")
-		.def("addToScene", AfterAssembly<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
+		.def("addToScene", WithGrains<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", AfterAssembly<&GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", AfterAssembly<&GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
 		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0.),
@@ -176,7 +176,7 @@ public:
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
 		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
 		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
-		.def("mirrorBodies", AfterAssembly<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
+		.def("mirrorBodies", WithGrains<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
 		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
 		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
 		.def("energies", WithGrains<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
@@ -205,30 +205,37 @@ protected:
 	void                                requirePeriods() const;
 	void                                requireMasses() const;
 	void                                requireOwnValues() const;
+	void                                requireInScene() const;
+	void                                requireOwnScene() const;
 	flexpm::StepOptions                 stepOptions() const;
 	int                                 threads() const;
 	void                                trackEnergies();
+	void                                check();
+	void                                mirrorAtStop();
+	virtual void                        findStates();
+	virtual void                        mirrorStates();
+	/// Take out what scripts have erased.
+	virtual void removeErased();
+	bool         isInScene() const;
+	bool         hasInteraction(int contact) const;
+	/// The body of a grain, null if a script has erased it.
+	Body* bodyOf(const Scene& world, int grain) const;
+	/// The arrays, as shapes and bonds look at them.
+	OwnedAssembly own() const;
+
+	vector<shared_ptr<State>> states; // of the bodies, by slot, of solids by grain; kept alive, so that a body may go at any time
 
 private:
 	flexpm::NearPairs           nearPairs;
 	vector<flexpm::GrainPair>   candidates;     // near pairs without a contact
 	bool                        listed = false; // the candidates are up to date
 	mutable vector<std::size_t> places;         // of the contacts among the interactions, when last seen
-	vector<shared_ptr<State>>   states;         // of the bodies, by slot; kept alive, so that a body may go at any time
 	void                        requireReady() const;
-	void                        requireInScene() const;
-	void                        requireOwnScene() const;
-	/// The body of a grain, null if a script has erased it.
-	Body* bodyOf(const Scene& world, int grain) const;
-	void  takeStep();
-	void  insertBodies();
-	void  insertContacts();
-	void  findStates();
-	bool  isInScene() const;
-	bool  hasInteraction(int contact) const;
+	void                        takeStep();
+	void                        insertBodies();
+	void                        insertContacts();
 	/// What scripts have erased since the last look.
 	flexpm::Erasure findErased() const;
-	void            removeErased();
 	void            listCandidates();
 	void            changeContacts();
 	void            limitStep();
@@ -236,9 +243,6 @@ private:
 	void            followFaces();
 	void            showContactOf(const flexpm::GrainPair& pair);
 	void            showContact(int place);
-	void            check();
-	void            mirrorStates();
-	void            mirrorAtStop();
 	void            mirrorBonds(const Scene& world);
 	void            hideBonds(const Scene& world);
 	void            mirrorForces(Scene& world);

@@ -13,15 +13,23 @@ namespace yade {
 
 bool GrainSolver::isInScene() const
 {
-	const bool inserted = int(bodyIds.size()) == assembly.grains.count;
-	return inserted && findAssembly(*Omega::instance().getScene()).arrays == &assembly;
+	const bool inserted = int(bodyIds.size()) == grains().count;
+	return inserted && findAssembly(*Omega::instance().getScene()).engine.get() == this;
+}
+
+OwnedAssembly GrainSolver::own() const
+{
+	auto& self = const_cast<GrainSolver&>(*this);
+	return { nullptr, self.solid() ? nullptr : &self.assembly, self.solid() };
 }
 
 bool GrainSolver::hasInteraction(int contact) const
 {
-	const Body::id_t id1 = bodyIds[assembly.contacts.pairs[contact][0]], id2 = bodyIds[assembly.contacts.pairs[contact][1]];
+	const auto       owned = own();
+	const auto&      pairs = owned.space ? owned.space->contacts.pairs : owned.plane->contacts.pairs;
+	const Body::id_t id1 = bodyIds[pairs[contact][0]], id2 = bodyIds[pairs[contact][1]];
 	auto&            all = *Omega::instance().getScene()->interactions;
-	places.resize(assembly.contacts.count);
+	places.resize(pairs.size());
 	auto& place = places[contact];
 	if (place < all.size()) { // most are where they were: finding costs more
 		const auto& there = all[place];
@@ -147,7 +155,7 @@ void GrainSolver::showContact(int place)
 	const auto* shown = dynamic_cast<const LobattoPhys*>(pair->phys.get());
 	if (pair->isReal() && shown && shown->contact == id) return;
 	if (!pair->isReal()) pair->iterMadeReal = scene->iter;
-	makeBond(assembly, id, *pair);
+	makeBond(own(), id, *pair);
 	bondsShown = true; // until the end of the step
 }
 

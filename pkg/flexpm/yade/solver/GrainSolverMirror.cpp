@@ -6,6 +6,7 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/motion/centre_motion.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
@@ -103,8 +104,8 @@ namespace {
 void GrainSolver::mirrorBonds(const Scene& world)
 {
 	forEachBond(world, [&](LobattoGeom& geom, LobattoPhys& phys) {
-		const int place = flexpm::contact_with_id(assembly, phys.contact);
-		if (place >= 0) return mirrorBond(assembly, place, geom, phys);
+		const int place = contactAt(own(), phys.contact);
+		if (place >= 0) return mirrorBond(own(), place, geom, phys);
 		hideBond(geom, phys);
 	});
 	bondsShown = true;
@@ -116,6 +117,25 @@ void GrainSolver::hideBonds(const Scene& world)
 	bondsShown = false;
 }
 
+namespace {
+
+	struct Resultant {
+		Vector3r force, torque;
+	};
+
+	Resultant resultantOn(const flexpm::Assembly& a, int grain)
+	{
+		const auto sum = flexpm::resultant_on(a.grains, grain);
+		return { toYade(sum.force), Vector3r(0, 0, sum.moment) };
+	}
+	Resultant resultantOn(const flexpm::SolidState& s, int grain)
+	{
+		const auto sum = flexpm::resultant_on(s, grain);
+		return { toYade(sum.force), toYade(sum.moment) };
+	}
+
+} // namespace
+
 void GrainSolver::mirrorForces(Scene& world)
 {
 	struct Change {
@@ -124,14 +144,13 @@ void GrainSolver::mirrorForces(Scene& world)
 	};
 	vector<Change> changes;
 	world.forces.sync();
-	for (int grain = 0; grain < assembly.grains.count; ++grain) {
+	for (int grain = 0; grain < grains().count; ++grain) {
 		const Body* body = bodyOf(world, grain);
 		if (!body) continue;
 		const auto id  = body->getId();
-		const auto now = flexpm::resultant_on(assembly.grains, grain);
+		const auto now = onState([&](const auto& state) { return resultantOn(state, grain); });
 		// YADE adds forces up until it resets them: what the last look has left is taken off
-		changes.push_back(
-		        { id, Vector3r(now.force.x, now.force.y, 0) - world.forces.getForce(id), Vector3r(0, 0, now.moment) - world.forces.getTorque(id) });
+		changes.push_back({ id, now.force - world.forces.getForce(id), now.torque - world.forces.getTorque(id) });
 	}
 	for (const Change& change : changes) {
 		world.forces.addForce(change.id, change.force);

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
 #include <flexpm/yade/bindings/assembly_input.hpp>
@@ -73,29 +74,51 @@ void GrainSolver::addToScene()
 	mirrorBodies();
 }
 
+namespace {
+
+	struct Mass {
+		Real     mass;
+		Vector3r inertia; ///< about the axes of the body
+	};
+
+	Mass massOf(const flexpm::Assembly& a, int grain)
+	{
+		const auto whole = flexpm::real_mass(a, grain);
+		return { whole.mass, Vector3r(0, 0, whole.inertia) };
+	}
+	Mass massOf(const flexpm::SolidState& s, int grain)
+	{
+		const auto whole = flexpm::real_mass(s, grain);
+		return { whole.mass, Vector3r(whole.inertia.xx, whole.inertia.yy, whole.inertia.zz) };
+	}
+
+	int idOf(const flexpm::Assembly& a, int place) { return a.contacts.id[place]; }
+	int idOf(const flexpm::SolidState&, int place) { return place; }
+
+} // namespace
+
 void GrainSolver::insertBodies()
 {
 	const auto& world = Omega::instance().getScene();
 	// bodies and states each in a row: every step walks through them
-	vector<shared_ptr<Body>>  bodies(assembly.grains.count);
-	vector<shared_ptr<State>> states(assembly.grains.count);
+	vector<shared_ptr<Body>>  bodies(grains().count);
+	vector<shared_ptr<State>> ofBodies(grains().count);
 	for (auto& body : bodies)
 		body = boost::make_shared<Body>();
-	for (auto& state : states)
+	for (auto& state : ofBodies)
 		state = boost::make_shared<State>();
-	for (int grain = 0; grain < assembly.grains.count; ++grain) {
+	for (int grain = 0; grain < grains().count; ++grain) {
 		const auto& body = bodies[grain];
-		body->state      = states[grain];
+		body->state      = ofBodies[grain];
 		auto cell        = boost::make_shared<LaguerreCell>();
 		cell->grain      = grain;
 		body->shape      = cell;
-		body->material   = materials[assembly.grains.material[grain]];
-		const auto p     = assembly.grains.position(assembly.grains.centre(grain));
-		body->state->pos = body->state->refPos = Vector3r(p.x, p.y, 0);
+		body->material   = materials[grains().material[grain]];
+		body->state->pos = body->state->refPos = nodePlace(grains(), grains().centre(grain));
 		body->state->blockedDOFs               = State::DOF_ALL;
-		const auto mass                        = flexpm::real_mass(assembly, grain);
+		const auto mass                        = onState([&](const auto& state) { return massOf(state, grain); });
 		body->state->mass                      = mass.mass;
-		body->state->inertia                   = Vector3r(0, 0, mass.inertia);
+		body->state->inertia                   = mass.inertia;
 		body->setBounded(true);
 		bodyIds.push_back(world->bodies->insert(body));
 	}
@@ -104,14 +127,17 @@ void GrainSolver::insertBodies()
 void GrainSolver::insertContacts()
 {
 	const auto& world = Omega::instance().getScene();
-	for (int c = 0; c < assembly.contacts.count; ++c) {
-		// grains that share several edges have one interaction, which shows the first
-		if (c > 0 && assembly.contacts.pairs[c] == assembly.contacts.pairs[c - 1]) continue;
-		auto bond = boost::make_shared<Interaction>(bodyIds[assembly.contacts.pairs[c][0]], bodyIds[assembly.contacts.pairs[c][1]]);
-		makeBond(assembly, assembly.contacts.id[c], *bond);
-		bond->iterMadeReal = world->iter;
-		world->interactions->insert(bond);
-	}
+	onState([&](const auto& state) {
+		const auto& pairs = state.contacts.pairs;
+		for (int c = 0; c < state.contacts.count; ++c) {
+			// grains that share several edges have one interaction, which shows the first
+			if (c > 0 && pairs[c] == pairs[c - 1]) continue;
+			auto bond = boost::make_shared<Interaction>(bodyIds[pairs[c][0]], bodyIds[pairs[c][1]]);
+			makeBond(own(), idOf(state, c), *bond);
+			bond->iterMadeReal = world->iter;
+			world->interactions->insert(bond);
+		}
+	});
 	seenDestroyed = destroyedContacts();
 }
 

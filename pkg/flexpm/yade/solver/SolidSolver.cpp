@@ -9,6 +9,7 @@
 #include <flexpm/kernel/solids/solid_step.hpp>
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
+#include <flexpm/yade/grains/LobattoContact.hpp>
 
 namespace yade {
 
@@ -47,10 +48,13 @@ void SolidSolver::scaleMasses()
 
 void SolidSolver::holdEnds(bool bonded) { flexpm::hold_ends(state, bonded); }
 
+bool SolidSolver::holds(int place) const { return !isInScene() || hasInteraction(place); }
+
 void SolidSolver::requireReady() const
 {
 	requireGrains();
 	requirePeriods();
+	requireInScene();
 	requireMasses();
 	requireOwnValues();
 }
@@ -58,18 +62,56 @@ void SolidSolver::requireReady() const
 void SolidSolver::action()
 {
 	requireReady();
+	if (state.step % checkPeriod == 0) requireOwnScene();
+	if (state.step % checkPeriod == 0 || destroyedContacts() != seenDestroyed) removeErased();
 	flexpm::step(state, stepOptions());
+	if (state.step % mirrorPeriod == 0) mirrorStates();
 	if (state.step % checkPeriod == 0) check();
 	if (scene->trackEnergy && measured()) trackEnergies();
+	mirrorAtStop();
 }
 
-void SolidSolver::check()
+void SolidSolver::removeErased()
 {
-	const std::string bad = flexpm::find_bad_number(state);
-	diverged              = !bad.empty();
-	if (diverged) throw std::runtime_error("SolidSolver: " + bad);
+	seenDestroyed = destroyedContacts();
+	int  grains = 0, bonds = 0;
+	auto world = Omega::instance().getScene();
+	for (int grain = 0; grain < state.grains.count; ++grain)
+		grains += !bodyOf(*world, grain);
+	for (int c = 0; c < state.contacts.count; ++c)
+		bonds += !hasInteraction(c);
+	if (grains == 0 && bonds == 0) return;
+	flexpm::fail(
+	        "SolidSolver: grains and bonds that are erased",
+	        std::to_string(grains) + " and " + std::to_string(bonds),
+	        "must be 0: a solid keeps them; build the specimen again (O.reset(), flexpm.build)");
 }
 
-void SolidSolver::mirrorBodies() { }
+void SolidSolver::findStates()
+{
+	const auto world = Omega::instance().getScene(); // an engine knows its scene from its first step on
+	states.assign(state.grains.count, nullptr);
+	for (int grain = 0; grain < state.grains.count; ++grain) {
+		if (const Body* body = bodyOf(*world, grain)) states[grain] = body->state;
+	}
+}
+
+void SolidSolver::mirrorStates()
+{
+	requireInScene();
+	const auto& grains = state.grains;
+	if (int(states.size()) != grains.count) findStates();
+	for (int grain = 0; grain < grains.count; ++grain) {
+		if (!states[grain]) continue;
+		State&    shown    = *states[grain];
+		const int centre   = grains.centre(grain);
+		shown.se3.position = nodePlace(grains, centre);
+		shown.vel          = vectorOf(grains, grains.velocity, centre);
+		if (!grains.is_rigid(grain)) continue;
+		const auto& body      = state.bodies[grain];
+		shown.se3.orientation = Quaternionr(body.turn.w, body.turn.v.x, body.turn.v.y, body.turn.v.z);
+		shown.angVel          = toYade(body.spin);
+	}
+}
 
 } // namespace yade

@@ -19,11 +19,11 @@ public:
 	flexpm::SolidState* solid() override { return &state; }
 	bool                hasGrains() const override { return state.grains.count > 0; }
 	long                stepsDone() const override { return state.step; }
+	bool                holds(int place) const override;
 
 	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
 	void scaleMasses();
 	void holdEnds(bool bonded);
-	void mirrorBodies();
 	py::dict snapshot();
 	py::dict counts();
 	py::dict overlaps();
@@ -33,7 +33,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidSolver, GrainSolver,
 		"Advances polyhedral grains in space as :yref:`GrainSolver` does those of the plane: points of faces, tetrahedra, nodes. What it has "
-		"of that engine are its attributes and the methods below; others refuse a solid.",
+		"of that engine are its attributes, bodies and bonds in the scene, energies(), cracks(), unbalanced() and the methods below; others refuse a solid. "
+		"A solid keeps its grains and bonds: a step refuses a scene from which a script has erased any.",
 		((flexpm::SolidState, state,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
 		, /* ctor */
 		, .def("assembleSolid", &SolidSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false),
@@ -41,7 +42,6 @@ public:
 		.def("scaleMasses", WithGrains<&SolidSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, py::arg("bonded") = false,
 			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. Scale the masses afterwards.")
-		.def("mirrorBodies", WithGrains<&SolidSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is.")
 		.def("snapshot", WithGrains<&SolidSolver::snapshot>::call, "The state as plain arrays, by name.")
 		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")
 		.def("overlaps", WithGrains<&SolidSolver::overlaps>::call, "The deepest overlap of grains that share no contact, which nothing keeps apart, as a dictionary: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
@@ -53,7 +53,9 @@ public:
 
 private:
 	void requireReady() const;
-	void check();
+	void findStates() override;
+	void mirrorStates() override;
+	void removeErased() override;
 };
 REGISTER_SAVED(SolidSolver);
 

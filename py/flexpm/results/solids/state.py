@@ -105,6 +105,16 @@ class SolidSnapshot:
         return means_by(self.tetrahedron_stress, self._volumes, owners, len(self.volumes))
 
     @property
+    def principal_stresses(self) -> FloatArray:
+        """Those of each tetrahedron, the smallest first, (M, 3) [Pa]; nan if any is no number."""
+        rows = [0, 5, 4, 5, 1, 3, 4, 3, 2]
+        matrices = self.tetrahedron_stress[:, rows].reshape(-1, 3, 3)
+        if not np.all(np.isfinite(matrices)):
+            return np.full((len(matrices), 3), np.nan)
+        found: FloatArray = np.linalg.eigvalsh(matrices)
+        return found
+
+    @property
     def parting(self) -> float:
         """Largest growth of the distance between the centres of bonded grains [m]."""
         before = self.reference[self.node_offsets[1:] - 1]

@@ -196,7 +196,7 @@ def _grid_of(shape: SolidShape) -> vtkUnstructuredGrid:
 
 def _of_grains(snapshot: SolidSnapshot) -> dict[str, Named]:
     stress, grain = snapshot.tetrahedron_stress, snapshot.tetrahedron_grain
-    principal = np.linalg.eigvalsh(_matrices(stress)) if np.all(np.isfinite(stress)) else stress
+    principal = snapshot.principal_stresses
     return {
         "fragment": (snapshot.fragments.labels[grain], ()),
         "stress": (stress[:, _ORDER], TENSOR),
@@ -205,11 +205,6 @@ def _of_grains(snapshot: SolidSnapshot) -> dict[str, Named]:
         "principal_stress_2": (principal[:, 1], ()),
         "principal_stress_3": (principal[:, 0], ()),
     }
-
-
-def _matrices(stress: FloatArray) -> FloatArray:
-    found: FloatArray = stress[:, [0, 5, 4, 5, 1, 3, 4, 3, 2]].reshape(-1, 3, 3)
-    return found
 
 
 def _of_contacts(snapshot: SolidSnapshot) -> dict[str, Named]:
