@@ -149,7 +149,9 @@ class Spheres:
                 drop_hidden=example["drop_hidden"],
             )
             built = flexpm.build(specimen, None, example["model"])
-        except flexpm.InputError as raised:
+            for side, axes in example["held"]:
+                built.solver.holdSide(side, **dict.fromkeys(axes, True))
+        except (flexpm.InputError, ValueError) as raised:
             return f"InputError: {raised}"
         volume = float(np.sum(specimen.cells.volumes))
         if not abs(volume / specimen.outline().volume - 1.0) < 1e-9:

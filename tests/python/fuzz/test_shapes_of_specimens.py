@@ -100,6 +100,10 @@ def child():
     one.close()
 
 
+#: Sides of a solid and the axes that they are held along.
+HELD = st.tuples(st.sampled_from([4, 5, 0, 3, 6, -1, 2**31 - 1]), st.sampled_from(["y", "xz", ""]))
+
+
 @st.composite
 def solids(draw):
     """Spheres in a box or a cylinder: anywhere, on a lattice, and now and then out of all sense."""
@@ -124,6 +128,7 @@ def solids(draw):
         "drop_hidden": draw(st.booleans()),
         "short_edge": draw(ODD if draw(st.integers(0, 9)) == 0 else st.sampled_from([0.0, 0.1])),
         "model": draw(st.sampled_from(["flexible", "rigid", "flexible", "rigid", "inner"])),
+        "held": draw(st.lists(HELD, max_size=2)),
     }
 
 

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import yade
 
 import flexpm
 from flexpm import Specimen
@@ -16,6 +15,8 @@ from flexpm.errors import InputError
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
 from flexpm.runs import runner
+
+import yade  # isort: skip  (flexpm tells Python where YADE is)
 
 #: A few dozen grains: a test takes some seconds.
 SIZES = {"diameter": 0.01, "height": 0.016}
@@ -155,6 +156,25 @@ def test_a_saved_solid_is_tested(core, tmp_path):
     out = tmp_path / "out"
     assert cli.main([*asked, "--quiet", "--out", str(out), "--no-report"]) in (0, 3)
     assert Result.read(out).grains == core.cells.cells
+
+
+def test_a_layer_of_prisms_between_planes_is_the_plane_in_plane_strain():
+    rock = flexpm.materials.load("augig-table7").with_set(plane="strain")
+    plane = Specimen.rectangle(0.009, 0.012, 2e-3, short_edge=0.0)
+    x, y = plane.centres.T
+    rows = np.column_stack((x, np.full(len(x), 1e-3), y, plane.radii))
+    layer = Specimen.from_spheres(rows, width=0.009, depth=2e-3, height=0.012, short_edge=0.0)
+    yade.O.reset()
+    built = flexpm.build(layer, rock)
+    for side in (4, 5):
+        built.solver.holdSide(side, y=True)
+    rig = flexpm.rig(built)
+    rig.load(flexpm.Loading(kind="waiting", max_strain=2e-4))
+    assert built.solver.counts()["contacts"] == plane.statistics()["contacts"]
+    expected = flexpm.elastic(plane, rock, mesh="fan")
+    assert rig.stress / rig.strain == pytest.approx(expected["youngs_modulus"], rel=2e-3)
+    lateral = 2.0 * rig.record["lateral_strain"][-1] / rig.strain
+    assert lateral == pytest.approx(expected["poissons_ratio"], rel=0.01)
 
 
 def test_a_rigid_grain_alone_has_a_mass_and_no_strain_between_its_own_ends():
