@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of solids, from the packing to the files: numbers, same bits, restart, repetition."""
 
+import csv
 import itertools
 import json
 from types import SimpleNamespace
@@ -147,6 +148,28 @@ def test_the_command_repeats_a_run(tmp_path, capsys, monkeypatch):
     capsys.readouterr()
     assert cli.main(["rerun", "box", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
     assert "the same as in" in capsys.readouterr().out
+
+
+@pytest.mark.long
+def test_studies_and_comparisons_take_solids(tmp_path):
+    box = Specimen.box(**BOX, seed=2)
+    found = flexpm.compare("tension", box, ("flexible", "rigid"), max_strain=2e-4)
+    assert [(one.model, one.grains) for one in found.results] == [
+        (model, box.cells.cells) for model in ("flexible", "rigid")
+    ]
+    sizes = "\n".join(f"{name} = {value}" for name, value in BOX.items())
+    (tmp_path / "solids.toml").write_text(
+        f'[common]\ntest = "tension"\nshape = "box"\nmax_strain = 2e-4\n{sizes}\n'
+        "[grid]\nseed = [2]\n"
+    )
+    out = tmp_path / "out"
+    assert cli.main(["study", str(tmp_path / "solids.toml"), "--out", str(out), "--quiet"]) in (
+        0,
+        3,
+    )
+    (row,) = csv.DictReader((out / "table.csv").open(encoding="utf-8"))
+    assert int(row["grains"]) == box.cells.cells
+    assert float(row["depth"]) == BOX["depth"]
 
 
 @pytest.mark.long
