@@ -188,6 +188,22 @@ def test_source_that_includes_its_header_late_is_found(tree: Path) -> None:
     assert code == 1 and "its own header comes first" in output
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "open('a')\n",
+        "from pathlib import Path\n\nPath('a').read_text()\n",
+        "from pathlib import Path\n\nwith Path('a').open('w') as file:\n    pass\n",
+        "from pathlib import Path\n\nPath('a').write_bytes(b'')\n",
+    ],
+)
+def test_a_file_that_is_opened_by_itself_is_found(tree: Path, text: str) -> None:
+    write(tree / "py/flexpm/low/it.py", text)
+    code, output = run("layering.py", tree)
+    assert code == 1
+    assert "opens a file; py/flexpm/files.py reads and writes files" in output
+
+
 def test_ring_of_modules_within_a_room_is_found(tree: Path) -> None:
     write(tree / "py/flexpm/low/b.py", "from . import a\n")
     write(tree / "py/flexpm/low/a.py", "def f():\n    from flexpm.low.b import c\n")

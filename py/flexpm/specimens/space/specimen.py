@@ -90,11 +90,13 @@ class SolidSpecimen:
         """Read a specimen that ``save`` has written: the same grains to the bit.
 
         Raises:
-            InputError: if the file cannot be read, is no solid specimen, or was changed.
+            InputError: if the file cannot be read, is no solid specimen, or was changed, or if its
+                spheres are not those that it says it was made from.
         """
         content = file.read(Path(path))
-        spec = SolidSpec(**content["spec"])
+        spec: SolidSpec = content["spec"]
         spheres = np.array(content["spheres"], dtype=float)
+        of_spheres.require_made_from(spec, spheres, content["removed_spheres"])
         kept, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False)
         return cls(kept, cells, spec, content["removed_spheres"])
 
