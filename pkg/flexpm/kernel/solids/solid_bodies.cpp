@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace flexpm {
 
@@ -129,6 +132,18 @@ void set_spin(SolidState& s, int grain, Vector spin, bool held)
     body.spin = spin;
     body.spin_held = held;
     body.angular_momentum = turned(body.turn, body.inertia * turned(inverse(body.turn), spin));
+}
+
+void set_motion(SolidState& s, int grain, Vector velocity, Vector spin)
+{
+    if (!s.grains.is_rigid(grain))
+        refuse("grain", grain, "", "is deformable, must be rigid; write to its velocities instead");
+    if (!is_finite(velocity) || !is_finite(spin)) {
+        refuse("motion of grain " + std::to_string(grain), "no finite number",
+            "must be a velocity [m/s] and a spin [rad/s]");
+    }
+    set_space_vector(s.grains.velocity, s.grains.centre(grain), velocity);
+    set_spin(s, grain, spin, s.bodies[grain].spin_held);
 }
 
 double least_moment(const SpaceTensor& i)

@@ -28,6 +28,10 @@ void place_body(SolidState& s, int grain, Vector way);
 /// @param held  it stays; else it is integrated
 void set_spin(SolidState& s, int grain, Vector spin, bool held);
 
+/// Velocity of the centre [m/s] and spin [rad/s] of a rigid grain, from now on.
+/// @throws std::invalid_argument  unless the grain is rigid and all are finite
+void set_motion(SolidState& s, int grain, Vector velocity, Vector spin);
+
 /// A lower bound of the smallest principal moment of an inertia.
 double least_moment(const SpaceTensor& inertia);
 
