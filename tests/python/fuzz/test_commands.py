@@ -82,6 +82,7 @@ def child():
     one.close()
 
 
+@pytest.mark.long
 @given(COMMANDS, st.lists(OPTIONS, max_size=4))
 @settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_command_line_ends_as_documented(child, command, options):

@@ -162,6 +162,7 @@ def test_any_discs_in_any_outline_step_or_are_refused(child, specimen):
     assert "\n" not in said
 
 
+@pytest.mark.long
 @given(tilings())
 @settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_cells_with_grains_within_them_step_or_are_refused(cells, tiling):
