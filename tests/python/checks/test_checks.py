@@ -254,13 +254,17 @@ def test_number_of_parameters_in_python(tree: Path, count: int, code: int) -> No
         ("RATES = {'slump': 1.0}\n", "names the test slump"),
         ("from ..kinds.tests import slump\n", "imports a test's file (slump)"),
         ("def f():\n    'slump'\n", ""),
-        ("X = 'a slump of a heap'\n", ""),
+        ("X = 'solids are for slump'\n", "names the test slump"),
+        ("UNITS = {'slump_height': 'm'}\n", "names the test slump"),
+        ("X = 'shear'\n", "names the test shear"),
+        ("X = 'shear stiffness', 'shear_slumps'\n", ""),
     ],
 )
 def test_the_name_of_a_test_outside_of_its_file_is_found(tree, text, complaint):
     kinds = tree / "py/flexpm/kinds/tests"
     kinds.mkdir(parents=True)
     write(kinds / "slump.py", "KIND = 'slump'\n")
+    write(kinds / "shear.py", "KIND = 'shear'\n")
     write(tree / "py/flexpm/low/b.py", text)
     _, output = run("kinds.py", tree)
     found = [line for line in output.splitlines() if "low/b.py" in line]
