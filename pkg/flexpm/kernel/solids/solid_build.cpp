@@ -371,6 +371,17 @@ void size_ledger(EnergyLedger& ledger, int blocks)
     ledger.largest_force.assign(blocks, 0.0);
 }
 
+/// Give back what arrays that grew block by block have to spare: up to half of the state.
+void fit(Tetrahedra& t, FaceContacts& c)
+{
+    t.nodes.shrink_to_fit();
+    t.shape.shrink_to_fit();
+    for (auto* values : { &c.places, &c.areas, &c.shares, &c.states })
+        values->shrink_to_fit();
+    c.nodes.shrink_to_fit();
+    c.cracks.shrink_to_fit();
+}
+
 }  // namespace
 
 SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInput& input)
@@ -383,6 +394,7 @@ SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInp
     for (int block = 0; block < s.grains.blocks(); ++block)
         add_tetrahedra(b, s.grains.in_slot[block * lanes]);
     add_contacts(b);
+    fit(s.tetrahedra, s.contacts);
     add_surface(b);
     size_ledger(s.ledger, s.grains.blocks());
     if (input.rigid) s.bodies.resize(s.grains.count);

@@ -128,7 +128,8 @@ double damping_power(const SolidState& s, double damping)
         }
         add_node(grains.centre(g));
         if (s.bodies[g].spin_held) continue;
-        const Vector moment = moment_on(s, g), spin = s.bodies[g].spin - spin_in(undamped, g);
+        const Vector moment = wrench_on(s, g).moment,
+                     spin = s.bodies[g].spin - spin_in(undamped, g);
         total += std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
             + std::fabs(moment.z * spin.z);
     }

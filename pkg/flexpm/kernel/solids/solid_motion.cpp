@@ -37,6 +37,12 @@ FLEXPM_INLINE void move_pairs(const NodePairs& b, double dt)
         b.displacement[i] += dt * b.velocity[i];
 }
 
+FLEXPM_INLINE void clear(double* values, int count)
+{
+    for (int i = 0; i < count; ++i)
+        values[i] = 0.0;
+}
+
 /// The values of two nodes, each for all of its components.
 template <bool Wide> FLEXPM_INLINE void spread_pair(const double* of_nodes, double* to)
 {
@@ -88,6 +94,15 @@ FLEXPM_INLINE void integrate_pairs(const NodePairs& b, double dt, double damping
 void move_grain(SolidState& s, int block, double dt)
 {
     variant_of<move_pairs>()(node_pairs(s, block), dt);
+}
+
+void clear_forces(SolidState& s, int first, int end)
+{
+    Grains& grains = s.grains;
+    const int from = grains.block_nodes[first];
+    const int to =
+        end < grains.blocks() ? grains.block_nodes[end] : static_cast<int>(grains.force.size());
+    variant_of<clear>()(grains.force.data() + from, to - from);
 }
 
 void integrate_grain(

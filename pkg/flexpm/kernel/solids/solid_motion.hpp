@@ -10,6 +10,9 @@ namespace flexpm {
 /// Move the nodes of a block of grains to the end of a step.
 void move_grain(SolidState& s, int block, double dt);
 
+/// Leave no force on the nodes of blocks of grains.
+void clear_forces(SolidState& s, int first, int end);
+
 /// Integrate the velocities of the nodes of a block of grains.
 void integrate_grain(
     SolidState& s, int block, double dt, double damping, bool measure, StepSums& sums);

@@ -69,11 +69,8 @@ void move_grains_of(SolidState& s, int tile, TileRange own, double dt)
 /// without a middle face.
 int update_contacts_of(SolidState& s, int tile)
 {
-    Grains& grains = s.grains;
-    const int next = (tile + 1) * tile_grains;
-    const auto end = next < grains.blocks() ? grains.force.begin() + grains.block_nodes[next]
-                                            : grains.force.end();
-    std::fill(grains.force.begin() + grains.block_nodes[tile * tile_grains], end, 0.0);
+    const int first = tile * tile_grains;
+    clear_forces(s, first, std::min(first + tile_grains, s.grains.blocks()));
     return update_face_blocks(s, s.plan.tile_contacts[tile], s.plan.tile_contacts[tile + 1]);
 }
 
