@@ -20,7 +20,6 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
-from ..materials.mixing import description
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..results.solids.state import SolidSnapshot
@@ -201,11 +200,7 @@ class SolidModel(Model):
     def snapshot(self) -> Snapshot | SolidSnapshot:
         """The present state as plain arrays."""
         source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
-        return snapshot_of(cast(wrapper.SolidSolver, self.solver), source)
-
-    def describe_material(self) -> Table:
-        """Name and parameters of the material."""
-        return {"name": self.material.name, **description(self.material, self.name)}
+        return snapshot_of(cast(wrapper.SolidSolver, self.solver), source, self.minerals)
 
     @property
     def parting(self) -> tuple[int | None, float]:
@@ -225,7 +220,8 @@ def _build_solid(
     solver.damping = damping
     engines: list[wrapper.Engine] = [solver]
     set_engines(engines)
-    built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines)
+    kinds = mineral_map.minerals_of(specimen, chosen)
+    built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines, minerals=kinds)
     built.set_threads(threads)
     built.set_masses()
     return built
