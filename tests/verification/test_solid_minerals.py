@@ -21,7 +21,7 @@ from flexpm.results.vtu import read_state
 ROCK = Path(__file__).parents[2] / "scripts" / "tutorials" / "two_minerals.toml"
 SIZE = 1e-3  # of cubic grains [m]
 SOFT, HARD = 30e9, 90e9  # [Pa]
-MODELS = ["flexible", "rigid"]
+MODELS = ["flexible", "rigid", "jcfpm", "cohfrict"]
 BASE = {
     "tensile_strength": 8.5e6,
     "cohesion": 30e6,
@@ -38,7 +38,7 @@ BASE = {
     ],
 }
 #: At which layers part slowly.
-RATES = dict(zip(MODELS, (0.3, 0.3), strict=True))
+RATES = dict(zip(MODELS, (0.3, 0.3, 0.1, 0.1), strict=True))
 #: Strengths that nothing comes to, and the energies that they need.
 STRONG = {"tensile_strength": 1e3, "cohesion": 1e3}
 STRONG |= {"tensile_fracture_energy": 1e6, "shear_fracture_energy": 1e6}
@@ -123,7 +123,7 @@ def test_factors_of_one_and_equal_minerals_leave_all_bits(model):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("model", ["flexible", "rigid"])
+@pytest.mark.parametrize("model", ["flexible", "jcfpm"])
 def test_a_pair_that_is_a_thousand_times_as_strong_never_cracks(packed, model, tmp_path):
     material = rock({"pair": ["soft", "hard"], "factor": STRONG})
     result = flexpm.run("tension", packed, material, model, rate=8.0, out=tmp_path, report=False)
@@ -161,7 +161,7 @@ def test_the_command_repeats_a_rock_of_minerals(packed, tmp_path, monkeypatch, c
     monkeypatch.chdir(tmp_path)
     packed.with_minerals(np.arange(packed.cells.cells) % 2).save(tmp_path / "solid.json")
     material = str(ROCK)
-    asked = ["uniaxial", "--specimen", "solid.json", "--material", material, "--model", "rigid"]
+    asked = ["uniaxial", "--specimen", "solid.json", "--material", material, "--model", "jcfpm"]
     asked += ["--max-strain", "2e-4", "--rate", "8", "--quiet", "--no-report"]
     assert cli.main(["run", *asked, "--out", "one"]) in (0, 3)
     capsys.readouterr()

@@ -243,7 +243,7 @@ def build(
     Bodies that the scene has already are kept, its engines are replaced.
 
     Args:
-        specimen: The grains; a solid has flexible or rigid ones.
+        specimen: The grains; of a solid flexible or rigid ones, or YADE's spheres.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
@@ -283,9 +283,8 @@ def build(
     threads = require_threads("build: threads", threads)
     if isinstance(specimen, SolidSpecimen):
         _refuse_plane(points, mesh, dynamic=dynamic)
-        _refuse_second()
-        return _build_solid(specimen, load_material(material, model), model, damping, threads)
-    require_specimen("build", specimen)
+    else:
+        require_specimen("build", specimen)
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
         return spheres.build(
@@ -298,6 +297,8 @@ def build(
             threads=threads,
         )
     _refuse_second()
+    if isinstance(specimen, SolidSpecimen):
+        return _build_solid(specimen, load_material(material, model), model, damping, threads)
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)

@@ -13,7 +13,7 @@ from ...models.grains import Model, SolidModel
 from ...results.cracks import count_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
-from ...specimens.space.any_spec import is_solid
+from ...specimens.space.specimen import SolidSpecimen
 from ...specimens.specimen import Specimen
 from ..readings import RigReadings
 
@@ -73,9 +73,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     return result
 
 
-def grains_across(specimen: Specimen) -> float:
+def grains_across(specimen: Specimen | SolidSpecimen) -> float:
     """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
-    if is_solid(specimen.kind):
+    if isinstance(specimen, SolidSpecimen):
         return min(specimen.dimensions.values()) / specimen.mean_diameter
     if not isinstance(specimen.outline, np.ndarray):
         return specimen.dimensions["diameter"] / specimen.mean_diameter

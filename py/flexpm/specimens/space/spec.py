@@ -103,8 +103,7 @@ class SolidSpec:
         """A solid has neither joints nor strengths of its own: any model takes it."""
 
     def require_discs(self, model: str) -> None:
-        """Refuse YADE's own bonded spheres, which take no solid yet."""
-        raise InputError(f"model = {model}, must be flexible or rigid for a {self.kind}")
+        """A solid has a sphere for each grain: YADE's own bonded spheres take any."""
 
     @property
     def volume(self) -> float:
