@@ -190,6 +190,8 @@ def test_a_core_breaks_and_leaves_its_files(core, tmp_path):
     result = flexpm.run("tension", core, ROCK, "cohfrict", rate=8.0, out=tmp_path, frames=2)
     assert result.peak_stress == pytest.approx(0.75 * TENSILE, rel=0.5)
     assert result.tensile_cracks > 5
+    assert result.tetrahedra == core.statistics()["tetrahedra"]
+    assert result.largest_overlap is None and result.energy_error is None
     read = Result.read(tmp_path)
     assert [one[:5] for one in read.cracks] == [one[:5] for one in result.cracks]
     assert {one.z for one in read.cracks} <= set(result.snapshot.crack_position[:, 2].tolist())

@@ -13,6 +13,7 @@ from ...models.grains import Model, SolidModel
 from ...results.cracks import count_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
+from ...results.solids.state import SolidSnapshot
 from ...specimens.space.specimen import SolidSpecimen
 from ...specimens.specimen import Specimen
 from ..readings import RigReadings
@@ -60,8 +61,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     )
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
+    if isinstance(snapshot, SolidSnapshot):
+        result.tetrahedra = len(snapshot.tetrahedra)
     if isinstance(built, SolidModel):
-        result.tetrahedra = counts["tetrahedra"]
         result.largest_overlap = built.solver.overlaps()["of_diameter"]
     if isinstance(built, Model):  # bonds of spheres tell no energy
         result.measure_emission(_event_rule(built.specimen, built.solver))
