@@ -127,7 +127,14 @@ def solids(draw):
         "sizes": {"width": 0.01, "depth": 0.01, "height": 0.01} if box else cylinder,
         "drop_hidden": draw(st.booleans()),
         "short_edge": draw(ODD if draw(st.integers(0, 9)) == 0 else st.sampled_from([0.0, 0.1])),
-        "model": draw(st.sampled_from(["flexible", "rigid", "flexible", "rigid", "inner"])),
+        "model": draw(st.sampled_from(["flexible", "rigid", "jcfpm", "cohfrict", "inner"])),
+        "interaction_range": draw(st.sampled_from([None, None, None, 1.3, math.nan])),
+        # none at all, drawn, or given: mostly as many as there are grains
+        "minerals": draw(
+            st.none()
+            | st.just([])
+            | st.lists(st.integers(-1, 2), min_size=len(rows), max_size=len(rows))
+        ),
         "held": draw(st.lists(HELD, max_size=2)),
     }
 

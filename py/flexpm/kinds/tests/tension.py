@@ -31,6 +31,7 @@ KIND = TestKind(
     solid_rates={
         "flexible": Rates(0.01, 0.0045, (0.005, 0.6), 0.01, likely_crossings=19),
         "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=58),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
     pulled=True,

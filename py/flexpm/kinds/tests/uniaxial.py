@@ -32,6 +32,7 @@ KIND = TestKind(
     solid_rates={
         "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=60),
         "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
     calibrates={"compressive_strength": "peak_stress"},
