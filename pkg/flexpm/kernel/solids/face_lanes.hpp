@@ -4,7 +4,7 @@
 /// instruction set. Vectors are three rows.
 #pragma once
 
-#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/solids/solid_state.hpp>
 
 #include <cmath>

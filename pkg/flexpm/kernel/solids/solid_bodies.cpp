@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ BodyNodes body_nodes(const SolidState& s, int grain)
 {
     const Grains& grains = s.grains;
     const int first = grains.node(grain, 0);
-    // of a state that is only read, place_nodes() is not called
+    // place_nodes() is not called for a state that is only read
     return { grains.vertices_of(grain), grains.reference.data() + first,
         const_cast<double*>(grains.displacement.data()) + first, grains.force.data() + first };
 }

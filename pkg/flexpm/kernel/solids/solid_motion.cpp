@@ -2,7 +2,7 @@
 #include <flexpm/kernel/solids/solid_motion.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
-#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/core/thread_team.hpp>
 #include <flexpm/kernel/solids/face_forces.hpp>
-#include <flexpm/kernel/solids/rows_of_four.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_motion.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>

@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/prefetch_rows.hpp>
-#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 
 namespace flexpm {
 

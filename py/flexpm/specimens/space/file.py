@@ -30,12 +30,14 @@ _KEYS: dict[str, Rule] = {
     "spec": lambda value: isinstance(value, Mapping),
     "removed_spheres": is_count,
     "spheres": list_of(row_of(4), 1),
+    "minerals": or_none(list_of(is_count, 1)),
 }
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, Rule] = {
     "kind": is_text,
     "diameters": or_none(row_of(2)),
     "spheres": or_none(is_text),
+    "minerals": or_none(is_text),
 }
 
 
@@ -78,7 +80,7 @@ def read(path: Path) -> Table:
         raise InputError(
             f"{name}, was changed since it was saved; make own spheres by Specimen.from_spheres"
         )
-    require_rules(content, _KEYS)
+    require_rules(content, _KEYS, ("minerals",))
     known = [field.name for field in dataclasses.fields(SolidSpec)]
     return content | {"spec": SolidSpec(**spec_values(content["spec"], known, _SPEC))}
 
