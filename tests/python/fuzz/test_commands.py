@@ -53,6 +53,7 @@ COMMANDS = st.sampled_from(
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
+        ("bench", "--shape", "box"),
     ]
 )
 #: A small specimen and few steps, so that what is right soon ends.
@@ -77,6 +78,7 @@ SIZES = {
     "specimen box": [*RECTANGLE, "--depth", "0.012", "--out", "made"],
     "compare bending": [*BEAM, *FEW],
     "compare": [*RECTANGLE, *FEW],
+    "bench --shape": [*BOX, "--steps", "2"],
     "bench": [*RECTANGLE, "--steps", "2"],
 }
 

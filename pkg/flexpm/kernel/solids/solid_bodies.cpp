@@ -17,7 +17,7 @@ namespace {
 struct BodyNodes {
     int vertices;
     const double* reference;
-    double* displacement;
+    const double* displacement;
     const double* force;
 };
 
@@ -25,9 +25,8 @@ BodyNodes body_nodes(const SolidState& s, int grain)
 {
     const Grains& grains = s.grains;
     const int first = grains.node(grain, 0);
-    // place_nodes() is not called for a state that is only read
     return { grains.vertices_of(grain), grains.reference.data() + first,
-        const_cast<double*>(grains.displacement.data()) + first, grains.force.data() + first };
+        grains.displacement.data() + first, grains.force.data() + first };
 }
 
 /// What a turn adds to vectors: to those along the axes.
@@ -35,8 +34,9 @@ struct TurnColumns {
     Vector x, y, z;
 };
 
-/// Places of all nodes, for a way of the centre.
-FLEXPM_INLINE void place_nodes(const BodyNodes& b, Vector way, const TurnColumns& turn)
+/// Displacements of all nodes, for a way of the centre.
+FLEXPM_INLINE void place_nodes(
+    const BodyNodes& b, Vector way, const TurnColumns& turn, double* displacement)
 {
     constexpr int stride = space_layout.node_stride;
     const Four middle = row_of_four(b.reference + b.vertices * stride);
@@ -47,7 +47,7 @@ FLEXPM_INLINE void place_nodes(const BodyNodes& b, Vector way, const TurnColumns
         const Four x = __builtin_shufflevector(arm, arm, 0, 0, 0, 0);
         const Four y = __builtin_shufflevector(arm, arm, 1, 1, 1, 1);
         const Four z = __builtin_shufflevector(arm, arm, 2, 2, 2, 2);
-        row_of_four(b.displacement + n * stride) = to + (x * of_x + y * of_y + z * of_z);
+        row_of_four(displacement + n * stride) = to + (x * of_x + y * of_y + z * of_z);
     }
 }
 
@@ -179,7 +179,8 @@ void place_body(SolidState& s, int grain, Vector way)
     const Quaternion& turn = s.bodies[grain].turn;
     const TurnColumns columns { turned_by(turn, { 1.0, 0.0, 0.0 }),
         turned_by(turn, { 0.0, 1.0, 0.0 }), turned_by(turn, { 0.0, 0.0, 1.0 }) };
-    variant_of<place_nodes>()(body_nodes(s, grain), way, columns);
+    double* displacement = s.grains.displacement.data() + s.grains.node(grain, 0);
+    variant_of<place_nodes>()(body_nodes(s, grain), way, columns, displacement);
 }
 
 void set_spin(SolidState& s, int grain, Vector spin, bool held)
