@@ -27,6 +27,7 @@ import flexpm
 from flexpm._flexpm import AssemblyInput
 from flexpm.materials.material import load
 from flexpm.models import assembly
+from flexpm.runs.loading_rate import rates_of
 from flexpm.specimens.space.specimen import SolidSpecimen
 
 import yade  # isort: skip  (flexpm knows where it is)
@@ -41,7 +42,7 @@ class Run(NamedTuple):
     test: str
     width: float  #: half the height [m]
     depth: float  #: of the layer [m]
-    rate: float  #: factor on the default [-]
+    rate: float  #: factor on the plane's default, of the layer, too [-]
     seed: int
 
 
@@ -79,6 +80,10 @@ def with_edge_normals(grains: assembly.Grains) -> AssemblyInput:
 def tested(made: flexpm.Specimen | SolidSpecimen, run: Run, *, edges: bool = False) -> Found:
     """Compress or pull deformable grains past their peak."""
     yade.O.reset()
+    own, plane = (
+        rates_of(run.test, "flexible", solid=solid).constant
+        for solid in (isinstance(made, SolidSpecimen), False)
+    )
     material = load("augig-table7").with_set(plane="strain")
     if isinstance(made, SolidSpecimen):
         built = flexpm.build(made, material)
@@ -89,7 +94,7 @@ def tested(made: flexpm.Specimen | SolidSpecimen, run: Run, *, edges: bool = Fal
         with mock.patch.object(assembly, "_input", chosen):
             built = flexpm.build(made, material, mesh="fan")
     rig = flexpm.rig(built, tension=run.test == "tension")
-    rig.load(flexpm.Loading(kind="waiting", rate=run.rate))
+    rig.load(flexpm.Loading(kind="waiting", rate=run.rate * plane / own))
     stress, strain = rig.record["axial_stress"], rig.record["axial_strain"]
     peak = int(np.argmax(stress))
     early = (stress > 0.05 * stress[peak]) & (stress < 0.25 * stress[peak])
