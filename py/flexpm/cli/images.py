@@ -213,7 +213,7 @@ def _rows(found: Table, before: str = "") -> list[tuple[str, str]]:
         label = f"{words_of(before)}, {words_of(name)}" if before else words_of(name)
         if isinstance(value, dict):
             rows += _rows(value, name)
-        elif isinstance(value, int):
+        elif isinstance(value, int | str):
             rows.append((label, str(value)))
         else:
             ends = (one for part, one in _UNITS.items() if part in key)
