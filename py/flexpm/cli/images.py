@@ -194,12 +194,10 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     terminal.say(tables.table(rows))
     expected = forecast(made)
     if expected is not None:
-        steps, seconds = expected
+        steps = " to ".join(f"{float(f'{one:.2g}'):.0f}" for one in expected.steps)
+        times = " to ".join(map(terminal.duration, expected.seconds))
         test = "compression" if made.kind == "rectangle" else "splitting"
-        terminal.say(
-            f"  its {test} with the default material: about {steps} steps, "
-            f"{terminal.duration(seconds)}"
-        )
+        terminal.say(f"  its {test} with the default material: about {steps} steps, {times}")
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)

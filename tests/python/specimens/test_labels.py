@@ -34,6 +34,7 @@ from scipy.ndimage import gaussian_filter
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.laboratory.forecast import forecast
 from flexpm.specimens.labels.given import divide
 from flexpm.specimens.specimen import Specimen
 
@@ -166,6 +167,20 @@ def test_rims_that_are_nearly_straight_at_a_corner_are_read_back(tmp_path, seed)
     specimen = made(labels, minerals={0: None} | dict.fromkeys(range(1, 30), 0))
     specimen.save(tmp_path / "a.json")
     assert Specimen.load(tmp_path / "a.json").spec == specimen.spec
+
+
+@pytest.mark.parametrize("source", ["image", "packing"])
+def test_a_compression_takes_what_is_told_before_it_runs(source):
+    specimen = Specimen.rectangle(0.02, 0.04, 0.01, seed=2)
+    if source == "image":
+        specimen = Specimen.from_labels(voronoi(60, 20, 8)[:, :30], 2e-4, THICKNESS)
+    told = forecast(specimen)
+    fewest, most = told.steps
+    assert fewest <= flexpm.run("uniaxial", specimen).steps <= most
+    assert most == pytest.approx(5.0 * fewest, rel=1e-3)
+    assert told.seconds[1] / told.seconds[0] == pytest.approx(most / fewest)
+    sawn = Specimen.half_disc(0.02, 0.01)
+    assert forecast(sawn) is None
 
 
 def test_figures_of_the_image_itself():
