@@ -47,7 +47,7 @@ TEST_CASE("Forces of the points of a contact sum to its force", "[solids]")
             Vector sum;
             for (int p = 0; p < s.contacts.points_of(c); ++p)
                 sum = sum + point_force(s, c, p);
-            const Vector whole = contact_force(s.contacts, c);
+            const Vector whole = contact_force(s, c);
             largest = std::max(largest, norm(whole));
             worst = std::max(worst, norm(sum - whole));
         }
@@ -63,8 +63,8 @@ TEST_CASE("Forces of contacts are all that acts on grains, and leave no moment",
         std::vector<Vector> force(s.grains.count);
         for (int c = 0; c < s.contacts.count; ++c) {
             const auto [a, b] = s.contacts.pairs[c];
-            force[b] = force[b] + contact_force(s.contacts, c);
-            force[a] = force[a] - contact_force(s.contacts, c);
+            force[b] = force[b] + contact_force(s, c);
+            force[a] = force[a] - contact_force(s, c);
         }
         double largest = 0.0, worst = 0.0, moment = 0.0;
         Vector whole;

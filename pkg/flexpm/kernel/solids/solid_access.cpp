@@ -84,11 +84,11 @@ Vector point_force(const SolidState& s, int contact, int point)
         * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second);
 }
 
-Vector contact_force(const FaceContacts& contacts, int contact)
+Vector contact_force(const SolidState& s, int contact)
 {
     Vector sum;
-    for (int k = 0; k < contacts.corners_of(contact); ++k)
-        sum = sum + space_vector(contacts.forces, 4 * contacts.node_index(contact, 1, k));
+    for (int p = 0; p < s.contacts.points_of(contact); ++p)
+        sum = sum + point_force(s, contact, p);
     return sum;
 }
 

@@ -45,7 +45,7 @@ BondStiffness bond_stiffness(const FaceContacts& contacts, int contact);
 Vector point_force(const SolidState& s, int contact, int point);
 
 /// Force of a contact on its second grain; that on the first is the opposite [N].
-Vector contact_force(const FaceContacts& contacts, int contact);
+Vector contact_force(const SolidState& s, int contact);
 
 /// Sum of the forces on the nodes of a grain [N], and their moment about its centre [N m].
 struct SpaceResultant {

@@ -198,14 +198,14 @@ std::vector<Segment> point_rim(
 double normal_force(const SolidState& s, int contact)
 {
     // the force on the second grain points back to the first in tension
-    return -dot(contact_force(s.contacts, contact), normal_of(middle_face(s, contact)));
+    return -dot(contact_force(s, contact), normal_of(middle_face(s, contact)));
 }
 
 double largest_contact_force(const SolidState& s)
 {
     double largest = 0.0;
     for (int c = 0; c < s.contacts.count; ++c)
-        largest = std::max(largest, norm(contact_force(s.contacts, c)));
+        largest = std::max(largest, norm(contact_force(s, c)));
     return largest;
 }
 

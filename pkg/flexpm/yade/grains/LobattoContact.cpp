@@ -67,16 +67,17 @@ namespace {
 	Vector3r middleOf(const Assembly& a, int place) { return .5 * (toYade(flexpm::contact_end(a, place, 0)) + toYade(flexpm::contact_end(a, place, 1))); }
 	Vector3r middleOf(const SolidState& s, int place) { return toYade(flexpm::contact_middle(s, place)); }
 
+	/// On the second grain.
+	Vector3r forceOf(const Assembly& a, int place) { return toYade(flexpm::contact_force(a.contacts, place)); }
+	Vector3r forceOf(const SolidState& s, int place) { return toYade(flexpm::contact_force(s, place)); }
+
 	template <class State> Vector3r normalForceOf(const State& state, int place)
 	{
 		const Vector3r normal = normalOf(state, place);
-		return toYade(flexpm::contact_force(state.contacts, place)).dot(normal) * normal;
+		return forceOf(state, place).dot(normal) * normal;
 	}
 
-	template <class State> Vector3r shearForceOf(const State& state, int place)
-	{
-		return toYade(flexpm::contact_force(state.contacts, place)) - normalForceOf(state, place);
-	}
+	template <class State> Vector3r shearForceOf(const State& state, int place) { return forceOf(state, place) - normalForceOf(state, place); }
 
 	void addOpening(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::opening_of(c, place, p)); }
 	void addOpening(const FaceContacts& c, int place, int p, Numbers& all) { all.push_back(c.place_of(place, p).opening); }

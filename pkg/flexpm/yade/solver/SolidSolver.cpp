@@ -50,6 +50,13 @@ void SolidSolver::holdEnds(bool bonded) { flexpm::hold_ends(state, bonded); }
 
 bool SolidSolver::holds(int place) const { return !isInScene() || hasInteraction(place); }
 
+void SolidSolver::holdSide(int side, bool x, bool y, bool z)
+{
+	const bool axes[] = { x, y, z };
+	for (int axis = 0; axis < 3; ++axis)
+		if (axes[axis]) flexpm::hold_side(state, side, axis);
+}
+
 void SolidSolver::requireReady() const
 {
 	requireGrains();
