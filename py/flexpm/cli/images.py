@@ -175,6 +175,7 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     grains = np.arange(cells.cells) if made.grains is None else made.grains
     found = of_grains(cells, grains, made.minerals, names)
     found |= {"cells": cells.cells, "contacts": len(cells.shared_edges)}
+    found["sides_of_a_cell"] = float(np.diff(cells.cell_offsets).mean())
     source = named(made.regions.get("source", {}), names)
     counts = {key: one for key, one in made.regions.items() if key != "source"}
     if counts:
@@ -197,7 +198,8 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
         steps = " to ".join(f"{float(f'{one:.2g}'):.0f}" for one in expected.steps)
         times = " to ".join(map(terminal.duration, expected.seconds))
         test = "compression" if made.kind == "rectangle" else "splitting"
-        terminal.say(f"  its {test} with the default material: about {steps} steps, {times}")
+        told = f"about {steps} steps, {times}"
+        terminal.say(f"  its {test} with the default material, if it passes a peak: {told}")
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)
