@@ -104,7 +104,8 @@ _KEYS: dict[str, _Rule] = {
     "outline": _is_outline,
     "holes": _list(_RING),
     "removed_discs": _is_count,
-    "minerals": _or_none(_list(_is_count, 1)),
+    **dict.fromkeys(("minerals", "grains"), _or_none(_list(_is_count, 1))),
+    "mineral_names": _list(_is_text, 1),
     "vertices": _list(_row(2), 3),
     "cells": _list(_list(_is_count, 3), 1),
     "discs": _list(_row(3), 1),
@@ -113,10 +114,9 @@ _KEYS: dict[str, _Rule] = {
     "lines": lambda value: isinstance(value, Mapping),
     "cuts": _is_cuts,
     "strengths": _or_none(_list(_is_positive)),
-    "grains": _or_none(_list(_is_count, 1)),
 }
-#: Keys that files of earlier versions lack.
-_LATER = ("lines", "cuts")
+#: Keys that files of earlier versions lack, or that not all have.
+_LATER = ("lines", "cuts", "mineral_names")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, _Rule] = {
     "kind": _is_text,
