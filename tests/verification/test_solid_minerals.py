@@ -38,7 +38,7 @@ BASE = {
     ],
 }
 #: At which layers part slowly.
-RATES = dict(zip(MODELS, (0.3, 0.3, 0.1, 0.1), strict=True))
+RATES = dict(zip(MODELS, (0.15, 0.15, 0.1, 0.1), strict=True))
 #: Strengths that nothing comes to, and the energies that they need.
 STRONG = {"tensile_strength": 1e3, "cohesion": 1e3}
 STRONG |= {"tensile_fracture_energy": 1e6, "shear_fracture_energy": 1e6}

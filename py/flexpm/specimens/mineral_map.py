@@ -48,7 +48,8 @@ def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntAr
     Taken from the specimen if it says so, else drawn with the specimen's seed (0 if it has none).
 
     Raises:
-        InputError: if the specimen names minerals that the material does not have.
+        InputError: if the specimen has more minerals than the material, or names one that the
+            material has at another place.
     """
     given, count = specimen.minerals, len(material.minerals)
     if given is not None and (count == 0 or given.max() >= count):
@@ -59,6 +60,14 @@ def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntAr
     if count == 0:
         return None
     if given is not None:
+        names = [mineral.name for mineral in material.minerals]
+        for place, name in enumerate(specimen.mineral_names):
+            if name in names and names.index(name) != place:
+                raise InputError(
+                    f"specimen mineral {place + 1} = {name}, is number {names.index(name) + 1} of "
+                    f"{material.name}; give its [[mineral]] tables the order "
+                    f"{', '.join(specimen.mineral_names)}"
+                )
         return given
     fractions = [mineral.fraction for mineral in material.minerals]
     areas = _sizes(specimen)

@@ -273,6 +273,28 @@ def test_the_command_reads_colours_and_tells_figures(tmp_path, capsys):
     assert found["source"]["area_share"] == pytest.approx(found["area_share"], abs=0.01)
 
 
+def test_a_material_has_the_minerals_of_an_image_in_their_order(tmp_path):
+    Image.fromarray(COLOURS[np.arange(400).reshape(20, 20) // 200]).save(tmp_path / "thin.png")
+    (tmp_path / "phases.toml").write_text(PHASES)
+    assert command(tmp_path, "thin.png", "--phases", str(tmp_path / "phases.toml")) == 0
+    specimen = Specimen.load(tmp_path / "out/grains.json")
+    assert specimen.mineral_names == ("quartz", "mica")
+    cut = specimen.with_joints({"one": [(-1e-3, 2e-4), (1e-2, 2e-4)]})
+    cut.save(tmp_path / "cut.json")
+    assert Specimen.load(tmp_path / "cut.json").mineral_names == ("quartz", "mica")
+    rock = mineral_rock()
+    flexpm.elastic(specimen, rock)
+    turned = {**rock, "mineral": rock["mineral"][::-1]}
+    with pytest.raises(
+        InputError, match="mineral 1 = quartz, is number 2 of .* order quartz, mica"
+    ):
+        flexpm.elastic(specimen, turned)
+    flexpm.elastic(specimen.with_minerals(specimen.minerals), turned)  # of no names
+    for other in ("feldspar", "Quartz-new"):  # what the material does not have is told by its place
+        rock["mineral"][0]["name"] = other
+        flexpm.elastic(specimen, rock)
+
+
 def test_an_image_is_read_before_yade_is_loaded():
     """As the command does: what is wrong with it is told at once."""
     code = "import sys, flexpm.specimens.labels.picture; assert 'yade' not in sys.modules"

@@ -173,7 +173,7 @@ def test_the_command_writes_figures_and_the_specimen(tmp_path, capsys):
     found = json.loads((tmp_path / "out/specimen.json").read_text())
     assert found["grains"] == 60 and "image" not in found
     told = capsys.readouterr().out
-    steps = int(told.partition("with the default material: about ")[2].split()[0])
+    steps = int(told.partition("if it passes a peak: about ")[2].split()[0])
     assert 1e3 < steps < 1e6
     assert found["source"]["shortest_edge"] < found["shortest_edge"]
     assert Specimen.load(tmp_path / "out/grains.json").spec.cells is None

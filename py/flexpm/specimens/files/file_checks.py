@@ -78,7 +78,8 @@ _KEYS: dict[str, Rule] = {
     "outline": _is_outline,
     "holes": list_of(_RING),
     "removed_discs": is_count,
-    "minerals": or_none(list_of(is_count, 1)),
+    **dict.fromkeys(("minerals", "grains"), or_none(list_of(is_count, 1))),
+    "mineral_names": list_of(is_text, 1),
     "vertices": list_of(row_of(2), 3),
     "cells": list_of(list_of(is_count, 3), 1),
     "discs": list_of(row_of(3), 1),
@@ -87,10 +88,9 @@ _KEYS: dict[str, Rule] = {
     "lines": lambda value: isinstance(value, Mapping),
     "cuts": _is_cuts,
     "strengths": or_none(list_of(is_positive)),
-    "grains": or_none(list_of(is_count, 1)),
 }
-#: Keys that files of earlier versions lack.
-_LATER = ("lines", "cuts")
+#: Keys that files of earlier versions lack, or that not all have.
+_LATER = ("lines", "cuts", "mineral_names")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, Rule] = {
     "kind": is_text,
