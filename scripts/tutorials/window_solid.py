@@ -18,7 +18,7 @@ from yade import Gl1_LaguerreCell, O, qt
 
 shown = sys.argv[1] if len(sys.argv) > 1 else "stress_zz"
 core = flexpm.Specimen.cylinder(0.012, 0.024, seed=1)
-flexpm.run("uniaxial", core, model="rigid", stop_ratio=0.8, rate=2.0)
+flexpm.run("uniaxial", core, model="rigid", stop_ratio=0.5)
 
 # What lies in front of the plane through the axis and x is not drawn.
 Gl1_LaguerreCell.colour = shown
