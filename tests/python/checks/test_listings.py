@@ -8,7 +8,6 @@ import textwrap
 from pathlib import Path
 
 import pytest
-import yade
 
 import flexpm
 from flexpm.cli import main as cli
@@ -94,9 +93,11 @@ def test_the_listings_of_the_page_on_specimens():
 
 
 def test_the_listing_of_solids_in_the_scene(capsys):
-    yade.O.reset()
+    from yade import O  # after flexpm, which finds it
+
+    O.reset()
     words = "scene from which a script has erased any::"
-    exec(code_after("doc/yade_interoperability.rst", words), {"flexpm": flexpm, "O": yade.O})
+    exec(code_after("doc/yade_interoperability.rst", words), {"flexpm": flexpm, "O": O})
     assert capsys.readouterr().out.startswith("Vector3(")
 
 
