@@ -151,7 +151,20 @@ double push(const Assembly& a, const std::vector<int>& plates, Vector direction)
 /// Whether a plate's point bears as the plate goes this way against it: not if it lifts off.
 bool bears(const Plate& plate, int point, Vector way)
 {
-    return plate.bonded || plate.opening[point] < 0.0 || dot(plate.normal, way) > 0.0;
+    return plate.bonded || plate.opening[point] < 0.0 || dot(point_normal(plate, point), way) > 0.0;
+}
+
+/// How a soft plate answers to the velocity of its crosshead, if it goes on bearing where it bears.
+PlateLag lag_of(const Assembly& a, int number, const Array<double>& velocity)
+{
+    Plate plate = a.plates[number];
+    if (!is_soft(plate) || plate.loaded) return {};
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
+        if (!bears(plate, i, plate.velocity - v)) plate.area[i] = 0.0;
+    }
+    return plate_lag(a, plate, plate.velocity, &velocity);
 }
 
 /// Sum over the driven sets along the loading, of a force and a moment of each.
@@ -193,10 +206,11 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
         [&](int set) { return a.loading.of_set(set).moment.z; });
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
+        const PlateLag lag = lag_of(a, number, velocity);
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
-            const Vector way = plate.velocity - v;
+            const Vector way = point_way(plate, i, plate.velocity, lag) - v;
             if (!bears(plate, i, way)) continue;
             const StiffnessBlock k = plate_springs(plate, i);
             const Vector force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
@@ -247,6 +261,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     for (int p : parts.driven) {
         moved.plates[p].velocity = parts.direction;
         moved.plates[p].loaded = false;  // its pressure ends as the loading takes it over
+        moved.plates[p].machine_stiffness = 0.0;
     }
     require_held(moved);
     for (NodeSet& set : moved.node_sets) {

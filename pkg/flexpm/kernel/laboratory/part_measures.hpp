@@ -45,7 +45,7 @@ TestFrame part_frame(const Assembly& a, const PartGeometry& parts);
 /// stiffness gives the modulus, and the mass that takes part in the motion the steps of a crossing.
 /// These are those of a bar of the same lowest frequency: sqrt(3 m / k) / dt, with the kinetic
 /// energy m / 2 and the stored energy k / 2 at a unit velocity and way. Joints that the loading
-/// opens carry nothing.
+/// opens carry nothing. The way is that of the plates themselves, also in a soft machine.
 ///
 /// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
 ///                  contact point leaves its elastic branch
