@@ -116,7 +116,7 @@ def test_the_static_solution_has_the_hoop_stress_of_kirsch_at_any_two_pressures(
 @pytest.mark.slow
 @pytest.mark.parametrize("share", [1.0, 0.5, 1.0 / 3.0, 0.0])
 def test_by_loading_it_is_that_of_kirsch_at_any_two_pressures(share):
-    """Within 3 % of the largest: both pressures rise to the lateral one, then the axial one does."""
+    """Within 3 % of the largest: both pressures rise to the lateral one, then the axial one."""
     rig, (floor, right, top, _) = made_rig(pulls=True)
     lateral = share * GREATEST
     rig.press({top: lateral, right: lateral} if share > 0.0 else {right: 0.0})
