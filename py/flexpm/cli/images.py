@@ -6,7 +6,7 @@ SI units.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -88,7 +88,7 @@ def image(
         made = Specimen.from_labels(
             read.labels, pixel, thickness, minerals=minerals, edge=edge, smallest=smallest
         )
-    _describe(made, folder, names)
+    _describe(replace(made, mineral_names=tuple(names)), folder)
 
 
 @click.command()
@@ -121,7 +121,7 @@ def tess(
         from ..specimens.specimen import Specimen
 
         made = Specimen.from_tess(file, thickness, scale=scale, short_edge=short_edge)
-    _describe(made, folder, ())
+    _describe(made, folder)
 
 
 @click.command()
@@ -160,10 +160,10 @@ def ebsd(file: Path, thickness: float, out: Path, quiet: bool, **options: Any) -
         from ..specimens.specimen import Specimen
 
         made = Specimen.from_ebsd(file, thickness, **options)
-    _describe(made, folder, made.mineral_names)
+    _describe(made, folder)
 
 
-def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
+def _describe(made: Specimen, folder: Path) -> None:
     """Print the figures of the grains and write them with the specimen and its picture."""
     import numpy as np
 
@@ -171,10 +171,11 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     from ..report import maps
     from ..specimens.labels.measures import named, of_grains
 
-    cells = made.tessellation
+    cells, names = made.tessellation, made.mineral_names
     grains = np.arange(cells.cells) if made.grains is None else made.grains
     found = of_grains(cells, grains, made.minerals, names)
     found |= {"cells": cells.cells, "contacts": len(cells.shared_edges)}
+    found["sides_of_a_cell"] = float(np.diff(cells.cell_offsets).mean())
     source = named(made.regions.get("source", {}), names)
     counts = {key: one for key, one in made.regions.items() if key != "source"}
     if counts:
@@ -194,12 +195,11 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     terminal.say(tables.table(rows))
     expected = forecast(made)
     if expected is not None:
-        steps, seconds = expected
+        steps = " to ".join(f"{float(f'{one:.2g}'):.0f}" for one in expected.steps)
+        times = " to ".join(map(terminal.duration, expected.seconds))
         test = "compression" if made.kind == "rectangle" else "splitting"
-        terminal.say(
-            f"  its {test} with the default material: about {steps} steps, "
-            f"{terminal.duration(seconds)}"
-        )
+        told = f"about {steps} steps, {times}"
+        terminal.say(f"  its {test} with the default material, if it passes a peak: {told}")
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)
@@ -213,7 +213,7 @@ def _rows(found: Table, before: str = "") -> list[tuple[str, str]]:
         label = f"{words_of(before)}, {words_of(name)}" if before else words_of(name)
         if isinstance(value, dict):
             rows += _rows(value, name)
-        elif isinstance(value, int):
+        elif isinstance(value, int | str):
             rows.append((label, str(value)))
         else:
             ends = (one for part, one in _UNITS.items() if part in key)

@@ -60,8 +60,8 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         joint_cuts: What came of the lines of each joint, by its name.
         regions: How many regions and pixels of an image went another way, by what happened, and
             figures of the ``source`` itself; not saved.
-        mineral_names: Phases of a map of orientations that are its minerals, in their order; not
-            saved.
+        mineral_names: What a map or an image calls its minerals, in their order; a material that
+            has one of them has it at the same place.
         grains: Per cell the grain before it was cut, by joints or to be meshed; None: each is one.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
     """
@@ -304,7 +304,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         """
         given = mineral_indices(minerals, len(self.discs))
         spec = replace(self.spec, minerals=checksum(given))
-        return replace(self, minerals=given, spec=spec)
+        return replace(self, minerals=given, spec=spec, mineral_names=())
 
     @property
     def kind(self) -> str:
@@ -393,7 +393,8 @@ def require_specimen(where: str, given: object) -> None:
     """
     if isinstance(given, SolidSpecimen):
         raise InputError(
-            f"{where}: specimen = {given.kind}, must be plane; solids are for uniaxial and tension"
+            f"{where}: specimen = {given.kind}, must be plane; --shape of flexpm run tells what "
+            "solids are for"
         )
     if not isinstance(given, Specimen):
         raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")

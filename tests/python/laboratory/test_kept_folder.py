@@ -65,6 +65,7 @@ def whole(tmp_path_factory):
     return folder / "out"
 
 
+@pytest.mark.long
 def test_a_killed_script_goes_on_to_the_same_bits(whole, tmp_path):
     last = content(whole)["steps"]
     moments = [
@@ -184,6 +185,7 @@ def test_another_run_is_refused_both_ways(whole, tmp_path):
         flexpm.rig(built, out=tmp_path / "new")
 
 
+@pytest.mark.long
 def test_two_processes_do_not_share_a_folder(whole, tmp_path):
     shutil.copytree(whole, tmp_path / "out")
     waits = SCRIPT.replace("left =", "print('has it', flush=True); sys.stdin.read()\nleft =")
@@ -199,6 +201,7 @@ def test_two_processes_do_not_share_a_folder(whole, tmp_path):
         first.communicate()
 
 
+@pytest.mark.long
 def test_what_was_reached_stays_when_the_script_breaks(whole, tmp_path):
     broken = SCRIPT.replace(
         "    rig.strain_to(strain", "    1 / (strain > 2e-7)\n    rig.strain_to(strain"

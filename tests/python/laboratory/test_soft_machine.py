@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Soft machines: a bar with one weak line runs away if its machine is too soft; energy; refusals."""
+"""Soft machines: a bar with a weak line runs away if its machine is too soft; energy; refusals."""
 
 from __future__ import annotations
 

@@ -14,6 +14,11 @@ namespace flexpm {
 /// @throws std::invalid_argument  if the ends are held already, or there are none
 void hold_ends(SolidState& s, bool pulled);
 
+/// Hold the nodes of a side along an axis (0: x), as a smooth plane that they may not leave does
+/// along its normal. Front and back held along y make plane strain of a box.
+/// @throws std::invalid_argument  if there is no such side or axis, or grains are rigid
+void hold_side(SolidState& s, int side, int axis);
+
 /// Begin from a linear solution at a strain, positive in tension, with the top at a velocity, by
 /// which all grains move as that solution does (deviation D30). Kinetic and elastic energy of this
 /// start are the initial ones of the balance. Ends must be held.

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/solids/solid_plan.hpp>
 
 #include <algorithm>
 #include <string>

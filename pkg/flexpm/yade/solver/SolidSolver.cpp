@@ -47,6 +47,13 @@ void SolidSolver::scaleMasses()
 
 void SolidSolver::holdEnds(bool bonded) { flexpm::hold_ends(state, bonded); }
 
+void SolidSolver::holdSide(int side, bool x, bool y, bool z)
+{
+	const bool axes[] = { x, y, z };
+	for (int axis = 0; axis < 3; ++axis)
+		if (axes[axis]) flexpm::hold_side(state, side, axis);
+}
+
 void SolidSolver::requireReady() const
 {
 	requireGrains();

@@ -23,6 +23,7 @@ public:
 	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
 	void scaleMasses();
 	void holdEnds(bool bonded);
+	void holdSide(int side, bool x, bool y, bool z);
 	void mirrorBodies();
 	py::dict snapshot();
 	py::dict counts();
@@ -41,6 +42,8 @@ public:
 		.def("scaleMasses", WithGrains<&SolidSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, py::arg("bonded") = false,
 			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. Scale the masses afterwards.")
+		.def("holdSide", WithGrains<&SolidSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
+			"Hold the nodes of deformable grains on a side along the axes named. Sides: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends: plane strain of a box.")
 		.def("mirrorBodies", WithGrains<&SolidSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is.")
 		.def("snapshot", WithGrains<&SolidSolver::snapshot>::call, "The state as plain arrays, by name.")
 		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")

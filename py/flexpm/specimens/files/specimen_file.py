@@ -43,6 +43,7 @@ def fields_of(specimen: Mapping[str, Any]) -> Table:
     corners, ends = cells.cell_vertices.tolist(), cells.cell_offsets.tolist()
     edges, found = cells.shared_edges, specimen["edge_joints"]
     joints = [] if found is None else np.column_stack((edges[:, 2:], found))[found >= 0].tolist()
+    names = specimen["mineral_names"]
     return {
         "spec": dataclasses.asdict(specimen["spec"]),
         "outline": (
@@ -51,6 +52,7 @@ def fields_of(specimen: Mapping[str, Any]) -> Table:
         "holes": [hole.tolist() for hole in specimen["holes"]],
         "removed_discs": specimen["removed_discs"],
         "minerals": _list(specimen["minerals"]),
+        **({"mineral_names": list(names)} if names else {}),
         "vertices": cells.vertices.tolist(),
         "cells": [corners[start:end] for start, end in itertools.pairwise(ends)],
         "discs": specimen["discs"].tolist(),
@@ -78,8 +80,8 @@ def read(path: Path) -> Table:
     content = load_json(path, "specimen")
     if content.get("format") == SOLID:
         raise InputError(
-            f"{name}, is a solid, must be plane: solids can be packed, measured, saved and drawn "
-            "so far (Specimen.load_solid), not tested"
+            f"{name}, is a solid, must be plane; give it to what takes solids, or read it by "
+            "Specimen.load_solid"
         )
     if content.get("format") != _FORMAT:
         raise InputError(f"{name}, is no specimen of this flexpm; give a file of Specimen.save")
@@ -126,6 +128,7 @@ def parts(content: Table) -> Table:
         "tessellation": tiling.tessellation,
         "spec": spec_of(content),
         "removed_discs": content["removed_discs"],
+        "mineral_names": tuple(content.get("mineral_names", ())),
         "holes": tuple(np.array(hole, dtype=float) for hole in content["holes"]),
         "joints": checked(content["lines"]) if content.get("lines") else {},
         "joint_cuts": {name: Cut.from_json(cut) for name, cut in content.get("cuts", {}).items()},
