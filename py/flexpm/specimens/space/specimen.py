@@ -136,6 +136,11 @@ class SolidSpecimen:
         return dataclasses.replace(self, minerals=given, spec=spec)
 
     @property
+    def mineral_names(self) -> tuple[str, ...]:
+        """None: minerals of a solid are given by their places in the material."""
+        return ()
+
+    @property
     def kind(self) -> str:
         """``box`` or ``cylinder``."""
         return self.spec.kind
