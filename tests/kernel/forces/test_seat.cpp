@@ -196,3 +196,16 @@ TEST_CASE("A seated plate of a part of a side is found again by its seat", "[pla
     CHECK(std::fabs(moment) < 1e-15 * size);
     CHECK(largest > size);
 }
+
+TEST_CASE("A point at the seat bears without turning the plate, and is not alone there", "[plate]")
+{
+    auto o = specimens::options(specimens::strong_contact(stiffness));
+    o.rigid = true;
+    Assembly a = specimens::assemble(specimens::grid(3, 1, size), o);
+    const Plate& p = a.plates[add_side_plates(a, top_side, 1, { 0.0, 0.0, false, 0.0, true })[0]];
+    CHECK(std::count(p.arms.begin(), p.arms.end(), 0.0) == 1);
+    CHECK(*std::max_element(p.arms.begin(), p.arms.end()) == Approx(size));
+    Assembly one = specimens::assemble(specimens::grid(1, 1, size), o);
+    CHECK_THROWS_WITH(add_side_plates(one, top_side, 1, { 0.0, 0.0, false, 0.0, true }),
+        "points of a seated plate = 1, must be at least 2, apart");
+}

@@ -78,8 +78,12 @@ void seat(const Assembly& a, Plate& p)
         const PlatePoint point = plate_point(p, i);
         const Point x =
             vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight);
-        p.arms.push_back(cross(x - middle, in_plane(p.normal)));
+        const double arm = cross(x - middle, in_plane(p.normal));
+        // a point at the seat itself has none, or round-off would turn the plate out of its way
+        p.arms.push_back(std::fabs(arm) < 1e-9 * p.width ? 0.0 : arm);
     }
+    if (std::all_of(p.arms.begin(), p.arms.end(), [](double arm) { return arm == 0.0; }))
+        refuse("points of a seated plate", plate_points(p), "", "must be at least 2, apart");
 }
 
 Point unit(Point normal)
@@ -343,8 +347,8 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
         p.area[2 * i] = (1.0 - middle) * area;
         p.area[2 * i + 1] = middle * area;
     }
-    seat(a, p);
     require_on_outline(a, p, patch);
+    seat(a, p);
     return p;
 }
 
