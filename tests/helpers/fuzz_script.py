@@ -137,9 +137,10 @@ class Script:
         if self._built is not None:
             self._flexpm.rig(self._built).elastic(pressure, way=way, load=load)
 
-    def do_jaw(self, x: float, y: float, radius: float, angle: Any) -> None:
+    def do_jaw(self, x: float, y: float, radius: float, angle: Any, name: Any) -> None:
         if rig := self._parts():
             self._held.append(rig.jaw((x, y), radius, angle=angle))
+            rig.contact_of(name, self._held[-1])
 
     def do_soft(self, way: list[Any], parts: list[Any], machine: float) -> None:
         if rig := self._parts():

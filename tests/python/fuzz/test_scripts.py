@@ -104,7 +104,7 @@ PARTS = st.one_of(
     st.tuples(st.just("layer"), st.sampled_from([0, 2]), ANY),
     st.tuples(st.just("seat"), st.sampled_from([0, 2]), COLUMN),
     st.tuples(st.just("ends"), st.none() | VALUE, st.sampled_from([0.0, 1e-7]) | ANY, VALUE),
-    st.tuples(st.just("jaw"), PLACE, PLACE, ANY, st.none() | ANY),
+    st.tuples(st.just("jaw"), PLACE, PLACE, ANY, st.none() | ANY, COLUMN),
     st.tuples(st.just("soft"), st.tuples(ANY, ANY), PICKS, st.sampled_from([1e7, 1e12]) | ANY),
     st.tuples(st.just("soft"), st.just((0.0, -1.0)), st.just([0]), st.just(1e7)),
     st.tuples(st.just("drive"), st.tuples(ANY, ANY), PICKS, PICKS),

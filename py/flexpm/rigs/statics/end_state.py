@@ -34,9 +34,13 @@ class EndStatics(GrainRig):
             load: What it bears in the end, along the loading [N], in place of a way.
 
         Raises:
-            InputError: for a value out of range, a pressure on a disc, and a specimen of which a
+            InputError: for rigid grains, a value out of range, a pressure on a disc, and a specimen of which a
                 piece is free to move: it names the motion.
         """
+        if self.built.name != "flexible":
+            raise InputError(
+                f"elastic: model = {self.built.name}, must be flexible; use PartRig for others"
+            )
         way = require_number("elastic: way", way, unit="m")
         if load is not None:
             load = require_number("elastic: load", load, unit="N")
