@@ -34,9 +34,8 @@ class EndStatics(GrainRig):
             load: What it bears in the end, along the loading [N], in place of a way.
 
         Raises:
-            InputError: for rigid grains, a value out of range, a pressure on a disc, and a specimen of
-                which a
-                piece is free to move: it names the motion.
+            InputError: for rigid grains, a value out of range, a pressure on a disc, and a specimen
+                of which a piece is free to move: it names the motion.
         """
         if self.built.name != "flexible":
             raise InputError(
