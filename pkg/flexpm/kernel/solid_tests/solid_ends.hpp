@@ -14,6 +14,16 @@ namespace flexpm {
 /// @throws std::invalid_argument  if the ends are held already, or there are none
 void hold_ends(SolidState& s, bool pulled);
 
+/// Take hold of one of them, if it is not held yet. Grains under a pressure go on to bear it: a
+/// plate that is laid on them presses as much (deviation D93).
+/// @throws std::invalid_argument  if it has no nodes
+void hold_end(SolidState& s, SolidSide side, bool pulled);
+
+/// Keep a specimen under pressures from sliding and turning between smooth ends, which nothing else
+/// does once it is cracked: a node next to the middle of the bottom stays along x and y, another
+/// one along y; of rigid grains their centres (deviation D93).
+void hold_against_sliding(SolidState& s);
+
 /// Begin from a linear solution at a strain, positive in tension, with the top at a velocity, by
 /// which all grains move as that solution does (deviation D30). Kinetic and elastic energy of this
 /// start are the initial ones of the balance. Ends must be held.
@@ -25,6 +35,12 @@ void hold_ends(SolidState& s, bool pulled);
 /// @throws std::invalid_argument  as begin_from(), or if ends are not held
 void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,
     bool undamped, double dt);
+
+/// Begin from the present state, as of a specimen that bears pressures, with the motion that a
+/// linear solution adds at the top's velocity. The kinetic energy that this gives is work of the
+/// boundary. Arguments and errors as of start_ends().
+void take_over_ends(
+    SolidState& s, const SolidField& field, double velocity, bool undamped, double dt);
 
 /// Move the top at another velocity from now on, and with it the motion that the loading gives, so
 /// that the change raises no wave. The kinetic energy that this gives is work of the boundary.

@@ -9,6 +9,7 @@
 #include <flexpm/kernel/solids/rows_of_four.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_works.hpp>
@@ -126,13 +127,14 @@ void move_grains(SolidState& s, TileRange own, double dt)
         });
 }
 
-/// Forces of contacts and plates on a block of grains.
+/// Forces of contacts, plates and pressures on a block of grains.
 void sum_outer_forces(SolidState& s, int block, const PairRows& rows)
 {
     const int node = s.grains.scalar_index(s.grains.block_nodes[block]);
     variant_of<sum_sources>()(
         s.plan.first.data() + node, s.plan.sources.data(), s.contacts.forces.data(), rows);
     if (!s.plan.first_press.empty()) add_plate_forces(s, block);
+    if (!s.plan.first_pressed.empty()) add_pressure_forces(s, block);
 }
 
 /// Sum the forces on a block of grains and integrate its velocities.
@@ -248,6 +250,24 @@ void find_presses(SolidState& s)
     s.plan.first_press.push_back(static_cast<int>(s.plan.presses.size()));
 }
 
+/// Surface triangles of each block of grains, if pressures act on them.
+void find_pressed(SolidState& s)
+{
+    SolidPlan& plan = s.plan;
+    plan.first_pressed.clear();
+    plan.pressed.clear();
+    plan.pressure_works.assign(s.surface.pressure.size(), 0.0);
+    if (s.surface.pressure.empty()) return;
+    std::vector<std::vector<int>> of_block(s.grains.blocks());
+    for (std::size_t t = 0; t < s.surface.pressure.size(); ++t)
+        of_block[s.grains.block_of(s.surface.grain[t])].push_back(static_cast<int>(t));
+    for (const auto& triangles : of_block) {
+        plan.first_pressed.push_back(static_cast<int>(plan.pressed.size()));
+        plan.pressed.insert(plan.pressed.end(), triangles.begin(), triangles.end());
+    }
+    plan.first_pressed.push_back(static_cast<int>(plan.pressed.size()));
+}
+
 }  // namespace
 
 int tile_of(const SolidState& s, int contact)
@@ -261,6 +281,7 @@ void prepare_step(SolidState& s)
     find_sources(s);
     find_tiles(s);
     find_presses(s);
+    find_pressed(s);
 }
 
 void find_forces(SolidState& s)
@@ -296,6 +317,7 @@ void step(SolidState& s, const StepOptions& options)
     };
     team.run(share);
     sum_plates(s, options.dt);
+    sum_pressure_work(s);
     ++s.step;
     if (turned > 0) {
         fail("step " + std::to_string(s.step) + ": contacts without a middle face",

@@ -4,8 +4,10 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
@@ -47,6 +49,14 @@ void SolidSolver::scaleMasses()
 
 void SolidSolver::holdEnds(bool bonded) { flexpm::hold_ends(state, bonded); }
 
+void SolidSolver::holdBottom()
+{
+	flexpm::hold_end(state, flexpm::SolidSide::bottom, false);
+	flexpm::hold_against_sliding(state);
+}
+
+void SolidSolver::clearPressure(int side) { flexpm::set_pressure(state, side, 0.); }
+
 void SolidSolver::requireReady() const
 {
 	requireGrains();
@@ -68,6 +78,7 @@ void SolidSolver::check()
 	const std::string bad = flexpm::find_bad_number(state);
 	diverged              = !bad.empty();
 	if (diverged) throw std::runtime_error("SolidSolver: " + bad);
+	flexpm::find_loose(state);
 }
 
 void SolidSolver::mirrorBodies() { }

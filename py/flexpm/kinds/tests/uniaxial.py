@@ -34,6 +34,7 @@ KIND = TestKind(
         "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
     },
     falls_freely=True,
+    is_core=True,
     calibrates={"compressive_strength": "peak_stress"},
     envelope=True,
 )
