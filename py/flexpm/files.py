@@ -31,7 +31,7 @@ from .errors import BusyError, InputError
 #: A table of a TOML or JSON file: values, lists and tables.
 Table = dict[str, Any]
 
-#: Size of the largest file of inputs, and of the largest table of a run [byte].
+#: Size of the largest file of inputs, and of the largest table or state of a run [byte].
 _LARGEST, _LARGEST_TABLE = 64 * 10**6, 10**9
 #: Bytes that are read at a time.
 _CHUNK = 2**20
@@ -162,8 +162,8 @@ def csv_text(names: Iterable[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
-def read_text(path: Path, largest: int = _LARGEST) -> str:
-    """Text of a file, which is read no further than its largest size.
+def read_bytes(path: Path, largest: int = _LARGEST_TABLE) -> bytes:
+    """Content of a file, which is read no further than its largest size.
 
     Args:
         path: The file; also a device or a pipe.
@@ -171,7 +171,7 @@ def read_text(path: Path, largest: int = _LARGEST) -> str:
 
     Raises:
         OSError: if it cannot be read.
-        ValueError: if it is larger, no UTF-8, or its name can be none.
+        ValueError: if it is larger, or its name can be none.
     """
     content = bytearray()
     with path.open("rb") as file:
@@ -179,7 +179,17 @@ def read_text(path: Path, largest: int = _LARGEST) -> str:
             content += chunk
     if len(content) > largest:
         raise ValueError(f"it is larger than {largest // 10**6} MB")
-    return content.decode()
+    return bytes(content)
+
+
+def read_text(path: Path, largest: int = _LARGEST) -> str:
+    """Text of a file, as ``read_bytes``.
+
+    Raises:
+        OSError: if it cannot be read.
+        ValueError: if it is larger, no UTF-8, or its name can be none.
+    """
+    return read_bytes(path, largest).decode()
 
 
 def read_json(path: Path) -> Any:

@@ -4,13 +4,14 @@
 
 Usage: scripts/checks/kinds.py [ROOT]. Prints one line per violation; exit code 1 if any.
 A test is a file of py/flexpm/kinds/tests. Its name must be no text in any other file of
-py/flexpm, and none may import a single test's file: what differs between tests is asked of their
-kinds.
+py/flexpm, nor a word of one unless it is a word of mechanics, too, and none may import a single
+test's file: what differs between tests is asked of their kinds.
 """
 
 from __future__ import annotations
 
 import ast
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,6 +19,8 @@ from pathlib import Path
 PACKAGE, TESTS = "py/flexpm", "py/flexpm/kinds/tests"
 #: Files there that are no test of users: a script's own test has no name to them.
 NO_NAMES = {"__init__", "own"}
+#: Names that are words of mechanics: a text may have them as words.
+WORDS = {"elastic", "shear", "tension", "bending"}
 #: Texts that are names of tests and mean something else, or that may name one: file, names, reason.
 EXCEPTIONS = {
     "materials/mixing.py": ({"elastic"}, "a table of materials"),
@@ -56,6 +59,13 @@ def imported(tree: ast.Module) -> Iterator[tuple[int, str]]:
             yield from ((node.lineno, alias.name) for alias in node.names)
 
 
+def named(text: str, names: set[str]) -> set[str]:
+    """Tests that a text names: as a whole, or by a word of its own."""
+    if text in names:
+        return {text}
+    return {word for word in re.split(r"[^a-z]+", text) if word in names - WORDS}
+
+
 def violations(root: Path) -> Iterator[str]:
     """Yield what names a test outside of its file, and exceptions that are none any more."""
     package, folder = root / PACKAGE, root / TESTS
@@ -68,10 +78,10 @@ def violations(root: Path) -> Iterator[str]:
         allowed = EXCEPTIONS.get(here, (set(), ""))[0]
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for node in texts(tree):
-            if node.value in names:
-                met.setdefault(here, set()).add(node.value)
-                if node.value not in allowed:
-                    yield f"{path}:{node.lineno}: names the test {node.value}; ask its kind"
+            for name in sorted(named(node.value, names)):
+                met.setdefault(here, set()).add(name)
+                if name not in allowed:
+                    yield f"{path}:{node.lineno}: names the test {name}; ask its kind"
         for line, name in imported(tree):
             yield f"{path}:{line}: imports a test's file ({name}); ask the registry of kinds"
     for here, (allowed, _) in EXCEPTIONS.items():

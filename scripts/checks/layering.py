@@ -32,6 +32,24 @@ FORBIDDEN_WORDS = {
 }
 # Files that import all that lies in a folder of their room: tests are registered so.
 IMPORT_A_FOLDER = {"py/flexpm/kinds/registry.py"}
+# What opens a file by itself; elsewhere a file is written whole and read up to a largest size, by
+# FILES, which knows devices, links and disks that are full.
+FILES = "py/flexpm/files.py"
+OPENS = {"open", "read_text", "read_bytes", "write_text", "write_bytes"}
+MAY_OPEN = {
+    FILES: "the home of reading and writing",
+    "py/flexpm/cli/terminal.py": "streams of the process",
+    "py/flexpm/bench/memory.py": "/proc",
+    "py/flexpm/bench/report.py": "/proc",
+    "py/flexpm/report/notebook.py": "a picture that it has drawn",
+    "py/flexpm/report/pages/page.py": "the package's templates, pictures of the run",
+    "py/flexpm/results/arrays/vtu_arrays.py": "a temporary file of FILES",
+    "py/flexpm/runs/checkpoint.py": "a checksum, read in parts",
+    "py/flexpm/runs/loading_start.py": "a checksum, read in parts",
+    "py/flexpm/specimens/labels/picture.py": "an image, whose size is known from its head",
+    "py/flexpm/specimens/space/file.py": "the first letters of a file",
+    "py/flexpm/studies/scripts.py": "a checksum of modules that Python has read",
+}
 # The one home of the kernel's errors.
 ERRORS = "require.hpp"
 OPENMP = r"#\s*pragma\s+omp\s+(?!simd|declare)"
@@ -325,6 +343,31 @@ def hidden_imports(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield node.lineno, name
 
 
+def opened(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Yield line and name of calls that open a file themselves."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            name = node.func
+            if isinstance(name, ast.Attribute) and name.attr in OPENS:
+                yield node.lineno, name.attr
+            elif isinstance(name, ast.Name) and name.id == "open":
+                yield node.lineno, name.id
+
+
+def check_files(rooms: Rooms) -> Iterator[str]:
+    """Yield files of the package that read or write by themselves, and exceptions that are none."""
+    met = set()
+    for path in sorted((rooms.root / TREES["python"]).rglob("*.py")):
+        name = str(path.relative_to(rooms.root))
+        for number, call in opened(ast.parse(path.read_text(encoding="utf-8"))):
+            met.add(name)
+            if name not in MAY_OPEN:
+                yield f"{path}:{number}: {call} opens a file; {FILES} reads and writes files"
+    for name in MAY_OPEN:
+        if (rooms.root / name).exists() and name not in met:
+            yield f"{name}:1: opens no file any more; take it off the exceptions of layering.py"
+
+
 def check_python(rooms: Rooms) -> Iterator[str]:
     """Yield violations of the package."""
     folder = rooms.root / TREES["python"]
@@ -362,6 +405,7 @@ def violations(root: Path) -> Iterator[str]:
     yield from check_adapters(rooms)
     yield from check_tests(rooms)
     yield from check_python(rooms)
+    yield from check_files(rooms)
 
 
 def main() -> int:

@@ -148,8 +148,17 @@ class Spheres:
                 short_edge=example["short_edge"],
                 drop_hidden=example["drop_hidden"],
             )
-            built = flexpm.build(specimen, None, example["model"])
-        except flexpm.InputError as raised:
+            rock = None
+            if example["minerals"] is not None:
+                rock = _of_two_minerals(flexpm.materials.load(None, example["model"]))
+            if example["minerals"]:
+                specimen = specimen.with_minerals(example["minerals"])
+            wider = example["interaction_range"]
+            built = flexpm.build(specimen, rock, example["model"], interaction_range=wider)
+            if example["model"] in ("flexible", "rigid"):
+                for side, axes in example["held"]:
+                    built.solver.holdSide(side, **dict.fromkeys(axes, True))
+        except (flexpm.InputError, ValueError) as raised:
             return f"InputError: {raised}"
         volume = float(np.sum(specimen.cells.volumes))
         if not abs(volume / specimen.outline().volume - 1.0) < 1e-9:
@@ -159,10 +168,21 @@ class Spheres:
             again = flexpm.Specimen.load_solid(f"{folder}/it.json")
         if not np.array_equal(again.cells.volumes, specimen.cells.volumes):
             return "another specimen in its file"
+        if not np.array_equal(again.minerals, specimen.minerals):
+            return "other minerals in its file"
         built.run(20)
         if not np.all(np.isfinite(built.snapshot().positions)):
             return "places that are none"
         return "done"
+
+
+def _of_two_minerals(rock: Any) -> Any:
+    """The rock, of which half the volume has twice the cohesion."""
+    from flexpm.materials.mineral import Mineral
+
+    stronger = {"cohesion": 2.0 * rock.cohesion, "shear_fracture_energy": 4e3}
+    kinds = (Mineral("one", 0.5, {}), Mineral("other", 0.5, stronger))
+    return dataclasses.replace(rock, minerals=kinds)
 
 
 class Cells:

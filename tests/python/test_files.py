@@ -25,6 +25,7 @@ from flexpm.files import (
     whole_file,
     write_text,
 )
+from flexpm.rigs.stages.history import history_of
 
 ENVIRONMENT = {
     **os.environ,
@@ -120,6 +121,24 @@ def test_a_file_is_read_no_further_than_the_largest(tmp_path, read, name, monkey
     begin = time.process_time()
     with pytest.raises(InputError, match="it = ") as refused:
         read(Path(name), "it")
+    assert "\n" not in str(refused.value)
+    assert time.process_time() - begin < 2.0
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "a\0b", "\ud800"])
+@pytest.mark.parametrize(
+    "read",
+    [
+        lambda name: history_of(name, None, "N"),
+        lambda name: flexpm.Specimen.from_spheres(name, diameter=0.01, height=0.02),
+        lambda name: flexpm.Specimen.load_solid(name),
+    ],
+    ids=["history", "spheres", "solid"],
+)
+def test_other_readers_have_the_same_limit(read, name):
+    begin = time.process_time()
+    with pytest.raises(InputError) as refused:
+        read(name)
     assert "\n" not in str(refused.value)
     assert time.process_time() - begin < 2.0
 

@@ -48,6 +48,7 @@ def told(package_parent, model, threads, available):
     return json.loads(done.stdout.splitlines()[-1])
 
 
+@pytest.mark.long
 @pytest.mark.skipif((os.cpu_count() or 1) < 2, reason="one core")
 @pytest.mark.parametrize("model", ["jcfpm", "cohfrict", "inner"])
 def test_yades_loops_use_the_threads_that_were_asked_for(package_parent, model):
@@ -58,6 +59,7 @@ def test_yades_loops_use_the_threads_that_were_asked_for(package_parent, model):
     assert record == told(package_parent, model, 1, 1)[4]
 
 
+@pytest.mark.long
 @pytest.mark.skipif((os.cpu_count() or 1) < 2, reason="one core")
 def test_two_threads_are_used_if_they_are_asked_for_and_there(package_parent):
     assert told(package_parent, "jcfpm", 2, 2)[:4] == [2, [2], 2, 2]

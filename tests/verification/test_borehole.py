@@ -104,6 +104,7 @@ def made_rig(
     return rig, [rig.platen(side, bonded=pulls and side in (0, 3)) for side in range(4)]
 
 
+@pytest.mark.long
 def test_the_static_solution_has_the_hoop_stress_of_kirsch_at_any_two_pressures():
     """Within 3 % of the largest, at lateral pressures from none to the axial one."""
     rig, (_, right, top, _) = made_rig(pulls=True)
@@ -113,6 +114,7 @@ def test_the_static_solution_has_the_hoop_stress_of_kirsch_at_any_two_pressures(
         np.testing.assert_allclose(measured(state), wanted, rtol=0.0, atol=0.03 * wanted.max())
 
 
+@pytest.mark.long
 def test_the_hoop_stress_around_a_borehole_is_that_of_kirsch():
     """Within 3 % of the largest, as one pressure grows and the other one stays."""
     rig, (floor, right, top, _) = made_rig()

@@ -14,6 +14,7 @@ import flexpm
 from flexpm.materials import mixing as minerals
 from flexpm.materials.interface import KEYS, Interface
 from flexpm.materials.material import Material, load
+from flexpm.rigs.part_rig import PartRig
 from flexpm.specimens import mineral_map
 
 SIZE = 2e-3  # of square grains [m]
@@ -315,6 +316,36 @@ def test_two_layers_part_at_the_strength_and_with_the_energy_of_their_pair(model
         assert {crack.pair for crack in result.cracks} == {"hard/soft"}
     error = {"flexible": 1e-3, "rigid": 5e-3}[model]
     assert result.curve["damage_energy"][-1] == pytest.approx(10.0 * area, rel=error)
+
+
+def test_two_blocks_slide_at_the_strength_and_with_the_energy_of_their_pair():
+    """Pressed together and driven past each other; blocks so stiff that their contact alone gives.
+
+    The slip is small enough for its normal, along the line of the centres, to stay as it is.
+    """
+    elastic = {"flexible": {**BASE["elastic"]["flexible"], "young": 1e3 * SOFT}}
+    stiff = {"flexible": {"young": 1e3 * HARD, "normal_stiffness": K_HARD}}
+    kinds = [{"name": "soft", "fraction": 0.5}]
+    kinds.append({"name": "hard", "fraction": 0.5, "elastic": stiff})
+    pair = {"pair": list(PAIR), **WEAK, "shear_fracture_energy": 8.0}
+    material = {**BASE, "elastic": elastic, "mineral": kinds, "interface": [pair]}
+    specimen = grid(2, 1).with_minerals([0, 1])
+    rig = PartRig(flexpm.build(specimen, Material.from_dict(material), model="flexible"))
+    left = rig.hold(where=lambda x, _: x < 0.99 * SIZE)
+    right = rig.hold(where=lambda x, _: x > 1.01 * SIZE)
+    area, steps = SIZE * specimen.thickness, 2000
+    right.move((-3e6 * 0.5 * (1.0 / K_SOFT + 1.0 / K_HARD) / steps, 0.0))
+    rig.built.run(steps)
+    right.move((0.0, 0.0))
+    rig.built.run(500)
+    pressure = -right.force[0] / area
+    assert pressure == pytest.approx(3e6, rel=0.005)  # blocks give a little
+    rig.drive([right], (0.0, 1.0), against=[left])
+    rig.strain_to(4e-6, rate=10.0)
+    record = rig.record
+    assert record["load"].max() / area == pytest.approx(5e6 + 0.2 * pressure, rel=1e-3)
+    assert record["damage_energy"][-1] / area == pytest.approx(8.0, rel=1e-3)
+    assert (record["tensile_cracks"][-1], record["shear_cracks"][-1]) == (0, 3)
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])

@@ -253,6 +253,7 @@ def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, tmp_path):
     assert result.energy_error < 0.01
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("look_each_tenth_step")
 @pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial", "brazilian"])
 @pytest.mark.parametrize("model", ["flexible", "rigid", "inner"])

@@ -95,6 +95,7 @@ def test_rubble_falls_and_comes_to_rest(model):
     assert runs > 100
 
 
+@pytest.mark.long
 def test_contacts_keep_their_numbers_while_others_come_and_go():
     box = Box("rigid", 2e-3, 3e-3)  # so far that grains lose their faces
     bonds = {i.phys.contact: (i.id1, i.id2) for i in yade.O.interactions if i.isReal}

@@ -9,38 +9,51 @@ from functools import partial
 import numpy as np
 import yade
 
+from ..kinds.registry import KINDS
 from ..models import grains, spheres
-from ..models.options import DAMPING
+from ..models.options import DAMPING, SPHERE_MODELS
 from ..rigs.fitting import rig
 from ..runs.loading_rate import Loading
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
+
+#: What a builder takes and gives: a specimen, threads; counts by name.
+Builder = Callable[[Specimen | SolidSpecimen, int], Mapping[str, int]]
 
 #: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.
 _RATE = 0.1
 
 
 def build_own(
-    specimen: Specimen, threads: int, model: str = "flexible", mesh: str = "refined"
+    specimen: Specimen | SolidSpecimen, threads: int, model: str = "flexible", mesh: str = "refined"
 ) -> Mapping[str, int]:
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
     built = grains.build(specimen, None, model, mesh=mesh, threads=threads)
     assert isinstance(built, grains.Model), model
-    rig(built).start(Loading(rate=_RATE, kind="adaptive"))
+    start(built)
     return built.counts()
 
 
-def _build_yade(specimen: Specimen, threads: int, model: str) -> Mapping[str, int]:
+def start(built: grains.Model | spheres.SphereModel) -> None:
+    """Make a model ready for the first step of a test."""
+    rig(built).start(Loading(rate=_RATE, kind="adaptive"))
+
+
+def _build_yade(specimen: Specimen | SolidSpecimen, threads: int, model: str) -> Mapping[str, int]:
     """Bonded spheres squeezed at about the same rate, without plates and record."""
-    built = spheres.build(specimen, None, model, damping=DAMPING, threads=threads)
-    heights = specimen.centres[:, 1]
+    built = grains.build(specimen, None, model, damping=DAMPING, threads=threads)
+    assert isinstance(built, spheres.SphereModel), model
+    heights = specimen.centres[:, -1]
     rate = 1e-8 / np.ptp(heights)
-    for body, height in zip(built.ids, heights.tolist(), strict=True):
-        yade.O.bodies[body].state.vel = (0.0, -rate * height, 0.0)
+    speeds = np.zeros((len(heights), 3))
+    speeds[:, specimen.centres.shape[1] - 1] = -rate * heights
+    for body, speed in zip(built.ids, speeds.tolist(), strict=True):
+        yade.O.bodies[body].state.vel = tuple(speed)
     return built.counts()
 
 
 #: Name, label and builder of each model, in the order of a turn.
-BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], Mapping[str, int]]]] = {
+BUILDERS: dict[str, tuple[str, Builder]] = {
     "refined": (
         "flexible, refined, 3 points",
         lambda specimen, threads: build_own(specimen, threads, mesh="refined"),
@@ -66,3 +79,14 @@ BUILDERS: dict[str, tuple[str, Callable[[Specimen, int], Mapping[str, int]]]] = 
         lambda specimen, threads: _build_yade(specimen, threads, "cohfrict"),
     ),
 }
+
+
+def solid_builders(shape: str) -> dict[str, tuple[str, Builder]]:
+    """Name, label and builder of each model that solids are tested with."""
+    models = next(kind.models_of(shape) for kind in KINDS.values() if shape in kind.solids)
+    return {
+        name: BUILDERS[name]
+        if name in SPHERE_MODELS
+        else (f"{name}, corners and one inside", partial(build_own, model=name, mesh="refined"))
+        for name in models
+    }

@@ -53,8 +53,8 @@ def timed_set_up(
         arrays, bodies, interactions), first_step_time (the collider's first run), vtu_time,
         memory_per_grain (growth of the resident set from before the packing to after the step).
     """
-    _give_back()
-    before, start = _resident(), time.perf_counter()
+    give_back()
+    before, start = resident(), time.perf_counter()
     specimen = Specimen.rectangle(width, height, thickness, seed=seed, progress=progress)
     packed = time.perf_counter()
     yade.O.reset()
@@ -63,7 +63,7 @@ def timed_set_up(
         made = time.perf_counter()
         yade.O.step()
         stepped = time.perf_counter()
-        memory = _resident() - before
+        memory = resident() - before
         grains, contacts = len(specimen.discs), len(specimen.tessellation.shared_edges)
         with TemporaryDirectory() as folder:
             snapshot = built.snapshot()
@@ -100,12 +100,13 @@ def triad() -> float:
     return _TRIAD_BYTES * _TRIAD_LENGTH / median(times)
 
 
-def _resident() -> int:
+def resident() -> int:
+    """Memory of the process that is in use now [B]."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE")
 
 
-def _give_back() -> None:
+def give_back() -> None:
     """Return freed memory to the system, so that what is taken next is counted."""
     gc.collect()
     ctypes.CDLL("libc.so.6").malloc_trim(0)

@@ -103,14 +103,13 @@ def machine() -> dict[str, str | int]:
     }
 
 
-def table_rows(timing: Timing) -> list[tuple[str, str]]:
-    """Describe a comparison as rows (name, value)."""
+def host_rows(timing: Timing) -> list[tuple[str, str]]:
+    """Describe where and of what a comparison was, as rows (name, value)."""
     host, counts = timing.machine, timing.cases[0].counts
     rows = [
         ("processor", f"{host['processor']}, {host['cores']} cores, {timing.threads} used"),
         ("versions", _versions(host)),
         ("grains, contacts", f"{counts['grains']}, {counts['contacts']}"),
-        ("nodes, triangles", f"{counts['nodes']}, {counts['triangles']}"),
         ("steps of each model", f"{timing.steps} in {len(timing.cases[0].times)} turns"),
     ]
     if timing.threads == 1:
@@ -120,6 +119,14 @@ def table_rows(timing: Timing) -> list[tuple[str, str]]:
             for own, wall in zip(case.cpu_times, case.times, strict=True)
         )
         rows.append(("share of a core", f"{100.0 * share:.0f} %"))
+    return rows
+
+
+def table_rows(timing: Timing) -> list[tuple[str, str]]:
+    """Describe a comparison as rows (name, value)."""
+    counts = timing.cases[0].counts
+    rows = host_rows(timing)
+    rows.insert(3, ("nodes, triangles", f"{counts['nodes']}, {counts['triangles']}"))
     for case in timing.cases:
         ratio = f"{timing.ratio(case.name):.3f} of JCFpm's" if case.name != REFERENCE else "1"
         rows.append((case.label, f"{scaled(case.step_time, 1e6, 'us')}, {ratio}"))

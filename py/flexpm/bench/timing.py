@@ -12,18 +12,22 @@ import json
 import math
 import os
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
 import yade
 
-from ..files import require_writable, write_text
+from ..errors import InputError
+from ..files import Table, require_writable, write_text
 from ..progress import Progress
+from ..specimens.space.spec import SolidSpec
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from ..threads import for_scenes, limited
-from . import memory
-from .cases import BUILDERS
+from . import memory, solids
+from .cases import BUILDERS, Builder, solid_builders
 from .report import (
     Case,
     Timing,
@@ -61,6 +65,8 @@ class Plan:
         seed: Seed of the packing.
         threads: Threads of a step.
         scaling: Time the flexible model also with 10 and 40 times the grains.
+        shape: ``box`` for the models of a solid; None: those of the plane.
+        depth: Depth of a box [m]; None: its default.
     """
 
     steps: int = 2000
@@ -69,6 +75,16 @@ class Plan:
     seed: int = 1
     threads: int = 1
     scaling: bool = False
+    shape: str | None = None
+    depth: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.shape is None and self.depth is not None:
+            raise InputError(
+                f"bench: depth = {self.depth:g} m, goes with --shape box; leave it out"
+            )
+        if self.shape is not None and self.scaling:
+            raise InputError("bench: scaling goes with the plane; give the sizes of a larger box")
 
 
 def run(
@@ -84,6 +100,32 @@ def run(
     Returns:
         Rows (name, value) for a table.
     """
+    if plan.shape is not None:
+        data, rows = _run_solid(plan, progress)
+    else:
+        data, rows = _run_plane(plan, progress)
+    if json_file is not None:
+        write_text(json_file, json.dumps(data, indent=2) + "\n")
+        if plan.scaling and require_writable(Path(json_file)):  # beside a device is no place
+            scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
+    return rows
+
+
+def _run_solid(plan: Plan, progress: Progress | None) -> tuple[Table, list[tuple[str, str]]]:
+    assert plan.shape is not None
+    spec = SolidSpec(plan.shape, plan.width, plan.depth, plan.height, seed=plan.seed)
+    specimen, setup = solids.timed_set_up(spec, progress)
+    builders = solid_builders(plan.shape)
+    timing = compare(
+        specimen, steps=plan.steps, threads=plan.threads, builders=builders, progress=progress
+    )
+    pair = compare_threads(specimen, plan.steps, progress, builders, "flexible")
+    data = {**timing.as_dict(), "set_up": setup, "two_threads": pair}
+    rows = solids.model_rows(timing) + solids.set_up_rows(setup)
+    return data, rows + threads_rows(pair)
+
+
+def _run_plane(plan: Plan, progress: Progress | None) -> tuple[Table, list[tuple[str, str]]]:
     steps, threads = plan.steps, plan.threads
     specimen, setup = memory.timed_set_up(_PAPER, plan.width, plan.height, plan.seed, progress)
     timing = compare(specimen, steps=steps, threads=threads, progress=progress)
@@ -101,15 +143,15 @@ def run(
     if plan.scaling:
         data["scaling"] = grow(plan, progress)
         rows += scaling_rows(data["scaling"])
-    if json_file is not None:
-        write_text(json_file, json.dumps(data, indent=2) + "\n")
-        if plan.scaling and require_writable(Path(json_file)):  # beside a device is no place
-            scaling_picture(Path(json_file).with_suffix(".png"), data["scaling"])
-    return rows
+    return data, rows
 
 
 def compare_threads(
-    specimen: Specimen, steps: int, progress: Progress | None
+    specimen: Specimen | SolidSpecimen,
+    steps: int,
+    progress: Progress | None,
+    builders: Mapping[str, tuple[str, Builder]] = BUILDERS,
+    name: str = "refined",
 ) -> dict[str, float | int]:
     """Time the flexible model on one thread and on two, in turns, in wall time.
 
@@ -122,7 +164,9 @@ def compare_threads(
     for turn in range(_THREAD_TURNS):
         for threads, spans in times.items():
             share = max(TURNS, steps // _THREAD_TURNS)
-            found = compare(specimen, steps=share, threads=threads, names=("refined",))
+            found = compare(
+                specimen, steps=share, threads=threads, names=(name,), builders=builders
+            )
             spans.append(found.cases[0].step_time)
         if progress is not None:
             progress(turn + 1, _THREAD_TURNS, "threads")
@@ -136,20 +180,22 @@ def compare_threads(
 
 
 def compare(
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     *,
     steps: int,
     threads: int = 1,
     names: tuple[str, ...] | None = None,
+    builders: Mapping[str, tuple[str, Builder]] = BUILDERS,
     progress: Progress | None = None,
 ) -> Timing:
     """Time the models on one specimen in turns; the scenes are removed afterwards.
 
     Args:
-        specimen: A rectangle.
+        specimen: A rectangle or a disc, or a solid.
         steps: Steps of each model.
         threads: Threads of a step.
         names: Models to time; None for all.
+        builders: Label and builder of each model by its name.
         progress: Called with (steps done, steps expected, text).
     """
     chunk = math.ceil(steps / TURNS)
@@ -159,8 +205,8 @@ def compare(
             yade.O.reset()
         try:
             cases = [
-                _case(name, specimen, threads)
-                for name in BUILDERS
+                _case(name, *builders[name], specimen, threads)
+                for name in builders
                 if names is None or name in names
             ]
             for turn in range(turns):
@@ -172,7 +218,9 @@ def compare(
         finally:
             with for_scenes():
                 yade.O.reset()
-    described = {**specimen.dimensions, "seed": specimen.seed, **cases[0].counts}
+    spec = specimen.spec
+    sizes = spec.sizes if isinstance(specimen, SolidSpecimen) else specimen.dimensions
+    described = {**sizes, "seed": spec.seed, **cases[0].counts}
     return Timing(machine(), described, threads, turns * chunk, cases)
 
 
@@ -196,8 +244,9 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
     return found
 
 
-def _case(name: str, specimen: Specimen, threads: int) -> Case:
-    label, build = BUILDERS[name]
+def _case(
+    name: str, label: str, build: Builder, specimen: Specimen | SolidSpecimen, threads: int
+) -> Case:
     omega = yade.O
     with for_scenes():
         scene = omega.addScene()

@@ -194,12 +194,10 @@ def _describe(made: Specimen, folder: Path, names: Sequence[str]) -> None:
     terminal.say(tables.table(rows))
     expected = forecast(made)
     if expected is not None:
-        steps, seconds = expected
+        steps = " to ".join(f"{float(f'{one:.2g}'):.0f}" for one in expected.steps)
+        times = " to ".join(map(terminal.duration, expected.seconds))
         test = "compression" if made.kind == "rectangle" else "splitting"
-        terminal.say(
-            f"  its {test} with the default material: about {steps} steps, "
-            f"{terminal.duration(seconds)}"
-        )
+        terminal.say(f"  its {test} with the default material: about {steps} steps, {times}")
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)
@@ -213,7 +211,7 @@ def _rows(found: Table, before: str = "") -> list[tuple[str, str]]:
         label = f"{words_of(before)}, {words_of(name)}" if before else words_of(name)
         if isinstance(value, dict):
             rows += _rows(value, name)
-        elif isinstance(value, int):
+        elif isinstance(value, int | str):
             rows.append((label, str(value)))
         else:
             ends = (one for part, one in _UNITS.items() if part in key)

@@ -128,6 +128,7 @@ specimen.add_command(cli_solids.cylinder)
     show_default=True,
     help="Steps to time for each model.",
 )
+@cli_solids.bench_options
 @cli_options.rectangle_options
 @cli_options.seed_option
 @cli_options.threads_option
@@ -142,6 +143,8 @@ specimen.add_command(cli_solids.cylinder)
 @cli_options.quiet_option
 def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     """Time a step of flexpm's models and of YADE's JCFpm and CohFrict on the same specimen.
+
+    With --shape box those of a solid, beside set-up and memory.
 
     scripts/studies/lammps_bench.py times LAMMPS' bonded particles, too.
     """

@@ -38,6 +38,16 @@ shape_options = combined(
     ),
     length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
 )
+#: The same of a benchmark.
+bench_options = combined(
+    click.option(
+        "--shape",
+        type=Name("box"),
+        metavar="box",
+        help="Time the models of a solid box, not those of a rectangle.",
+    ),
+    length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
+)
 cylinder_options = combined(
     length_option("--diameter", _CYLINDER["diameter"], "Diameter"),
     length_option("--height", _CYLINDER["height"], "Height, along z"),

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import dataclasses
+import statistics
 import time
+from dataclasses import dataclass
 
 import yade
 
@@ -15,13 +17,24 @@ from ..specimens.specimen import Specimen
 
 #: Steps that are timed, after some that are not.
 _STEPS, _FIRST = 40, 5
+#: Fewest and most steps of compressions over the likely number of their rate, which is one of large
+#: packings: images, maps and cells took 1.8 to 4.3 times it, packings 1.0 to 1.7 (``doc/record``).
+_RANGE = (0.9, 4.5)
 
 
-def forecast(specimen: Specimen) -> tuple[int, float] | None:
-    """Steps of a compression of flexible grains, and their time on this machine [s].
+@dataclass(frozen=True)
+class Forecast:
+    """What a test will take."""
+
+    steps: tuple[int, int]  #: fewest and most
+    seconds: tuple[float, float]  #: as many on this machine [s]
+
+
+def forecast(specimen: Specimen) -> Forecast | None:
+    """Steps of a compression of flexible grains, and their time on this machine.
 
     The material is the default one, so that a specimen needs none; YADE's scene is emptied. A
-    guess, from what tests of packings take.
+    guess, from what such tests took.
 
     Args:
         specimen: A rectangle or a disc; None is returned for any other.
@@ -31,12 +44,14 @@ def forecast(specimen: Specimen) -> tuple[int, float] | None:
     yade.O.reset()
     try:
         held = rig(build(dataclasses.replace(specimen, minerals=None)))
-        steps = held.likely_steps(Loading(kind="waiting"))
-        for _ in range(_FIRST):
+        likely = held.likely_steps(Loading(kind="waiting"))
+        times = []
+        for _ in range(_FIRST + _STEPS):
+            start = time.perf_counter()
             yade.O.step()
-        start = time.perf_counter()
-        for _ in range(_STEPS):
-            yade.O.step()
-        return steps, steps * (time.perf_counter() - start) / _STEPS
+            times.append(time.perf_counter() - start)
+        step = statistics.median(times[_FIRST:])  # a machine at work stops some for long
+        fewest, most = (round(part * likely) for part in _RANGE)
+        return Forecast((fewest, most), (fewest * step, most * step))
     finally:
         yade.O.reset()

@@ -20,7 +20,6 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
-from ..materials.mixing import description
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..results.solids.state import SolidSnapshot
@@ -201,11 +200,7 @@ class SolidModel(Model):
     def snapshot(self) -> Snapshot | SolidSnapshot:
         """The present state as plain arrays."""
         source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
-        return snapshot_of(cast(wrapper.SolidSolver, self.solver), source)
-
-    def describe_material(self) -> Table:
-        """Name and parameters of the material."""
-        return {"name": self.material.name, **description(self.material, self.name)}
+        return snapshot_of(cast(wrapper.SolidSolver, self.solver), source, self.minerals)
 
     @property
     def parting(self) -> tuple[int | None, float]:
@@ -225,7 +220,8 @@ def _build_solid(
     solver.damping = damping
     engines: list[wrapper.Engine] = [solver]
     set_engines(engines)
-    built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines)
+    kinds = mineral_map.minerals_of(specimen, chosen)
+    built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines, minerals=kinds)
     built.set_threads(threads)
     built.set_masses()
     return built
@@ -247,7 +243,7 @@ def build(
     Bodies that the scene has already are kept, its engines are replaced.
 
     Args:
-        specimen: The grains; a solid has flexible or rigid ones.
+        specimen: The grains; of a solid flexible or rigid ones, or YADE's spheres.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
@@ -287,9 +283,8 @@ def build(
     threads = require_threads("build: threads", threads)
     if isinstance(specimen, SolidSpecimen):
         _refuse_plane(points, mesh, dynamic=dynamic)
-        _refuse_second()
-        return _build_solid(specimen, load_material(material, model), model, damping, threads)
-    require_specimen("build", specimen)
+    else:
+        require_specimen("build", specimen)
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
         return spheres.build(
@@ -302,6 +297,8 @@ def build(
             threads=threads,
         )
     _refuse_second()
+    if isinstance(specimen, SolidSpecimen):
+        return _build_solid(specimen, load_material(material, model), model, damping, threads)
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)

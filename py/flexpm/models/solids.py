@@ -5,16 +5,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 from yade import wrapper
 
 from .._flexpm import solid_constants
+from ..arrays import IntArray
 from ..errors import InputError, SimulationError
 from ..materials.material import Material
+from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import require_one_of
+from ..specimens import mineral_map
 from ..specimens.kernel_input import call
 from ..specimens.space.specimen import SolidSpecimen
 from .assembly import grain_material
 from .options import SOLID_MODELS
+
+#: What the elastic solve takes of the law of each pair of minerals, in this order.
+_ELASTIC = ("young", "poisson", "normal_stiffness", "shear_ratio")
 
 if TYPE_CHECKING:
     from ..results.solids.state import SolidSnapshot
@@ -24,17 +31,20 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     """The solver of a solid, at rest and without masses.
 
     Raises:
-        InputError: for a model that solids do not have, a material of several minerals, or a value
-            of it out of range.
+        InputError: for a model that solids do not have, minerals that do not go together, or a
+            value out of range.
     """
     require_one_of(f"build: model for a {specimen.kind}", model, SOLID_MODELS)
-    _require_alike("build: material", chosen)
+    minerals = _minerals(specimen, chosen, model)
+    pairs = [] if minerals is None else pair_materials(chosen, model)
     solver = wrapper.SolidSolver()
     try:
         solver.assembleSolid(
             specimen.cells,
             specimen.outline(),
-            [grain_material(chosen, model)],
+            [grain_material(kind, model) for kind in mineral_materials(chosen)],
+            [grain_material(pair, model) for pair in pairs],
+            [] if minerals is None else minerals.tolist(),
             rigid=model == "rigid",
         )
     except (ValueError, RuntimeError) as error:
@@ -42,11 +52,14 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     return solver
 
 
-def snapshot_of(solver: wrapper.SolidSolver, source: str) -> SolidSnapshot:
+def snapshot_of(
+    solver: wrapper.SolidSolver, source: str, minerals: IntArray | None = None
+) -> SolidSnapshot:
     """The present state of a solid.
 
     Args:
         solver: Holds the grains.
+        minerals: Index of each grain's mineral, or None if all grains are alike.
         source: What the stress of a tetrahedron is: its own or its grain's.
     """
     from ..results.solids.state import SolidSnapshot
@@ -54,38 +67,36 @@ def snapshot_of(solver: wrapper.SolidSolver, source: str) -> SolidSnapshot:
     found = solver.snapshot()
     nodes = found.pop("corner_nodes")
     middle = found["reference"][nodes].mean(axis=1)
-    return SolidSnapshot(**found, corner_reference=middle, stress_source=source)
+    return SolidSnapshot(
+        **found, corner_reference=middle, grain_mineral=minerals, stress_source=source
+    )
 
 
-def _require_alike(call_name: str, chosen: Material) -> None:
-    if chosen.minerals:
-        raise InputError(
-            f"{call_name} = {chosen.name!r} has minerals, must have one kind of grain for "
-            "a solid; give another material"
-        )
+def _minerals(specimen: SolidSpecimen, chosen: Material, model: str) -> IntArray | None:
+    description(chosen, model)  # refuses minerals that do not go together
+    return mineral_map.minerals_of(specimen, chosen)
 
 
 def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> dict[str, float]:
     """Elastic constants along z by conjugate gradients; see ``flexpm.elastic``.
 
     Raises:
-        InputError: for a model that solids do not have, or a material of several minerals.
+        InputError: for a model that solids do not have, or minerals that do not go together.
         SimulationError: if the forces do not come to balance.
     """
     if model != "flexible":
         raise InputError(f"elastic: model = {model}, must be flexible for a solid")
-    _require_alike("elastic: material", chosen)
-    law = chosen.law(model)
-    assert law["young"] is not None and law["poisson"] is not None
+    minerals = _minerals(specimen, chosen, model)
+    pairs = [chosen] if minerals is None else pair_materials(chosen, model)
+    # a pair's element constants are those of its first mineral
+    laws = np.array([[{**pair.law(model)}[key] for key in _ELASTIC] for pair in pairs], dtype=float)
     try:
         modulus, ratio, iterations, _ = call(
             solid_constants,
             specimen.cells,
             specimen.outline(),
-            law["young"],
-            law["poisson"],
-            law["normal_stiffness"],
-            law["shear_ratio"],
+            laws,
+            np.zeros(0, dtype=np.int32) if minerals is None else minerals,
         )
     except RuntimeError as error:
         raise SimulationError(str(error)) from None

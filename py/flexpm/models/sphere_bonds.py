@@ -7,20 +7,23 @@ its strengths it takes
     k_n = K_n A,  k_s = eta k_n,  k_b = K_n A L^2 / 12  (bending; CohFrict only),
     F_t = sigma_t A,  F_s = c A + mu F_n  (F_n compressive positive),
 
-so that one bond carries in tension and in shear what the edge's contact points carry together. Both
-models break at once: fracture energies are not used. Strengths are forces and magnitudes.
+so that one bond carries in tension and in shear what the edge's contact points carry together. A
+bond of a solid stands on a shared face, with its area A and its polar moment J about its centroid:
+bending takes K_n J / 2, the mean about all axes of the face, twisting eta K_n J. Deviation D92.
+Both models break at once: fracture energies are not used. Strengths are forces and magnitudes.
 
 Grains of several minerals have the law of their pair, as in the other models (deviation D27).
 
 Pairs within an interaction range are bonded, too, if one is asked for: as if they shared an edge of
-the length of the smaller disc's diameter, across their middle (deviation D61).
+the length of the smaller disc's diameter, across their middle (deviation D61); in a solid as if
+they shared a disc as wide as the smaller sphere.
 """
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial, reduce
 
 import numpy as np
@@ -29,7 +32,9 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..materials.material import Law, Material
 from ..materials.mixing import description, mineral_materials, pair_materials
 from ..specimens.mineral_map import minerals_of
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
+from .sphere_faces import Faces, outer_faces, shared_faces
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,7 @@ class Laws:
         return float(np.mean(self.of_grains(key)))
 
 
-def laws_of(specimen: Specimen, material: Material, model: str) -> Laws:
+def laws_of(specimen: Specimen | SolidSpecimen, material: Material, model: str) -> Laws:
     """Effective parameters of the minerals of a specimen and of their pairs.
 
     Raises:
@@ -72,7 +77,7 @@ def laws_of(specimen: Specimen, material: Material, model: str) -> Laws:
     description(material, model)
     found = minerals_of(specimen, material)
     if found is None:
-        found = np.zeros(len(specimen.discs), dtype=np.int32)
+        found = np.zeros(len(specimen.radii), dtype=np.int32)
     grains, pairs = mineral_materials(material), pair_materials(material, model)
     return Laws(found, [one.law(model) for one in grains], [one.law(model) for one in pairs])
 
@@ -86,11 +91,12 @@ class Bonds:
     """Properties of all bonds, one row each."""
 
     grains: IntArray  #: (n, 2)
-    ends: FloatArray  #: ends of the shared edges, (n, 2, 2) [m]
+    ends: FloatArray  #: ends of the shared edges, (n, 2, 2), middles of the faces, (n, 1, 3) [m]
     areas: FloatArray  #: A [m2]
     normal_stiffness: FloatArray  #: k_n [N/m]
     shear_stiffness: FloatArray  #: k_s [N/m]
     bending_stiffness: FloatArray  #: k_b [N m]
+    twisting_stiffness: FloatArray  #: k_t [N m]
     tensile_strength: FloatArray  #: F_t [N]
     shear_strength: FloatArray  #: F_s without friction [N]
     friction: FloatArray  #: mu [-]
@@ -111,15 +117,19 @@ def in_order(values: Iterable[float]) -> float:
     return reduce(operator.add, values, 0.0)
 
 
-def bonds_of(specimen: Specimen, laws: Laws, interaction_range: float | None = None) -> Bonds:
+def bonds_of(
+    specimen: Specimen | SolidSpecimen, laws: Laws, interaction_range: float | None = None
+) -> Bonds:
     """Bonds of a specimen.
 
     Args:
-        specimen: The grains; a bond stands on each edge that two of them share.
+        specimen: The grains; a bond stands on each edge, or face, that two of them share.
         laws: Effective parameters.
         interaction_range: Distance up to which discs are bonded, too, over the sum of their radii
             [-]; None for none but those.
     """
+    if isinstance(specimen, SolidSpecimen):
+        return _bonds_of_solid(specimen, laws, interaction_range)
     cells = specimen.tessellation
     edges = np.array(cells.shared_edges, dtype=int).reshape(-1, 4)
     grains, ends = edges[:, :2], np.array(cells.vertices)[edges[:, 2:4]]
@@ -129,6 +139,26 @@ def bonds_of(specimen: Specimen, laws: Laws, interaction_range: float | None = N
         ends = np.concatenate((ends, _edges_across(specimen, farther)))
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     areas = lengths * specimen.thickness
+    bonds = _bonds(laws, grains, ends, areas)
+    bending = bonds.normal_stiffness * lengths**2 / 12.0
+    # nothing twists in the plane, but YADE's energy divides by the stiffness
+    return replace(bonds, bending_stiffness=bending, twisting_stiffness=bending)
+
+
+def _bonds_of_solid(specimen: SolidSpecimen, laws: Laws, interaction_range: float | None) -> Bonds:
+    faces = shared_faces(specimen)
+    if interaction_range is not None:
+        farther = _farther_pairs(specimen, faces.grains, interaction_range)
+        added = _discs_across(specimen, farther)
+        faces = Faces(*(np.concatenate(both) for both in zip(faces, added, strict=True)))
+    bonds = _bonds(laws, faces.grains, faces.middles[:, None], faces.areas)
+    bending = bonds.normal_stiffness / faces.areas * (0.5 * faces.moments)
+    twisting = bonds.shear_stiffness / faces.areas * faces.moments
+    return replace(bonds, bending_stiffness=bending, twisting_stiffness=twisting)
+
+
+def _bonds(laws: Laws, grains: IntArray, ends: FloatArray, areas: FloatArray) -> Bonds:
+    """Bonds that do not resist turning."""
     of_bonds = partial(laws.of_contacts, grains=grains)
     normal = of_bonds("normal_stiffness") * areas
     return Bonds(
@@ -137,14 +167,17 @@ def bonds_of(specimen: Specimen, laws: Laws, interaction_range: float | None = N
         areas=areas,
         normal_stiffness=normal,
         shear_stiffness=of_bonds("shear_ratio") * normal,
-        bending_stiffness=normal * lengths**2 / 12.0,
+        bending_stiffness=np.zeros(len(areas)),
+        twisting_stiffness=np.zeros(len(areas)),
         tensile_strength=of_bonds("tensile_strength") * areas,
         shear_strength=of_bonds("cohesion") * areas,
         friction=of_bonds("friction"),
     )
 
 
-def _farther_pairs(specimen: Specimen, bonded: IntArray, interaction_range: float) -> IntArray:
+def _farther_pairs(
+    specimen: Specimen | SolidSpecimen, bonded: IntArray, interaction_range: float
+) -> IntArray:
     """Pairs of discs within a range that share no edge, and see each other inside the outline."""
     from scipy.spatial import cKDTree
 
@@ -152,12 +185,14 @@ def _farther_pairs(specimen: Specimen, bonded: IntArray, interaction_range: floa
     farthest = 2.0 * interaction_range * float(radii.max())
     pairs = cKDTree(centres).query_pairs(farthest, output_type="ndarray").astype(int)
     pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
-    apart = np.hypot(*(centres[pairs[:, 1]] - centres[pairs[:, 0]]).T)
+    apart = np.hypot.reduce(centres[pairs[:, 1]] - centres[pairs[:, 0]], axis=1)
     near = apart < interaction_range * radii[pairs].sum(axis=1)
     known = {(min(pair), max(pair)) for pair in bonded.tolist()}
     new = np.array([tuple(pair) not in known for pair in pairs.tolist()], dtype=bool)
     pairs = pairs[near & new]
-    found: IntArray = pairs[~_meet_outline(specimen, centres[pairs])]
+    found: IntArray = pairs
+    if not isinstance(specimen, SolidSpecimen):  # convex: no line between two centres leaves it
+        found = pairs[~_meet_outline(specimen, centres[pairs])]
     return found
 
 
@@ -196,13 +231,32 @@ def _edges_across(specimen: Specimen, pairs: IntArray) -> FloatArray:
     return np.stack((gap - half, gap + half), axis=1)
 
 
-def tributary_lengths(specimen: Specimen, side: int) -> dict[int, float]:
-    """Length [m] of the specimen's side that belongs to each grain, by grain.
+def _discs_across(specimen: SolidSpecimen, pairs: IntArray) -> Faces:
+    """Discs as wide as the smaller sphere in the gaps of pairs that share no face (D61)."""
+    centres, radii = specimen.centres[pairs], specimen.radii[pairs]
+    along = centres[:, 1] - centres[:, 0]
+    along /= np.hypot.reduce(along, axis=1)[:, None]
+    gap = 0.5 * (centres[:, 0] + radii[:, :1] * along + centres[:, 1] - radii[:, 1:] * along)
+    smaller = radii.min(axis=1)
+    areas = np.pi * smaller**2
+    return Faces(pairs, gap, areas, 0.5 * areas * smaller**2)
+
+
+def tributary_sizes(specimen: Specimen | SolidSpecimen, side: int) -> dict[int, float]:
+    """Length [m], of a solid area [m2], of the specimen's side that belongs to each grain.
 
     Args:
         specimen: The grains.
-        side: Side of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
+        side: Side of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left, of a solid 0
+            bottom, 2 top.
     """
+    if isinstance(specimen, SolidSpecimen):
+        grains, sides, vectors = outer_faces(specimen)
+        sizes: dict[int, float] = {}
+        for row in np.flatnonzero(sides == side).tolist():
+            area = float(np.hypot.reduce(vectors[row]))
+            sizes[int(grains[row])] = sizes.get(int(grains[row]), 0.0) + area
+        return sizes
     cells = specimen.tessellation
     vertices = np.array(cells.vertices)
     lengths: dict[int, float] = {}
@@ -213,8 +267,8 @@ def tributary_lengths(specimen: Specimen, side: int) -> dict[int, float]:
     return lengths
 
 
-def separate_radii(specimen: Specimen) -> FloatArray:
-    """Radii [m] shrunk, disc by disc, until no two discs overlap and none leaves a rectangle.
+def separate_radii(specimen: Specimen | SolidSpecimen) -> FloatArray:
+    """Radii [m] shrunk, disc by disc, until no two overlap and none leaves a rectangle or solid.
 
     CohFrict forgets the reference distance of a bond that breaks: discs that overlapped then would
     fly apart. A pair gets the share of its distance that its discs' radii have.
@@ -223,12 +277,17 @@ def separate_radii(specimen: Specimen) -> FloatArray:
 
     centres, radii = specimen.centres, specimen.radii
     pairs = cKDTree(centres).query_pairs(2.0 * float(radii.max()), output_type="ndarray")
-    apart = np.hypot(*(centres[pairs[:, 0]] - centres[pairs[:, 1]]).T)
+    apart = np.hypot.reduce(centres[pairs[:, 0]] - centres[pairs[:, 1]], axis=1)
     share = np.minimum(1.0, apart / radii[pairs].sum(axis=1))
     factor = np.ones(len(radii))
     for column in (0, 1):
         np.minimum.at(factor, pairs[:, column], share)
     shrunk: FloatArray = factor * radii
+    if isinstance(specimen, SolidSpecimen):
+        x, y, z = centres.T
+        away = [d - (a * x + b * y + c * z) for a, b, c, d in specimen.outline().walls.tolist()]
+        inside: FloatArray = np.minimum(shrunk, np.min(away, axis=0))
+        return inside
     outline = specimen.outline
     if specimen.kind == "rectangle" and isinstance(outline, np.ndarray):
         low, high = outline.min(axis=0), outline.max(axis=0)
@@ -246,7 +305,7 @@ def stiffness_bounds(
     levers of a bond are the parts of the distance of its two centres.
 
     Args:
-        centres: Centres of the spheres, (n, 2) [m].
+        centres: Centres of the spheres, (n, 2), or (n, 3) of a solid [m].
         radii: Radii of the spheres [m].
         bonds: Their bonds.
         bending: Whether bonds resist bending.
@@ -255,13 +314,14 @@ def stiffness_bounds(
         For translations [N/m] and for rotations [N m].
     """
     first, second = bonds.grains.T
-    apart = np.hypot(*(centres[second] - centres[first]).T)
+    apart = np.hypot.reduce(centres[second] - centres[first], axis=1)
     overlap = radii[first] + radii[second] - apart
     # levers over radii: what a unit of each grain's rotation moves at the contact point
     levers = [1.0 - 0.5 * overlap / radii[first], 1.0 - 0.5 * overlap / radii[second]]
     shares = levers[0] + levers[1]
     move, turn = np.zeros(len(radii)), np.zeros(len(radii))
-    bend = bonds.bending_stiffness if bending else np.zeros(len(bonds))
+    turning = np.maximum(bonds.bending_stiffness, bonds.twisting_stiffness)
+    bend = turning if bending else np.zeros(len(bonds))
     for grain, other, lever in ((first, second, levers[0]), (second, first, levers[1])):
         np.add.at(
             move,
@@ -271,4 +331,38 @@ def stiffness_bounds(
         )
         row = bonds.shear_stiffness * np.abs(lever) * (2.0 + np.abs(shares)) * radii[grain] ** 2
         np.add.at(turn, grain, row + bend * (1.0 + radii[grain] / radii[other]))
+    return move, turn
+
+
+def touched_bounds(
+    specimen: Specimen | SolidSpecimen,
+    radii: FloatArray,
+    bonds: Bonds,
+    stiffness: FloatArray,
+    bending: bool,
+) -> tuple[FloatArray, FloatArray]:
+    """Bounds of the stiffness of each sphere that a plate may touch, too.
+
+    Args:
+        specimen: The grains.
+        radii: Radii of the spheres [m].
+        bonds: Properties of the bonds.
+        stiffness: K_n of each grain [Pa/m].
+        bending: Whether bonds resist bending.
+
+    Returns:
+        For translations [N/m] and for rotations [N m].
+    """
+    move, turn = stiffness_bounds(specimen.centres, radii, bonds, bending)
+    if isinstance(specimen, SolidSpecimen):
+        outer = outer_faces(specimen)
+        rim = np.unique(outer[0])
+        sides = np.zeros(len(radii))
+        np.add.at(sides, outer[0], np.hypot.reduce(outer[2], axis=1))
+        # a plate touches it with the stiffness of its face there, or of its section
+        move[rim] += 2.0 * stiffness[rim] * np.maximum(sides, 4.0 * radii**2)[rim]
+        return move, turn
+    rim = np.unique(np.array(specimen.tessellation.boundary_edges, dtype=int)[:, 0])
+    # a plate touches a sphere of the rim with about the stiffness of its diameter
+    move[rim] += 2.0 * stiffness[rim] * 2.0 * radii[rim] * specimen.thickness
     return move, turn

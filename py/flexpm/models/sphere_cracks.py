@@ -15,7 +15,7 @@ from yade import wrapper
 from ..arrays import BoolArray, FloatArray
 from ..files import Table
 from ..results.cracks import ERASED, SHEAR, TENSILE
-from .sphere_bonds import Bonds
+from .sphere_bonds import Bonds, in_order
 from .sphere_laws import SphereLaw
 
 _FOUND = ("steps", "modes", "places")
@@ -49,6 +49,7 @@ class CrackWatch:
         """
         self._kind, self._bonds, self._bodies = kind, bonds, bodies
         self.rebind(law, interactions)
+        self._axes = bonds.ends.shape[2]
         self.steps = np.full(len(bonds), -1)
         self.modes = np.zeros(len(bonds), dtype=int)
         self.places = bonds.ends.mean(axis=1)
@@ -124,7 +125,8 @@ class CrackWatch:
         first, second = self._bonds.grains[row]
         force = bond.normalForce
         along = self._centre(second) - self._centre(first)
-        return float(force[0] * along[0] + force[1] * along[1]) / float(np.hypot(*along))
+        product = in_order(force[axis] * along[axis] for axis in range(self._axes))
+        return float(product) / float(np.hypot.reduce(along))
 
     def _moved(self, row: int) -> FloatArray:
         grains = self._bonds.grains[row]
@@ -138,4 +140,4 @@ class CrackWatch:
         if body is None:
             start: FloatArray = self._start[grain]
             return start
-        return np.array([body.state.pos[0], body.state.pos[1]])
+        return np.array([body.state.pos[axis] for axis in range(self._axes)])

@@ -17,6 +17,7 @@ from yade import log, wrapper
 
 from ..arrays import FloatArray
 from ..materials.material import Law
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from .sphere_bonds import Bonds, in_order, separate_radii
 
@@ -41,7 +42,7 @@ class SphereLaw(ABC):
     bending: ClassVar[bool]  #: whether bonds resist bending
 
     @abstractmethod
-    def radii(self, specimen: Specimen) -> FloatArray:
+    def radii(self, specimen: Specimen | SolidSpecimen) -> FloatArray:
         """Radii of the spheres [m]."""
 
     @abstractmethod
@@ -119,7 +120,7 @@ class Jcfpm(SphereLaw):
     name = "jcfpm"
     bending = False
 
-    def radii(self, specimen: Specimen) -> FloatArray:
+    def radii(self, specimen: Specimen | SolidSpecimen) -> FloatArray:
         """Radii of the discs [m]."""
         return specimen.radii
 
@@ -190,7 +191,7 @@ class Cohfrict(SphereLaw):
     name = "cohfrict"
     bending = True
 
-    def radii(self, specimen: Specimen) -> FloatArray:
+    def radii(self, specimen: Specimen | SolidSpecimen) -> FloatArray:
         """Radii of the discs, shrunk until no two overlap [m]."""
         return separate_radii(specimen)
 
@@ -221,8 +222,8 @@ class Cohfrict(SphereLaw):
 
     def set_strength(self, bond: wrapper.IPhys, bonds: Bonds, row: int) -> None:
         """Give a bond the strength of its row."""
-        # nothing twists in the plane, but YADE's energy divides by the stiffness
-        bond.kr = bond.ktw = float(bonds.bending_stiffness[row])
+        bond.kr = float(bonds.bending_stiffness[row])
+        bond.ktw = float(bonds.twisting_stiffness[row])
         bond.normalAdhesion = float(bonds.tensile_strength[row])
         bond.shearAdhesion = float(bonds.shear_strength[row])
         bond.tangensOfFrictionAngle = _friction(bonds, row)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's own bonded models, JCFpm and CohFrict, on the discs and bonds of a specimen. SI units.
 
-Spheres at the disc centres move in the plane and turn about z; each edge that two cells share is a
-bond whose stiffness and strength follow the rule of ``sphere_bonds``, and so is each pair within an
-interaction range if one is asked for. Spheres that meet later touch
-with friction only. As in the other models masses are scaled for a time step of 1 unless the model
-is dynamic.
+Spheres at the disc centres move in the plane and turn about z, those of a solid as they like; each
+edge, or face, that two cells share is a bond whose stiffness and strength follow the rule of
+``sphere_bonds``, and so is each pair within an interaction range if one is asked for. Spheres that
+meet later touch with friction only. As in the other models masses are scaled for a time step of 1
+unless the model is dynamic.
 """
 
 from __future__ import annotations
@@ -27,15 +27,18 @@ from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..require import require_one_of
 from ..results.snapshot import Snapshot
+from ..results.solids.state import SolidSnapshot
 from ..specimens.mineral_map import describe
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from ..threads import limited
 from .collider import collider
 from .options import SPHERE_MODELS
-from .sphere_bonds import Bonds, Laws, bonds_of, laws_of, stiffness_bounds
+from .sphere_bonds import Bonds, Laws, bonds_of, laws_of, touched_bounds
 from .sphere_cracks import CrackWatch, body_with
 from .sphere_laws import LAWS, SphereLaw
 from .sphere_snapshot import snapshot
+from .sphere_solids import solid_snapshot
 
 #: Tag of the scene that holds what YADE does not save.
 _MEMORY = "flexpm"
@@ -62,7 +65,7 @@ class SphereModel:
         threads: Threads of a step, see :meth:`set_threads`.
     """
 
-    specimen: Specimen
+    specimen: Specimen | SolidSpecimen
     material: Material
     kind: SphereLaw
     laws: Laws
@@ -98,7 +101,7 @@ class SphereModel:
                 yade.O.step()  # O.run steps in a thread of its own, which no limit reaches
 
     def load(self, body: int, x: float, y: float, moment: float) -> None:
-        """Let a force [N] and a moment [N m] act on a body until they are set anew."""
+        """Let a force [N] and a moment [N m] of the plane act on a body until they are set anew."""
         self.loads[body] = (x, y, moment)
         yade.O.forces.setPermF(body, (x, y, 0.0))
         yade.O.forces.setPermT(body, (0.0, 0.0, moment))
@@ -166,16 +169,23 @@ class SphereModel:
         found.pop("joints", None)  # spheres have none
         return found
 
-    def snapshot(self) -> Snapshot:
+    @property
+    def axis(self) -> int:
+        """Along which it is loaded: y in the plane, z in space."""
+        return self.specimen.centres.shape[1] - 1
+
+    def snapshot(self) -> Snapshot | SolidSnapshot:
         """The present state as plain arrays."""
         self.cracks.look()
         self.cracks.look_for_erased()
         # looked up anew: a pair that has parted and met again has another interaction
-        contacts = _find_bonds(self)
-        return snapshot(self.specimen, self.ids, self.bonds, self.cracks, contacts, self.minerals)
+        state = (self.ids, self.bonds, self.cracks, _find_bonds(self), self.minerals)
+        if isinstance(self.specimen, SolidSpecimen):
+            return solid_snapshot(self.specimen, *state)
+        return snapshot(self.specimen, *state)
 
     def add_plate(self, face: float, sense: int) -> int:
-        """Put a fixed, frictionless, horizontal plate beside the specimen.
+        """Put a fixed, frictionless plate across the axis beside the specimen.
 
         Args:
             face: Height of the face that touches the specimen [m].
@@ -184,12 +194,14 @@ class SphereModel:
         Returns:
             Its body; give it a velocity to move it.
         """
-        middle = self.specimen.centres[:, 0].mean()
-        half_width = np.ptp(self.specimen.centres[:, 0])  # twice the specimen's, for its bulging
+        across = self.specimen.centres.T[: self.axis]
         half_height = self.specimen.mean_diameter
+        middle = [*(one.mean() for one in across), face + sense * half_height, 0.0]
+        # twice the specimen's, for its bulging
+        half = [*(np.ptp(one) for one in across), half_height, half_height]
         plate = utils.box(
-            (middle, face + sense * half_height, 0.0),
-            (half_width, half_height, half_height),
+            tuple(middle[:3]),
+            tuple(half[:3]),
             material=yade.O.materials[self.plate_material],
             fixed=True,
         )
@@ -202,9 +214,12 @@ class SphereModel:
 
         Args:
             plate: Body of the plate.
-            tributary: Length [m] of the specimen's side that each grain carries.
+            tributary: Length [m], of a solid area [m2], of the specimen's side that each grain
+                carries.
         """
-        stiffness = self.laws.of_grains("normal_stiffness") * self.specimen.thickness
+        stiffness = self.laws.of_grains("normal_stiffness")
+        if not isinstance(self.specimen, SolidSpecimen):
+            stiffness = stiffness * self.specimen.thickness
         for grain, length in tributary.items():
             contact = utils.createInteraction(plate, self.ids[grain])
             contact.phys.kn = float(stiffness[grain]) * length
@@ -237,7 +252,7 @@ class SphereModel:
 
 
 def build(
-    specimen: Specimen,
+    specimen: Specimen | SolidSpecimen,
     material: Material | str | None,
     model: str,
     *,
@@ -271,19 +286,19 @@ def build(
     spheres, plate_material = _add_materials(kind, laws, bonds, radii)
     rows = zip(specimen.centres.tolist(), radii.tolist(), laws.minerals.tolist(), strict=True)
     ids = [
-        yade.O.bodies.append(utils.sphere((x, y, 0.0), radius, material=spheres[mineral]))
-        for (x, y), radius, mineral in rows
+        yade.O.bodies.append(utils.sphere((*place, 0.0)[:3], radius, material=spheres[mineral]))
+        for place, radius, mineral in rows
     ]
     stiffness = laws.of_grains("normal_stiffness")
-    bounds = _touched_bounds(specimen, radii, bonds, stiffness, kind.bending)
+    bounds = touched_bounds(specimen, radii, bonds, stiffness, kind.bending)
     factor = mass_margin * (1.0 + damping) / 4.0
     masses, inertias = factor * bounds[0], factor * bounds[1]
     yade.O.dt = 1.0
-    if dynamic:
+    if dynamic and not isinstance(specimen, SolidSpecimen):
         real = _real_masses(specimen, laws.of_grains("density"))
         yade.O.dt = math.sqrt(float(min(np.min(real[0] / masses), np.min(real[1] / inertias))))
         masses, inertias = real
-    _set_masses(ids, masses, inertias)
+    _set_masses(ids, masses, inertias, "" if isinstance(specimen, SolidSpecimen) else "zXY")
     functor, engines = _engines(specimen, kind, damping)
     set_engines(engines)
     built = SphereModel(specimen, chosen, kind, laws, bonds, functor, engines, plate_material, ids)
@@ -314,28 +329,6 @@ def _add_materials(
     return spheres, yade.O.materials.append(plate)
 
 
-def _touched_bounds(
-    specimen: Specimen, radii: FloatArray, bonds: Bonds, stiffness: FloatArray, bending: bool
-) -> tuple[FloatArray, FloatArray]:
-    """Bounds of the stiffness of each sphere that a plate may touch, too.
-
-    Args:
-        specimen: The grains.
-        radii: Radii of the spheres [m].
-        bonds: Properties of the bonds.
-        stiffness: K_n of each grain [Pa/m].
-        bending: Whether bonds resist bending.
-
-    Returns:
-        For translations [N/m] and for rotations [N m].
-    """
-    move, turn = stiffness_bounds(specimen.centres, radii, bonds, bending)
-    rim = np.unique(np.array(specimen.tessellation.boundary_edges, dtype=int)[:, 0])
-    # a plate touches a sphere of the rim with about the stiffness of its diameter
-    move[rim] += 2.0 * stiffness[rim] * 2.0 * radii[rim] * specimen.thickness
-    return move, turn
-
-
 def _real_masses(specimen: Specimen, density: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Masses [kg] of the cells, and moments of inertia [kg m2] of discs of the cells' areas."""
     areas = np.array(specimen.tessellation.cell_areas)
@@ -343,15 +336,15 @@ def _real_masses(specimen: Specimen, density: FloatArray) -> tuple[FloatArray, F
     return masses, 0.5 * masses * areas / math.pi
 
 
-def _set_masses(ids: list[int], masses: FloatArray, inertias: FloatArray) -> None:
+def _set_masses(ids: list[int], masses: FloatArray, inertias: FloatArray, blocked: str) -> None:
     for body, mass, inertia in zip(ids, masses.tolist(), inertias.tolist(), strict=True):
         state = yade.O.bodies[body].state
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
-        state.blockedDOFs = "zXY"
+        state.blockedDOFs = blocked
 
 
 def _engines(
-    specimen: Specimen, kind: SphereLaw, damping: float
+    specimen: Specimen | SolidSpecimen, kind: SphereLaw, damping: float
 ) -> tuple[wrapper.Functor, list[wrapper.Engine]]:
     functors = kind.functors()
     # shear displacements then have the levers that the moments have; else YADE scales them by the

@@ -10,13 +10,14 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from ..arrays import FloatArray, IntArray
 from ..files import remove_earlier
 from ..results.solids.state import SolidSnapshot
 from ..text import label_of
-from .maps import crack_segments, draw_scale_bar
+from .maps import MINERALS, crack_segments, draw_scale_bar
 from .style import COLOURS, STYLE, can_be_drawn, save
 
 #: Where the eye is, far away, in space.
@@ -78,6 +79,7 @@ def draw_faces(
     grains: IntArray,
     *,
     edges: bool = True,
+    minerals: IntArray | None = None,
 ) -> tuple[float, float]:
     """Draw the faces that are turned to the eye, the farther ones first.
 
@@ -87,6 +89,7 @@ def draw_faces(
         faces: Vertices of each face on the outside, counter-clockwise as seen from there.
         grains: Grain of each of these faces.
         edges: Draw their edges, too.
+        minerals: Index of each grain's mineral, which then colours it.
 
     Returns:
         Width and height of what is drawn [mm].
@@ -96,6 +99,7 @@ def draw_faces(
     right /= np.linalg.norm(right)
     axes_of_picture = np.column_stack((right, np.cross(eye, right)))
     light = _LIGHT / np.linalg.norm(_LIGHT)
+    tints = _GRAINS if minerals is None else np.array([to_rgb(one) for one in MINERALS])
     seen, colours, depths = [], [], []
     for face, grain in zip(faces, grains, strict=True):
         corners = vertices[face]
@@ -105,7 +109,8 @@ def draw_faces(
             continue
         lit = max(float(normal @ light) / float(length), 0.0)
         # neighbours in number are neighbours in space: steps by 3 of 7 colours tell them apart
-        colours.append((_SHADE + (1.0 - _SHADE) * lit) * _GRAINS[3 * int(grain) % len(_GRAINS)])
+        number = 3 * int(grain) if minerals is None else int(minerals[grain])
+        colours.append((_SHADE + (1.0 - _SHADE) * lit) * tints[number % len(tints)])
         seen.append(1e3 * corners @ axes_of_picture)
         depths.append(float(corners.mean(axis=0) @ eye))
     places = np.vstack(seen)
@@ -148,6 +153,7 @@ def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> 
             list(snapshot.surface),
             snapshot.surface_grain,
             edges=False,
+            minerals=snapshot.grain_mineral,
         )
         _draw_section(figure, cut, snapshot)
         figure.suptitle(label_of(caption), fontsize=9.5)

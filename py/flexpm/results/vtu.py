@@ -25,6 +25,7 @@ from vtkmodules.vtkCommonDataModel import (
 
 from ..arrays import FloatArray, IntArray
 from ..errors import InputError
+from ..files import read_bytes
 from ..require import quoted
 from .arrays.vtu_arrays import (
     CONTACT,
@@ -108,7 +109,7 @@ def read_state(path: Path | str) -> Snapshot | SolidSnapshot:
     """
     name = f"state = {str(path)!r}"
     try:
-        content = Path(path).read_bytes()
+        content = read_bytes(Path(path))
     except (OSError, ValueError):
         raise InputError(f"{name}, cannot be read; give a .vtu file of a run") from None
     try:

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 import yade
 
 from ..arrays import FloatArray
-from ..models.sphere_bonds import in_order, tributary_lengths
+from ..models.sphere_bonds import in_order, tributary_sizes
 from ..models.spheres import SphereModel
 from ..specimens.kernel_input import Circle
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from .rig import BOTTOM, TOP
 
@@ -28,26 +30,39 @@ class Ends:
         """Move the upper end, positive away from the lower one [m/s, or m per step]."""
         for bodies, speed in ((self._bottom, 0.0), (self._top, velocity)):
             for body in bodies:
-                state = self._built.state_of(body)
-                state.vel = (state.vel[0], speed, 0.0)
+                _set_speed(self._built, body, speed)
 
     def forces(self) -> tuple[float, float]:
-        """Forces along y that the lower and the upper end exert on the specimen [N]."""
+        """Forces along the axis that the lower and the upper end exert on the specimen [N]."""
         bottom, top = (
-            -in_order(yade.O.forces.f(body)[1] for body in bodies)
+            -in_order(yade.O.forces.f(body)[self._built.axis] for body in bodies)
             for bodies in (self._bottom, self._top)
         )
         return bottom, top
 
     def travel(self) -> float:
         """Displacement of the upper end, positive away from the lower one [m]."""
-        return self._built.state_of(self._top[0]).displ()[1]
+        return self._built.state_of(self._top[0]).displ()[self._built.axis]
 
 
-def heights(specimen: Specimen) -> tuple[float, float]:
-    """Heights of the lower and the upper end of a rectangle [m]."""
+def _set_speed(built: SphereModel, body: int, speed: float) -> None:
+    """Set the velocity of a body along the axis; across it keeps its own."""
+    state = built.state_of(body)
+    vel = state.vel
+    state.vel = (vel[0], speed, 0.0) if built.axis == 1 else (vel[0], vel[1], speed)
+
+
+def heights(specimen: Specimen | SolidSpecimen) -> tuple[float, float]:
+    """Heights of the lower and the upper end of a rectangle or a solid [m]."""
+    if isinstance(specimen, SolidSpecimen):
+        return 0.0, specimen.dimensions["height"]
     assert not isinstance(specimen.outline, Circle)
     return float(specimen.outline[:, 1].min()), float(specimen.outline[:, 1].max())
+
+
+def section(specimen: SolidSpecimen) -> float:
+    """Area across the axis of a solid [m2]."""
+    return specimen.outline().volume / specimen.dimensions["height"]
 
 
 def plates_of(built: SphereModel) -> Ends:
@@ -59,7 +74,7 @@ def plates_of(built: SphereModel) -> Ends:
 def grips_of(built: SphereModel) -> Ends:
     """The outermost layers of spheres at both ends."""
     bottom, top = (
-        [built.ids[grain] for grain in tributary_lengths(built.specimen, side)]
+        [built.ids[grain] for grain in tributary_sizes(built.specimen, side)]
         for side in (BOTTOM, TOP)
     )
     return Ends(built, bottom, top)
@@ -68,19 +83,20 @@ def grips_of(built: SphereModel) -> Ends:
 def close_grips(built: SphereModel) -> None:
     """Hold the outermost layers of spheres axially; they stay free to move sideways."""
     for side in (BOTTOM, TOP):
-        for grain in tributary_lengths(built.specimen, side):
+        for grain in tributary_sizes(built.specimen, side):
             state = built.state_of(built.ids[grain])
-            state.blockedDOFs = "yzXY"
+            state.blockedDOFs = "yzXY" if built.axis == 1 else "z"
             state.isDamped = False  # else YADE counts a part of the grips' work as damped
     hold_middle(built)
 
 
-def squeeze_rectangle(built: SphereModel, pressure: float | None) -> None:
-    """Put plates on bottom and top of a rectangle; they take over its pressure [Pa], if any."""
+def squeeze_ends(built: SphereModel, pressure: float | None) -> None:
+    """Put plates on bottom and top; they take over the pressure [Pa] of a rectangle, if any."""
     faces = heights(built.specimen)
     for side, face, sense in ((BOTTOM, faces[0], -1), (TOP, faces[1], 1)):
-        lengths = tributary_lengths(built.specimen, side)
-        moved = np.mean([built.state_of(built.ids[grain]).displ()[1] for grain in lengths])
+        lengths = tributary_sizes(built.specimen, side)
+        ways = [built.state_of(built.ids[grain]).displ()[built.axis] for grain in lengths]
+        moved = np.mean(ways)
         built.touch(built.add_plate(float(face + moved), sense), lengths)
     if pressure is None:
         hold_middle(built)
@@ -97,7 +113,7 @@ def squeeze_disc(built: SphereModel) -> None:
     Deviation D28: the spheres that touch first cannot move sideways, else the disc would roll.
     """
     radii = built.kind.radii(built.specimen)
-    heights = built.specimen.centres[:, 1]
+    heights = built.specimen.centres[:, 1]  # a disc is of the plane
     built.add_plate(float(np.min(heights - radii)), -1)
     built.add_plate(float(np.max(heights + radii)), 1)
     for grain in (np.argmin(heights - radii), np.argmax(heights + radii)):
@@ -108,13 +124,12 @@ def strain_evenly(built: SphereModel, velocity: float) -> None:
     """Give the spheres the velocities of a uniform axial strain rate, so that no wave runs.
 
     Args:
-        built: A rectangle.
+        built: A rectangle or a solid.
         velocity: Velocity of its upper end, positive away from the lower one [m/s, or m per step].
     """
     bottom, top = heights(built.specimen)
-    for body, y in zip(built.ids, built.specimen.centres[:, 1].tolist(), strict=True):
-        state = built.state_of(body)
-        state.vel = (state.vel[0], velocity * (y - bottom) / (top - bottom), 0.0)
+    for body, y in zip(built.ids, built.specimen.centres[:, built.axis].tolist(), strict=True):
+        _set_speed(built, body, velocity * (y - bottom) / (top - bottom))
 
 
 class Pressure:
@@ -126,7 +141,7 @@ class Pressure:
     def __init__(self, built: SphereModel, sides: Sequence[int]) -> None:
         """Find the outer edges of the grains on the sides."""
         self._built = built
-        cells = built.specimen.tessellation
+        cells = cast(Specimen, built.specimen).tessellation  # solids are under none
         edges = np.array(cells.boundary_edges, dtype=int)
         self._edges = edges[np.isin(edges[:, 3], sides)]
         ends = np.array(cells.vertices)[self._edges[:, 1:3]]
@@ -160,14 +175,15 @@ class Pressure:
 
 def hold_middle(built: SphereModel) -> None:
     """Keep the place sideways of the grain of the lower end that is nearest to its middle."""
-    grains = list(tributary_lengths(built.specimen, BOTTOM))
-    away = np.abs(built.specimen.centres[grains, 0] - built.specimen.centres[:, 0].mean())
+    grains = list(tributary_sizes(built.specimen, BOTTOM))
+    across = built.specimen.centres.T[: built.axis]
+    away = np.hypot.reduce([np.abs(one[grains] - one.mean()) for one in across])
     _hold_sideways(built, grains[int(np.argmin(away))])
 
 
 def _hold_sideways(built: SphereModel, grain: int) -> None:
     state = built.state_of(built.ids[grain])
-    state.blockedDOFs = "x" + str(state.blockedDOFs)
+    state.blockedDOFs = "xy"[: built.axis] + str(state.blockedDOFs)
 
 
 def _turned(vector: FloatArray, angle: float) -> FloatArray:

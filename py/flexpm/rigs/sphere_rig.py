@@ -30,14 +30,17 @@ from .._flexpm import (
     splitting_area,
     test_state,
 )
-from ..models.sphere_bonds import in_order, tributary_lengths
+from ..errors import InputError
+from ..models.sphere_bonds import in_order, tributary_sizes
 from ..models.spheres import SphereModel
 from ..results.record import Curve
 from ..runs.loading_rate import Scales, Schedule
 from ..runs.runner import Runner
+from ..specimens.space.specimen import SolidSpecimen
 from . import sphere_ends as ends
 from .readings import Balance, Readings, part_of
 from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
+from .solids.sphere_gauge import SphereGauge
 
 #: Rows of the record up to the reference strain.
 _ROWS = 200
@@ -47,6 +50,7 @@ _LOOKS_A_CROSSING = 8
 _LOOKS_KEPT = 50
 #: Name of the rig's state in what goes with the scene.
 _STATE = "rig"
+_NO_PRESSURE = "must be of flexible or rigid grains in a solid; pressure acts on no sphere there"
 
 
 @dataclass
@@ -86,9 +90,12 @@ class SphereRig(TestRig):
         specimen, sizes = built.specimen, built.specimen.dimensions
         self._height = sizes["diameter"] if self.disc else sizes["height"]
         self._area = splitting_area(self._height, specimen.thickness)
-        if not self.disc:
+        if isinstance(specimen, SolidSpecimen):
+            self._area = ends.section(specimen)
+            self._solid_gauge = SphereGauge(specimen)
+        elif not self.disc:
             self._area = sizes["width"] * specimen.thickness
-            sides = (tributary_lengths(specimen, side).items() for side in (LEFT, RIGHT))
+            sides = (tributary_sizes(specimen, side).items() for side in (LEFT, RIGHT))
             self._gauge = StrainGauge(
                 ends.heights(specimen)[0], self._height, specimen.mean_diameter, *sides
             )
@@ -98,7 +105,8 @@ class SphereRig(TestRig):
         """Take what goes with the scene."""
         self._now = _State(**self.built.memory.get(_STATE, {}))
         self._curve = Curve.from_array(np.array(self._now.rows))
-        self._pressed = ends.Pressure(self.built, self._now.sides)
+        if not self.solid:
+            self._pressed = ends.Pressure(self.built, self._now.sides)
         if self._now.recording:
             self._ends = ends.grips_of(self.built) if self.tension else ends.plates_of(self.built)
 
@@ -130,7 +138,7 @@ class SphereRig(TestRig):
         )
         if self.disc:
             return Scales(**disc_scales(*inputs, self._height))
-        width = specimen.dimensions["width"]
+        width = specimen.thickness if self.solid else specimen.dimensions["width"]
         return Scales(**rectangle_scales(*inputs, width, self._height))
 
     def unbalanced(self) -> float:
@@ -140,10 +148,11 @@ class SphereRig(TestRig):
         force.
         """
         largest, free = 0.0, 0.0
+        axes = list(enumerate("xyz"[: self.built.axis + 1]))
         for body, state in zip(self.built.ids, self.built.states(), strict=True):
             force, blocked = yade.O.forces.f(body), str(state.blockedDOFs)
-            moving = (force[k] if "xy"[k] not in blocked else 0.0 for k in (0, 1))
-            largest = max(largest, math.hypot(force[0], force[1]))
+            moving = (0.0 if name in blocked else force[k] for k, name in axes)
+            largest = max(largest, math.hypot(*(force[k] for k, _ in axes)))
             free = max(free, math.hypot(*moving))
         return utils.unbalancedForce(useMaxForce=True) * free / largest if largest > 0.0 else 0.0
 
@@ -152,7 +161,12 @@ class SphereRig(TestRig):
 
         Pressure acts on the lower end, too: nothing there reacts. Net forces times places are what
         the mean stress (contact forces times branches) is short of the pressure's.
+
+        Raises:
+            InputError: for a solid, which is under no pressure.
         """
+        if self.solid:
+            raise InputError(f"balance: specimen = {self.built.specimen.kind}, {_NO_PRESSURE}")
         forces, places = [], []
         for body, state in zip(self.built.ids, self.built.states(), strict=True):
             force, blocked = yade.O.forces.f(body), str(state.blockedDOFs)
@@ -173,6 +187,8 @@ class SphereRig(TestRig):
         return self._now
 
     def _press(self, pressure: float, ramp: int) -> None:
+        if self.solid:
+            raise InputError(f"confine: pressure = {pressure:g} Pa, {_NO_PRESSURE}")
         ends.hold_middle(self.built)
         self._now.confinement, self._now.ramp = pressure, ramp
         self._now.ramp_begin = yade.O.iter
@@ -208,7 +224,7 @@ class SphereRig(TestRig):
         if self.disc:
             ends.squeeze_disc(self.built)
         else:
-            ends.squeeze_rectangle(self.built, self.confinement)
+            ends.squeeze_ends(self.built, self.confinement)
         self._ends = ends.plates_of(self.built)
         if self.confinement is not None:
             self._press_on(LEFT, RIGHT)
@@ -283,6 +299,8 @@ class SphereRig(TestRig):
     def _strains(self) -> tuple[float, float]:
         """Axial strain in the sense of the loading, lateral strain as Poisson's effect [-]."""
         centres = np.array(self.built.specimen.centres, dtype=float)
-        places = np.array([(state.pos[0], state.pos[1]) for state in self.built.states()])
-        axial, lateral = self._gauge.strains(centres, places - centres)
+        axes = range(self.built.axis + 1)
+        places = np.array([[state.pos[k] for k in axes] for state in self.built.states()])
+        gauge = self._solid_gauge if self.solid else self._gauge
+        axial, lateral = gauge.strains(centres, places - centres)
         return (axial, -lateral) if self.tension else (-axial, lateral)

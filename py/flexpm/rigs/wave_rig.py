@@ -156,7 +156,7 @@ class WaveRig(GrainRig):
         density = np.array([kind.law(self.built.name)["density"] for kind in kinds])
         if self.built.minerals is None:
             return float(density[0])
-        areas = mineral_map.area_fractions(self.built.specimen, self.built.minerals, len(kinds))
+        areas = mineral_map.size_fractions(self.built.specimen, self.built.minerals, len(kinds))
         return float(density @ areas)
 
     def _standing(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which grain is of which mineral. Areas in m2, fractions of the area [-]."""
+"""Which grain is of which mineral. Sizes are areas in m2, of solids volumes in m3."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.mixing import description
+from .space.specimen import SolidSpecimen
 from .specimen import Specimen
 
 #: Keeps the draw of minerals apart from other draws with the same seed.
@@ -41,7 +42,7 @@ def assign(fractions: Sequence[float], areas: FloatArray, seed: int) -> IntArray
     return found
 
 
-def minerals_of(specimen: Specimen, material: Material) -> IntArray | None:
+def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntArray | None:
     """Index of the mineral of each grain, or None for a rock of one kind of grain.
 
     Taken from the specimen if it says so, else drawn with the specimen's seed (0 if it has none).
@@ -60,8 +61,8 @@ def minerals_of(specimen: Specimen, material: Material) -> IntArray | None:
     if given is not None:
         return given
     fractions = [mineral.fraction for mineral in material.minerals]
-    areas = specimen.tessellation.cell_areas
-    if specimen.grains is None:
+    areas = _sizes(specimen)
+    if isinstance(specimen, SolidSpecimen) or specimen.grains is None:
         return assign(fractions, areas, specimen.seed or 0)
     # pieces of a grain are of its mineral
     found = assign(fractions, np.bincount(specimen.grains, areas).astype(float), specimen.seed or 0)
@@ -69,17 +70,27 @@ def minerals_of(specimen: Specimen, material: Material) -> IntArray | None:
     return whole
 
 
-def area_fractions(specimen: Specimen, found: IntArray, count: int) -> list[float]:
-    """Fraction of the area that each of `count` minerals has [-]."""
-    areas = np.asarray(specimen.tessellation.cell_areas)
+def size_fractions(specimen: Specimen | SolidSpecimen, found: IntArray, count: int) -> list[float]:
+    """Fraction of the area, or of the volume, that each of `count` minerals has [-]."""
+    areas = _sizes(specimen)
     found_areas = np.bincount(found, weights=areas, minlength=count)
     return [float(area) for area in found_areas / areas.sum()]
 
 
+def _sizes(specimen: Specimen | SolidSpecimen) -> FloatArray:
+    """Area of each cell [m2], or volume of a solid's [m3]."""
+    if isinstance(specimen, SolidSpecimen):
+        return specimen.cells.volumes
+    return np.asarray(specimen.tessellation.cell_areas)
+
+
 def describe(
-    specimen: Specimen, material: Material, model: str, minerals: IntArray | None
+    specimen: Specimen | SolidSpecimen,
+    material: Material,
+    model: str,
+    minerals: IntArray | None,
 ) -> Table:
-    """Name and parameters of a material, of minerals also the area that they have.
+    """Name and parameters of a material, of minerals also the area or volume that they have.
 
     Args:
         specimen: The grains.
@@ -90,7 +101,7 @@ def describe(
     found: Table = {"name": material.name, **description(material, model)}
     if minerals is not None:
         kinds = found["minerals"]
-        areas = area_fractions(specimen, minerals, len(kinds))
-        for kind, area in zip(kinds, areas, strict=True):
-            kind["area_fraction"] = area
+        name = "volume_fraction" if isinstance(specimen, SolidSpecimen) else "area_fraction"
+        for kind, part in zip(kinds, size_fractions(specimen, minerals, len(kinds)), strict=True):
+            kind[name] = part
     return found

@@ -190,7 +190,7 @@ def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:
     phases = None if given is None else ebsd.read_phases(Path(given), found)
     how = {key: options.pop(key) for key in ("misorientation", "unindexed")}
     oriented = ebsd.grains(found, phases=phases, **how)
-    options |= {"pixel": found.sides, "minerals": oriented.minerals}
+    options |= {"pixel": found.grid.sides, "minerals": oriented.minerals}
     made = from_labels(oriented.labels, thickness, options)
     regions = oriented.counts | made.regions
     if len(oriented.names) > 1:

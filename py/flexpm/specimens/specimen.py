@@ -393,7 +393,8 @@ def require_specimen(where: str, given: object) -> None:
     """
     if isinstance(given, SolidSpecimen):
         raise InputError(
-            f"{where}: specimen = {given.kind}, must be plane; solids are for uniaxial and tension"
+            f"{where}: specimen = {given.kind}, must be plane; --shape of flexpm run tells what "
+            "solids are for"
         )
     if not isinstance(given, Specimen):
         raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")

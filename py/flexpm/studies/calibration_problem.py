@@ -321,3 +321,8 @@ def _bounds(label: str, bounds: object) -> tuple[float, float]:
 def _require(label: str, value: object, holds: bool, rule: str) -> None:
     if not holds:
         raise InputError(f"calibration {label} = {quoted(value)}, must be {rule}")
+
+
+def key_of(measure: str) -> str:
+    """Key of result.json of a measure that one test tells; of another its own name."""
+    return _TOLD.get(measure, ("", measure))[1]

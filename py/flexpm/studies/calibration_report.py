@@ -16,19 +16,19 @@ from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..report.style import drawing
 from ..text import label_of, words_of
-from .calibration_problem import ELASTIC_MEASURES, MEASURES, Calibration
+from .calibration_problem import ELASTIC_MEASURES, MEASURES, Calibration, key_of
 from .calibration_search import Outcome
 
 #: Digits of the values in a preset.
 _DIGITS = 4
+#: Units by the key of result.json, or of a measure that no single test tells; others are stresses.
 _UNITS = {
     "youngs_modulus": (1e-9, "GPa"),
     "poissons_ratio": (1.0, ""),
+    "fracture_toughness": (1e-6, "MPa m^0.5"),
     "friction_angle": (1.0, "degrees"),
     "hoek_brown_m": (1.0, ""),
     "direct_indirect_ratio": (1.0, ""),
-    "beam_toughness": (1e-6, "MPa m^0.5"),
-    "scb_toughness": (1e-6, "MPa m^0.5"),
 }
 
 
@@ -37,7 +37,7 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
     rows = []
     for target in plan.targets:
         usual = (1e-6, "MPa") if target.name in MEASURES else (1.0, "")
-        factor, unit = _UNITS.get(target.name, usual)
+        factor, unit = _UNITS.get(key_of(target.name), usual)
         best = outcome.best
         mean, spread, error = (of(target.name) for of in (best.mean, best.spread, best.error))
         text = "-" if mean is None else f"{factor * mean:.4g}"

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  A fixed number of steps of a fixed specimen; scripts/checks/instructions.py counts what
+/// @file  A fixed number of steps of fixed specimens; scripts/checks/instructions.py counts what
 /// they cost.
 #include "loaded.hpp"
+#include "solid_loaded.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -15,6 +17,25 @@ constexpr double size = 3e-3;          // [m]
 constexpr double slow = -1e-9 * rows;  // no point leaves its elastic branch
 constexpr double fast = 2e-7 * rows;   // every point in tension softens after a few steps
 
+constexpr int along = 5;         // grains of a cube
+constexpr double torn = 5e-4;    // strain at which all points of bodies are past their strength
+constexpr double steady = 1e-9;  // strain of a step
+
+/// Steps of a cube: `solid` or `solid-rigid`, and with `-torn` one whose points open and slide.
+bool step_solid(const std::string& name)
+{
+    const bool rigid = name.find("rigid") != std::string::npos;
+    const bool broken = name.find("torn") != std::string::npos;
+    flexpm::SolidState s = loaded::cube(along, rigid);
+    loaded::strain(s, -steady, broken ? torn : 0.0);
+    for (int i = 0; i < 40; ++i)
+        flexpm::step(s, {});
+    const flexpm::Energies e = flexpm::energies(s);
+    std::printf("%d grains, %d contacts, elastic %.3g J, damage %.3g J, friction %.3g J\n",
+        s.grains.count, s.contacts.count, e.elastic, e.damage, e.friction);
+    return (e.damage > 0.0 && e.friction > 0.0) == broken;
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -22,6 +43,7 @@ int main(int argc, char** argv)
     const std::string name = argc == 2 ? argv[1] : "";
     const bool softening = name == "softening", joints = name == "joints";
     try {
+        if (name.rfind("solid", 0) == 0) return step_solid(name) ? 0 : 1;
         const specimens::Specimen grid = specimens::grid(rows, rows, size);
         flexpm::AssemblyOptions options = loaded::options(softening || joints ? "refined" : name);
         if (joints) {
@@ -40,7 +62,8 @@ int main(int argc, char** argv)
             a.contacts.count, e.elastic, e.damage);
         return (e.damage > 0.0) == softening ? 0 : 1;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "step_count: %s (or: softening, joints)\n", error.what());
+        std::fprintf(
+            stderr, "step_count: %s (or: softening, joints, solid[-rigid][-torn])\n", error.what());
         return 2;
     }
 }

@@ -47,7 +47,8 @@ TEST_CASE("The linear field of deformable grains is that of their elastic consta
     const auto grain = specimens::granite();
     const auto contact = specimens::granite_contact();
     const SolidExtension expected = solid_extension(p.cells, p.solid,
-        { grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
+        SolidElasticity {
+            grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
     const SolidField found = elastic_field(held(p, false, false));
     REQUIRE(found.ways.size() == expected.field.size());
     CHECK(found.turns.empty());
@@ -88,7 +89,8 @@ TEST_CASE("A solid keeps the modulus of its linear field, and its Poisson's rati
                 const auto grain = specimens::granite();
                 const auto contact = specimens::granite_contact();
                 const SolidConstants e = solid_constants(p.cells, p.solid,
-                    { grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
+                    SolidElasticity { grain.young, grain.poisson, contact.normal_stiffness,
+                        contact.shear_ratio });
                 CHECK(
                     now.axial_stress / now.axial_strain == Approx(e.youngs_modulus).epsilon(2e-3));
                 CHECK(now.lateral_strain / now.axial_strain

@@ -30,7 +30,8 @@ Run begun(const Packing& p, double strain, double rate)
     const auto grain = specimens::granite();
     const auto contact = specimens::granite_contact();
     const SolidExtension e = solid_extension(p.cells, p.solid,
-        { grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
+        SolidElasticity {
+            grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
     Run r { make_solid(p.cells, p.solid, granite()), {}, {}, p.solid.high.z,
         p.solid.volume / p.solid.high.z, e.constants.youngs_modulus };
     r.bottom = side_nodes(r.state, SolidSide::bottom);

@@ -3,6 +3,9 @@
 /// direction, and with noise.
 #include "support/sphere_samples.hpp"
 
+#include <fstream>
+#include <string>
+
 using namespace flexpm_test;
 
 namespace {
@@ -80,11 +83,44 @@ CellFigures inner_cells(
     return found;
 }
 
+/// The largest deviations of a night, by lattice and noise.
+class Table {
+public:
+    void add(const std::string& lattice, double noise, const CellFigures& before,
+        const CellFigures& after)
+    {
+        Row& row = rows_[{ lattice, noise }];
+        ++row.rotations;
+        row.inner += before.inner;
+        row.other_faces += before.other_faces;
+        row.before = std::max(row.before, before.volume);
+        row.after = std::max(row.after, after.volume);
+    }
+    void write(const char* file) const
+    {
+        std::ofstream out(file);
+        out << "lattice,noise,rotations,inner_cells,cells_of_other_faces_before,"
+               "largest_volume_error_before,largest_volume_error_after\n";
+        out.precision(2);
+        for (const auto& [of, row] : rows_)
+            out << of.first << ',' << of.second << ',' << row.rotations << ',' << row.inner << ','
+                << row.other_faces << ',' << row.before << ',' << row.after << '\n';
+    }
+
+private:
+    struct Row {
+        int rotations = 0, inner = 0, other_faces = 0;
+        double before = 0.0, after = 0.0;
+    };
+    std::map<std::pair<std::string, double>, Row> rows_;
+};
+
 }  // namespace
 
 TEST_CASE("inner cells of turned lattices are those of the lattice", "[space]")
 {
     const int rotations = cases("FLEXPM_ROTATIONS", 5);
+    Table table;
     const Solid solid = Solid::box(width, width, width);
     for (const Lattice& lattice : lattices) {
         Random random(7);
@@ -109,10 +145,12 @@ TEST_CASE("inner cells of turned lattices are those of the lattice", "[space]")
                 const Polyhedra collapsed = polyhedra(spheres, solid, { 0.1, false });
                 require_filled(collapsed, solid);
                 const CellFigures after = inner_cells(collapsed, spheres, lattice);
+                table.add(lattice.name, noise, before, after);
                 REQUIRE(after.other_faces == 0);
                 // with more noise, vertices on straight edges are taken for corners
                 if (noise <= 1e-12) REQUIRE(after.volume < limit);
             }
         }
     }
+    if (const char* file = std::getenv("FLEXPM_LATTICES")) table.write(file);
 }

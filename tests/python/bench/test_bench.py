@@ -127,6 +127,7 @@ def test_models_take_turns_and_their_scenes_go(specimen):
     assert len(yade.O.bodies) == 0
 
 
+@pytest.mark.long
 def test_the_command_writes_the_same_numbers(tmp_path, capsys):
     file = tmp_path / "new" / "bench.json"
     assert cli.main(["bench", *SMALL, "--steps", "20", "--json", str(file)]) == 0

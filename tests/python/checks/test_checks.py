@@ -188,6 +188,22 @@ def test_source_that_includes_its_header_late_is_found(tree: Path) -> None:
     assert code == 1 and "its own header comes first" in output
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "open('a')\n",
+        "from pathlib import Path\n\nPath('a').read_text()\n",
+        "from pathlib import Path\n\nwith Path('a').open('w') as file:\n    pass\n",
+        "from pathlib import Path\n\nPath('a').write_bytes(b'')\n",
+    ],
+)
+def test_a_file_that_is_opened_by_itself_is_found(tree: Path, text: str) -> None:
+    write(tree / "py/flexpm/low/it.py", text)
+    code, output = run("layering.py", tree)
+    assert code == 1
+    assert "opens a file; py/flexpm/files.py reads and writes files" in output
+
+
 def test_ring_of_modules_within_a_room_is_found(tree: Path) -> None:
     write(tree / "py/flexpm/low/b.py", "from . import a\n")
     write(tree / "py/flexpm/low/a.py", "def f():\n    from flexpm.low.b import c\n")
@@ -238,13 +254,17 @@ def test_number_of_parameters_in_python(tree: Path, count: int, code: int) -> No
         ("RATES = {'slump': 1.0}\n", "names the test slump"),
         ("from ..kinds.tests import slump\n", "imports a test's file (slump)"),
         ("def f():\n    'slump'\n", ""),
-        ("X = 'a slump of a heap'\n", ""),
+        ("X = 'solids are for slump'\n", "names the test slump"),
+        ("UNITS = {'slump_height': 'm'}\n", "names the test slump"),
+        ("X = 'shear'\n", "names the test shear"),
+        ("X = 'shear stiffness', 'shear_slumps'\n", ""),
     ],
 )
 def test_the_name_of_a_test_outside_of_its_file_is_found(tree, text, complaint):
     kinds = tree / "py/flexpm/kinds/tests"
     kinds.mkdir(parents=True)
     write(kinds / "slump.py", "KIND = 'slump'\n")
+    write(kinds / "shear.py", "KIND = 'shear'\n")
     write(tree / "py/flexpm/low/b.py", text)
     _, output = run("kinds.py", tree)
     found = [line for line in output.splitlines() if "low/b.py" in line]

@@ -102,6 +102,7 @@ def test_documented_arrays_exist():
     assert documented == set(arrays)
 
 
+@pytest.mark.long
 def test_the_documentation_builds_without_warnings(tmp_path):
     build = pytest.importorskip("sphinx.cmd.build", reason="needs python3-sphinx")
     if shutil.which("dot") is None:

@@ -147,6 +147,7 @@ def test_load_unload_reload(package_parent, tmp_path):
     assert [float(error) < 1e-6 for error in re.findall("energy error (.*)", text)] == [True, True]
 
 
+@pytest.mark.long
 def test_notched_beam(package_parent):
     text = printed("notched_beam.py", package_parent)
     toughness = float(re.search(r"toughness ([\d.]+) MPa", text)[1])
@@ -166,6 +167,7 @@ def test_cyclic_loading(package_parent):
     assert losses[0] < losses[2]
 
 
+@pytest.mark.long
 def test_direct_shear(package_parent, tmp_path):
     text = printed("direct_shear.py", package_parent, str(tmp_path))
     peak, most, residual, least = map(float, re.findall(r"([\d.]+) MPa", text))
@@ -190,6 +192,7 @@ def test_class_two(package_parent, tmp_path):
     assert (tmp_path / "class_two.png").stat().st_size > 10000
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_snap_back(package_parent, tmp_path, model):
     """A bar longer than snaps back returns the law of its weak line while the ends go back."""

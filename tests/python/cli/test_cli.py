@@ -256,6 +256,7 @@ def test_a_comparison_gives_each_model_the_keys_that_it_uses(capsys, tmp_path):
     assert "set young=6e10, is used by none of rigid, jcfpm" in told
 
 
+@pytest.mark.long
 def test_packings_give_each_model_the_keys_that_it_uses(tmp_path):
     compare = ["compare", "uniaxial", "--width", "0.01", "--height", "0.012", "--rate", "50"]
     compare += ["--quiet", "--no-report", "--set", "young=6e10", "--seeds", "1", "--workers", "1"]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import click
 import pytest
 from fuzz_child import Child, examples
 from hypothesis import HealthCheck, given, settings
@@ -26,10 +27,15 @@ VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --po
     --thickness --depth --origin --diameters --points --gravity --diameter --length --span --notch
     --distance --normal-stress --second-confinement
     --max-displacement --network-seed --seeds --frames --workers --damping
-    --interaction-range --pixel --edge --smallest""".split()
+    --interaction-range --pixel --edge --smallest
+    --halvings --misorientation --scale --short-edge --confinements""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
-    --joints --name --network --phases --shape""".split()
+    --joints --name --network --phases --shape
+    --models --unindexed""".split()
+#: Options that are given below, or that lead to other files, long work or other machines.
+NOT_DRAWN = """--width --height --out --quiet --steps --scaling --json --scheduler
+    --cluster --version""".split()
 OPTIONS = st.one_of(
     st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
     st.tuples(st.sampled_from(NAMED), WORDS),
@@ -51,6 +57,7 @@ COMMANDS = st.sampled_from(
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
+        ("bench", "--shape", "box"),
     ]
 )
 #: A small specimen and few steps, so that what is right soon ends.
@@ -77,6 +84,7 @@ SIZES = {
     "specimen box": [*RECTANGLE, "--depth", "0.012", "--out", "made"],
     "compare bending": [*BEAM, *FEW],
     "compare": [*RECTANGLE, *FEW],
+    "bench --shape": [*BOX, "--steps", "2"],
     "bench": [*RECTANGLE, "--steps", "2"],
 }
 
@@ -88,6 +96,24 @@ def child():
     one.close()
 
 
+def options_of(command):
+    """Options of a command and of all below it."""
+    for below in getattr(command, "commands", {}).values():
+        yield from options_of(below)
+    for one in command.params:
+        if isinstance(one, click.Option):
+            yield from (name for name in one.opts if name.startswith("--"))
+
+
+def test_every_option_is_drawn():
+    from flexpm.cli.main import command
+
+    drawn = {*VALUED, *FLAGS, *NAMED, "--set"}
+    assert drawn.isdisjoint(NOT_DRAWN)
+    assert set(options_of(command)) == {*drawn, *NOT_DRAWN} - {"--help", "--nothing"}
+
+
+@pytest.mark.long
 @given(COMMANDS, st.lists(OPTIONS, max_size=4))
 @settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_command_line_ends_as_documented(child, command, options):

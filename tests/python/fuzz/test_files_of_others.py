@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import io
 import json
+import struct
 import warnings
+import zlib
 
 import numpy as np
 import pytest
@@ -13,10 +16,11 @@ from fuzz_child import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from neper_files import tesr_text, tess_text
+from PIL import Image
 
 from flexpm.errors import InputError
 from flexpm.joints import geojson
-from flexpm.specimens.labels import ebsd, tesr
+from flexpm.specimens.labels import ebsd, picture, tesr
 from flexpm.specimens.specimen import Specimen
 
 CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.0), (0.5, 1.0)]
@@ -96,6 +100,87 @@ def test_any_file_is_read_or_refused(tmp_path_factory, drawn):
 def test_whole_files_are_read(tmp_path, name):
     (tmp_path / name).write_text(GOOD[name])
     READERS[name](tmp_path / name)
+
+
+def saved(save, *given, **options):
+    """What a function writes into a file."""
+    file = io.BytesIO()
+    save(file, *given, **options)
+    return file.getvalue()
+
+
+COLOURS = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]], dtype=np.uint8)[PHASE]
+IMAGES = {
+    "colours.png": saved(Image.fromarray(COLOURS).save, format="PNG"),
+    "grey.png": saved(Image.fromarray(PHASE.astype(np.uint8)).save, format="PNG"),
+    "grey.tif": saved(Image.fromarray(PHASE.astype(np.uint16)).save, format="TIFF"),
+    "labels.npy": saved(np.save, PHASE),
+    "parts.npy": saved(np.save, PHASE.astype(np.float32)),
+}
+TABLES = (
+    '"#ff0000" = "quartz"\n"#00ff00" = "mica"\n"#0000ff" = "hole"\n',
+    '0 = "hole"\n1 = "quartz"\n2 = "mica"\n',
+)
+
+
+@st.composite
+def broken_image(draw):
+    """An image and its phases after a few changes of bytes."""
+    name = draw(st.sampled_from(sorted(IMAGES)))
+    table = TABLES[not name.startswith("colours")]
+    found = []
+    for content in (IMAGES[name], table.encode()):
+        text = bytearray(content)
+        for _ in range(draw(st.integers(0, 3))):
+            at = draw(st.integers(0, len(text) - 1))
+            how = draw(st.sampled_from(["byte", "byte", "head", "cut", "more"]))
+            if how == "cut" and at:
+                del text[at:]
+            elif how == "more":
+                text[at:at] = draw(st.binary(min_size=1, max_size=8))
+            else:
+                at = at % 40 if how == "head" else at
+                text[min(at, len(text) - 1)] = draw(st.integers(0, 255))
+        found.append(bytes(text))
+    return name, *found
+
+
+@given(broken_image())
+@settings(max_examples=examples(300), deadline=None, suppress_health_check=list(HealthCheck))
+def test_any_image_and_its_phases_are_read_or_refused(tmp_path_factory, drawn):
+    name, content, phases = drawn
+    folder = tmp_path_factory.getbasetemp()
+    (folder / name).write_bytes(content)
+    (folder / "phases.toml").write_bytes(phases)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            found = picture.read(folder / name)
+            names, kinds = picture.indices(picture.read_phases(folder / "phases.toml", found))
+        except InputError as error:
+            assert "\n" not in str(error)
+        else:
+            assert len(names) < len(kinds) + 1
+
+
+def headed(wide, high):
+    """A PNG that says its size and holds no pixels."""
+    size = struct.pack(">IIBBBBB", wide, high, 8, 0, 0, 0, 0)
+    parts = [(b"IHDR", size), (b"IDAT", zlib.compress(b"")), (b"IEND", b"")]
+    blocks = [
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in parts
+    ]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(blocks)
+
+
+@pytest.mark.parametrize(("wide", "high"), [(5000, 5000), (20_000, 8000), (100_000, 100_000)])
+def test_images_that_are_too_large_are_refused_by_their_head(tmp_path, wide, high):
+    (tmp_path / "a.png").write_bytes(headed(wide, high))
+    told = f"{wide} x {high} pixels|{wide * high} pixels"
+    with pytest.raises(InputError, match=told) as error:
+        picture.read(tmp_path / "a.png")
+    assert "\n" not in str(error.value)
 
 
 def test_files_that_are_too_large_are_not_read(tmp_path):

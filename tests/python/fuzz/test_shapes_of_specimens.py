@@ -100,6 +100,10 @@ def child():
     one.close()
 
 
+#: Sides of a solid and the axes that they are held along.
+HELD = st.tuples(st.sampled_from([4, 5, 0, 3, 6, -1, 2**31 - 1]), st.sampled_from(["y", "xz", ""]))
+
+
 @st.composite
 def solids(draw):
     """Spheres in a box or a cylinder: anywhere, on a lattice, and now and then out of all sense."""
@@ -123,7 +127,15 @@ def solids(draw):
         "sizes": {"width": 0.01, "depth": 0.01, "height": 0.01} if box else cylinder,
         "drop_hidden": draw(st.booleans()),
         "short_edge": draw(ODD if draw(st.integers(0, 9)) == 0 else st.sampled_from([0.0, 0.1])),
-        "model": draw(st.sampled_from(["flexible", "rigid", "flexible", "rigid", "inner"])),
+        "model": draw(st.sampled_from(["flexible", "rigid", "jcfpm", "cohfrict", "inner"])),
+        "interaction_range": draw(st.sampled_from([None, None, None, 1.3, math.nan])),
+        # none at all, drawn, or given: mostly as many as there are grains
+        "minerals": draw(
+            st.none()
+            | st.just([])
+            | st.lists(st.integers(-1, 2), min_size=len(rows), max_size=len(rows))
+        ),
+        "held": draw(st.lists(HELD, max_size=2)),
     }
 
 
@@ -157,6 +169,7 @@ def test_any_discs_in_any_outline_step_or_are_refused(child, specimen):
     assert "\n" not in said
 
 
+@pytest.mark.long
 @given(tilings())
 @settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_cells_with_grains_within_them_step_or_are_refused(cells, tiling):

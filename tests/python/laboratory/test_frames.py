@@ -41,6 +41,7 @@ def filmed(specimen, tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_frames_do_not_change_a_run(specimen, filmed, tmp_path):
     flexpm.run("uniaxial", specimen, rate=4.0, out=tmp_path)
     for name in ("curve.csv", "cracks.csv"):
@@ -48,6 +49,7 @@ def test_frames_do_not_change_a_run(specimen, filmed, tmp_path):
     assert not (tmp_path / frames.FOLDER).exists()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["rigid", "inner", "jcfpm"])
 def test_frames_change_no_run_of_other_models(specimen, tmp_path, model):
     options = {"model": model, "max_strain": 5e-4, "rate": 4.0}
@@ -259,6 +261,7 @@ def test_each_run_of_a_comparison_has_its_frames(tmp_path):
         assert (tmp_path / model / frames.STATE).exists()
 
 
+@pytest.mark.long
 def test_each_run_of_several_packings_has_its_frames_also_afterwards(tmp_path):
     size = ["--width", "0.012", "--height", "0.024", "--max-strain", "2e-5", "--quiet"]
     command = ["run", "tension", *size, "--seeds", "1-2", "--out", str(tmp_path)]

@@ -162,6 +162,7 @@ def drawn(seed: int, numbers: list[int], last: int) -> list[tuple[int, int]]:
     return [*zip(numbers, steps, strict=True)]
 
 
+@pytest.mark.long
 def test_a_killed_script_goes_on_to_the_same_bits(whole, tmp_path):
     last = content(whole)["steps"]
     moments = [
@@ -281,6 +282,7 @@ def test_another_run_is_refused_both_ways(whole, tmp_path):
         flexpm.rig(built, out=tmp_path / "new")
 
 
+@pytest.mark.long
 def test_two_processes_do_not_share_a_folder(whole, tmp_path):
     shutil.copytree(whole, tmp_path / "out")
     waits = SCRIPT.replace("left =", "print('has it', flush=True); sys.stdin.read()\nleft =")
@@ -296,6 +298,7 @@ def test_two_processes_do_not_share_a_folder(whole, tmp_path):
         first.communicate()
 
 
+@pytest.mark.long
 def test_what_was_reached_stays_when_the_script_breaks(whole, tmp_path):
     broken = SCRIPT.replace(
         "    rig.strain_to(strain", "    1 / (strain > 2e-7)\n    rig.strain_to(strain"

@@ -81,6 +81,7 @@ def test_without_walls_bridges_carry_their_cohesion_alone(bridged):
     assert 0.88 * COHESION < result.peak_stress <= 1.01 * COHESION
 
 
+@pytest.mark.long
 def test_rock_is_run_compared_and_run_again(tmp_path, capsys):
     asked = ["punch", *SMALL, "--confinement", "2e6", "--distance", "0.018"]
     first = tmp_path / "first"
@@ -107,6 +108,7 @@ def test_rock_is_run_compared_and_run_again(tmp_path, capsys):
     assert "G [J/m2]" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_a_study_varies_its_own_options(tmp_path, capsys):
     file = tmp_path / "distances.toml"
     file.write_text(

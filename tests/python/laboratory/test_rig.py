@@ -44,6 +44,7 @@ def moduli(rig: TestRig, top: float) -> list[float]:
     return slopes
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", [*GRAINS, *SPHERES])
 def test_an_elastic_specimen_unloads_and_reloads_along_its_line(rectangle, model):
     rig = rig_of(rectangle, model)

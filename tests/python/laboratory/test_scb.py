@@ -152,6 +152,7 @@ def test_a_notch_that_is_cut_elsewhere_has_no_toughness_out_of_the_range():
 ARGUMENTS = ["--diameter", "0.04", "--thickness", "0.01", "--rate", "8", "--quiet"]
 
 
+@pytest.mark.long
 def test_the_command_runs_compares_and_repeats_it(tmp_path, capsys):
     out = tmp_path / "run"
     assert cli.main(["run", "scb", "--model", "rigid", *ARGUMENTS, "--out", str(out)]) == 0

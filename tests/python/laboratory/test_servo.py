@@ -205,6 +205,7 @@ def test_a_controlled_test_that_was_interrupted_has_the_same_bits(
     assert np.array_equal(resumed.curve.array, whole.curve.array, equal_nan=True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_notched_beam_bends_as_its_notch_opens(model):
     beam = flexpm.Specimen.rectangle(0.056, 0.012, thickness=0.01, seed=1)

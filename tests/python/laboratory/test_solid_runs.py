@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of solids, from the packing to the files: numbers, same bits, restart, repetition."""
 
+import csv
 import itertools
 import json
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import yade
 
 import flexpm
 from flexpm import Specimen
@@ -16,6 +16,8 @@ from flexpm.errors import InputError
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
 from flexpm.runs import runner
+
+import yade  # isort: skip  (flexpm tells Python where YADE is)
 
 #: A few dozen grains: a test takes some seconds.
 SIZES = {"diameter": 0.01, "height": 0.016}
@@ -149,12 +151,53 @@ def test_the_command_repeats_a_run(tmp_path, capsys, monkeypatch):
 
 
 @pytest.mark.long
+def test_studies_and_comparisons_take_solids(tmp_path):
+    box = Specimen.box(**BOX, seed=2)
+    found = flexpm.compare("tension", box, ("flexible", "rigid"), max_strain=2e-4)
+    assert [(one.model, one.grains) for one in found.results] == [
+        (model, box.cells.cells) for model in ("flexible", "rigid")
+    ]
+    sizes = "\n".join(f"{name} = {value}" for name, value in BOX.items())
+    (tmp_path / "solids.toml").write_text(
+        f'[common]\ntest = "tension"\nshape = "box"\nmax_strain = 2e-4\n{sizes}\n'
+        "[grid]\nseed = [2]\n"
+    )
+    out = tmp_path / "out"
+    assert cli.main(["study", str(tmp_path / "solids.toml"), "--out", str(out), "--quiet"]) in (
+        0,
+        3,
+    )
+    (row,) = csv.DictReader((out / "table.csv").open(encoding="utf-8"))
+    assert int(row["grains"]) == box.cells.cells
+    assert float(row["depth"]) == BOX["depth"]
+
+
+@pytest.mark.long
 def test_a_saved_solid_is_tested(core, tmp_path):
     core.save(tmp_path / "core.json")
     asked = ["run", "uniaxial", "--specimen", str(tmp_path / "core.json"), "--max-strain", "4e-4"]
     out = tmp_path / "out"
     assert cli.main([*asked, "--quiet", "--out", str(out), "--no-report"]) in (0, 3)
     assert Result.read(out).grains == core.cells.cells
+
+
+def test_a_layer_of_prisms_between_planes_is_the_plane_in_plane_strain():
+    rock = flexpm.materials.load("augig-table7").with_set(plane="strain")
+    plane = Specimen.rectangle(0.009, 0.012, 2e-3, short_edge=0.0)
+    x, y = plane.centres.T
+    rows = np.column_stack((x, np.full(len(x), 1e-3), y, plane.radii))
+    layer = Specimen.from_spheres(rows, width=0.009, depth=2e-3, height=0.012, short_edge=0.0)
+    yade.O.reset()
+    built = flexpm.build(layer, rock)
+    for side in (4, 5):
+        built.solver.holdSide(side, y=True)
+    rig = flexpm.rig(built)
+    rig.load(flexpm.Loading(kind="waiting", max_strain=2e-4))
+    assert built.solver.counts()["contacts"] == plane.statistics()["contacts"]
+    expected = flexpm.elastic(plane, rock, mesh="fan")
+    assert rig.stress / rig.strain == pytest.approx(expected["youngs_modulus"], rel=2e-3)
+    lateral = 2.0 * rig.record["lateral_strain"][-1] / rig.strain
+    assert lateral == pytest.approx(expected["poissons_ratio"], rel=0.01)
 
 
 def test_a_rigid_grain_alone_has_a_mass_and_no_strain_between_its_own_ends():

@@ -169,6 +169,7 @@ def test_the_command_tells_the_speed_and_draws_the_pulse(tmp_path, capsys):
     assert "frames = 3, must be 0 for sonic" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_comparisons_and_packings_show_speeds(tmp_path, capsys):
     out = tmp_path / "models"
     assert cli.main(["compare", "sonic", *ARGUMENTS, "--out", str(out)]) == 0

@@ -176,7 +176,8 @@ def test_a_cycle_by_way_ends_where_it_is_to_be():
 
 def test_a_history_of_loads_from_a_file_has_its_units(tmp_path):
     path = tmp_path / "history.csv"
-    path.write_text("time,load,note\nmin,kN,\n0,0.2,a\n1,0.2,b\n2.5,0.1,\n", encoding="utf-8")
+    rows = "time,load,note\nmin,kN,\n0,0.2,a\n1,0.2,b\n2.5,0.1,\n"
+    path.write_text(rows, encoding="utf-8-sig")  # as spreadsheets write it
     rig, _, top = between("rigid")
     rig.follow(path, by="load")
     assert rig.stages[-1]["times"] == [0.0, 60.0, 150.0]

@@ -131,6 +131,7 @@ def test_runs_of_a_comparison_have_no_page_of_their_own(compared):
     assert "flexpm rerun jcfpm/result.json" in text
 
 
+@pytest.mark.long
 def test_packings_and_studies_have_a_page_and_their_runs_none(tmp_path):
     command = ["run", "tension", *SIZE, "--seeds", "1,2", "--quiet", "--out", str(tmp_path / "p")]
     assert cli.main(command) == 0

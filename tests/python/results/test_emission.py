@@ -147,6 +147,7 @@ def test_cracks_of_an_older_version_have_no_energy(tmp_path):
     assert math.isnan(found.energy)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid", "inner"])
 @pytest.mark.parametrize("test", ["uniaxial", "tension"])
 def test_damage_is_that_of_events_and_of_softened_points(test, model, tmp_path):

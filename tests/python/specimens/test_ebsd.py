@@ -172,6 +172,57 @@ def test_points_without_a_phase_go_to_most_of_their_neighbours_or_are_holes(tmp_
     assert made.regions["not_indexed"] == 17
 
 
+def test_parts_of_a_grain_that_a_gap_parts_are_one_grain_once_it_is_filled(tmp_path):
+    phase, angles = np.ones((8, 9), dtype=int), np.full((8, 9, 3), 10.0)
+    angles[:, 6:, 0] = 50.0  # another grain
+    phase[:, 3] = 0
+    (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, PHASES))
+    found = of(tmp_path / "a.ctf")
+    assert np.array_equal(found.labels, np.where(np.arange(9) < 6, 0, 1) * np.ones((8, 1)))
+    holes = of(tmp_path / "a.ctf", unindexed="hole")
+    assert len(np.unique(holes.labels)) == 4
+
+
+@pytest.mark.parametrize("kind", ["ctf", "ang"])
+@pytest.mark.parametrize("hexagonal", [False, True])
+def test_steps_of_the_points_count_where_those_of_the_head_do_not_fit(tmp_path, kind, hexagonal):
+    """As in maps that were thinned, or written by another program."""
+    steps = (0.4, 0.35) if not hexagonal else (0.4, 0.3464)
+    number, phase, angles = map_of(40, 50, 30, 3, steps, hexagonal)
+    text = {"ctf": ctf_text, "ang": ang_text}[kind](phase, angles, PHASES, steps, hexagonal)
+    path, wrong = tmp_path / f"a.{kind}", tmp_path / f"wrong.{kind}"
+    path.write_text(text)
+    wrong.write_text(text.replace(f"{steps[1]}\n", "0.1\n").replace("HexGrid", "SqrGrid"))
+    one, other = ebsd.read(path), ebsd.read(wrong)
+    assert np.array_equal(one.raster, other.raster)
+    assert other.grid.sides == pytest.approx(one.grid.sides, rel=1e-6)
+    assert one.grid.steps == "" and "steps" not in of(path).counts
+    told = f"0.4 x {steps[1]} um by the points, not 0.4 x 0.1 um as in the head"
+    assert of(wrong).counts["steps"] == told
+
+
+def test_heads_as_other_programs_write_them(tmp_path):
+    """Tabulators, groups in full, and phases that have no number; ``.ang`` files."""
+    _, phase, angles = map_of(12, 12, 6, 2)
+    text = ang_text(phase, angles, [("a", "m-3m"), ("b", "-3m")])
+    (tmp_path / "a.ang").write_text(text)
+    expected = of(tmp_path / "a.ang").labels
+    for old, new in (
+        ("# Symmetry              ", "# Symmetry\t\t"),
+        ("# Symmetry              43", "# Symmetry 432"),
+        ("# Symmetry              32", "# Symmetry  -3m"),
+        ("# Phase 1\n", ""),
+        ("# GRID: SqrGrid", "# GRID:\tSqrGrid"),
+    ):
+        changed = text.replace(old, new)
+        (tmp_path / "a.ang").write_text(changed.replace("# Phase 2\n", "") if not new else changed)
+        assert np.array_equal(of(tmp_path / "a.ang").labels, expected)
+    for name in GROUPS:
+        changed = text.replace("# Symmetry              43", f"# Symmetry {name}")
+        (tmp_path / "a.ang").write_text(changed)
+        assert len(ebsd.read(tmp_path / "a.ang").phases[0].rotations) == GROUPS[name][0]
+
+
 def test_the_command_names_minerals_in_the_order_of_the_file(tmp_path, capsys):
     _, phase, angles = map_of(40, 40, 20, 2)
     (tmp_path / "a.ctf").write_text(ctf_text(phase, angles, PHASES).replace(".", ","))
@@ -198,7 +249,7 @@ def broken():
         ("a.ctf", "", "line 1: must begin with Channel Text File"),
         ("a.ctf", ctf.replace("XStep\t1.0\n", ""), "XStep is missing"),
         ("a.ctf", ctf.replace("XStep\t1.0", "XStep\tx"), "line 7: XStep = 'x', must be a number"),
-        ("a.ctf", ctf.replace("XStep\t1.0", "XStep\t1.2"), "must be on the grid of steps 1.2"),
+        ("a.ctf", ctf.replace("1\t2.0000", "1\t2.3000"), "must be on the grid of steps 1 and 1"),
         ("a.ctf", ctf.replace("Biotite\t2", "Biotite\t12"), "Laue group = 12, must be 1 to 11"),
         ("a.ctf", ctf.replace("Phases\t2", "Phases\t3"), "line 16: Laue group = 'Bands', must"),
         ("a.ctf", ctf.replace("\tEuler3", ""), "columns: Euler3 missing"),

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import os
@@ -11,118 +12,62 @@ import sys
 
 import numpy as np
 import pytest
+from drawn_images import (
+    IMAGES,
+    LIMITS,
+    PIXEL,
+    SIZE,
+    TABLE,
+    THICKNESS,
+    circles,
+    drawn,
+    figures_of,
+    smallest_of,
+    voronoi,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from PIL import Image
 from scipy.ndimage import gaussian_filter
-from scipy.spatial import cKDTree
 
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.laboratory.forecast import forecast
 from flexpm.specimens.labels.given import divide
 from flexpm.specimens.specimen import Specimen
-
-PIXEL, THICKNESS = 5e-5, 0.01
 
 
 def made(labels, **options):
     return Specimen.from_labels(labels, PIXEL, THICKNESS, **options)
 
 
-def voronoi(size, grains, seed):
-    y, x = np.mgrid[:size, :size] + 0.5
-    places = np.random.default_rng(seed).random((grains, 2)) * size
-    nearest = cKDTree(places).query(np.column_stack((x.ravel(), y.ravel())))[1]
-    return nearest.reshape(size, size)
-
-
-def circles(size, labels, count, seed):
-    """Discs drawn over an image, some of them over others."""
-    draw = np.random.default_rng(seed)
-    y, x = np.mgrid[:size, :size] + 0.5
-    for number in range(count):
-        (a, b), radius = draw.random(2) * size, draw.uniform(1.0, 8.0)
-        labels[(x - a) ** 2 + (y - b) ** 2 < radius**2] = 1000 + number
-    return labels
-
-
-def drawn(seed, most=128, whole=False):
-    """Images of six kinds: grains, islands, patches, checkerboards, noise and single pixels."""
-    draw = np.random.default_rng(seed)
-    size, kind = int(draw.integers(24, most)), seed % 6
-    if whole:  # noise has as many grains as pixels, and takes minutes beyond 128
-        size = min(size, 128) if kind == 4 else most
-    if kind == 0:
-        return voronoi(size, int(draw.integers(3, 60)), seed)
-    if kind == 1:
-        return circles(size, voronoi(size, 12, seed), 10, seed)
-    if kind == 2:
-        field = gaussian_filter(draw.random((size, size)), draw.uniform(1.0, 4.0))
-        return np.digitize(field, np.quantile(field, [0.3, 0.6]))
-    if kind == 3:
-        side = int(draw.integers(2, 9))
-        y, x = np.mgrid[:size, :size] // side
-        return (x + y) % 2
-    if kind == 4:
-        return draw.integers(0, 3, (size // 2, size))
-    labels = voronoi(size, 25, seed)
-    labels[draw.random((size, size)) < 0.02] = 77
-    return labels
-
-
-def area_of(polygon):
-    x, y = polygon.T
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
-
-
-def neighbours(grains, pairs, least):
-    """Pairs of grains that meet at least so often."""
-    met = np.sort(grains[pairs], axis=1)
-    met = met[met[:, 0] != met[:, 1]]
-    found, counts = np.unique(met, axis=0, return_counts=True)
-    return set(map(tuple, found[counts >= least].tolist()))
-
-
-def raster_pairs(polygons):
-    """Pieces on both sides of each edge of a pixel."""
-    sides = {}
-    for piece, polygon in enumerate(polygons):
-        corners = list(map(tuple, np.round(polygon / PIXEL).astype(int).tolist()))
-        for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
-            sides[start, end] = piece
-    return np.array([(one, sides[e, s]) for (s, e), one in sides.items() if (e, s) in sides])
-
-
-def require_as_the_raster(labels, **options):
-    found = divide(labels, PIXEL, **options)
-    specimen = made(labels, **options)
-    cells = specimen.tessellation
-    areas = np.bincount(specimen.grains, cells.cell_areas)
-    # the kernel takes corners within 1e-6 mean diameters as one
-    assert areas == pytest.approx(found.pixels * PIXEL**2, rel=1e-5)
-    assert areas.sum() == pytest.approx(found.pixels.sum() * PIXEL**2, rel=1e-9)
-    assert len(cells.cell_areas) >= len(found.polygons)
-    staircase = divide(labels, PIXEL, **options, smoothed=False)
-    stairs = np.bincount(staircase.grains, [area_of(one) for one in staircase.polygons])
-    assert stairs == pytest.approx(found.pixels * PIXEL**2, rel=1e-12)
-    pairs = raster_pairs(staircase.polygons)
-    met = neighbours(specimen.grains, cells.shared_edges[:, :2], 1)
-    # each edge of a pixel is there from both sides
-    assert neighbours(staircase.grains, pairs, 6) <= met <= neighbours(staircase.grains, pairs, 2)
+def require_as_the_raster(labels, smallest):
+    found = figures_of(labels, smallest=smallest)
+    beyond = {name: getattr(found, name) for name in LIMITS}
+    assert all(beyond[name] <= most for name, most in LIMITS.items()), beyond
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_drawn_images_keep_areas_and_neighbours(seed):
-    require_as_the_raster(drawn(seed, 40), smallest=(1, 4, 9)[seed % 3])
+    require_as_the_raster(drawn(seed, 40), smallest_of(seed))
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(100))
 def test_more_drawn_images(seed):
-    night = os.environ.get("HYPOTHESIS_PROFILE") == "night"
-    require_as_the_raster(drawn(seed, 512 if night else 128, night), smallest=(1, 4, 9)[seed % 3])
+    """Those of 512 x 512 pixels are a table that scripts/night makes."""
+    require_as_the_raster(drawn(seed), smallest_of(seed))
+
+
+def test_the_table_of_large_images_is_whole_and_within_its_limits():
+    with TABLE.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["seed"]) for row in rows] == list(range(IMAGES))
+    assert sum(int(row["side"]) == SIZE for row in rows) >= 5 * IMAGES // 6
+    for row in rows:
+        assert all(float(row[name]) <= most for name, most in LIMITS.items()), row
 
 
 def test_a_circle():
@@ -222,6 +167,20 @@ def test_rims_that_are_nearly_straight_at_a_corner_are_read_back(tmp_path, seed)
     specimen = made(labels, minerals={0: None} | dict.fromkeys(range(1, 30), 0))
     specimen.save(tmp_path / "a.json")
     assert Specimen.load(tmp_path / "a.json").spec == specimen.spec
+
+
+@pytest.mark.parametrize("source", ["image", "packing"])
+def test_a_compression_takes_what_is_told_before_it_runs(source):
+    specimen = Specimen.rectangle(0.02, 0.04, 0.01, seed=2)
+    if source == "image":
+        specimen = Specimen.from_labels(voronoi(60, 20, 8)[:, :30], 2e-4, THICKNESS)
+    told = forecast(specimen)
+    fewest, most = told.steps
+    assert fewest <= flexpm.run("uniaxial", specimen).steps <= most
+    assert most == pytest.approx(5.0 * fewest, rel=1e-3)
+    assert told.seconds[1] / told.seconds[0] == pytest.approx(most / fewest)
+    sawn = Specimen.half_disc(0.02, 0.01)
+    assert forecast(sawn) is None
 
 
 def test_figures_of_the_image_itself():

@@ -61,6 +61,20 @@ def test_cells_of_seeds_have_the_seeds_as_centres(tmp_path, weights):
     assert made.mean_diameter == pytest.approx((4.0 / np.pi * 0.05**2 / 200) ** 0.5, rel=0.02)
 
 
+def test_a_rectangle_is_one_wherever_the_file_begins(tmp_path):
+    """Neper numbers vertices in any order, and writes twelve digits."""
+    source, seeds = laguerre(40, 3)
+    cells = source.tessellation
+    order = np.random.default_rng(2).permutation(len(cells.vertices))
+    rings = np.split(np.argsort(order)[cells.cell_vertices], cells.cell_offsets[1:-1])
+    corners = cells.vertices[order] + 1e-12 * np.random.default_rng(3).normal(size=(len(order), 2))
+    text = tess_text(corners.tolist(), [ring.tolist() for ring in rings], seeds)
+    (tmp_path / "a.tess").write_text(text)
+    made = Specimen.from_tess(tmp_path / "a.tess", 0.01, scale=0.05)
+    assert made.kind == "rectangle" and made.spec.cells is None
+    assert made.dimensions == pytest.approx({"width": 0.05, "height": 0.05}, rel=1e-9)
+
+
 def test_other_cells_keep_their_shape_and_take_centroids(tmp_path):
     source, _ = laguerre(200, 4)
     wrong = np.random.default_rng(1).random((200, 3)).tolist()

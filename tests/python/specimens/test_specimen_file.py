@@ -16,6 +16,7 @@ import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.specimens.files import specimen_file
+from flexpm.specimens.space import file as solid_file
 
 SQUARES = [[[x, 0.0], [x + 0.01, 0.0], [x + 0.01, 0.01], [x, 0.01]] for x in (0.0, 0.01)]
 FRAME = [[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]]
@@ -218,3 +219,75 @@ def test_any_change_is_refused_in_one_line_or_leaves_a_specimen(
         area -= 1.6e-5 * len(found.holes)
         assert found.tessellation.cell_areas.sum() == pytest.approx(area, rel=1e-9)
     assert found.statistics()["grains"] == len(found.discs)
+
+
+SOLIDS = ("box", "cylinder", "given", "hidden")
+
+
+@pytest.fixture(scope="module")
+def solids(tmp_path_factory):
+    """Content of the file of each kind of solid, without its checksum."""
+    new = flexpm.Specimen
+    box = new.box(0.008, 0.008, 0.009)
+    size = {"width": 0.008, "depth": 0.008, "height": 0.009}
+    hidden = np.vstack((box.spheres, box.spheres[:2] + [1e-6, 0.0, 0.0, -9e-4]))
+    made = (
+        box,
+        new.cylinder(0.009, 0.009),
+        new.from_spheres(box.spheres, **size),
+        new.from_spheres(hidden, **size, drop_hidden=True),
+    )
+    found = {}
+    for kind, specimen in zip(SOLIDS, made, strict=True):
+        path = tmp_path_factory.mktemp("solids") / f"{kind}.json"
+        specimen.save(path)
+        found[kind] = json.loads(path.read_text())
+        del found[kind]["checksum"], found[kind]["format"]
+    assert found["hidden"]["removed_spheres"] == 2
+    return found
+
+
+def load_solid(content, path):
+    """The solid of a content with its right checksum."""
+    whole = {"format": solid_file.FORMAT, **content}
+    path.write_text(json.dumps({**whole, "checksum": solid_file.checksum(whole)}))
+    return flexpm.Specimen.load_solid(path)
+
+
+@pytest.mark.parametrize("kind", SOLIDS)
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda solid: solid.pop("spec"), "spec is missing"),
+        (lambda solid: solid.pop("removed_spheres"), "removed_spheres is missing"),
+        (lambda solid: solid.update(removed_spheres="a"), "removed_spheres = 'a', is none"),
+        (lambda solid: solid["spec"].update(kind=[]), r"spec kind = \[\], is none"),
+        (lambda solid: solid["spec"].update(depht=1.0), "spec 'depht', is unknown"),
+        (lambda solid: solid["spec"].update(spheres=5), "spec spheres = 5, is none"),
+        (lambda solid: solid["spheres"].pop(), "spheres = "),
+        (lambda solid: solid["spheres"][3].pop(), "is none"),
+        (lambda solid: solid["spheres"][3].__setitem__(3, 0.01), "diameters = |spheres = others"),
+    ],
+)
+def test_a_changed_solid_with_a_right_checksum_is_refused(solids, tmp_path, kind, change, says):
+    content = copy.deepcopy(solids[kind])
+    change(content)
+    with pytest.raises(InputError, match=f"specimen file: .*{says}") as refused:
+        load_solid(content, tmp_path / "it.json")
+    assert "\n" not in str(refused.value)
+
+
+@given(kind=st.sampled_from(SOLIDS), changes=st.lists(edits(), min_size=1, max_size=3))
+@settings(max_examples=examples(100))
+def test_any_change_of_a_solid_is_refused_in_one_line_or_leaves_one(
+    solids, tmp_path_factory, kind, changes
+):
+    content = copy.deepcopy(solids[kind])
+    for one in changes:
+        edited(content, one)
+    try:
+        found = load_solid(content, tmp_path_factory.getbasetemp() / "edited_solid.json")
+    except InputError as error:
+        assert "\n" not in str(error)
+        return
+    assert np.sum(found.cells.volumes) == pytest.approx(found.outline().volume, rel=1e-9)

@@ -13,6 +13,7 @@ import pandas
 import pytest
 
 from flexpm.runs.input_names import OPTIONS
+from flexpm.runs.loading_rate import quasistatic_ratio
 from flexpm.studies import jobs, study
 
 SCRIPTS = Path(__file__).parents[3] / "scripts"
@@ -72,6 +73,22 @@ def test_the_table_of_trends_has_all_its_runs_under_keys_of_old_or_new_results()
     for arguments, row in rows.items():
         run = trends.spec_of(*arguments)
         assert row[-1] in (run.key(), *run.older_keys())
+
+
+def test_halving_the_rates_of_solids_moves_no_mean_peak_by_three_per_cent():
+    rows = pandas.read_csv(SCRIPTS / "studies" / "solid_rates.csv")
+    sets = rows.groupby(["test", "shape", "model", "material"])
+    assert len(sets) == 12
+    for (test, _, model, material), runs in sets:
+        assert (runs.groupby("rate").seed.nunique() == 5).all()
+        peaks = runs.groupby("rate").peak_stress.mean()
+        for rate in peaks.index[peaks.index <= 1.0]:
+            assert abs(peaks[rate] / peaks[2.0 * rate] - 1.0) < 0.03
+        in_use = runs[runs.rate == 1.0]
+        assert in_use.youngs_modulus.notna().all()
+        brittle = material.endswith("brittle")
+        limit = quasistatic_ratio(test, model, waiting=True, brittle=brittle, solid=True)
+        assert in_use.under_way.max() < limit
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")

@@ -66,6 +66,7 @@ def rows_of(folder: Path) -> list[dict]:
     return table.to_dict("records")
 
 
+@pytest.mark.long
 def test_a_script_is_run_with_its_parameters_and_seeds(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     file = laid(tmp_path, "rate = [8.0]\nseed = [9]")
@@ -87,6 +88,7 @@ def test_a_script_is_run_with_its_parameters_and_seeds(tmp_path, monkeypatch, ca
     assert {one: one.stat().st_mtime_ns for one in outcomes} == outcomes
 
 
+@pytest.mark.long
 def test_what_fails_is_a_row_with_one_line(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     ways = ["exit", "empty", "error", "flexpm"]

@@ -33,22 +33,24 @@ FLEXPM_INLINE SpaceGradient displacement_gradient(
         a.z * s.g1 + b.z * s.g2 + c.z * s.g3 };
 }
 
-/// Green-Lagrange strain [-], deviation D47.
+/// Green-Lagrange strain [-], deviation D47: H + H^T + H^T H over 2, with I + H in the products, so
+/// that small strains keep all their digits.
 FLEXPM_INLINE SpaceTensor green_strain(const SpaceGradient& h)
 {
-    return { h.x.x + 0.5 * (h.x.x * h.x.x + h.y.x * h.y.x + h.z.x * h.z.x),
-        h.y.y + 0.5 * (h.x.y * h.x.y + h.y.y * h.y.y + h.z.y * h.z.y),
-        h.z.z + 0.5 * (h.x.z * h.x.z + h.y.z * h.y.z + h.z.z * h.z.z),
-        0.5 * (h.y.z + h.z.y + h.x.y * h.x.z + h.y.y * h.y.z + h.z.y * h.z.z),
-        0.5 * (h.x.z + h.z.x + h.x.x * h.x.z + h.y.x * h.y.z + h.z.x * h.z.z),
-        0.5 * (h.x.y + h.y.x + h.x.x * h.x.y + h.y.x * h.y.y + h.z.x * h.z.y) };
+    const double x = 1.0 + h.x.x, y = 1.0 + h.y.y, z = 1.0 + h.z.z;
+    return { 0.5 * ((1.0 + x) * h.x.x + h.y.x * h.y.x + h.z.x * h.z.x),
+        0.5 * (h.x.y * h.x.y + (1.0 + y) * h.y.y + h.z.y * h.z.y),
+        0.5 * (h.x.z * h.x.z + h.y.z * h.y.z + (1.0 + z) * h.z.z),
+        0.5 * (h.x.y * h.x.z + y * h.y.z + h.z.y * z),
+        0.5 * (x * h.x.z + h.y.x * h.y.z + h.z.x * z),
+        0.5 * (x * h.x.y + h.y.x * y + h.z.x * h.z.y) };
 }
 
 /// First Piola-Kirchhoff stress (I + H) S by rows [Pa].
 FLEXPM_INLINE SpaceGradient first_stress(const SpaceGradient& h, const SpaceTensor& p)
 {
-    return { Vector { p.xx, p.xy, p.xz } + p * h.x, Vector { p.xy, p.yy, p.yz } + p * h.y,
-        Vector { p.xz, p.yz, p.zz } + p * h.z };
+    return { p * Vector { 1.0 + h.x.x, h.x.y, h.x.z }, p * Vector { h.y.x, 1.0 + h.y.y, h.y.z },
+        p * Vector { h.z.x, h.z.y, 1.0 + h.z.z } };
 }
 
 /// Forces that a tetrahedron exerts on its nodes 1 to 3 [N]; node 0 gets minus their sum.
@@ -62,10 +64,10 @@ FLEXPM_INLINE TetrahedronForces tetrahedron_forces(
     const TetrahedronShape& s, const PlaneStiffness& c, Vector u0, Vector u1, Vector u2, Vector u3)
 {
     const SpaceGradient h = displacement_gradient(s, u0, u1, u2, u3);
-    const SpaceGradient p = first_stress(h, stress(c, green_strain(h)));
-    const auto force = [&](Vector g) {
-        return -s.volume * Vector { dot(p.x, g), dot(p.y, g), dot(p.z, g) };
-    };
+    // minus the volume once, not in each component of a force
+    const PlaneStiffness whole { -s.volume * c.normal, -s.volume * c.cross, -s.volume * c.shear };
+    const SpaceGradient p = first_stress(h, stress(whole, green_strain(h)));
+    const auto force = [&](Vector g) { return Vector { dot(p.x, g), dot(p.y, g), dot(p.z, g) }; };
     return { force(s.g1), force(s.g2), force(s.g3) };
 }
 

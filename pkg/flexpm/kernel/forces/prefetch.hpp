@@ -5,17 +5,9 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
-#include <flexpm/kernel/core/compiler.hpp>
+#include <flexpm/kernel/core/prefetch_rows.hpp>
 
 namespace flexpm {
-
-/// Ask for `count` rows of `lanes` values from `first` on, which may lie past the end of its array.
-template <class T> FLEXPM_INLINE void prefetch_rows(const T* first, int count)
-{
-    constexpr int line = 64 / sizeof(T);
-    for (int i = 0; i < count * lanes; i += line)
-        __builtin_prefetch(first + i);
-}
 
 /// Rows to ask for before each block of contacts; none if the caches keep until the next step what
 /// one reads.

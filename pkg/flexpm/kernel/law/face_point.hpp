@@ -100,7 +100,7 @@ FLEXPM_INLINE bool hold_face_point(const LawParameters& p, const FacePlace& at,
     const law::Branch on = law::branch_at<Intact>(p, gap, s.max_opening, s.shear_damage);
     max_opening = on.max_opening;
     traction = { on.normal, tried, on.damage, on.damage };
-    return on.same_secant & (law::length(tried) <= on.limit);
+    return on.same_secant & (dot(tried, tried) <= on.limit * on.limit);
 }
 
 }  // namespace flexpm

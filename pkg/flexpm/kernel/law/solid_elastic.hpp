@@ -30,9 +30,9 @@ inline PlaneStiffness solid_stiffness(ElasticMaterial material)
 /// Second Piola-Kirchhoff stress [Pa] of a Green-Lagrange strain.
 FLEXPM_INLINE SpaceTensor stress(const PlaneStiffness& c, const SpaceTensor& e)
 {
-    return { c.normal * e.xx + c.cross * (e.yy + e.zz), c.normal * e.yy + c.cross * (e.xx + e.zz),
-        c.normal * e.zz + c.cross * (e.xx + e.yy), 2.0 * c.shear * e.yz, 2.0 * c.shear * e.xz,
-        2.0 * c.shear * e.xy };
+    const double all = c.cross * (e.xx + e.yy + e.zz), twice = 2.0 * c.shear;
+    return { all + twice * e.xx, all + twice * e.yy, all + twice * e.zz, twice * e.yz, twice * e.xz,
+        twice * e.xy };
 }
 
 }  // namespace flexpm

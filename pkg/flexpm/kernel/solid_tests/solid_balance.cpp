@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solid_tests/solid_balance.hpp>
 
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 
 #include <algorithm>
@@ -42,11 +43,6 @@ struct Virial {
     }
 };
 
-Vector place(const SolidState& s, int node)
-{
-    return space_vector(s.grains.reference, node) + space_vector(s.grains.displacement, node);
-}
-
 /// Tetrahedra of a grain, as deformed; of a rigid one their volume alone.
 void add_tetrahedra(const SolidState& s, int grain, Virial& total)
 {
@@ -59,9 +55,11 @@ void add_tetrahedra(const SolidState& s, int grain, Virial& total)
             total.volume += t.volume;
             return;
         }
-        const Vector first = place(s, n[0]);
+        const Vector first = drawn_place(s.grains, n[0]);
         const double volume =
-            triple(place(s, n[1]) - first, place(s, n[2]) - first, place(s, n[3]) - first) / 6.0;
+            triple(drawn_place(s.grains, n[1]) - first, drawn_place(s.grains, n[2]) - first,
+                drawn_place(s.grains, n[3]) - first)
+            / 6.0;
         const auto way = [&](int k) { return space_vector(s.grains.displacement, n[k]); };
         total.add(cauchy_stress(t, c, way(0), way(1), way(2), way(3)), volume);
     });
@@ -70,10 +68,10 @@ void add_tetrahedra(const SolidState& s, int grain, Virial& total)
 /// Forces on a rigid grain, which its shape carries from node to node.
 void add_rigid(const SolidState& s, int grain, Virial& total)
 {
-    const Vector centre = place(s, s.grains.centre(grain));
+    const Vector centre = drawn_place(s.grains, s.grains.centre(grain));
     for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
         const int node = s.grains.node(grain, n);
-        total.add(space_vector(s.grains.force, node), place(s, node) - centre);
+        total.add(space_vector(s.grains.force, node), drawn_place(s.grains, node) - centre);
     }
 }
 
@@ -82,12 +80,15 @@ void add_contacts(const SolidState& s, Virial& total)
 {
     const FaceContacts& c = s.contacts;
     for (int contact = 0; contact < c.count; ++contact) {
-        for (int side = 0; side < 2; ++side)
+        for (int p = 0; p < c.points_of(contact); ++p) {
+            if (!(c.area(contact, p) > 0.0)) continue;
+            const Vector force = point_force(s, contact, p);
             for (int k = 0; k < c.corners_of(contact); ++k)
-                total.add(-space_vector(c.forces, 4 * c.node_index(contact, side, k)),
-                    place(s, c.node(contact, side, k)));
-        for (int p = 0; p < c.points_of(contact); ++p)
+                total.add(c.share(contact, p, k) * force,
+                    drawn_place(s.grains, c.node(contact, 0, k))
+                        - drawn_place(s.grains, c.node(contact, 1, k)));
             total.volume += c.area(contact, p) * std::min(c.place_of(contact, p).opening, 0.0);
+        }
     }
 }
 
@@ -113,7 +114,7 @@ std::vector<NetForce> net_forces(const SolidState& s)
         const auto held = [&](int axis) { return grains.prescribed[grains.component(node, axis)]; };
         found.push_back(
             { { held(0) ? 0.0 : force.x, held(1) ? 0.0 : force.y, held(2) ? 0.0 : force.z },
-                place(s, node) });
+                drawn_place(s.grains, node) });
     };
     for (int g = 0; g < grains.count; ++g) {
         if (!grains.is_rigid(g)) {

@@ -21,7 +21,7 @@ std::vector<int> need_nodes(const SolidState& s, SolidSide side)
     std::vector<int> nodes = side_nodes(s, side);
     if (nodes.empty()) {
         refuse("nodes of side " + std::to_string(static_cast<int>(side)), 0.0, "",
-            "must be above 0; give a solid with bottom and top");
+            "must be above 0; give a solid that has it");
     }
     return nodes;
 }
@@ -216,6 +216,17 @@ void hold_against_sliding(SolidState& s)
     prescribe(s, { centre }, 1, 0.0);
     const int other = node_near(s, middle.x + 0.5 * farthest, middle.y);
     if (other != centre) prescribe(s, { other }, 1, 0.0);
+}
+
+void hold_side(SolidState& s, int side, int axis)
+{
+    if (!s.bodies.empty()) {
+        refuse("hold_side: rigid grains", s.grains.count, "",
+            "must be 0; nodes of deformable grains are held");
+    }
+    if (axis < 0 || axis >= s.grains.layout.dimension)
+        refuse("hold_side: axis", axis, "", "must be 0, 1 or 2");
+    prescribe(s, need_nodes(s, static_cast<SolidSide>(side)), axis, 0.0);
 }
 
 void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,

@@ -5,7 +5,7 @@
 /// positive.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 namespace flexpm {
 
@@ -23,6 +23,11 @@ void hold_end(SolidState& s, SolidSide side, bool pulled);
 /// does once it is cracked: a node next to the middle of the bottom stays along x and y, another
 /// one along y; of rigid grains their centres (deviation D93).
 void hold_against_sliding(SolidState& s);
+
+/// Hold the nodes of a side along an axis (0: x), as a smooth plane that they may not leave does
+/// along its normal. Front and back held along y make plane strain of a box.
+/// @throws std::invalid_argument  if there is no such side or axis, or grains are rigid
+void hold_side(SolidState& s, int side, int axis);
 
 /// Begin from a linear solution at a strain, positive in tension, with the top at a velocity, by
 /// which all grains move as that solution does (deviation D30). Kinetic and elastic energy of this

@@ -3,9 +3,9 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
-#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
 #include <cmath>

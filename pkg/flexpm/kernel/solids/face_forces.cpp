@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solids/face_forces.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/core/prefetch_rows.hpp>
 #include <flexpm/kernel/solids/face_lanes.hpp>
 
 #include <algorithm>
@@ -34,6 +35,9 @@ FLEXPM_INLINE void store_state(const FacePointState& s, double* rows, int l)
 /// Rows of a state that a point on its branch changes: the first ones.
 constexpr int held_rows = FaceRow::max_opening + 1;
 
+/// Rows of a state that a point without damage reads or writes.
+constexpr int undamaged_rows = FaceRow::shear_damage + 1;
+
 /// Opening and slip of a point, three rows, from its way between the sides.
 FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* places)
 {
@@ -46,48 +50,42 @@ FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* 
     }
 }
 
-/// No lane of a point has any damage: true of most points.
-FLEXPM_INLINE bool is_intact(const FaceLanes& b, const double* state)
+/// Whether any lane of a row is set.
+FLEXPM_INLINE bool any_of(const std::int64_t* row)
 {
-    alignas(64) double damaged[lanes];
-    FLEXPM_INDEPENDENT
-    for (int l = 0; l < lanes; ++l) {
-        const bool opened = state[FaceRow::max_opening * lanes + l]
-            > load_rows<LawParameters>(b.law, l).elastic_opening;
-        const bool sheared = state[FaceRow::shear_damage * lanes + l] > 0.0;
-        damaged[l] = (opened | sheared) ? 1.0 : 0.0;
-    }
-    double any = 0.0;
+    std::int64_t any = 0;
     for (int l = 0; l < lanes; ++l)
-        any += damaged[l];
-    return any == 0.0;
+        any |= row[l];
+    return any != 0;
 }
 
-/// Tractions of a point of each contact if all stay on their branches; otherwise changes no state.
+/// Tractions of a point of each contact if all stay on their branches, and with `Intact` have no
+/// damage, which is true of most; otherwise changes no state.
 template <bool Intact, bool Dilating>
 FLEXPM_INLINE bool hold_lanes(
     const FaceLanes& b, const double* places, double* state, double* traction)
 {
-    alignas(64) double next[held_rows * lanes], leaves[lanes];
+    alignas(64) double next[held_rows * lanes];
+    alignas(64) std::int64_t leaves[lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector at = load_vector(places, l);
+        const LawParameters law = load_rows<LawParameters>(b.law, l);
         FaceTraction t;
         double max_opening = 0.0;
-        const bool holds = hold_face_point<Intact, Dilating>(load_rows<LawParameters>(b.law, l),
-            { at.x, { at.y, at.z } },
+        const bool holds = hold_face_point<Intact, Dilating>(law, { at.x, { at.y, at.z } },
             Intact ? FacePointState { state[FaceRow::max_opening * lanes + l], {}, 0.0, 0.0, 0.0 }
                    : load_state(state, l),
             max_opening, t);
+        const bool damaged = Intact
+            && ((state[FaceRow::max_opening * lanes + l] > law.elastic_opening)
+                | (state[FaceRow::shear_damage * lanes + l] > 0.0));
         store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
         store_vector(at, next, l);
         next[FaceRow::max_opening * lanes + l] = max_opening;
-        leaves[l] = holds ? 0.0 : 1.0;
+        leaves[l] = (holds & !damaged) ? 0 : 1;
     }
-    double any = 0.0;
-    for (int l = 0; l < lanes; ++l)
-        any += leaves[l];
-    if (any > 0.0) return false;
+    if (any_of(leaves)) return false;
     for (int i = 0; i < held_rows * lanes; ++i)
         state[i] = next[i];
     return true;
@@ -134,10 +132,8 @@ FLEXPM_INLINE int advance_points(const FaceLanes& b, FaceMotion& m, std::uint8_t
         double* state = b.states + p * FaceRow::count * lanes;
         find_jump(b, m, p, jump);
         find_places(m, jump, places);
-        const bool intact = !Dilating && is_intact(b, state);
-        const bool holds = intact ? hold_lanes<true, false>(b, places, state, traction)
-                                  : hold_lanes<false, Dilating>(b, places, state, traction);
-        if (!holds)
+        if (!(!Dilating && hold_lanes<true, false>(b, places, state, traction))
+            && !hold_lanes<false, Dilating>(b, places, state, traction))
             cracks += advance_lanes<Dilating>(b, places, state, traction, cracked + p * lanes);
         spread_point(b, p, jump, traction, m);
     }
@@ -179,10 +175,28 @@ FaceLanes face_lanes(SolidState& s, int block, const FaceLaws& laws)
 {
     FaceContacts& c = s.contacts;
     const int nodes = c.block_nodes[block], points = c.block_points[block];
+    const int parcels = s.plan.first_parcel[block];
     return { c.group_in(block), s.grains.displacement.data(), c.nodes.data() + nodes,
         c.line.data() + block * lanes, c.places.data() + nodes / 2 * 3, c.areas.data() + points,
         c.shares.data() + c.block_shares[block], c.states.data() + points * FaceRow::count,
-        c.forces.data() + nodes * s.grains.layout.node_stride, laws.rows, laws.dilating };
+        s.grains.force.data(), parcels < 0 ? nullptr : s.plan.parcels.data() + parcels, laws.rows,
+        laws.dilating };
+}
+
+/// Ask for the rows of a block of contacts that a step reads, some time before it does. Nodes are
+/// near, since their grains have just moved.
+void prefetch_block(const FaceContacts& c, int block)
+{
+    const FaceGroup& group = c.group_in(block);
+    const int nodes = c.block_nodes[block], points = c.block_points[block];
+    prefetch_rows(c.nodes.data() + nodes, 2 * group.corners);
+    prefetch_rows(c.line.data() + block * lanes, 1);
+    prefetch_rows(c.places.data() + nodes / 2 * 3, 3 * group.corners);
+    prefetch_rows(c.areas.data() + points, group.points);
+    prefetch_rows(
+        c.shares.data() + c.block_shares[block], (group.points - group.at_corners) * group.corners);
+    for (int p = 0; p < group.points; ++p)
+        prefetch_rows(c.states.data() + (points + p * lanes) * FaceRow::count, undamaged_rows);
 }
 
 /// Where a point is now: the middle of its places on both sides.
@@ -225,6 +239,7 @@ int update_face_blocks(SolidState& s, int first, int end)
     int turned = 0;
     for (int block = first; block < end; ++block) {
         if (block == first || s.contacts.laws.size() > 1) laws.fill(s.contacts, block);
+        if (block + 1 < end) prefetch_block(s.contacts, block + 1);
         std::uint8_t cracked[most_points * lanes] = {};
         const FaceUpdate done = update(face_lanes(s, block, laws), cracked);
         turned += done.turned;

@@ -4,7 +4,7 @@
 /// instruction set. Vectors are three rows.
 #pragma once
 
-#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/solids/solid_state.hpp>
 
 #include <cmath>
@@ -21,7 +21,8 @@ struct FaceLanes {
     const double* areas;
     const double* shares;
     double* states;
-    double* forces;
+    double* force;      ///< of nodes
+    double* parcels;    ///< of the block, where they wait; null: added to `force` at once
     const double* law;  ///< [row of LawParameters][lane]
     bool dilating;      ///< whether any of these laws dilates
 };
@@ -41,23 +42,25 @@ struct FaceMotion {
     alignas(64) double couple[vector_rows];  ///< sum of f x jump over the points
 };
 
+/// Ways of one corner on a side.
+template <bool Wide>
+FLEXPM_INLINE void gather_ways(const FaceLanes& b, const int* nodes, double* to)
+{
+    to_lanes<Wide>(
+        [&](int l, Four& row) FLEXPM_INLINED { row = row_of_four(b.displacement + nodes[l]); }, to);
+}
+
 template <bool Wide> FLEXPM_INLINE void move_corners(const FaceLanes& b, FaceMotion& m)
 {
+    alignas(64) double of_a[vector_rows], of_b[vector_rows];
     for (int k = 0; k < b.group.corners; ++k) {
-        const int *of_a = b.nodes + 2 * k * lanes, *of_b = of_a + lanes;
-        const double* way = b.displacement;
-        to_lanes<Wide>(
-            [&](int l, Four& row)
-                FLEXPM_INLINED { row = row_of_four(way + of_b[l]) - row_of_four(way + of_a[l]); },
-            m.apart + k * vector_rows);
-        to_lanes<Wide>(
-            [&](int l, Four& row) FLEXPM_INLINED {
-                row = 0.5 * (row_of_four(way + of_b[l]) + row_of_four(way + of_a[l]));
-            },
-            m.middle + k * vector_rows);
+        const int row = k * vector_rows;
+        gather_ways<Wide>(b, b.nodes + 2 * k * lanes, of_a);
+        gather_ways<Wide>(b, b.nodes + (2 * k + 1) * lanes, of_b);
         for (int i = 0; i < vector_rows; ++i) {
-            m.middle[k * vector_rows + i] += b.places[k * vector_rows + i];
-            m.on_a[k * vector_rows + i] = 0.0;
+            m.apart[row + i] = of_b[i] - of_a[i];
+            m.middle[row + i] = b.places[row + i] + 0.5 * (of_a[i] + of_b[i]);
+            m.on_a[row + i] = 0.0;
         }
     }
     for (int i = 0; i < vector_rows; ++i)
@@ -197,10 +200,19 @@ FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m)
             store_vector(force + 0.5 * turning, of_a, l);
             store_vector(0.5 * turning - force, of_b, l);
         }
-        double* to = b.forces + 2 * k * lanes * 4;
-        from_lanes(of_a, [&](int l, const Four& f) FLEXPM_INLINED { row_of_four(to + 4 * l) = f; });
-        from_lanes(of_b,
-            [&](int l, const Four& f) FLEXPM_INLINED { row_of_four(to + 4 * (lanes + l)) = f; });
+        const double* sides[] = { of_a, of_b };
+        for (int side = 0; side < 2; ++side) {
+            const int first = (2 * k + side) * lanes;
+            if (b.parcels) {
+                from_lanes(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
+                    row_of_four(b.parcels + 4 * (first + l)) = f;
+                });
+            } else {
+                from_lanes(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
+                    row_of_four(b.force + b.nodes[first + l]) += f;
+                });
+            }
+        }
     }
 }
 

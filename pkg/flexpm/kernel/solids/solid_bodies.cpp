@@ -1,12 +1,78 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 
+#include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace flexpm {
 
 namespace {
+
+/// The nodes of a rigid grain, its centre the last one.
+struct BodyNodes {
+    int vertices;
+    const double* reference;
+    const double* displacement;
+    const double* force;
+};
+
+BodyNodes body_nodes(const SolidState& s, int grain)
+{
+    const Grains& grains = s.grains;
+    const int first = grains.node(grain, 0);
+    return { grains.vertices_of(grain), grains.reference.data() + first,
+        grains.displacement.data() + first, grains.force.data() + first };
+}
+
+/// What a turn adds to vectors: to those along the axes.
+struct TurnColumns {
+    Vector x, y, z;
+};
+
+/// Displacements of all nodes, for a way of the centre.
+FLEXPM_INLINE void place_nodes(
+    const BodyNodes& b, Vector way, const TurnColumns& turn, double* displacement)
+{
+    constexpr int stride = space_layout.node_stride;
+    const Four middle = row_of_four(b.reference + b.vertices * stride);
+    const Four to { way.x, way.y, way.z, 0.0 }, of_x { turn.x.x, turn.x.y, turn.x.z, 0.0 },
+        of_y { turn.y.x, turn.y.y, turn.y.z, 0.0 }, of_z { turn.z.x, turn.z.y, turn.z.z, 0.0 };
+    for (int n = 0; n <= b.vertices; ++n) {
+        const Four arm = row_of_four(b.reference + n * stride) - middle;
+        const Four x = __builtin_shufflevector(arm, arm, 0, 0, 0, 0);
+        const Four y = __builtin_shufflevector(arm, arm, 1, 1, 1, 1);
+        const Four z = __builtin_shufflevector(arm, arm, 2, 2, 2, 2);
+        row_of_four(displacement + n * stride) = to + (x * of_x + y * of_y + z * of_z);
+    }
+}
+
+/// Sum of the forces on all nodes but the centre, and their moment about it.
+FLEXPM_INLINE void sum_wrench(const BodyNodes& b, Wrench& to)
+{
+    constexpr int stride = space_layout.node_stride;
+    const double *centre = b.reference + b.vertices * stride,
+                 *of_centre = b.displacement + b.vertices * stride;
+    const Four middle = row_of_four(centre) + row_of_four(of_centre);
+    Four sum {}, across {};
+    for (int n = 0; n < b.vertices; ++n) {
+        const int row = n * stride;
+        const Four arm =
+            row_of_four(b.reference + row) + row_of_four(b.displacement + row) - middle;
+        const Four f = row_of_four(b.force + row);
+        // y z x of both: the product has its components in this order, too
+        const Four next_arm = __builtin_shufflevector(arm, arm, 1, 2, 0, 3);
+        const Four next_f = __builtin_shufflevector(f, f, 1, 2, 0, 3);
+        sum += f;
+        across += arm * next_f - next_arm * f;
+    }
+    const Four moment = __builtin_shufflevector(across, across, 1, 2, 0, 3);
+    to = { { sum[0], sum[1], sum[2] }, { moment[0], moment[1], moment[2] } };
+}
 
 /// Solve I w = l.
 Vector solve(const SpaceTensor& i, Vector l)
@@ -16,9 +82,16 @@ Vector solve(const SpaceTensor& i, Vector l)
     return (1.0 / whole) * Vector { triple(l, y, z), triple(x, l, z), triple(x, y, l) };
 }
 
+/// Whether all directions are alike, as of scaled masses.
+bool is_round(const SpaceTensor& i)
+{
+    return i.xx == i.yy && i.yy == i.zz && i.yz == 0.0 && i.xz == 0.0 && i.xy == 0.0;
+}
+
 /// Spin half a step after the turn of a body with its angular momentum.
 Vector spin_of(const RigidBody& body, double dt)
 {
+    if (is_round(body.inertia)) return (1.0 / body.inertia.xx) * body.angular_momentum;
     // converges to the last digit for the turns of a step
     constexpr int rounds = 6;
     Vector spin = body.spin;
@@ -80,10 +153,7 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
 {
     Grains& grains = s.grains;
     const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
-    const Vector moment = moment_on(s, grain);
-    Vector force;
-    for (int n = 0; n < grains.vertices_of(grain); ++n)
-        force = force + space_vector(grains.force, grains.node(grain, n));
+    const auto [force, moment] = wrench_on(s, grain);
     set_space_vector(grains.force, centre, force);
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
     const Array<double>& undamped = s.undamped().velocity;
@@ -97,30 +167,20 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
     integrate_turn(s.bodies[grain], moment, spin_in(s.undamped(), grain), o, sums);
 }
 
-Vector moment_on(const SolidState& s, int grain)
+Wrench wrench_on(const SolidState& s, int grain)
 {
-    const Grains& grains = s.grains;
-    const auto place = [&](int node) {
-        return space_vector(grains.reference, node) + space_vector(grains.displacement, node);
-    };
-    const Vector middle = place(grains.centre(grain));
-    Vector moment;
-    for (int n = 0; n < grains.vertices_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        moment = moment + cross(place(node) - middle, space_vector(grains.force, node));
-    }
-    return moment;
+    Wrench found;
+    variant_of<sum_wrench>()(body_nodes(s, grain), found);
+    return found;
 }
 
 void place_body(SolidState& s, int grain, Vector way)
 {
-    Grains& grains = s.grains;
-    const Vector middle = space_vector(grains.reference, grains.centre(grain));
-    for (int n = 0; n < grains.nodes_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        const Vector arm = space_vector(grains.reference, node) - middle;
-        set_space_vector(grains.displacement, node, way + turned_by(s.bodies[grain].turn, arm));
-    }
+    const Quaternion& turn = s.bodies[grain].turn;
+    const TurnColumns columns { turned_by(turn, { 1.0, 0.0, 0.0 }),
+        turned_by(turn, { 0.0, 1.0, 0.0 }), turned_by(turn, { 0.0, 0.0, 1.0 }) };
+    double* displacement = s.grains.displacement.data() + s.grains.node(grain, 0);
+    variant_of<place_nodes>()(body_nodes(s, grain), way, columns, displacement);
 }
 
 void set_spin(SolidState& s, int grain, Vector spin, bool held)
@@ -129,6 +189,18 @@ void set_spin(SolidState& s, int grain, Vector spin, bool held)
     body.spin = spin;
     body.spin_held = held;
     body.angular_momentum = turned(body.turn, body.inertia * turned(inverse(body.turn), spin));
+}
+
+void set_motion(SolidState& s, int grain, Vector velocity, Vector spin)
+{
+    if (!s.grains.is_rigid(grain))
+        refuse("grain", grain, "", "is deformable, must be rigid; write to its velocities instead");
+    if (!is_finite(velocity) || !is_finite(spin)) {
+        refuse("motion of grain " + std::to_string(grain), "no finite number",
+            "must be a velocity [m/s] and a spin [rad/s]");
+    }
+    set_space_vector(s.grains.velocity, s.grains.centre(grain), velocity);
+    set_spin(s, grain, spin, s.bodies[grain].spin_held);
 }
 
 double least_moment(const SpaceTensor& i)

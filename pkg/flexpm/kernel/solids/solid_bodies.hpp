@@ -17,8 +17,13 @@ void move_body(SolidState& s, int block, double dt);
 /// has the momentum.
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums);
 
-/// Moment of the forces on the nodes of a rigid grain about its centre, at the last step [N m].
-Vector moment_on(const SolidState& s, int grain);
+/// Force on a rigid grain [N] and moment about its centre [N m].
+struct Wrench {
+    Vector force, moment;
+};
+
+/// Those of the forces on its nodes, at the last step.
+Wrench wrench_on(const SolidState& s, int grain);
 
 /// Put a rigid grain where centre and turn are, by its number.
 /// @param way  of its centre since the reference [m]
@@ -27,6 +32,10 @@ void place_body(SolidState& s, int grain, Vector way);
 /// Give a rigid grain a spin from now on [rad/s].
 /// @param held  it stays; else it is integrated
 void set_spin(SolidState& s, int grain, Vector spin, bool held);
+
+/// Velocity of the centre [m/s] and spin [rad/s] of a rigid grain, from now on.
+/// @throws std::invalid_argument  unless the grain is rigid and all are finite
+void set_motion(SolidState& s, int grain, Vector velocity, Vector spin);
 
 /// A lower bound of the smallest principal moment of an inertia.
 double least_moment(const SpaceTensor& inertia);

@@ -5,7 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
-#include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/space/face_frame.hpp>
 #include <flexpm/kernel/space/face_triangles.hpp>
 #include <flexpm/kernel/space/fan_meshes.hpp>
@@ -15,6 +15,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace flexpm {
@@ -303,7 +304,6 @@ void add_blocks(FaceContacts& c, const FaceGroup& group, int contacts)
     const auto points = static_cast<std::size_t>(c.block_points.back());
     c.nodes.resize(nodes, 0);
     c.places.resize(nodes / 2 * 3, 0.0);
-    c.forces.resize(nodes * node_values, 0.0);
     c.areas.resize(points, 0.0);
     c.states.resize(points * FaceRow::count, 0.0);
     c.cracks.resize(points);
@@ -329,11 +329,11 @@ void add_contacts(Building& b)
         keys.push_back(
             curve.number(0.5 * (b.cells.centres[on.cell_a] + b.cells.centres[on.cell_b])));
     }
-    std::map<std::pair<int, FaceGroup>, std::vector<int>> groups;
+    std::map<std::tuple<int, bool, FaceGroup>, std::vector<int>> groups;
     for (int f : sorted_by(keys))
-        groups[{ tile_of(b.state, f), faces[f].group }].push_back(f);
+        groups[{ tile_of(b.state, f), reaches_out(b.state, f), faces[f].group }].push_back(f);
     for (const auto& [key, members] : groups) {
-        const FaceGroup& group = key.second;
+        const FaceGroup& group = std::get<FaceGroup>(key);
         const int first = c.blocks() * lanes;
         add_blocks(c, group, static_cast<int>(members.size()));
         for (int slot = first; slot < c.blocks() * lanes; ++slot) {
@@ -371,6 +371,17 @@ void size_ledger(EnergyLedger& ledger, int blocks)
     ledger.largest_force.assign(blocks, 0.0);
 }
 
+/// Give back what arrays that grew block by block have to spare: up to half of the state.
+void fit(Tetrahedra& t, FaceContacts& c)
+{
+    t.nodes.shrink_to_fit();
+    t.shape.shrink_to_fit();
+    for (auto* values : { &c.places, &c.areas, &c.shares, &c.states })
+        values->shrink_to_fit();
+    c.nodes.shrink_to_fit();
+    c.cracks.shrink_to_fit();
+}
+
 }  // namespace
 
 SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInput& input)
@@ -383,6 +394,7 @@ SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInp
     for (int block = 0; block < s.grains.blocks(); ++block)
         add_tetrahedra(b, s.grains.in_slot[block * lanes]);
     add_contacts(b);
+    fit(s.tetrahedra, s.contacts);
     add_surface(b);
     size_ledger(s.ledger, s.grains.blocks());
     if (input.rigid) s.bodies.resize(s.grains.count);

@@ -128,11 +128,22 @@ double damping_power(const SolidState& s, double damping)
         }
         add_node(grains.centre(g));
         if (s.bodies[g].spin_held) continue;
-        const Vector moment = moment_on(s, g), spin = s.bodies[g].spin - spin_in(undamped, g);
+        const Vector moment = wrench_on(s, g).moment,
+                     spin = s.bodies[g].spin - spin_in(undamped, g);
         total += std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
             + std::fabs(moment.z * spin.z);
     }
     return damping * total;
+}
+
+Vector force_in(const FaceContacts& contacts, int contact)
+{
+    Vector sum;
+    for (int p = 0; p < contacts.points_of(contact); ++p) {
+        const FaceTraction t = traction_of(contacts, contact, p);
+        sum = sum + contacts.area(contact, p) * Vector { t.normal, t.shear.x, t.shear.y };
+    }
+    return sum;
 }
 
 double unbalanced_ratio(const SolidState& s)
@@ -142,10 +153,7 @@ double unbalanced_ratio(const SolidState& s)
     const FaceContacts& c = s.contacts;
     double sum = 0.0;
     for (int contact = 0; contact < c.count; ++contact) {
-        Vector on;
-        for (int k = 0; k < c.corners_of(contact); ++k)
-            on = on + space_vector(c.forces, 4 * c.node_index(contact, 0, k));
-        sum += norm(on);
+        sum += norm(force_in(c, contact));
     }
     if (sum > 0.0) return largest * c.count / sum;
     // a specimen that flies apart is not in balance

@@ -144,23 +144,11 @@ SpaceTensor times(double factor, const SpaceTensor& t)
 }
 
 /// Mass of a rigid grain to its centre, and its inertia.
-void set_real_body(SolidState& s, int grain, double density)
+void set_real_body(SolidState& s, int grain)
 {
-    const Vector centre = space_vector(s.grains.reference, s.grains.centre(grain));
-    double volume = 0.0;
-    SpaceTensor sum {};
-    for_each_tetrahedron(
-        s, s.grains.block_of(grain), [&](const TetrahedronShape& t, std::array<int, 4> nodes) {
-            std::array<Vector, 4> r;
-            for (int k = 0; k < 4; ++k)
-                r[k] = space_vector(s.grains.reference, nodes[k]) - centre;
-            const SpaceTensor m = second_moments(r[0], r[1], r[2], r[3]);
-            sum = { sum.xx + m.xx, sum.yy + m.yy, sum.zz + m.zz, sum.yz + m.yz, sum.xz + m.xz,
-                sum.xy + m.xy };
-            volume += t.volume;
-        });
-    s.bodies[grain].inertia = times(density, inertia_of(sum));
-    s.grains.inverse_mass[s.grains.scalar_index(s.grains.centre(grain))] = 1.0 / (density * volume);
+    const SolidMass whole = real_mass(s, grain);
+    s.bodies[grain].inertia = whole.inertia;
+    s.grains.inverse_mass[s.grains.scalar_index(s.grains.centre(grain))] = 1.0 / whole.mass;
 }
 
 }  // namespace
@@ -195,13 +183,32 @@ void scale_masses(SolidState& s, double damping, double dt)
     }
 }
 
+SolidMass real_mass(const SolidState& s, int grain)
+{
+    const double density = s.grains.elastic[s.grains.material[grain]].density;
+    const Vector centre = space_vector(s.grains.reference, s.grains.centre(grain));
+    double volume = 0.0;
+    SpaceTensor sum {};
+    for_each_tetrahedron(
+        s, s.grains.block_of(grain), [&](const TetrahedronShape& t, std::array<int, 4> nodes) {
+            std::array<Vector, 4> r;
+            for (int k = 0; k < 4; ++k)
+                r[k] = space_vector(s.grains.reference, nodes[k]) - centre;
+            const SpaceTensor m = second_moments(r[0], r[1], r[2], r[3]);
+            sum = { sum.xx + m.xx, sum.yy + m.yy, sum.zz + m.zz, sum.yz + m.yz, sum.xz + m.xz,
+                sum.xy + m.xy };
+            volume += t.volume;
+        });
+    return { density * volume, times(density, inertia_of(sum)) };
+}
+
 void set_real_masses(SolidState& s)
 {
     Array<double> mass(s.grains.inverse_mass.size(), 0.0);
     for (int g = 0; g < s.grains.count; ++g) {
         const double density = s.grains.elastic[s.grains.material[g]].density;
         if (s.grains.is_rigid(g)) {
-            set_real_body(s, g, density);
+            set_real_body(s, g);
             continue;
         }
         for_each_tetrahedron(

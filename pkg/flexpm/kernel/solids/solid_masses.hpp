@@ -20,6 +20,13 @@ SolidBound stiffness_bound(const SolidState& s);
 /// @throws std::invalid_argument  if not 0 <= damping < 1 or dt <= 0
 void scale_masses(SolidState& s, double damping, double dt = 1.0);
 
+/// Mass of a grain as a whole, and its inertia about its centre in the axes of the reference.
+struct SolidMass {
+    double mass = 0.0;       ///< [kg]
+    SpaceTensor inertia {};  ///< [kg m^2]
+};
+SolidMass real_mass(const SolidState& s, int grain);
+
 /// A quarter of the mass of each tetrahedron to each of its nodes; of a rigid grain all to the
 /// centre, and the moments of inertia about it.
 void set_real_masses(SolidState& s);

@@ -2,8 +2,8 @@
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
-#include <flexpm/kernel/solids/solid_step.hpp>
 
 #include <algorithm>
 #include <string>

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
 #include <algorithm>

@@ -45,16 +45,17 @@ struct Tetrahedra {
     }
 };
 
-/// Rows of a point of a face: where it was at the last forces, and its FacePointState.
+/// Rows of a point of a face: where it was at the last forces, and its FacePointState. A point
+/// without damage reads and writes the first ones alone.
 struct FaceRow {
     enum : int {
         opening,
         slip_x,
         slip_y,
         max_opening,
+        shear_damage,
         plastic_x,
         plastic_y,
-        shear_damage,
         damage_energy,
         friction_energy,
         count
@@ -104,12 +105,13 @@ struct FaceCrack {
 
 /// Blocks of grains whose contacts follow each other: what a step reads and writes of them stays in
 /// a cache.
-constexpr int tile_grains = 64;
+constexpr int tile_grains = 128;
 
 /// Contacts in the order of their grain pair; a block holds `lanes` of one group and of one tile,
-/// that of the first of their two blocks of grains. So a tile's grains have their last contact in
-/// it. A normal points from the first grain to the second, and corners are
-/// counter-clockwise as seen from its tip. The first tangent follows a line from corner 0.
+/// that of the first of their two blocks of grains, and either all or none of them reach grains of
+/// another tile. So a tile's grains have their last contact in it. A normal points from the first
+/// grain to the second, and corners are counter-clockwise as seen from its tip. The first tangent
+/// follows a line from corner 0.
 struct FaceContacts {
     int count = 0;
     std::vector<LawParameters> laws;
@@ -129,8 +131,6 @@ struct FaceContacts {
     Array<double> shares;  ///< [block][point that is no corner][corner][lane], with sum 1 [-]
     Array<double> states;  ///< [block][point][FaceRow][lane]
     std::vector<FaceCrack> cracks;  ///< as `areas`
-    /// Forces on the nodes, four values for each of `nodes` in their order: x, y, z, 0 [N].
-    Array<double> forces;
 
     int blocks() const { return static_cast<int>(block_group.size()); }
     int block_of(int contact) const { return slot[contact] / lanes; }
@@ -141,7 +141,7 @@ struct FaceContacts {
     int corners_of(int contact) const { return group_of(contact).corners; }
     const LawParameters& law_of(int contact) const { return laws[law[contact]]; }
 
-    /// Index of a corner's node on a side in `nodes`; its force begins at four times that.
+    /// Index of a corner's node on a side in `nodes`.
     int node_index(int contact, int side, int corner) const
     {
         return block_nodes[block_of(contact)] + (2 * corner + side) * lanes + lane_of(contact);
@@ -218,7 +218,6 @@ struct FaceContacts {
         visit("shares", s.shares);
         visit("states", s.states);
         visit("cracks", s.cracks);
-        visit("forces", s.forces);
     }
 };
 
@@ -278,14 +277,26 @@ struct PlateTouch {
     int index;  ///< of its facets
 };
 
+/// Force on a node that waits until its grain is summed.
+struct Parcel {
+    int node;   ///< offset from the first node of its block
+    int place;  ///< index of the x component in SolidPlan::parcels
+};
+
 /// What a step derives from the state.
 struct SolidPlan {
-    // forces of contacts on each node, in the order of blocks
-    std::vector<int> first;    ///< of each node (Layout::scalar_index), in `sources`, and the end
-    std::vector<int> sources;  ///< index of the x component in FaceContacts::forces
     // tiles
     std::vector<int> tile_contacts;  ///< first block of contacts of each tile, and the end
     std::vector<int> first_tile;     ///< of each block of grains: tile of its first contact
+    std::vector<int> tile_moves;     ///< first of each tile in `moves`, and the end
+    std::vector<int> moves;          ///< blocks of grains in the order of their first tile
+
+    // Forces of contacts. Those between grains of one tile are added to the nodes at once, others
+    // are parcels, since their grains may be another thread's.
+    std::vector<int> first_parcel;  ///< of each block of contacts in `parcels`; -1: it has none
+    std::vector<int> block_sums;    ///< first of each block of grains in `sums`, and the end
+    std::vector<Parcel> sums;       ///< in the order of blocks of contacts
+    Array<double> parcels;          ///< [block][corner][side][lane][x y z 0] [N]
 
     // contacts of plates on each block of grains, in the order of plates
     std::vector<int> first_press;  ///< of each block, in `presses`, and the end; empty: no plates

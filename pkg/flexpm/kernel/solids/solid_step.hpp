@@ -2,16 +2,10 @@
 /// @file  One step of a specimen in space: step.hpp for deformable polyhedral grains.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/step/step.hpp>
 
 namespace flexpm {
-
-/// Tile of a contact, see FaceContacts.
-int tile_of(const SolidState& s, int contact);
-
-/// Derive the plan of a step, after a state was made or loaded.
-void prepare_step(SolidState& s);
 
 /// Find the forces at the present places, and the states of contact points there, without a step.
 /// @throws std::invalid_argument  if a contact has no middle face there

@@ -2,11 +2,15 @@
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
-#include <flexpm/kernel/solids/rows_of_four.hpp>
+#include <flexpm/kernel/core/prefetch_rows.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 
 namespace flexpm {
 
 namespace {
+
+/// Batches from asking for one until it is used, of the next grain, too: they follow each other.
+constexpr int ahead = 2;
 
 /// The tetrahedra of a grain and its nodes.
 struct TetrahedronRows {
@@ -26,52 +30,58 @@ FLEXPM_INLINE TetrahedronShape load_tetrahedron(const double* rows, int l)
         row(9) };
 }
 
-/// Displacements of corners 1 to 3 relative to the centre, [corner][component][lane].
+/// Displacements of corners 1 to 3, [corner][component][lane].
 template <bool Wide>
 FLEXPM_INLINE void gather_corners(const TetrahedronRows& b, const int* nodes, double* to)
 {
-    const Four centre = row_of_four(b.displacement + b.centre);
     for (int k = 0; k < Tetrahedra::corners; ++k) {
         const int* node = nodes + k * lanes;
         to_lanes<Wide>([&](int l, Four& row)
-                           FLEXPM_INLINED { row = row_of_four(b.displacement + node[l]) - centre; },
-            to + 3 * k * lanes);
+                           FLEXPM_INLINED { row = row_of_four(b.displacement + node[l]); },
+            to + k * vector_rows);
     }
 }
 
-/// Adds to one node after the other, since lanes may share it, and minus all to the centre.
+/// Adds to one node after the other, since lanes may share it.
 FLEXPM_INLINE void scatter_corners(const TetrahedronRows& b, const int* nodes, const double* force)
 {
-    Four sum {};
     for (int k = 0; k < Tetrahedra::corners; ++k) {
-        from_lanes(force + 3 * k * lanes, [&](int l, const Four& f) FLEXPM_INLINED {
+        from_lanes(force + k * vector_rows, [&](int l, const Four& f) FLEXPM_INLINED {
             row_of_four(b.force + nodes[k * lanes + l]) += f;
-            sum += f;
         });
     }
-    row_of_four(b.force + b.centre) -= sum;
 }
 
 template <bool Wide> FLEXPM_INLINE void add_forces(const TetrahedronRows& b)
 {
-    constexpr int values = 3 * Tetrahedra::corners * lanes;
-    alignas(64) double way[values], force[values];
+    constexpr int values = Tetrahedra::corners * vector_rows;
+    alignas(64) double way[values], force[values], on_corners[vector_rows];
+    for (int i = 0; i < vector_rows; ++i)
+        on_corners[i] = 0.0;
+    const double* at = b.displacement + b.centre;
+    const Vector centre { at[0], at[1], at[2] };
     for (int t = 0; t < b.batches; ++t) {
         const int* nodes = b.nodes + t * Tetrahedra::corners * lanes;
         const double* shape = b.shape + t * Tetrahedra::rows * lanes;
+        prefetch_rows(nodes + ahead * Tetrahedra::corners * lanes, Tetrahedra::corners);
+        prefetch_rows(shape + ahead * Tetrahedra::rows * lanes, Tetrahedra::rows);
         gather_corners<Wide>(b, nodes, way);
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             const TetrahedronForces f = tetrahedron_forces(load_tetrahedron(shape, l),
-                load_rows<PlaneStiffness>(b.stiffness, l), Vector {}, load_vector(way, l),
-                load_vector(way + 3 * lanes, l), load_vector(way + 6 * lanes, l));
-            const double rows[] = { f.f1.x, f.f1.y, f.f1.z, f.f2.x, f.f2.y, f.f2.z, f.f3.x, f.f3.y,
-                f.f3.z };
-            for (int r = 0; r < 9; ++r)
-                force[r * lanes + l] = rows[r];
+                load_rows<PlaneStiffness>(b.stiffness, l), centre, load_vector(way, l),
+                load_vector(way + vector_rows, l), load_vector(way + 2 * vector_rows, l));
+            store_vector(f.f1, force, l);
+            store_vector(f.f2, force + vector_rows, l);
+            store_vector(f.f3, force + 2 * vector_rows, l);
+            store_vector(load_vector(on_corners, l) + (f.f1 + f.f2 + f.f3), on_corners, l);
         }
         scatter_corners(b, nodes, force);
     }
+    // minus all on the centre
+    Four sum {};
+    from_lanes(on_corners, [&](int, const Four& f) FLEXPM_INLINED { sum += f; });
+    row_of_four(b.force + b.centre) -= sum;
 }
 
 }  // namespace

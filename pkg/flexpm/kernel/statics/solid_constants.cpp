@@ -26,14 +26,46 @@ struct Grains {
     std::vector<Facet> facets;
 };
 
-Grains make_grains(const Polyhedra& cells, const SolidElasticity& material, FacePointRule rule)
+/// Number of kinds of grains.
+/// @throws std::invalid_argument  for a property out of range or a kind that is not there
+int check_kinds(const Polyhedra& cells, const SolidElasticities& materials)
 {
-    check_positive("solid_constants: normal_stiffness", material.normal_stiffness, "Pa/m");
-    check_positive("solid_constants: shear_ratio", material.shear_ratio, "");
+    for (const SolidElasticity& pair : materials.pairs) {
+        check_positive("solid_constants: normal_stiffness", pair.normal_stiffness, "Pa/m");
+        check_positive("solid_constants: shear_ratio", pair.shear_ratio, "");
+    }
+    const auto pairs = static_cast<int>(materials.pairs.size());
+    int kinds = 0;
+    while (kinds * kinds < pairs)
+        ++kinds;
+    if (pairs == 0 || kinds * kinds != pairs)
+        refuse("solid_constants: pairs of kinds", pairs, "", "must be a square above 0");
+    if (!materials.kind.empty() && static_cast<int>(materials.kind.size()) != cells.cells()) {
+        refuse("solid_constants: kinds given", static_cast<double>(materials.kind.size()), "",
+            "must be those of " + std::to_string(cells.cells()) + " cells");
+    }
+    for (const int kind : materials.kind) {
+        if (kind < 0 || kind >= kinds) {
+            refuse("solid_constants: kind of a cell", kind, "",
+                "must be from 0 to below " + std::to_string(kinds));
+        }
+    }
+    return kinds;
+}
+
+Grains make_grains(const Polyhedra& cells, const SolidElasticities& materials, FacePointRule rule)
+{
+    const int kinds = check_kinds(cells, materials);
+    const auto kind_of = [&](int cell) {
+        return materials.kind.empty() ? 0 : materials.kind[cell];
+    };
     Grains g;
-    // a density is asked for, and has no part in statics
     LinearSolid& solid = g.solid;
-    solid.kinds = { solid_stiffness({ material.young, material.poisson, 1.0, Plane::strain }) };
+    for (int k = 0; k < kinds; ++k) {
+        const SolidElasticity& own = materials.pairs[k * kinds + k];
+        // a density is asked for, and has no part in statics
+        solid.kinds.push_back(solid_stiffness({ own.young, own.poisson, 1.0, Plane::strain }));
+    }
     const FanMeshes meshes = fan_meshes(cells);
     const auto node = [&](int cell, int vertex) {
         const auto first = meshes.node_vertices.begin() + meshes.node_offsets[cell];
@@ -54,7 +86,7 @@ Grains make_grains(const Polyhedra& cells, const SolidElasticity& material, Face
             solid.elements.push_back({ n,
                 tetrahedron_shape(
                     solid.places[n[0]], solid.places[n[1]], solid.places[n[2]], solid.places[n[3]]),
-                0 });
+                kind_of(c) });
         }
     }
     for (std::size_t f = 0; f < cells.faces.size(); ++f) {
@@ -70,6 +102,8 @@ Grains make_grains(const Polyhedra& cells, const SolidElasticity& material, Face
             }
             continue;
         }
+        const SolidElasticity& material =
+            materials.pairs[kind_of(on.cell_a) * kinds + kind_of(on.cell_b)];
         LinearSolid::Face face;
         face.normal_stiffness = material.normal_stiffness;
         face.shear_stiffness = material.shear_ratio * material.normal_stiffness;
@@ -128,10 +162,10 @@ void require_cells_of(const Solid& solid, const Polyhedra& cells, const Grains& 
 
 }  // namespace
 
-SolidExtension solid_extension(
-    const Polyhedra& cells, const Solid& solid, const SolidElasticity& material, FacePointRule rule)
+SolidExtension solid_extension(const Polyhedra& cells, const Solid& solid,
+    const SolidElasticities& materials, FacePointRule rule)
 {
-    const Grains g = make_grains(cells, material, rule);
+    const Grains g = make_grains(cells, materials, rule);
     require_cells_of(solid, cells, g);
     const auto bottom = nodes_on(g, solid, SolidSide::bottom);
     const auto top = nodes_on(g, solid, SolidSide::top);
@@ -171,10 +205,10 @@ SolidExtension solid_extension(
     return result;
 }
 
-SolidConstants solid_constants(
-    const Polyhedra& cells, const Solid& solid, const SolidElasticity& material, FacePointRule rule)
+SolidConstants solid_constants(const Polyhedra& cells, const Solid& solid,
+    const SolidElasticities& materials, FacePointRule rule)
 {
-    return solid_extension(cells, solid, material, rule).constants;
+    return solid_extension(cells, solid, materials, rule).constants;
 }
 
 }  // namespace flexpm

@@ -6,6 +6,9 @@
 #include <flexpm/kernel/space/face_points.hpp>
 #include <flexpm/kernel/space/polyhedra.hpp>
 
+#include <utility>
+#include <vector>
+
 namespace flexpm {
 
 /// What grains and their contacts are made of, as far as it is elastic.
@@ -14,6 +17,21 @@ struct SolidElasticity {
     double poisson = 0.0;           ///< of the grains [-], 0 < nu < 0.5
     double normal_stiffness = 0.0;  ///< K_n of the contacts [Pa/m], > 0
     double shear_ratio = 0.0;       ///< eta = k_s / k_n [-], > 0
+};
+
+/// The same of grains of several kinds.
+struct SolidElasticities {
+    /// Contacts between two kinds, [first grain's kind][second grain's]; grains of a kind have
+    /// `young` and `poisson` of the kind's own contacts.
+    std::vector<SolidElasticity> pairs;
+    std::vector<int> kind;  ///< of each cell; empty: all are of the first
+
+    SolidElasticities(const SolidElasticity& alike) : pairs { alike } { }
+    SolidElasticities(std::vector<SolidElasticity> of_pairs, std::vector<int> of_cells) :
+        pairs(std::move(of_pairs)),
+        kind(std::move(of_cells))
+    {
+    }
 };
 
 /// Elastic constants of a solid as a whole, and how they were found.
@@ -39,14 +57,14 @@ struct SolidExtension {
 /// have a fixed order and one thread, so results have the same bits everywhere.
 ///
 /// @param cells  of `solid`
-/// @throws std::invalid_argument  for a property out of range, a solid without bottom or top, or
-///         cells that are not its own
+/// @throws std::invalid_argument  for a property out of range, a kind that is not there, a solid
+///         without bottom or top, or cells that are not its own
 /// @throws std::runtime_error     if the forces do not come to balance
 SolidExtension solid_extension(const Polyhedra& cells, const Solid& solid,
-    const SolidElasticity& material, FacePointRule rule = FacePointRule::corners_and_inner);
+    const SolidElasticities& materials, FacePointRule rule = FacePointRule::corners_and_inner);
 
 /// The constants alone.
 SolidConstants solid_constants(const Polyhedra& cells, const Solid& solid,
-    const SolidElasticity& material, FacePointRule rule = FacePointRule::corners_and_inner);
+    const SolidElasticities& materials, FacePointRule rule = FacePointRule::corners_and_inner);
 
 }  // namespace flexpm

@@ -4,6 +4,8 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/fem/triangle.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,10 +23,13 @@ struct Description {
     double factor;
 };
 
-constexpr std::array<Description, 7> descriptions { {
+constexpr std::array<Description, 10> descriptions { {
     { GrainValue::stress_xx, "stress_xx", "stress xx [MPa]", 1e-6 },
     { GrainValue::stress_yy, "stress_yy", "stress yy [MPa]", 1e-6 },
     { GrainValue::stress_xy, "stress_xy", "stress xy [MPa]", 1e-6 },
+    { GrainValue::stress_zz, "stress_zz", "stress zz [MPa]", 1e-6 },
+    { GrainValue::stress_yz, "stress_yz", "stress yz [MPa]", 1e-6 },
+    { GrainValue::stress_xz, "stress_xz", "stress xz [MPa]", 1e-6 },
     { GrainValue::displacement, "displacement", "displacement [mm]", 1e3 },
     { GrainValue::damage, "damage", "damage [-]", 1.0 },
     { GrainValue::mineral, "mineral", "mineral", 1.0 },
@@ -37,6 +42,12 @@ const Description& description_of(GrainValue what)
         [&](const Description& one) { return one.what == what; });
 }
 
+bool is_of_space(GrainValue what)
+{
+    return what == GrainValue::stress_zz || what == GrainValue::stress_yz
+        || what == GrainValue::stress_xz;
+}
+
 double area_of(const Grains& grains, int grain)
 {
     std::vector<Point> corners;
@@ -44,6 +55,10 @@ double area_of(const Grains& grains, int grain)
         corners.push_back(grains.reference_at(grains.node(grain, n)));
     return polygon_shape(corners).area;
 }
+
+/// What fragments are measured by: area or volume.
+double size_of(const Assembly& a, int grain) { return area_of(a.grains, grain); }
+double size_of(const SolidState& s, int grain) { return grain_stress(s, grain).volume; }
 
 Tensor stress_of_triangles(const Grains& grains, int grain)
 {
@@ -71,15 +86,48 @@ double stress_of(const Assembly& a, int grain, GrainValue what)
     return what == GrainValue::stress_yy ? stress.yy : stress.xy;
 }
 
-/// Calls visit(contact) for all bonds that are there.
-template <class Visit> void for_each_bond(const Contacts& contacts, Visit visit)
+double stress_of(const SolidState& s, int grain, GrainValue what)
 {
-    for (int c = 0; c < contacts.count; ++c) {
-        if (contacts.bonded[c] && !contacts.erased[c]) visit(c);
+    const SpaceTensor t = grain_stress(s, grain).stress;
+    switch (what) {
+    case GrainValue::stress_xx:
+        return t.xx;
+    case GrainValue::stress_yy:
+        return t.yy;
+    case GrainValue::stress_zz:
+        return t.zz;
+    case GrainValue::stress_yz:
+        return t.yz;
+    case GrainValue::stress_xz:
+        return t.xz;
+    default:
+        return t.xy;
     }
 }
 
-std::vector<double> damages(const Assembly& a)
+bool is_bond(const Contacts& contacts, int c) { return contacts.bonded[c] && !contacts.erased[c]; }
+bool is_bond(const FaceContacts&, int) { return true; }
+
+double damage_of(const FaceContacts& contacts, int contact, int point)
+{
+    return traction_of(contacts, contact, point).damage;
+}
+
+Point displacement_of(const Assembly& a, int node) { return a.grains.displacement_at(node); }
+Vector displacement_of(const SolidState& s, int node)
+{
+    return space_vector(s.grains.displacement, node);
+}
+
+/// Calls visit(contact) for all bonds that are there.
+template <class List, class Visit> void for_each_bond(const List& contacts, Visit visit)
+{
+    for (int c = 0; c < contacts.count; ++c) {
+        if (is_bond(contacts, c)) visit(c);
+    }
+}
+
+template <class State> std::vector<double> damages(const State& a)
 {
     std::vector<double> sums(a.grains.count), points(a.grains.count);
     for_each_bond(a.contacts, [&](int c) {
@@ -95,7 +143,7 @@ std::vector<double> damages(const Assembly& a)
 }
 
 /// The first grain of those with which each hangs together.
-std::vector<int> first_of_fragments(const Assembly& a)
+template <class State> std::vector<int> first_of_fragments(const State& a)
 {
     std::vector<int> first(a.grains.count);
     std::iota(first.begin(), first.end(), 0);
@@ -117,17 +165,17 @@ std::vector<int> first_of_fragments(const Assembly& a)
     return first;
 }
 
-std::vector<double> fragments(const Assembly& a)
+template <class State> std::vector<double> fragments(const State& a)
 {
     const std::vector<int> first = first_of_fragments(a);
-    std::vector<double> area(a.grains.count);
+    std::vector<double> size(a.grains.count);
     std::vector<int> order;
     for (int g = 0; g < a.grains.count; ++g) {
         if (a.grains.erased[g]) continue;
-        area[first[g]] += area_of(a.grains, g);
+        size[first[g]] += size_of(a, g);
         if (first[g] == g) order.push_back(g);
     }
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return area[i] > area[j]; });
+    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return size[i] > size[j]; });
     std::vector<double> rank(a.grains.count), found(a.grains.count);
     for (std::size_t i = 0; i < order.size(); ++i)
         rank[order[i]] = static_cast<double>(i);
@@ -136,12 +184,28 @@ std::vector<double> fragments(const Assembly& a)
     return found;
 }
 
-double single_value(const Assembly& a, int grain, GrainValue what)
+template <class State> double single_value(const State& a, int grain, GrainValue what)
 {
     if (what == GrainValue::mineral) return a.grains.material[grain];
-    if (what == GrainValue::displacement)
-        return norm(a.grains.displacement_at(a.grains.centre(grain)));
+    if (what == GrainValue::displacement) return norm(displacement_of(a, a.grains.centre(grain)));
     return stress_of(a, grain, what);
+}
+
+template <class State> std::vector<double> values_of(const State& a, GrainValue what)
+{
+    std::vector<double> values(a.grains.count);
+    if (what == GrainValue::damage) {
+        values = damages(a);
+    } else if (what == GrainValue::fragment) {
+        values = fragments(a);
+    } else {
+        for (int g = 0; g < a.grains.count; ++g)
+            values[g] = single_value(a, g, what);
+    }
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (a.grains.erased[g]) values[g] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return values;
 }
 
 }  // namespace
@@ -161,10 +225,11 @@ Tensor stress_by_forces(const Assembly& a, int grain)
     return sum;
 }
 
-std::optional<GrainValue> grain_value(const std::string& name)
+std::optional<GrainValue> grain_value(const std::string& name, int dimensions)
 {
     for (const Description& one : descriptions) {
-        if (one.name == name) return one.what;
+        const bool known = dimensions == space_layout.dimension || !is_of_space(one.what);
+        if (known && one.name == name) return one.what;
     }
     return {};
 }
@@ -178,21 +243,10 @@ std::string scale_title(GrainValue what) { return description_of(what).title; }
 
 double scale_factor(GrainValue what) { return description_of(what).factor; }
 
-std::vector<double> grain_values(const Assembly& a, GrainValue what)
+std::vector<double> grain_values(const Assembly& a, GrainValue what) { return values_of(a, what); }
+std::vector<double> grain_values(const SolidState& s, GrainValue what)
 {
-    std::vector<double> values(a.grains.count);
-    if (what == GrainValue::damage) {
-        values = damages(a);
-    } else if (what == GrainValue::fragment) {
-        values = fragments(a);
-    } else {
-        for (int g = 0; g < a.grains.count; ++g)
-            values[g] = single_value(a, g, what);
-    }
-    for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.erased[g]) values[g] = std::numeric_limits<double>::quiet_NaN();
-    }
-    return values;
+    return values_of(s, what);
 }
 
 Extent extent_of(const Grains& grains)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/solids/solid_state.hpp>
 
 #include <optional>
 #include <string>
@@ -15,15 +16,20 @@ namespace flexpm {
 enum class GrainValue {
     stress_xx,
     stress_yy,
-    stress_xy,     ///< means over the grain [Pa]; of a rigid one by the forces on it
+    stress_xy,  ///< means over the grain [Pa]; of a rigid one by the forces on it
+    stress_zz,
+    stress_yz,
+    stress_xz,     ///< those of solids alone
     displacement,  ///< of its centre since it was bonded [m]
     damage,        ///< mean over the points of its bonds [-]
     mineral,       ///< number in the material
-    fragment,      ///< number by area, 0 the largest; grains hang together as in fragments.csv
+    fragment,      ///< number by area or volume, 0 the largest; grains hang together as in
+                   ///< fragments.csv
 };
 
-/// The value with a name, as it stands above; none of any other name.
-std::optional<GrainValue> grain_value(const std::string& name);
+/// The value with a name, as it stands above; none of any other name, or of one that grains of so
+/// many dimensions do not have.
+std::optional<GrainValue> grain_value(const std::string& name, int dimensions = 2);
 
 /// Whether values are numbers of kinds, not quantities.
 bool is_kind(GrainValue what);
@@ -40,6 +46,7 @@ Tensor stress_by_forces(const Assembly& a, int grain);
 
 /// One value for each grain; nan for one that is erased.
 std::vector<double> grain_values(const Assembly& a, GrainValue what);
+std::vector<double> grain_values(const SolidState& s, GrainValue what);
 
 /// Lower left and upper right corner of all grains that are there [m].
 struct Extent {

@@ -100,9 +100,20 @@ namespace {
 		return py::make_tuple(points, fallbacks);
 	}
 
-	py::tuple solidConstants(const Polyhedra& cells, const Solid& solid, double young, double poisson, double normalStiffness, double shearRatio)
+	py::tuple solidConstants(const Polyhedra& cells, const Solid& solid, py::object laws, py::object kinds)
 	{
-		const auto found = flexpm::solid_constants(cells, solid, { young, poisson, normalStiffness, shearRatio });
+		const InputArray<double> rows(laws, 2, "laws");
+		if (rows.size(1) != 4)
+			throw std::invalid_argument(
+			        "laws = rows of " + std::to_string(rows.size(1))
+			        + ", must be rows of 4; give young, poisson, normal_stiffness and shear_ratio");
+		std::vector<flexpm::SolidElasticity> pairs;
+		for (std::size_t i = 0; i < rows.size(0); ++i) {
+			const double* row = rows.data() + 4 * i;
+			pairs.push_back({ row[0], row[1], row[2], row[3] });
+		}
+		const InputArray<int> kind(kinds, 1, "kinds");
+		const auto            found = flexpm::solid_constants(cells, solid, { pairs, { kind.data(), kind.data() + kind.size(0) } });
 		return py::make_tuple(found.youngs_modulus, found.poissons_ratio, found.iterations, found.residual);
 	}
 
@@ -164,8 +175,10 @@ void register_space_bindings()
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
 	py::def("solid_constants",
 	        solidConstants,
-	        (py::arg("cells"), py::arg("solid"), py::arg("young"), py::arg("poisson"), py::arg("normal_stiffness"), py::arg("shear_ratio")),
-	        "Young's modulus [Pa], Poisson's ratio, iterations and residual of a static solve.");
+	        (py::arg("cells"), py::arg("solid"), py::arg("laws"), py::arg("kinds")),
+	        "Young's modulus [Pa], Poisson's ratio, iterations and residual of a static solve. laws: rows young [Pa], poisson, normal_stiffness [Pa/m], "
+	        "shear_ratio "
+	        "of contacts of kinds i and j, at i times their number plus j; kinds: that of each cell; empty: all are alike.");
 	py::def("face_point_counts", facePointCounts, py::arg("cells"), "Points of all contacts, and contacts with equal points instead of the rule's.");
 }
 

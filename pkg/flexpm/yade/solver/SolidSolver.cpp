@@ -57,6 +57,13 @@ void SolidSolver::holdBottom()
 
 void SolidSolver::clearPressure(int side) { flexpm::set_pressure(state, side, 0.); }
 
+void SolidSolver::holdSide(int side, bool x, bool y, bool z)
+{
+	const bool axes[] = { x, y, z };
+	for (int axis = 0; axis < 3; ++axis)
+		if (axes[axis]) flexpm::hold_side(state, side, axis);
+}
+
 void SolidSolver::requireReady() const
 {
 	requireGrains();

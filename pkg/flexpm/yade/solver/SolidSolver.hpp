@@ -25,6 +25,7 @@ public:
 	void holdEnds(bool bonded);
 	void holdBottom();
 	void clearPressure(int side);
+	void holdSide(int side, bool x, bool y, bool z);
 	void mirrorBodies();
 	py::dict snapshot();
 	py::dict counts();
@@ -48,6 +49,8 @@ public:
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")
 		.def("balance", WithGrains<&SolidSolver::balance>::call,
 			"How far the specimen is in balance at the last step, by name: mean_stress and outside_stress [Pa], each (xx, yy, zz, yz, xz, xy), missing_force [N], plate_share, 0.")
+		.def("holdSide", WithGrains<&SolidSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
+			"Hold the nodes of deformable grains on a side along the axes named. Sides: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends: plane strain of a box.")
 		.def("mirrorBodies", WithGrains<&SolidSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is.")
 		.def("snapshot", WithGrains<&SolidSolver::snapshot>::call, "The state as plain arrays, by name.")
 		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")

@@ -29,8 +29,9 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.01, 0.0045, (0.005, 0.6), 0.01, likely_crossings=19),
-        "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=58),
+        "flexible": Rates(0.02, 0.009, (0.018, 0.6), 0.01, 0.32, likely_crossings=10),
+        "rigid": Rates(0.04, 0.01, (0.07, 0.5), 0.02, 0.32, likely_crossings=29),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
     pulled=True,

@@ -30,8 +30,9 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=60),
-        "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
+        "flexible": Rates(0.01, 0.003, (0.008, 0.15), 0.002, 0.32, likely_crossings=30),
+        "rigid": Rates(0.02, 0.008, (0.09, 0.5), 0.005, 0.32, likely_crossings=65),
+        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
     is_core=True,

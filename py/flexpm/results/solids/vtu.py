@@ -32,7 +32,7 @@ from ..arrays.vtu_arrays import (
     joined,
     write_grid,
 )
-from ..arrays.vtu_reader import Grid
+from ..arrays.vtu_reader import Arrays, Grid
 from .state import SolidSnapshot
 
 #: Components xx, yy, zz, yz, xz, xy in the order of a tensor's: XX, YY, ZZ, XY, YZ, XZ.
@@ -155,7 +155,19 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
         crack_mode=np.where(cracked, bonds["crack_mode"][row], 0),
         crack_position=blank,
         crack_energy=np.full(len(row), np.nan),
+        grain_mineral=_minerals_of(cells, owner, len(volumes)),
     )
+
+
+def _minerals_of(cells: Arrays, owner: IntArray, grains: int) -> IntArray | None:
+    """Mineral of each grain of a grid; None if it tells of none."""
+    if "mineral" not in cells:
+        return None
+    found = np.zeros(grains, dtype=int)
+    found[owner] = cells["mineral"][: len(owner)]
+    if found.min() < 0:
+        raise ValueError("minerals")
+    return found
 
 
 def _volumes(corners: FloatArray) -> FloatArray:
@@ -196,6 +208,8 @@ def _grid_of(shape: SolidShape) -> vtkUnstructuredGrid:
 
 def _of_grains(snapshot: SolidSnapshot) -> dict[str, Named]:
     stress, grain = snapshot.tetrahedron_stress, snapshot.tetrahedron_grain
+    mineral = snapshot.grain_mineral
+    kinds: dict[str, Named] = {} if mineral is None else {"mineral": (mineral[grain], ())}
     principal = np.linalg.eigvalsh(_matrices(stress)) if np.all(np.isfinite(stress)) else stress
     return {
         "fragment": (snapshot.fragments.labels[grain], ()),
@@ -204,6 +218,7 @@ def _of_grains(snapshot: SolidSnapshot) -> dict[str, Named]:
         "principal_stress_1": (principal[:, 2], ()),
         "principal_stress_2": (principal[:, 1], ()),
         "principal_stress_3": (principal[:, 0], ()),
+        **kinds,
     }
 
 

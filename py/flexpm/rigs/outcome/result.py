@@ -13,7 +13,8 @@ from ...models.grains import Model, SolidModel
 from ...results.cracks import count_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
-from ...specimens.space.any_spec import is_solid
+from ...results.solids.state import SolidSnapshot
+from ...specimens.space.specimen import SolidSpecimen
 from ...specimens.specimen import Specimen
 from ..readings import RigReadings
 
@@ -62,8 +63,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         result.measure_core(solid=rig.solid)
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
+    if isinstance(snapshot, SolidSnapshot):
+        result.tetrahedra = len(snapshot.tetrahedra)
     if isinstance(built, SolidModel):
-        result.tetrahedra = counts["tetrahedra"]
         result.largest_overlap = built.solver.overlaps()["of_diameter"]
     if isinstance(built, Model):  # bonds of spheres tell no energy
         result.measure_emission(_event_rule(built.specimen, built.solver))
@@ -75,9 +77,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     return result
 
 
-def grains_across(specimen: Specimen) -> float:
+def grains_across(specimen: Specimen | SolidSpecimen) -> float:
     """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
-    if is_solid(specimen.kind):
+    if isinstance(specimen, SolidSpecimen):
         return min(specimen.dimensions.values()) / specimen.mean_diameter
     if not isinstance(specimen.outline, np.ndarray):
         return specimen.dimensions["diameter"] / specimen.mean_diameter

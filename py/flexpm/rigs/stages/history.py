@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import InputError
+from ...files import read_text
 from ...require import quoted
 
 #: What a unit that may stand in a history's row of units is in SI, by what it measures.
@@ -72,11 +74,15 @@ def _numbers(name: str, given: object) -> list[float]:
 def _rows_of(path: Path, unit: str) -> list[tuple[int, float, float]]:
     """Line, time and value of each row of a file, in SI units."""
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = [(n, row) for n, row in enumerate(csv.reader(file), 1) if any(row)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or "is no CSV file in UTF-8"
-        raise InputError(f"follow: file = {str(path)!r}, {reason}") from None
+        text = read_text(path).removeprefix("\ufeff")  # as spreadsheets begin their files
+        cells = csv.reader(io.StringIO(text, newline=""))
+        lines = [(n, row) for n, row in enumerate(cells, 1) if any(row)]
+    except OSError as error:
+        raise InputError(f"follow: file = {str(path)!r}, {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"follow: file = {str(path)!r}, is no CSV file in UTF-8") from None
+    except (ValueError, csv.Error) as error:
+        raise InputError(f"follow: file = {str(path)!r}, is no CSV file: {error}") from None
     factors = (1.0, 1.0)
     rows: list[tuple[int, float, float]] = []
     heads = 0

@@ -8,15 +8,27 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, TypeGuard
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
-from ...errors import InputError
 from ...files import Table
 from ...joints.lines import Lines
 from ...joints.lines import checksum as lines_checksum
 from ...require import quoted
 from ..spec import SpecimenSpec
+from .rules import (
+    Rule,
+    is_count,
+    is_number,
+    is_positive,
+    is_text,
+    list_of,
+    or_none,
+    refuse,
+    require_rules,
+    row_of,
+    spec_values,
+)
 
 if TYPE_CHECKING:
     from ..._flexpm import Tiling
@@ -35,48 +47,10 @@ _FARTHEST = 3.0
 #: Most joints of which all ways are tried in which they may have been cut.
 _MOST_JOINTS = 10
 
-_Rule = Callable[[object], bool]
-
-
-def refuse(what: str) -> InputError:
-    """Error of a file whose content has no sense."""
-    return InputError(f"specimen file: {what}; save the specimen again")
-
-
-def _is_count(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31
-
-
-def _is_number(value: object) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e9
-
-
-def _is_positive(value: object) -> bool:
-    return _is_number(value) and value > 0.0
-
-
-def _is_text(value: object) -> bool:
-    return isinstance(value, str)
-
-
-def _list(rule: _Rule, least: int = 0, most: float = math.inf) -> _Rule:
-    def holds(value: object) -> bool:
-        return isinstance(value, list) and least <= len(value) <= most and all(map(rule, value))
-
-    return holds
-
-
-def _or_none(rule: _Rule) -> _Rule:
-    return lambda value: value is None or rule(value)
-
-
-def _row(columns: int, rule: _Rule = _is_number) -> _Rule:
-    return _list(rule, columns, columns)
-
 
 def _is_outline(value: object) -> bool:
     if isinstance(value, Mapping):
-        whole = value.keys() == {"x", "y", "radius"} and all(map(_is_number, value.values()))
+        whole = value.keys() == {"x", "y", "radius"} and all(map(is_number, value.values()))
         return whole and value["radius"] > 0.0
     return _RING(value)
 
@@ -91,40 +65,40 @@ def _is_cuts(value: object) -> bool:
     )
 
 
-_CUT: dict[str, _Rule] = {
-    **dict.fromkeys(("lines", "idle"), _is_count),
-    **dict.fromkeys(("length", "cut", "taken", "outside"), _is_number),
-    "on": _or_none(_is_text),
-    "reason": _is_text,
+_CUT: dict[str, Rule] = {
+    **dict.fromkeys(("lines", "idle"), is_count),
+    **dict.fromkeys(("length", "cut", "taken", "outside"), is_number),
+    "on": or_none(is_text),
+    "reason": is_text,
 }
-_RING = _list(_row(2), 3)
+_RING = list_of(row_of(2), 3)
 #: What each key of a file holds.
-_KEYS: dict[str, _Rule] = {
+_KEYS: dict[str, Rule] = {
     "spec": lambda value: isinstance(value, Mapping),
     "outline": _is_outline,
-    "holes": _list(_RING),
-    "removed_discs": _is_count,
-    "minerals": _or_none(_list(_is_count, 1)),
-    "vertices": _list(_row(2), 3),
-    "cells": _list(_list(_is_count, 3), 1),
-    "discs": _list(_row(3), 1),
-    "sides": _list(_row(3, _is_count)),
-    "joints": _list(_row(3, _is_count)),
+    "holes": list_of(_RING),
+    "removed_discs": is_count,
+    "minerals": or_none(list_of(is_count, 1)),
+    "vertices": list_of(row_of(2), 3),
+    "cells": list_of(list_of(is_count, 3), 1),
+    "discs": list_of(row_of(3), 1),
+    "sides": list_of(row_of(3, is_count)),
+    "joints": list_of(row_of(3, is_count)),
     "lines": lambda value: isinstance(value, Mapping),
     "cuts": _is_cuts,
-    "strengths": _or_none(_list(_is_positive)),
-    "grains": _or_none(_list(_is_count, 1)),
+    "strengths": or_none(list_of(is_positive)),
+    "grains": or_none(list_of(is_count, 1)),
 }
 #: Keys that files of earlier versions lack.
 _LATER = ("lines", "cuts")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
-_SPEC: dict[str, _Rule] = {
-    "kind": _is_text,
-    **dict.fromkeys(("diameters", "joint_origin"), _or_none(_row(2))),
-    "joint_names": _or_none(_list(_is_text, 1)),
-    "networks": _or_none(_list(lambda value: isinstance(value, Mapping), 1)),
+_SPEC: dict[str, Rule] = {
+    "kind": is_text,
+    **dict.fromkeys(("diameters", "joint_origin"), or_none(row_of(2))),
+    "joint_names": or_none(list_of(is_text, 1)),
+    "networks": or_none(list_of(lambda value: isinstance(value, Mapping), 1)),
     **dict.fromkeys(
-        ("discs", "outline", "minerals", "cells", "joints", "strengths"), _or_none(_is_text)
+        ("discs", "outline", "minerals", "cells", "joints", "strengths"), or_none(is_text)
     ),
 }
 
@@ -135,13 +109,7 @@ def require_types(content: Table) -> None:
     Raises:
         InputError: for the first that is not.
     """
-    for name, holds in _KEYS.items():
-        if name not in content:
-            if name in _LATER:
-                continue
-            raise refuse(f"{name} is missing")
-        if not holds(content[name]):
-            raise refuse(f"{name} = {quoted(content[name])}, is none")
+    require_rules(content, _KEYS, _LATER)
     cells = len(content["cells"])
     for name in ("discs", "minerals", "grains"):
         if content[name] is not None and len(content[name]) != cells:
@@ -164,16 +132,8 @@ def spec_of(content: Table) -> SpecimenSpec:
     Raises:
         InputError: for a field that is unknown, of another type or out of range.
     """
-    values = dict(content["spec"])
     known = [field.name for field in dataclasses.fields(SpecimenSpec)]
-    for name, value in values.items():
-        if name not in known:
-            raise refuse(f"spec {quoted(name)}, is unknown")
-        if name in _SPEC and not _SPEC[name](value):
-            raise refuse(f"spec {name} = {quoted(value)}, is none")
-    if values.get("diameters") is not None:
-        values["diameters"] = tuple(values["diameters"])
-    return SpecimenSpec(**values)
+    return SpecimenSpec(**spec_values(content["spec"], known, _SPEC))
 
 
 def require_sense(found: Table, sides: IntArray, joints: int, tiling: Tiling) -> None:

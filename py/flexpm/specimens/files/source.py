@@ -79,7 +79,7 @@ class SpecimenSource:
         outline = None
         if file is not None:
             if solid_file.is_one(file):
-                packed = SolidSpec(**solid_file.read(file)["spec"])
+                packed = solid_file.read(file)["spec"]
             else:
                 content = specimen_file.read(file)
                 packed, outline = specimen_file.spec_of(content), content["outline"]

@@ -78,8 +78,8 @@ def read(path: Path) -> Table:
     content = load_json(path, "specimen")
     if content.get("format") == SOLID:
         raise InputError(
-            f"{name}, is a solid, must be plane: solids can be packed, measured, saved and drawn "
-            "so far (Specimen.load_solid), not tested"
+            f"{name}, is a solid, must be plane; give it to what takes solids, or read it by "
+            "Specimen.load_solid"
         )
     if content.get("format") != _FORMAT:
         raise InputError(f"{name}, is no specimen of this flexpm; give a file of Specimen.save")

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 from ...require import LENGTH, require_number
-from ..outlines import area_of
+from ..outlines import area_of, box_of
 from .neper_text import Words
 
 #: Most cells, and most vertices and edges of them.
@@ -83,7 +83,10 @@ class PlaneTess:
         return PlaneTess(scale * self.vertices, self.cells, centres, radii)
 
     def outline(self) -> FloatArray | None:
-        """Corners of the outline, counter-clockwise; None if it is not one convex ring."""
+        """Corners of the outline, counter-clockwise; None if it is not one convex ring.
+
+        Those of a rectangle along x and y are made exact and begin at the lower left.
+        """
         count: dict[tuple[int, int], int] = {}
         for cell in self.cells:
             for edge in _edges(cell):
@@ -113,7 +116,16 @@ class PlaneTess:
         straight = np.abs(turn) <= least * np.maximum(np.hypot(*come.T), np.hypot(*way.T))
         if (turn[~straight] < 0.0).any():
             return None
-        return np.ascontiguousarray(corners[~straight])
+        return _boxed(np.ascontiguousarray(corners[~straight]), least)
+
+
+def _boxed(corners: FloatArray, near: float) -> FloatArray:
+    """Corners of the box around a ring, if these are its own; else the ring."""
+    box = box_of(corners)
+    if len(corners) != 4:
+        return corners
+    begin = int(np.argmin(np.abs(corners - box[0]).sum(axis=1)))
+    return box if np.allclose(np.roll(corners, -begin, axis=0), box, 0.0, near) else corners
 
 
 def _edges(cell: list[int]) -> list[tuple[int, int]]:

@@ -19,6 +19,10 @@ _GROUPS = {
     **{"32": ("-3m", "x"), "6": ("6/m", ""), "62": ("6/mmm", ""), "23": ("m-3", "")},
     "43": ("m-3m", ""),
 }
+#: Other programs write the names of the rotations, or of the Laue groups, in full.
+_FULL = {"222": "22", "422": "42", "622": "62", "432": "43", "121": "20", "2/m": "20", "-3m": "32"}
+_GROUPS |= {name: _GROUPS[short] for name, short in _FULL.items()}
+_GROUPS |= {name: (name, "") for name in laue.NAMES if name not in _GROUPS}
 #: Columns: phi1, Phi, phi2, x, y, image quality, confidence, phase.
 _COLUMNS = (0, 1, 2, 3, 4, 6, 7)
 #: Angles of points that were not indexed are 4 pi.
@@ -36,11 +40,11 @@ def read(path: Path) -> OrientationMap:
     text = MapText(path)
     head: dict[str, tuple[str, int]] = {}
     phases: dict[int, Phase] = {}
-    name, number, first = "", 0, 0
+    name, number, first = "", -1, 0
     for first, row in enumerate(text.lines):  # the line after the head
         if not row.startswith("#"):
             break
-        key, _, value = (row[1:].replace(":", " ").strip() + " ").partition(" ")
+        key, value, *_ = [*row[1:].replace(":", " ").split(maxsplit=1), "", ""]
         value = value.strip()
         if key == "Phase":
             number, name = int(text.number("Phase", value, first)), f"phase {value}"
@@ -51,6 +55,8 @@ def read(path: Path) -> OrientationMap:
             if group is None:
                 known = ", ".join(_GROUPS)
                 raise text.refused(f"Symmetry = {value}, must be one of {known}", first)
+            if number in phases or number < 0:  # files without lines of numbers count from 1
+                number = len(phases) + 1
             phases[number] = Phase(name, laue.rotations(*group))
         elif key in ("GRID", "XSTEP", "YSTEP"):
             head.setdefault(key, (value, first))
@@ -66,9 +72,9 @@ def read(path: Path) -> OrientationMap:
     values = text.table(first, _COLUMNS)
     indexed = (values[:, 5] >= 0.0) & (np.abs(values[:, :3]) < _NO_ANGLE).all(axis=1)
     phase = _indices(text, values[:, 6], indexed, list(phases))
-    raster, sides = text.raster(values[:, 3], values[:, 4], steps, kind == "HexGrid")
+    grid = text.grid(values[:, 3], values[:, 4], steps, kind == "HexGrid")
     turned = laue.orientations(np.where(indexed[:, None], values[:, :3], 0.0), degrees=False)
-    return OrientationMap.of(list(phases.values()), phase, turned, raster, sides)
+    return OrientationMap.of(list(phases.values()), phase, turned, grid)
 
 
 def _indices(text: MapText, phase: FloatArray, indexed: BoolArray, numbers: list[int]) -> IntArray:

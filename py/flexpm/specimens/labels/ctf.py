@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...arrays import FloatArray
 from . import laue
-from .orientation_map import ON_GRID, MapText, OrientationMap, Phase
+from .orientation_map import MapText, OrientationMap, Phase, is_hexagonal
 
 #: Laue groups by their number in these files, from 1.
 _GROUPS = ("-1", "2/m", "mmm", "4/m", "4/mmm", "-3", "-3m", "6/m", "6/mmm", "m-3", "m-3m")
@@ -53,15 +52,10 @@ def read(path: Path) -> OrientationMap:
     if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
         wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
         raise text.refused(f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}")
-    raster, sides = text.raster(x, y, steps, _is_hexagonal(x, steps[0]))
+    # the head of these files does not say whether rows begin half a step aside
+    grid = text.grid(x, y, steps, is_hexagonal(x, steps[0]))
     turned = laue.orientations(values[:, 3:], degrees=True)
-    return OrientationMap.of(phases, phase.astype(int) - 1, turned, raster, sides)
-
-
-def _is_hexagonal(x: FloatArray, step: float) -> bool:
-    """Whether some rows begin half a step aside; the head of these files does not say so."""
-    along = (x - x.min(initial=np.inf)) / (1e6 * step)
-    return bool(np.any(np.abs(along % 1.0 - 0.5) < ON_GRID))
+    return OrientationMap.of(phases, phase.astype(int) - 1, turned, grid)
 
 
 def _phase(text: MapText, line: int) -> Phase:

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from ...arrays import IntArray
 from ...errors import InputError
-from ...files import load_toml
+from ...files import Table, load_toml
 from ...require import Bounds, quoted, require_known, require_number, require_one_of, require_text
 from . import ang, ctf
 from .laue import misorientations
@@ -36,13 +36,14 @@ class OrientedGrains:
         labels: Label of each pixel, the first row on top.
         minerals: Index of each label's mineral in `names`; None for a hole.
         names: Minerals in the order of the file's phases.
-        counts: Points, those not indexed, and those of them that were filled.
+        counts: Points, those not indexed, and those of them that were filled; ``steps`` where those
+            of the file's head do not fit.
     """
 
     labels: IntArray
     minerals: dict[int, int | None]
     names: list[str]
-    counts: dict[str, int]
+    counts: Table
 
 
 def read(path: Path) -> OrientationMap:
@@ -107,9 +108,15 @@ def grains(
     pairs = _neighbours(found.raster)
     labels = _components(found, pairs, misorientation)
     measured = len(found.phase) - found.missing
-    counts = {"points": measured, "not_indexed": measured - points, "missing": found.missing}
+    counts: Table = {"points": measured, "not_indexed": measured - points, "missing": found.missing}
+    if found.grid.steps:
+        counts["steps"] = found.grid.steps
     if unindexed == "fill":
-        counts["filled"] = _fill(labels, pairs)
+        source = _fill(labels, pairs)
+        counts["filled"] = int(np.count_nonzero(source != np.arange(len(source))))
+        # parts of a grain that gaps have parted meet now
+        found = replace(found, phase=found.phase[source], orientations=found.orientations[source])
+        labels = _components(found, pairs, misorientation)
     phase_of = np.zeros(labels.max() + 1, dtype=int)
     phase_of[labels[found.phase >= 0]] = found.phase[found.phase >= 0]
     called = [(phases or {}).get(one.name, one.name) for one in found.phases]
@@ -125,8 +132,9 @@ def _neighbours(raster: IntArray) -> IntArray:
     """Pairs of points whose pixels share a side, (n, 2)."""
     sides = [(raster[:, :-1], raster[:, 1:]), (raster[:-1], raster[1:])]
     pairs = np.concatenate([np.stack((a.ravel(), b.ravel()), axis=1) for a, b in sides])
-    pairs = np.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1)
-    found: IntArray = np.unique(pairs, axis=0)
+    low, high = np.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1).T
+    size = int(raster.max()) + 1
+    found: IntArray = np.stack(np.divmod(np.unique(size * low + high), size), axis=1)
     return found
 
 
@@ -151,18 +159,24 @@ def _components(found: OrientationMap, pairs: IntArray, most: float) -> IntArray
     return labels
 
 
-def _fill(labels: IntArray, pairs: IntArray) -> int:
-    """Give each point without a label that of most of its neighbours; returns how many."""
+def _fill(labels: IntArray, pairs: IntArray) -> IntArray:
+    """Give each point without a label that of most of its neighbours.
+
+    Returns:
+        For each point itself, or the indexed point of its new grain that it is now like.
+    """
     ways = np.concatenate((pairs, pairs[:, ::-1]))
-    filled = 0
+    source: IntArray = np.arange(len(labels))
+    size = len(labels)
     while True:
         ways = ways[labels[ways[:, 0]] == _VOID]
         known = ways[labels[ways[:, 1]] != _VOID]
         if not len(known):
-            return filled
-        both = np.stack((known[:, 0], labels[known[:, 1]]), axis=1)
-        found, often = np.unique(both, axis=0, return_counts=True)
-        order = np.lexsort((found[:, 1], -often, found[:, 0]))
-        points, first = np.unique(found[order, 0], return_index=True)
-        labels[points] = found[order[first], 1]
-        filled += len(points)
+            return source
+        both = known[:, 0] * size + labels[known[:, 1]]
+        found, first, often = np.unique(both, return_index=True, return_counts=True)
+        point, label = np.divmod(found, size)
+        order = np.lexsort((label, -often, point))
+        points, chosen = np.unique(point[order], return_index=True)
+        labels[points] = label[order[chosen]]
+        source[points] = source[known[first[order[chosen]], 1]]

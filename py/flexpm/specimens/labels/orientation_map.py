@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +29,21 @@ class Phase:
 
 
 @dataclass(frozen=True)
+class Grid:
+    """Where the points of a map lie.
+
+    Attributes:
+        raster: Point of each pixel, the first row on top; -1 where there is none.
+        sides: Width and height of a pixel [m].
+        steps: What is to be told of the steps; empty where they are those of the file's head.
+    """
+
+    raster: IntArray
+    sides: tuple[float, float]
+    steps: str = ""
+
+
+@dataclass(frozen=True)
 class OrientationMap:
     """Measured points on a grid.
 
@@ -36,41 +51,64 @@ class OrientationMap:
         phases: What phases there are.
         phase: Index of the phase of each point, -1 where none was found.
         orientations: Quaternions, (n, 4).
-        raster: Point of each pixel, the first row on top.
-        sides: Width and height of a pixel [m].
+        grid: Where they lie, with a point for each pixel.
         missing: How many of the points, the last ones, were not measured.
     """
 
     phases: list[Phase]
     phase: IntArray
     orientations: FloatArray
-    raster: IntArray
-    sides: tuple[float, float]
+    grid: Grid
     missing: int = 0
+
+    @property
+    def raster(self) -> IntArray:
+        """Point of each pixel, the first row on top."""
+        return self.grid.raster
 
     @classmethod
     def of(
-        cls,
-        phases: list[Phase],
-        phase: IntArray,
-        orientations: FloatArray,
-        raster: IntArray,
-        sides: tuple[float, float],
+        cls, phases: list[Phase], phase: IntArray, orientations: FloatArray, grid: Grid
     ) -> OrientationMap:
-        """A map whose raster is -1 where no point was measured: there it gets one without phase."""
-        gaps = raster < 0
+        """A map that gets a point without a phase wherever none was measured."""
+        gaps = grid.raster < 0
         missing = int(np.count_nonzero(gaps))
-        whole = raster.copy()
+        whole = grid.raster.copy()
         whole[gaps] = len(phase) + np.arange(missing)
         none = np.tile([0.0, 0.0, 0.0, 1.0], (missing, 1))
         return cls(
             phases,
             np.append(phase, np.full(missing, -1)),
             np.vstack((orientations, none)),
-            whole,
-            sides,
+            replace(grid, raster=whole),
             missing,
         )
+
+
+def is_hexagonal(x: FloatArray, step: float) -> bool:
+    """Whether some rows of points begin half a step aside, x in micrometres, the step in metres."""
+    along = (x - x.min(initial=np.inf)) / (1e6 * step)
+    return bool(np.any(np.abs(along % 1.0 - 0.5) < ON_GRID))
+
+
+def _steps_of(x: FloatArray, y: FloatArray) -> tuple[float, float] | None:
+    """Steps along x and y that points themselves have, in their unit; None if there are none."""
+    along = np.diff(x)[np.diff(y) == 0.0]
+    along = np.abs(along[along != 0.0])
+    ways = (np.unique(x), np.unique(y))
+    if not len(along) or min(map(len, ways)) < 2:
+        return None
+    # each second row of a hexagonal grid lies half a step aside
+    rough = float(np.median(along))
+    if is_hexagonal(x, 1e-6 * rough):
+        rough *= 0.5
+    steps = []
+    for way, near in zip(ways, (rough, float(np.median(np.diff(ways[1])))), strict=True):
+        number = np.rint(np.diff(way) / near).sum()
+        if not 1 <= number <= MOST_PIXELS:
+            return None
+        steps.append(float(np.ptp(way)) / number)
+    return (2.0 * steps[0] if rough < np.median(along) else steps[0]), steps[1]
 
 
 class MapText:
@@ -138,7 +176,7 @@ class MapText:
             raise self.refused(f"point {row + 1}: a number is not finite; correct it")
         return found
 
-    def places(
+    def _places(
         self, x: FloatArray, y: FloatArray, steps: tuple[float, float], shift: FloatArray
     ) -> tuple[IntArray, IntArray]:
         """Columns and rows of points.
@@ -179,28 +217,57 @@ class MapText:
             )
         return columns, rows
 
-    def raster(
+    def grid(
         self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
-    ) -> tuple[IntArray, tuple[float, float]]:
-        """Point of each pixel, -1 where there is none, and the sides of a pixel [m].
+    ) -> Grid:
+        """Where points lie, by the steps of the head or, if these do not fit, by their own.
+
+        Args:
+            x: To the right [um].
+            y: Downwards [um].
+            steps: Between columns and between rows, by the head [m].
+            hexagonal: Whether each second row begins half a step aside, by the head.
+
+        Raises:
+            InputError: for points that are on no grid, or twice at one place.
+        """
+        try:
+            return self._raster(x, y, steps, hexagonal)
+        except InputError as error:
+            own = _steps_of(x, y)
+            if own is None or not 1e-3 <= min(own) <= max(own) <= 1e6:
+                raise
+            metres = (1e-6 * own[0], 1e-6 * own[1])
+            try:
+                found = self._raster(x, y, metres, is_hexagonal(x, metres[0]))
+            except InputError:
+                raise error from None
+        head = " x ".join(f"{1e6 * step:g}" for step in steps)
+        told = f"{own[0]:g} x {own[1]:g} um by the points, not {head} um as in the head"
+        return replace(found, steps=told)
+
+    def _raster(
+        self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
+    ) -> Grid:
+        """Where points lie.
 
         A point of a hexagonal grid has two pixels beside each other, so that each second row lies
         half a step aside, and has its six neighbours. What is left at both ends goes to the last
         point.
         """
         if not hexagonal:
-            columns, rows = self.places(x, y, steps, np.zeros(2))
+            columns, rows = self._places(x, y, steps, np.zeros(2))
             raster = np.full((rows.max() + 1, columns.max() + 1), -1)
             raster[rows, columns] = np.arange(len(x))
-            return raster, steps
+            return Grid(raster, steps)
         near = np.abs(y - y.min()) < 0.5e6 * steps[1]
         late = near.any() and x[near].min() - x.min() > 0.25e6 * steps[0]
         shift = np.array([0.5, 0.0]) if late else np.array([0.0, 0.5])
-        columns, rows = self.places(x, y, steps, shift)
+        columns, rows = self._places(x, y, steps, shift)
         places = 2 * columns + (rows % 2 == (0 if late else 1))
         raster = np.full((rows.max() + 1, places.max() + 2), -1)
         for beside in (0, 1):
             raster[rows, places + beside] = np.arange(len(x))
         for end, inner in ((0, 1), (-1, -2)):
             raster[:, end] = np.where(raster[:, end] < 0, raster[:, inner], raster[:, end])
-        return raster, (0.5 * steps[0], steps[1])
+        return Grid(raster, (0.5 * steps[0], steps[1]))

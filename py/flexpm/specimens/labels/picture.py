@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 import re
+import struct
+import tokenize
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,8 +21,16 @@ from ...require import quoted, require_text
 from . import tesr
 from .given import MOST_PIXELS, whole_labels
 
+if TYPE_CHECKING:
+    from PIL.Image import Image as ImageFile
+
 #: What a phase is called that is no rock.
 HOLE_NAME = "hole"
+#: What Pillow and numpy raise for broken files.
+_BROKEN = (
+    *(OSError, EOFError, ValueError, SyntaxError, TypeError, LookupError, AttributeError),
+    *(OverflowError, struct.error, tokenize.TokenError),
+)
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -53,25 +64,33 @@ def read(path: Path) -> Picture:
     from PIL import Image
 
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # large images are refused below
-            image = Image.open(path, formats=("PNG", "TIFF"))
-        with image:
-            if image.width * image.height > MOST_PIXELS:
-                raise InputError(
-                    f"image = {image.width} x {image.height} pixels, must be <= {MOST_PIXELS} in "
-                    "all; cut it or take coarser pixels"
-                )
-            pages = getattr(image, "n_frames", 1)
-            if pages > 1:
-                raise InputError(f"image = {pages} pages, must be one; save the page that is meant")
-            return _from_image(image.mode, np.asarray(image))
+        with warnings.catch_warnings():  # large images are refused below, broken ones by errors
+            warnings.simplefilter("ignore")
+            with Image.open(path, formats=("PNG", "TIFF")) as image:
+                return _from_open(image)
     except InputError:  # a ValueError, too
         raise
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+    except (*_BROKEN, Image.DecompressionBombError) as error:
         raise InputError(
             f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {_short(error)}"
         ) from None
+
+
+def _from_open(image: ImageFile) -> Picture:
+    """An image of which only the head has been read.
+
+    Raises:
+        InputError: for several pages, and more pixels than are taken.
+    """
+    if image.width * image.height > MOST_PIXELS:
+        raise InputError(
+            f"image = {image.width} x {image.height} pixels, must be <= {MOST_PIXELS} in all; cut "
+            "it or take coarser pixels"
+        )
+    pages = getattr(image, "n_frames", 1)
+    if pages > 1:
+        raise InputError(f"image = {pages} pages, must be one; save the page that is meant")
+    return _from_image(image.mode, np.asarray(image))
 
 
 def _short(error: Exception) -> str:
@@ -82,7 +101,7 @@ def _from_array(path: Path) -> Picture:
     """An array, of which only the head is read before its size is known."""
     try:
         found = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (OSError, ValueError, EOFError, SyntaxError, OverflowError) as error:
+    except _BROKEN as error:
         raise InputError(
             f"image = {quoted(str(path))}, must be an array of numbers: {_short(error)}"
         ) from None

@@ -20,16 +20,42 @@ from ..._flexpm import (
 )
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
-from ...files import Table
+from ...files import Table, read_text
 from ...progress import Progress
+from ...require import quoted
 from .. import packing
-from ..kernel_input import call
+from ..files.rules import refuse
+from ..kernel_input import call, checksum
 from .frame import SolidFrame
 from .spec import SolidSpec
 
 _FEWEST_SPHERES = 8
+#: A packing scales lengths and takes the scale back [-].
+_ROUND_OFF = 1e-9
 #: Shares of the edges that are shorter than the lengths given [-].
 _SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
+
+
+def require_made_from(spec: SolidSpec, spheres: FloatArray, removed: int) -> None:
+    """Check that spheres of a file can be those of its spec: as many, as large; given ones alike.
+
+    Raises:
+        InputError: if they cannot.
+    """
+    if spec.spheres is not None:
+        if checksum(spheres) != spec.spheres:
+            raise refuse(f"spheres = others than those of the checksum {quoted(spec.spheres)}")
+        return
+    assert spec.diameters is not None and spec.porosity is not None
+    count = call(sphere_count, spec.volume, *spec.diameters, spec.porosity)
+    if len(spheres) + removed != count:
+        raise refuse(f"spheres = {len(spheres)} and {removed} removed, must be {count} in all")
+    low, high = spec.diameters
+    found = 2.0 * spheres[:, 3]
+    if found.min() < (1.0 - _ROUND_OFF) * low or found.max() > (1.0 + _ROUND_OFF) * high:
+        raise refuse(
+            f"diameters = {found.min():g} to {found.max():g} m, must be {low:g} to {high:g} m"
+        )
 
 
 def packed_spheres(where: str, spec: SolidSpec, progress: Progress | None) -> FloatArray:
@@ -86,7 +112,7 @@ def sphere_rows(given: npt.ArrayLike | Path | str) -> FloatArray:
     if isinstance(given, Path | str):
         name = f"{name} = {str(given)!r}"
         try:
-            text = Path(given).read_text(encoding="utf-8")
+            text = read_text(Path(given))
         except (OSError, ValueError):
             raise InputError(f"{name}, cannot be read; give a text file of rows") from None
         lines = (line.partition("#")[0].replace(",", " ").split() for line in text.splitlines())

@@ -3,15 +3,42 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
+from collections.abc import Mapping
 from pathlib import Path
 
 from ...errors import InputError
 from ...files import Table, load_json, write_text
+from ..files.rules import (
+    Rule,
+    is_count,
+    is_text,
+    list_of,
+    or_none,
+    require_rules,
+    row_of,
+    spec_values,
+)
+from .spec import SolidSpec
 
 #: First entry of the files.
 FORMAT = "flexpm solid 1"
+#: What each key of a file holds.
+_KEYS: dict[str, Rule] = {
+    "spec": lambda value: isinstance(value, Mapping),
+    "removed_spheres": is_count,
+    "spheres": list_of(row_of(4), 1),
+    "minerals": or_none(list_of(is_count, 1)),
+}
+#: What each field of the spec holds; sizes and numbers of a packing it checks itself.
+_SPEC: dict[str, Rule] = {
+    "kind": is_text,
+    "diameters": or_none(row_of(2)),
+    "spheres": or_none(is_text),
+    "minerals": or_none(is_text),
+}
 
 
 def write(path: Path, fields: Table) -> None:
@@ -23,7 +50,7 @@ def write(path: Path, fields: Table) -> None:
         for key, value in content.items()
         if key != "spheres"
     ]
-    lines += [f'"checksum": {json.dumps(_checksum(content))}', f'"spheres": [\n{rows}\n]']
+    lines += [f'"checksum": {json.dumps(checksum(content))}', f'"spheres": [\n{rows}\n]']
     write_text(path, "{\n" + ",\n".join(lines) + "\n}\n")
 
 
@@ -37,27 +64,28 @@ def is_one(path: Path) -> bool:
 
 
 def read(path: Path) -> Table:
-    """Read the content of a file.
+    """Read the content of a file: ``spec``, ``removed_spheres`` and ``spheres``.
+
+    A checksum tells that a file is as it was written, not that what was written has a sense.
 
     Raises:
-        InputError: if it cannot be read, is no solid specimen, or was changed.
+        InputError: if it cannot be read, is no solid specimen, or was changed, or a value is none
+            of a solid.
     """
     name = f"specimen = {str(path)!r}"
     content = load_json(path, "specimen")
     if content.get("format") != FORMAT:
         raise InputError(f"{name}, is no solid specimen of this flexpm; give a file of its save")
-    if content.pop("checksum", None) != _checksum(content):
+    if content.pop("checksum", None) != checksum(content):
         raise InputError(
             f"{name}, was changed since it was saved; make own spheres by Specimen.from_spheres"
         )
-    content["spec"]["diameters"] = _pair(content["spec"]["diameters"])
-    return content
+    require_rules(content, _KEYS, ("minerals",))
+    known = [field.name for field in dataclasses.fields(SolidSpec)]
+    return content | {"spec": SolidSpec(**spec_values(content["spec"], known, _SPEC))}
 
 
-def _pair(values: list[float] | None) -> tuple[float, ...] | None:
-    return None if values is None else tuple(values)
-
-
-def _checksum(content: Table) -> str:
+def checksum(content: Table) -> str:
+    """Checksum of what a file holds beside it."""
     text = json.dumps(content, sort_keys=True, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

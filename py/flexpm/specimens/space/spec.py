@@ -47,6 +47,7 @@ class SolidSpec:
         seed: Seed of the packing; None for given spheres.
         short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
         spheres: Checksum of given spheres; None for a packing.
+        minerals: Checksum of given minerals of the grains; None if there are none.
     """
 
     kind: str = "box"
@@ -59,6 +60,7 @@ class SolidSpec:
     seed: int | None = 1
     short_edge: float = SHORT_EDGE
     spheres: str | None = None
+    minerals: str | None = None
 
     # what specimens of the plane may have, and solids do not
     joints: ClassVar[None] = None
@@ -66,7 +68,6 @@ class SolidSpec:
     joints_with_law: ClassVar[tuple[str, ...]] = ()
     networks: ClassVar[None] = None
     strengths: ClassVar[None] = None
-    minerals: ClassVar[None] = None
     cells: ClassVar[None] = None
 
     def __post_init__(self) -> None:
@@ -96,14 +97,13 @@ class SolidSpec:
     @property
     def is_packed(self) -> bool:
         """Whether a packing gives the specimen again, without a file."""
-        return self.spheres is None
+        return self.spheres is None and self.minerals is None
 
     def require_alike(self, model: str) -> None:
         """A solid has neither joints nor strengths of its own: any model takes it."""
 
     def require_discs(self, model: str) -> None:
-        """Refuse YADE's own bonded spheres, which take no solid yet."""
-        raise InputError(f"model = {model}, must be flexible or rigid for a {self.kind}")
+        """A solid has a sphere for each grain: YADE's own bonded spheres take any."""
 
     @property
     def volume(self) -> float:

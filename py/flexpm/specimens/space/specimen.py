@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from ...files import Table
 from ...joints.cuts import Cut
 from ...progress import Progress
 from ...require import require_flag
-from ..kernel_input import call, checksum
+from ..kernel_input import call, checksum, mineral_indices
 from . import cells as of_spheres
 from . import file
 from .spec import SHORT_EDGE, SolidSpec
@@ -35,12 +36,14 @@ class SolidSpecimen:
         cells: Cells of the grains; cell i belongs to sphere i.
         spec: What it was made from.
         removed_spheres: Spheres that had no cell and were left out.
+        minerals: Index of each grain's mineral in its material; None: drawn by volume fractions.
     """
 
     spheres: FloatArray
     cells: Polyhedra
     spec: SolidSpec
     removed_spheres: int = 0
+    minerals: IntArray | None = None
 
     @classmethod
     def pack(cls, spec: SolidSpec, progress: Progress | None = None) -> SolidSpecimen:
@@ -50,10 +53,11 @@ class SolidSpecimen:
             InputError: for spheres that do not fit, or that were given instead of packed.
         """
         where = f"Specimen.{spec.kind}"
-        if spec.spheres is not None:
+        if not spec.is_packed:
+            what = spec.spheres or spec.minerals
             raise InputError(
-                f"{where}: spheres = {spec.spheres}, were given and cannot be packed again; load "
-                "the saved specimen"
+                f"{where}: spheres or minerals = {what}, were given and cannot be packed again; "
+                "load the saved specimen"
             )
         given = of_spheres.packed_spheres(where, spec, progress)
         spheres, cells = of_spheres.cells_of(given, spec, drop_hidden=True)
@@ -74,7 +78,10 @@ class SolidSpecimen:
         given = of_spheres.sphere_rows(spheres)
         spec = SolidSpec(
             kind,
-            **sizes,
+            sizes.get("width"),
+            sizes.get("depth"),
+            sizes.get("height"),
+            sizes.get("diameter"),
             diameters=None,
             porosity=None,
             seed=None,
@@ -90,13 +97,21 @@ class SolidSpecimen:
         """Read a specimen that ``save`` has written: the same grains to the bit.
 
         Raises:
-            InputError: if the file cannot be read, is no solid specimen, or was changed.
+            InputError: if the file cannot be read, is no solid specimen, or was changed, or if its
+                spheres are not those that it says it was made from.
         """
         content = file.read(Path(path))
-        spec = SolidSpec(**content["spec"])
+        spec: SolidSpec = content["spec"]
         spheres = np.array(content["spheres"], dtype=float)
+        of_spheres.require_made_from(spec, spheres, content["removed_spheres"])
         kept, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False)
-        return cls(kept, cells, spec, content["removed_spheres"])
+        minerals = content.get("minerals")
+        given = None if minerals is None else mineral_indices(minerals, len(kept))
+        if (None if given is None else checksum(given)) != spec.minerals:
+            raise InputError(
+                f"specimen = {str(path)!r}, has other minerals than it names; save it again"
+            )
+        return cls(kept, cells, spec, content["removed_spheres"], given)
 
     def save(self, path: Path | str) -> None:
         """Write the specimen as JSON: what it was made from, and its spheres.
@@ -109,9 +124,16 @@ class SolidSpecimen:
             {
                 "spec": dataclasses.asdict(self.spec),
                 "removed_spheres": self.removed_spheres,
+                **({} if self.minerals is None else {"minerals": self.minerals.tolist()}),
                 "spheres": self.spheres.tolist(),
             },
         )
+
+    def with_minerals(self, minerals: Sequence[int] | IntArray) -> SolidSpecimen:
+        """Return the same grains, each of a given mineral; see ``Specimen.with_minerals``."""
+        given = mineral_indices(minerals, len(self.spheres))
+        spec = dataclasses.replace(self.spec, minerals=checksum(given))
+        return dataclasses.replace(self, minerals=given, spec=spec)
 
     @property
     def kind(self) -> str:
@@ -154,10 +176,6 @@ class SolidSpecimen:
     @property
     def edge_joints(self) -> None:
         """None: a solid has no joints."""
-
-    @property
-    def minerals(self) -> None:
-        """None: minerals of solids are drawn."""
 
     @property
     def centres(self) -> FloatArray:

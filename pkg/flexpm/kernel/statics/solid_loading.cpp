@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solids/solid_access.hpp>
+
+#include <flexpm/kernel/solids/solid_energies.hpp>
+
+namespace flexpm {
+
+Vector drawn_place(const Grains& grains, int node, double factor)
+{
+    return space_vector(grains.reference, node) + factor * space_vector(grains.displacement, node);
+}
+
+std::vector<Vector> middle_face(const SolidState& s, int contact, double factor)
+{
+    std::vector<Vector> middle;
+    for (int k = 0; k < s.contacts.corners_of(contact); ++k)
+        middle.push_back(0.5
+            * (drawn_place(s.grains, s.contacts.node(contact, 0, k), factor)
+                + drawn_place(s.grains, s.contacts.node(contact, 1, k), factor)));
+    return middle;
+}
+
+Vector normal_of(const std::vector<Vector>& corners)
+{
+    Vector twice;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        twice = twice + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    const double size = norm(twice);
+    return size > 0.0 ? (1.0 / size) * twice : Vector {};
+}
+
+FaceFrame contact_frame(const SolidState& s, int contact)
+{
+    return face_frame(middle_face(s, contact), { 0, s.contacts.line[s.contacts.slot[contact]] });
+}
+
+Vector point_place(
+    const FaceContacts& contacts, int contact, int point, const std::vector<Vector>& middle)
+{
+    Vector at;
+    for (std::size_t k = 0; k < middle.size(); ++k)
+        at = at + contacts.share(contact, point, static_cast<int>(k)) * middle[k];
+    return at;
+}
+
+Vector contact_middle(const SolidState& s, int contact)
+{
+    const std::vector<Vector> middle = middle_face(s, contact);
+    Vector sum;
+    for (int p = 0; p < s.contacts.points_of(contact); ++p)
+        sum = sum + s.contacts.area(contact, p) * point_place(s.contacts, contact, p, middle);
+    return (1.0 / contact_area(s.contacts, contact)) * sum;
+}
+
+double contact_area(const FaceContacts& contacts, int contact)
+{
+    double area = 0.0;
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        area += contacts.area(contact, p);
+    return area;
+}
+
+double mean_opening(const FaceContacts& contacts, int contact)
+{
+    double sum = 0.0;
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        sum += contacts.area(contact, p) * contacts.state(contact, p, FaceRow::opening);
+    return sum / contact_area(contacts, contact);
+}
+
+BondStiffness bond_stiffness(const FaceContacts& contacts, int contact)
+{
+    const LawParameters& law = contacts.law_of(contact);
+    const double area = contact_area(contacts, contact);
+    return { law.normal_stiffness * area, law.shear_stiffness * area };
+}
+
+Vector point_force(const SolidState& s, int contact, int point)
+{
+    const FaceFrame frame = contact_frame(s, contact);
+    const FaceTraction t = traction_of(s.contacts, contact, point);
+    // in tension the second grain is pulled back to the first
+    return -s.contacts.area(contact, point)
+        * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second);
+}
+
+Vector contact_force(const SolidState& s, int contact)
+{
+    Vector sum;
+    for (int p = 0; p < s.contacts.points_of(contact); ++p)
+        sum = sum + point_force(s, contact, p);
+    return sum;
+}
+
+SpaceResultant resultant_on(const SolidState& s, int grain)
+{
+    const Grains& grains = s.grains;
+    const int centre = grains.centre(grain);
+    const Vector middle = drawn_place(grains, centre);
+    SpaceResultant sum;
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        // the centre of a rigid grain holds the sum of the others
+        if (node == centre && grains.is_rigid(grain)) continue;
+        const Vector force = space_vector(grains.force, node);
+        sum.force = sum.force + force;
+        sum.moment = sum.moment + cross(drawn_place(grains, node) - middle, force);
+    }
+    return sum;
+}
+
+Vector node_velocity(const SolidState& s, int grain, int node)
+{
+    if (s.bodies.empty()) return space_vector(s.grains.velocity, node);
+    const int centre = s.grains.centre(grain);
+    return space_vector(s.grains.velocity, centre)
+        + cross(s.bodies[grain].spin, drawn_place(s.grains, node) - drawn_place(s.grains, centre));
+}
+
+SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b)
+{
+    return { a.xx + factor * b.xx, a.yy + factor * b.yy, a.zz + factor * b.zz, a.yz + factor * b.yz,
+        a.xz + factor * b.xz, a.xy + factor * b.xy };
+}
+
+SpaceTensor stress_by_forces(const SolidState& s, int grain, double volume)
+{
+    SpaceTensor total {};
+    const Vector centre = drawn_place(s.grains, s.grains.centre(grain));
+    for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
+        const int node = s.grains.node(grain, n);
+        const Vector a = drawn_place(s.grains, node) - centre;
+        const Vector b = space_vector(s.grains.force, node);
+        total = sum_of(total, 1.0 / volume,
+            { a.x * b.x, a.y * b.y, a.z * b.z, 0.5 * (a.y * b.z + a.z * b.y),
+                0.5 * (a.x * b.z + a.z * b.x), 0.5 * (a.x * b.y + a.y * b.x) });
+    }
+    return total;
+}
+
+}  // namespace flexpm
