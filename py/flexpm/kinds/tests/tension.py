@@ -29,8 +29,8 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.02, 0.009, (0.018, 0.6), 0.01, 0.32, likely_crossings=10),
-        "rigid": Rates(0.04, 0.01, (0.07, 0.5), 0.02, 0.32, likely_crossings=29),
+        "flexible": Rates(0.02, 0.009, (0.018, 0.6), 0.01, 0.32, likely_crossings=33),
+        "rigid": Rates(0.04, 0.01, (0.07, 0.5), 0.02, 0.32, likely_crossings=100),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,

@@ -30,8 +30,8 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.01, 0.003, (0.008, 0.15), 0.002, 0.32, likely_crossings=30),
-        "rigid": Rates(0.02, 0.008, (0.09, 0.5), 0.005, 0.32, likely_crossings=65),
+        "flexible": Rates(0.01, 0.003, (0.008, 0.15), 0.002, 0.32, likely_crossings=68),
+        "rigid": Rates(0.02, 0.008, (0.09, 0.5), 0.005, 0.32, likely_crossings=170),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
