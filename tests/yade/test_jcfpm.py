@@ -88,6 +88,20 @@ def test_what_the_model_does_not_have_is_refused(rectangle, options, word):
         models.build(rectangle, None, MODEL, **options)
 
 
+@pytest.mark.parametrize("model", ["jcfpm", "cohfrict"])
+@pytest.mark.parametrize("solid", [False, True])
+def test_a_single_grain_has_no_bond_to_take_a_stiffness_from(solid, model):
+    side = 0.01
+    if solid:
+        rows = [[0.5 * side] * 3 + [0.003]]
+        one = Specimen.from_spheres(rows, width=side, depth=side, height=side)
+    else:
+        corners = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]
+        one = Specimen.from_discs([[0.5 * side] * 2], [0.003], corners, 0.01)
+    with pytest.raises(InputError, match=f"bonds = none among 1 grains, {model} takes"):
+        models.build(one, None, model)
+
+
 def test_tests_refuse_the_wrong_shape(rectangle):
     with pytest.raises(InputError, match="disc"):
         protocols.run("brazilian", rectangle, model=MODEL)

@@ -277,12 +277,18 @@ def build(
         The model; ``yade.O`` holds its bodies and engines.
 
     Raises:
-        InputError: for an unknown model or a material without what it needs.
+        InputError: for an unknown model, a material without what it needs, or grains without
+            bonds.
     """
     require_one_of("build: model", model, SPHERE_MODELS)
     chosen = load_material(material, model)
     laws, kind = laws_of(specimen, chosen, model), LAWS[model]
     bonds, radii = bonds_of(specimen, laws, interaction_range), kind.radii(specimen)
+    if not len(bonds.areas):
+        raise InputError(
+            f"bonds = none among {len(radii)} grains, {kind.name} takes its stiffness from bonds; "
+            "use smaller grains or model 'flexible'"
+        )
     spheres, plate_material = _add_materials(kind, laws, bonds, radii)
     rows = zip(specimen.centres.tolist(), radii.tolist(), laws.minerals.tolist(), strict=True)
     ids = [

@@ -8,7 +8,7 @@ import math
 
 import pytest
 from fuzz_child import Child, examples
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 ODD = st.sampled_from([0.0, -1e-3, 1e-300, 1e300, math.nan, math.inf])
@@ -146,7 +146,21 @@ def spheres():
     one.close()
 
 
+#: A sphere alone has no bonds for a model of spheres.
+ALONE = {
+    "spheres": [[0.0028125, 0.0028125, 0.0078125, 0.00390625]],
+    "sizes": {"diameter": 0.016, "height": 0.01},
+    "drop_hidden": False,
+    "short_edge": 0.0,
+    "model": "jcfpm",
+    "interaction_range": None,
+    "minerals": None,
+    "held": [],
+}
+
+
 @given(solids())
+@example(ALONE)
 @settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
 def test_any_spheres_in_a_solid_step_or_are_refused(spheres, solid):
     said = spheres.run(solid)
