@@ -19,6 +19,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import hypothesis
 from fuzz_script import Script
 
 #: Time of the processor that an example may take [s].
@@ -27,9 +28,24 @@ LONGEST = 120.0
 HUNG = 1200.0
 
 
-def examples(count: int) -> int:
-    """Number of examples of a test: `count`, by night a hundred times as many."""
-    return count * (100 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 1)
+#: Version of Hypothesis whose draws are those of the day; others draw others from the same test.
+DRAWN_BY = "6.67.1"
+
+
+def drawing(count: int, by_night: int = 100) -> hypothesis.settings:
+    """Settings of a test of `count` examples, by night of `by_night` times as many.
+
+    A version of Hypothesis that draws others is left by day with those that the test names: what
+    is drawn by day is the same everywhere, so that a change is judged by what it has changed.
+    """
+    night = os.environ.get("HYPOTHESIS_PROFILE") == "night"
+    as_known = night or hypothesis.__version__ == DRAWN_BY
+    return hypothesis.settings(
+        max_examples=count * (by_night if night else 1),
+        phases=tuple(hypothesis.Phase) if as_known else (hypothesis.Phase.explicit,),
+        deadline=None,
+        suppress_health_check=list(hypothesis.HealthCheck),
+    )
 
 
 def used(process: int) -> float:

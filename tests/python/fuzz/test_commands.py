@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import click
 import pytest
-from fuzz_child import Child, examples
-from hypothesis import HealthCheck, given, settings
+from fuzz_child import Child, drawing
+from hypothesis import given
 from hypothesis import strategies as st
 
 NUMBERS = st.sampled_from(
@@ -109,7 +109,7 @@ def test_every_option_is_drawn():
 
 @pytest.mark.long
 @given(COMMANDS, st.lists(OPTIONS, max_size=4))
-@settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(100)
 def test_any_command_line_ends_as_documented(child, command, options):
     sizes = SIZES.get(" ".join(command)) or SIZES.get(command[0] if command else "", [])
     words = [*command, *sizes]

@@ -12,8 +12,8 @@ import zlib
 import numpy as np
 import pytest
 from ebsd_files import ang_text, ctf_text
-from fuzz_child import examples
-from hypothesis import HealthCheck, given, settings
+from fuzz_child import drawing
+from hypothesis import given
 from hypothesis import strategies as st
 from neper_files import tesr_text, tess_text
 from PIL import Image
@@ -83,7 +83,7 @@ def broken(draw):
 
 
 @given(broken())
-@settings(max_examples=examples(300), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(300)
 def test_any_file_is_read_or_refused(tmp_path_factory, drawn):
     name, content = drawn
     path = tmp_path_factory.getbasetemp() / name
@@ -146,7 +146,7 @@ def broken_image(draw):
 
 
 @given(broken_image())
-@settings(max_examples=examples(300), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(300)
 def test_any_image_and_its_phases_are_read_or_refused(tmp_path_factory, drawn):
     name, content, phases = drawn
     folder = tmp_path_factory.getbasetemp()

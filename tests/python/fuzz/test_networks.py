@@ -6,8 +6,8 @@ from __future__ import annotations
 import math
 
 import pytest
-from fuzz_child import Child, examples
-from hypothesis import HealthCheck, given, settings
+from fuzz_child import Child, drawing
+from hypothesis import given
 from hypothesis import strategies as st
 
 ODD = st.sampled_from([0.0, -1.0, 1e-300, 1e300, math.nan, math.inf, 2**70, "a", None, True, []])
@@ -66,7 +66,7 @@ def child():
 
 
 @given(networks())
-@settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(100)
 def test_any_network_cuts_or_is_refused(child, network):
     said = child.run(network)
     assert said == "done" or said.startswith("InputError: "), said

@@ -6,9 +6,9 @@ from __future__ import annotations
 import re
 
 import pytest
-from fuzz_child import Child, examples
+from fuzz_child import Child, drawing
 from fuzz_script import NUMBERS, QUERIES
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 #: Exceptions of Python for an argument of another type, which have several lines.
@@ -191,7 +191,7 @@ def child():
 @example([("bare",), ("ask", "counts")])
 @example([("build", "inner", 1, 1, "fan"), ("start", 1e-3)])
 @example([("bare",), ("engines", "solver"), ("step", 10)])
-@settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(150)
 def test_calls_in_any_order_end_in_one_line(child, calls):
     for call, seen in zip(calls, child.run(calls), strict=True):
         error = seen["error"]
@@ -233,7 +233,7 @@ class Model:
 
 
 @given(BUILD | CUT | CAVE, st.lists(PLAIN | PARTS, max_size=8))
-@settings(max_examples=examples(60), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(60)
 def test_parts_laid_in_any_order_end_in_one_line(child, build, calls):
     calls = [build, *calls]
     for call, seen in zip(calls, child.run(calls), strict=True):
@@ -243,7 +243,7 @@ def test_parts_laid_in_any_order_end_in_one_line(child, build, calls):
 
 
 @given(BUILD, st.lists(PLAIN, max_size=12))
-@settings(max_examples=examples(60), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(60)
 def test_a_scene_is_what_a_plain_model_says_and_a_saved_one_comes_back(child, build, calls):
     model, last = Model(), ""
     calls = [("reset",), build, *calls]
@@ -260,7 +260,7 @@ def test_a_scene_is_what_a_plain_model_says_and_a_saved_one_comes_back(child, bu
 
 
 @given(BUILD | CUT, st.lists(PLAIN, max_size=8))
-@settings(max_examples=examples(15), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(15)
 def test_the_same_calls_give_the_same_bits(child, build, calls):
     calls = [("reset",), build, *calls]
     assert child.run(calls) == child.run(calls)

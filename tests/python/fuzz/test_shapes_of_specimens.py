@@ -7,8 +7,8 @@ import itertools
 import math
 
 import pytest
-from fuzz_child import Child, examples
-from hypothesis import HealthCheck, example, given, settings
+from fuzz_child import Child, drawing
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 ODD = st.sampled_from([0.0, -1e-3, 1e-300, 1e300, math.nan, math.inf])
@@ -161,7 +161,7 @@ ALONE = {
 
 @given(solids())
 @example(ALONE)
-@settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(100)
 def test_any_spheres_in_a_solid_step_or_are_refused(spheres, solid):
     said = spheres.run(solid)
     assert said.startswith(("done", "InputError: ")), said
@@ -176,7 +176,7 @@ def cells():
 
 
 @given(specimens())
-@settings(max_examples=examples(200), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(200)
 def test_any_discs_in_any_outline_step_or_are_refused(child, specimen):
     said = child.run(specimen)
     assert said == "done" or said.startswith(("InputError: ", "RuntimeError: ")), said
@@ -185,7 +185,7 @@ def test_any_discs_in_any_outline_step_or_are_refused(child, specimen):
 
 @pytest.mark.long
 @given(tilings())
-@settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(150)
 def test_any_cells_with_grains_within_them_step_or_are_refused(cells, tiling):
     said = cells.run(tiling)
     assert said.startswith(("done", "InputError: ")), said

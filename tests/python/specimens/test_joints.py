@@ -8,7 +8,8 @@ import re
 import numpy as np
 import pytest
 from cut_specimens import DIP, HEIGHT, LAW, WIDTH, joint_edges, off, require_lengths, require_pieces
-from hypothesis import HealthCheck, assume, given, settings
+from fuzz_child import drawing
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
@@ -19,9 +20,6 @@ from flexpm.joints import bend as joint_bend
 from flexpm.materials.material import load
 from flexpm.materials.mixing import description, from_description
 from flexpm.specimens.specimen import Specimen
-
-#: Sets of random joints by day and by night.
-_SETS = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "night" else 50
 
 
 @pytest.fixture(scope="module")
@@ -218,13 +216,13 @@ def test_a_line_may_turn_back_onto_itself(line):
         require_pieces(uncut.with_joints({"back": line}), uncut)
 
 
-@settings(max_examples=_SETS, deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(50, by_night=20)
 @given(joint_sets, st.integers(1, 5))
 def test_any_set_of_joints(drawn, seed):
     require_cut(drawn, seed)
 
 
-@settings(max_examples=_SETS, deadline=None, suppress_health_check=list(HealthCheck))
+@drawing(50, by_night=20)
 @given(polylines, st.integers(1, 5))
 def test_any_set_of_polylines(drawn, seed):
     uncut = Specimen.rectangle(WIDTH, HEIGHT, 0.08, seed=seed)
