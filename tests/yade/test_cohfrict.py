@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import yade
 
+from flexpm.errors import InputError
 from flexpm.laboratory import protocols
 from flexpm.models import grains as models
 from flexpm.models import sphere_bonds as yade_bonds
@@ -75,3 +76,11 @@ def test_grains_carry_the_stresses_of_the_specimen(rectangle):
     moved = state.positions - state.reference
     top, bottom = (state.reference[:, 1] > 0.03), (state.reference[:, 1] < 0.01)
     assert moved[top, 1].mean() < moved[bottom, 1].mean()
+
+
+def test_a_disc_on_the_outline_leaves_no_radius():
+    corners = [[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]]
+    discs = [[1e-300, 0.005], [0.007, 0.005]]
+    specimen = Specimen.from_discs(discs, [0.003, 0.003], corners, 0.01)
+    with pytest.raises(InputError, match="cohfrict: grain 0: radius that leaves neither"):
+        models.build(specimen, None, "cohfrict")

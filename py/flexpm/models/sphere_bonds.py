@@ -29,12 +29,16 @@ from functools import partial, reduce
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..errors import InputError
 from ..materials.material import Law, Material
 from ..materials.mixing import description, mineral_materials, pair_materials
 from ..specimens.mineral_map import minerals_of
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from .sphere_faces import Faces, outer_faces, shared_faces
+
+#: Smallest part of a disc or sphere that may be left of it between outline and neighbours [-].
+SMALLEST_SPHERE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -272,6 +276,9 @@ def separate_radii(specimen: Specimen | SolidSpecimen) -> FloatArray:
 
     CohFrict forgets the reference distance of a bond that breaks: discs that overlapped then would
     fly apart. A pair gets the share of its distance that its discs' radii have.
+
+    Raises:
+        InputError: for a disc of which nothing is left, as its centre lies on the outline.
     """
     from scipy.spatial import cKDTree
 
@@ -286,13 +293,17 @@ def separate_radii(specimen: Specimen | SolidSpecimen) -> FloatArray:
     if isinstance(specimen, SolidSpecimen):
         x, y, z = centres.T
         away = [d - (a * x + b * y + c * z) for a, b, c, d in specimen.outline().walls.tolist()]
-        inside: FloatArray = np.minimum(shrunk, np.min(away, axis=0))
-        return inside
-    outline = specimen.outline
-    if specimen.kind == "rectangle" and isinstance(outline, np.ndarray):
-        low, high = outline.min(axis=0), outline.max(axis=0)
-        room = np.minimum(centres - low, high - centres).min(axis=1)
-        shrunk = np.minimum(shrunk, room)
+        shrunk = np.minimum(shrunk, np.min(away, axis=0))
+    elif specimen.kind == "rectangle" and isinstance(specimen.outline, np.ndarray):
+        low, high = specimen.outline.min(axis=0), specimen.outline.max(axis=0)
+        shrunk = np.minimum(shrunk, np.minimum(centres - low, high - centres).min(axis=1))
+    least = int(np.argmin(shrunk))
+    if not shrunk[least] > SMALLEST_SPHERE * radii[least]:
+        raise InputError(
+            f"cohfrict: grain {least}: radius that leaves neither outline nor neighbours = "
+            f"{shrunk[least]:g} m, must be at least {SMALLEST_SPHERE:g} of {radii[least]:g}; "
+            "move its centre inwards or use jcfpm"
+        )
     return shrunk
 
 

@@ -159,8 +159,18 @@ ALONE = {
 }
 
 
+#: A sphere whose centre lies on a face to within round-off leaves cohfrict no radius.
+ON_A_FACE = {
+    **ALONE,
+    "spheres": [[1e-300, 0.005, 0.005, 0.003], [0.007, 0.005, 0.005, 0.003]],
+    "sizes": {"width": 0.01, "depth": 0.01, "height": 0.01},
+    "model": "cohfrict",
+}
+
+
 @given(solids())
 @example(ALONE)
+@example(ON_A_FACE)
 @drawing(100)
 def test_any_spheres_in_a_solid_step_or_are_refused(spheres, solid):
     said = spheres.run(solid)
