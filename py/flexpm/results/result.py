@@ -29,7 +29,7 @@ _SOFTENING = ("flexible", "rigid")
 
 
 #: Keys that only results of solids have.
-_OF_SOLIDS = ("tetrahedra", "largest_overlap")
+OF_SOLIDS = ("tetrahedra", "largest_overlap")
 
 
 @dataclass
@@ -41,25 +41,25 @@ class Result(Shown):
 
     flexpm: str  #: version of flexpm
     yade: str  #: version of YADE
-    test: str
-    model: str
+    test: str  #: name of the test
+    model: str  #: name of the model
     material: Table  #: name and effective parameters
-    seed: int | None
+    seed: int | None  #: of the packing
     grains: int
-    contacts: int
-    nodes: int | None
-    triangles: int | None
+    contacts: int  #: between grains, bonded at the start
+    nodes: int | None  #: of the meshes of grains
+    triangles: int | None  #: of the meshes of grains
     tetrahedra: int | None = None  #: of a solid
     grains_across: float | None = None  #: smallest size, or ligament, over the mean grain [-]
     particles: int | None = None  #: what moves: grains, or inner particles
     inner_contacts: int | None = None  #: between particles of the same grain
-    youngs_modulus: float | None = None  #: [Pa]
-    poissons_ratio: float | None = None  #: [-]
+    youngs_modulus: float | None = None  #: of the record's elastic part [Pa]
+    poissons_ratio: float | None = None  #: of the record's elastic part [-]
     elastic_poissons_ratio: float | None = None  #: before the first contact point softens [-]
-    peak_stress: float | None = None  #: [Pa]
-    peak_strain: float | None = None  #: [-]
-    confinement: float | None = None  #: [Pa]
-    steps: int = 0
+    peak_stress: float | None = None  #: largest axial stress, what the test calls so [Pa]
+    peak_strain: float | None = None  #: axial strain at it [-]
+    confinement: float | None = None  #: lateral pressure at the end [Pa]
+    steps: int = 0  #: of the whole test
     step_time: float | None = None  #: median wall time of a step [s]
     tensile_cracks: int = 0  #: cracked points
     shear_cracks: int = 0  #: cracked points
@@ -71,20 +71,19 @@ class Result(Shown):
     softening_slope: float | None = None  #: of stress over strain after the peak [Pa]
     late_modulus: float | None = None  #: at 80 % of the peak over that at 20 % [-]
     softening_onset: float | None = None  #: share of the peak at which a point first softens [-]
-    first_tensile_crack_strain: float | None = None  #: [-]
-    first_tensile_crack_stress: float | None = None  #: [Pa]
-    first_shear_crack_strain: float | None = None  #: [-]
-    first_shear_crack_stress: float | None = None  #: [Pa]
+    first_tensile_crack_strain: float | None = None  #: axial strain at it [-]
+    first_tensile_crack_stress: float | None = None  #: axial stress at it [Pa]
+    first_shear_crack_strain: float | None = None  #: axial strain at it [-]
+    first_shear_crack_stress: float | None = None  #: axial stress at it [Pa]
     tensile_onset_strain: float | None = None  #: once 5 % of the final tensile cracks are there [-]
-    tensile_onset_stress: float | None = None  #: [Pa]
+    tensile_onset_stress: float | None = None  #: axial stress then [Pa]
     shear_onset_strain: float | None = None  #: the same of shear cracks [-]
-    shear_onset_stress: float | None = None  #: [Pa]
+    shear_onset_stress: float | None = None  #: axial stress then [Pa]
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
-    joint_cuts: Table | None = (
-        None  #: what came of the lines of each joint, by its name; lengths [m]
-    )
+    #: what came of the lines of each joint, by its name; lengths [m]
+    joint_cuts: Table | None = None
     networks: Table | None = None  #: P21 asked for, drawn and cut of each set of traces [1/m]
     loose_grains: int | None = None  #: joined by no contact to what is held, at the end
     #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
@@ -98,10 +97,10 @@ class Result(Shown):
     vs: float | None = None  #: speed of a plane shear wave [m/s]
     fragments: int | None = None  #: grains that hang together at the end, counted
     largest_fragment: float | None = None  #: its share of the area [-]
-    events: int | None = None  #: of acoustic emission
-    completeness_magnitude: float | None = None  #: from which on b_value counts events [-]
-    b_value: float | None = None  #: of the magnitudes of events [-]
-    b_value_error: float | None = None  #: standard error [-]
+    events: int | None = None  #: events of acoustic emission
+    completeness_magnitude: float | None = None  #: least magnitude that b_value counts [-]
+    b_value: float | None = None  #: decades of the number of events for one of magnitude [-]
+    b_value_error: float | None = None  #: standard error of b_value [-]
     #: factor on the loading rate of the last loading, of a test whose rate is halved [-]
     final_rate: float | None = None
     rates: list[Table] | None = None  #: its loadings: rate, status, peak, steps, wall time
@@ -249,7 +248,7 @@ class Result(Shown):
             if name not in hidden
         }
         inputs = content.pop("inputs")
-        for name in _OF_SOLIDS:
+        for name in OF_SOLIDS:
             if content[name] is None:
                 del content[name]
         return content | {"warnings": self.warnings, "inputs": inputs}
