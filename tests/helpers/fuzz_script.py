@@ -124,6 +124,28 @@ class Script:
         if rig := self._parts():
             self._held.append(rig.platen(side, bonded=bonded))
 
+    def do_layer(self, side: int, strip: Any) -> None:
+        if rig := self._parts():
+            self._held.append(rig.platen(side, strip=strip))
+
+    def do_seat(self, side: int, name: Any) -> None:
+        if rig := self._parts():
+            self._held.append(rig.platen(side, seated=True))
+            rig.angle_of(name, self._held[-1])
+
+    def do_ends(self, pressure: Any, way: Any, load: Any) -> None:
+        if self._built is not None:
+            self._flexpm.rig(self._built).elastic(pressure, way=way, load=load)
+
+    def do_jaw(self, x: float, y: float, radius: float, angle: Any, name: Any) -> None:
+        if rig := self._parts():
+            self._held.append(rig.jaw((x, y), radius, angle=angle))
+            rig.contact_of(name, self._held[-1])
+
+    def do_soft(self, way: list[Any], parts: list[Any], machine: float) -> None:
+        if rig := self._parts():
+            rig.drive(self._picked(parts), way, machine=machine)
+
     def do_hold(self, x: float, y: float, radius: float, axes: str) -> None:
         if rig := self._parts():
             self._held.append(rig.hold(disc=((x, y), radius), axes=axes))

@@ -114,6 +114,24 @@ def test_the_static_solution_has_the_hoop_stress_of_kirsch_at_any_two_pressures(
         np.testing.assert_allclose(measured(state), wanted, rtol=0.0, atol=0.03 * wanted.max())
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [1.0, 0.5, 1.0 / 3.0, 0.0])
+def test_by_loading_it_is_that_of_kirsch_at_any_two_pressures(share):
+    """Within 3 % of the largest: both pressures rise to the lateral one, then the axial one."""
+    rig, (floor, right, top, _) = made_rig(pulls=True)
+    lateral = share * GREATEST
+    rig.press({top: lateral, right: lateral} if share > 0.0 else {right: 0.0})
+    axial = lateral
+    if share < 1.0:
+        rig.drive(top, (0.0, -1.0), against=floor, area=SIDE * THICKNESS, length=SIDE)
+        rig.stress_to(GREATEST)
+        axial = rig.record["axial_stress"][-1]
+        assert rig.warnings == []
+    wanted = kirsch(lateral, axial)
+    found = measured(rig.built.snapshot())
+    np.testing.assert_allclose(found, wanted, rtol=0.0, atol=0.03 * wanted.max())
+
+
 @pytest.mark.long
 def test_the_hoop_stress_around_a_borehole_is_that_of_kirsch():
     """Within 3 % of the largest, as one pressure grows and the other one stays."""

@@ -91,6 +91,12 @@ REFUSED = {
     "b.run(1)": "side = 99",
     "b = build(); b.add_engines(before=(wrapper.ConfinementController(sides=[-1]),)); "
     "b.run(1)": "side = -1",
+    "b = build(); r = wrapper.ReleaseController(nodes=[2**31 - 1], forces=[(1, 0, 0)], part=1); "
+    "b.add_engines(before=(r,)); b.run(1)": "node of outer forces = 2147483647",
+    "b = build(); r = wrapper.ReleaseController(nodes=[0, 0], forces=[(1, 0, 0)], part=1); "
+    "b.add_engines(before=(r,)); b.run(1)": "outer forces = 1, must be 2",
+    "build().solver.wallForces([99])": "grain = 99",
+    "build().solver.setMachine(0, 1.0)": "plate = 0",
     "b = build(); b.add_engines(after=(wrapper.AxialRecorder(stopRatio=nan),)); "
     "b.run(100)": "stop ratio = nan",
     "b = build(); b.add_engines(after=(wrapper.AxialRecorder(maxStrain=nan),)); "
@@ -160,7 +166,7 @@ def test_what_can_be_done_goes_on(forks, snippet):
 CALLS = """
 kinds = {"float": FLOAT, "int": INT, "bool": True, "Vector3": (FLOAT, FLOAT, 0.0), "object": None,
          "list": [], "dict": {}, "tuple": (), "str": "x"}
-lists = {"nodes": [INT], "pressed": [INT], "pressures": [FLOAT]}
+lists = {"nodes": [INT], "grains": [INT], "pressed": [INT], "pressures": [FLOAT]}
 def arguments(method):
     signature = method.__doc__.split("->")[0].split("(", 1)[1]
     found = re.findall(r"\\((?:[\\w.]*[.])?(\\w+)\\)(\\w+)", signature)[1:]
@@ -236,7 +242,7 @@ for name in [n for n in vars(cls) if n[0] != "_" and not callable(present(cls(),
     "kind",
     [
         *("GrainSolver", "AxialRecorder", "ConfinementController", "EndDisplacementController"),
-        *("PlateController", "PressureController", "LoadingRateController"),
+        *("PlateController", "PressureController", "LoadingRateController", "ReleaseController"),
     ],
 )
 def test_no_value_of_an_attribute_ends_the_process(forks, kind):

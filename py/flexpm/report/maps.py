@@ -20,7 +20,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..arrays import FloatArray, IntArray
-from ..files import remove_earlier
+from ..files import Table, remove_earlier
 from ..results.cracks import ERASED, SHEAR, TENSILE
 from ..results.fragments import Fragments
 from ..results.snapshot import Snapshot
@@ -37,6 +37,8 @@ _LOOSE = "#8c8674"
 #: Minerals in their order.
 MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
 _EDGE = "#6b6455"
+#: Plates and held nodes of a rig.
+_PART = "#3a5a78"
 #: Pairs of minerals that a legend names.
 _MOST_PAIRS = 6
 
@@ -109,6 +111,7 @@ def crack_picture(
     minerals: Sequence[str] = (),
     notches: Sequence[int] = (),
     by_pair: Mapping[str, Mapping[str, int]] | None = None,
+    parts: Sequence[Table] = (),
 ) -> None:
     """Draw the deformed grains with their cracks; each point colours its share of a contact.
 
@@ -121,12 +124,13 @@ def crack_picture(
         minerals: Their names, for the legend.
         notches: Numbers of contacts that were cut open before the test.
         by_pair: Cracks of each pair of minerals by mode, for the legend.
+        parts: Parts of a rig, with their faces.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        save(crack_figure(snapshot, caption, minerals, notches, by_pair), path)
+        save(crack_figure(snapshot, caption, minerals, notches, by_pair, parts), path)
 
 
 def crack_figure(
@@ -135,12 +139,13 @@ def crack_figure(
     minerals: Sequence[str] = (),
     notches: Sequence[int] = (),
     by_pair: Mapping[str, Mapping[str, int]] | None = None,
+    parts: Sequence[Table] = (),
 ) -> Figure:
     """The figure of `crack_picture`."""
     with rc_context(STYLE):
         figure, axes = map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
-        handles += _draw_notches(axes, snapshot, notches)
+        handles += _draw_notches(axes, snapshot, notches) + _draw_parts(axes, parts)
         handles += _mineral_handles(minerals)
         handles += _pair_handles(by_pair or {})
         columns = 1 if by_pair else 2  # names of pairs are long
@@ -207,6 +212,14 @@ def _draw_notches(axes: Axes, snapshot: Snapshot, notches: Sequence[int]) -> lis
         return []
     axes.add_collection(LineCollection(1e3 * ends, colors=CUT, linewidths=2.2))
     return [Line2D([], [], color=CUT, lw=2.2, label="notch")]
+
+
+def _draw_parts(axes: Axes, parts: Sequence[Table]) -> list[Line2D]:
+    """Draw plates and boxes around held nodes where they were laid; a handle if there are any."""
+    if not (faces := [1e3 * np.array(part["face"]) for part in parts if part.get("face")]):
+        return []
+    axes.add_collection(LineCollection(faces, colors=_PART, linewidths=2.6))
+    return [Line2D([], [], color=_PART, lw=2.6, label="parts")]
 
 
 def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:

@@ -10,15 +10,15 @@ from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..runs.runner import Runner
 from ..specimens.space.any_spec import SOLIDS, is_solid
-from .grain_rig import NodeRig, PlateRig
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig
 from .solids.end_rig import EndRig
 from .sphere_rig import SphereRig
+from .statics.end_state import NodeEnds, PlateEnds
 
 #: Rigs that note what a script calls, for its folder.
-_RIGS = [recording(kind) for kind in (NodeRig, PlateRig, EndRig, SphereRig)]
+_RIGS = [recording(kind) for kind in (NodeEnds, PlateEnds, EndRig, SphereRig)]
 
 
 def rig(
@@ -68,5 +68,6 @@ def _fitting(built: Model | SphereModel, tension: bool, runner: Runner | None) -
         return SphereRig(built, tension=tension, runner=runner)
     if is_solid(built.specimen.kind):
         return EndRig(built, tension=tension, runner=runner)
-    kind = NodeRig if built.name == "flexible" and built.specimen.kind == "rectangle" else PlateRig
-    return kind(built, tension=tension, runner=runner)
+    if built.name == "flexible" and built.specimen.kind == "rectangle":
+        return NodeEnds(built, tension=tension, runner=runner)
+    return PlateEnds(built, tension=tension, runner=runner)

@@ -178,8 +178,8 @@ class GrainRig(TestRig):
             recorder.loading = self._take_hold()
             undamped = plan.running_shares is not None or plan.control != ""
             recorder.loading.undampedLoading = undamped
-            # elastic velocities raise no wave: a loading that has them may begin at full speed
-            # what looks ahead does so from the first row on
+            # elastic velocities raise no wave: a loading that has them may begin at full speed;
+            # one that looks ahead does so from the first row on
             ahead = plan.softening_growth > 0.0 and not plan.control
             factor = 1.0 if self.disc or ahead else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
@@ -246,7 +246,7 @@ class GrainRig(TestRig):
             recorder=self._recorder,
             fastest=plan.fastest,
             slowest=SLOWEST_WAIT,
-            sweep=self._loaded_area() * plan.fastest * abs(plan.velocity),
+            sweep=self._loaded_area() * plan.fastest * abs(plan.velocity) / self._ahead,
             runningShare=before,
             shareAfterPeak=after,
             crossingSteps=crossing,
@@ -267,9 +267,8 @@ class GrainRig(TestRig):
 
     def _loaded_area(self) -> float:
         """Force over the record's stress [m2]."""
-        specimen = self.built.specimen
         part = 0.5 * math.pi if self.disc else 1.0  # of a disc 2P / (pi D t)
-        return part * self.scales().width * specimen.thickness
+        return part * self.scales().width * self.built.specimen.thickness
 
     def _begin_record(self) -> None:
         solver = self.built.solver
@@ -380,15 +379,16 @@ class PlateRig(GrainRig):
             self.built.solver.addSidePlates(side, bonded=self.tension)
         self.built.set_masses()
 
-    def _lay_membranes(self) -> list[int]:
+    @property
+    def _membrane_pieces(self) -> int:
         # a short specimen has fewer boundary grains than the paper's has plates
-        specimen = self.built.specimen
-        fitting = int(specimen.dimensions["height"] / (2.0 * specimen.mean_diameter))
-        pieces = max(min(_MEMBRANE_PLATES, fitting), 1)
-        plates: list[int] = []
-        for side in (LEFT, RIGHT):
-            plates += self.built.solver.addSidePlates(side, pieces=pieces)
-        return plates
+        made = self.built.specimen
+        fitting = int(made.dimensions["height"] / (2.0 * made.mean_diameter))
+        return max(min(_MEMBRANE_PLATES, fitting), 1)
+
+    def _lay_membranes(self) -> list[int]:
+        solver, pieces = self.built.solver, self._membrane_pieces
+        return [n for side in (LEFT, RIGHT) for n in solver.addSidePlates(side, pieces=pieces)]
 
     def _lay_touching(self) -> None:
         """Lay plates against a disc.

@@ -3,29 +3,41 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
 import yade
 from yade import wrapper
 
+from ..arrays import FloatArray
 from ..errors import InputError
 from ..files import Table
 from ..models.grains import Model
 from ..require import (
     NOT_NEGATIVE,
     POSITIVE,
+    Bounds,
     quoted,
     require_flag,
     require_number,
     require_whole,
 )
+from ..specimens.kernel_input import Circle
 from .parts import HeldNodes, Part, RigPart
 from .places import Place, Where, in_region, require_vector
 
 #: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
 #: turn with a beam, which would rest on the inner end of a long one.
 _SUPPORT = 0.5
+#: Largest angle of a jaw, an edge further round does not face it, and the limits [rad].
+_WIDEST = 2.0 * math.pi / 3.0
+_ANGLE = Bounds(above=0.0, at_most=_WIDEST)
+#: A jaw's place is off the rim by at most this part of the radius; radii that differ by less than
+#: the other part are one [-].
+_OFF_RIM, _SAME = 0.05, 1e-9
+#: Traits of a plate that are told where it has them.
+_EXTRA = ("strip", "radius", "machine", "seated")
 #: Friction of a part that is pinned: it does not slide as long as it presses [-].
 _NO_SLIDING = 1e6
 
@@ -57,6 +69,8 @@ class PartLayout:
         pinned: bool = False,
         friction: float = 0.0,
         bonded: bool = False,
+        strip: float | None = None,
+        seated: bool = False,
     ) -> Part:
         """Lay a plate against the part of the outline around a place.
 
@@ -67,6 +81,10 @@ class PartLayout:
             pinned: It does not slide along the outline as long as it presses; else it is a roller.
             friction: Coefficient, of one that is neither [-].
             bonded: It pulls, too.
+            strip: Stiffness per area of a soft layer between it and the grains [Pa/m], E / h of one
+                of thickness h; it comes in series with that of the contacts. None: no layer.
+            seated: It turns freely about the middle of its face, as on a spherical seat, so that it
+                bears no moment there (deviation D95). Else it does not turn.
 
         Raises:
             InputError: for a place that is not on the outline or that another part has, or a length
@@ -80,6 +98,8 @@ class PartLayout:
             require_vector("support: normal", normal, ""),
             _NO_SLIDING if require_flag("support: pinned", pinned) else friction,
             require_flag("support: bonded", bonded),
+            _strip("support", strip),
+            require_flag("support: seated", seated),
         )
         solver = self.built.solver
         return self._plate(
@@ -88,13 +108,23 @@ class PartLayout:
             lambda: solver.addPatchPlate(*values),
         )
 
-    def platen(self, side: int, *, friction: float = 0.0, bonded: bool = False) -> Part:
+    def platen(
+        self,
+        side: int,
+        *,
+        friction: float = 0.0,
+        bonded: bool = False,
+        strip: float | None = None,
+        seated: bool = False,
+    ) -> Part:
         """Lay a plate along a whole side of the outline.
 
         Args:
             side: Number of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
             friction: Coefficient [-].
             bonded: It pulls, too. It slides freely along itself all the same, without friction.
+            strip: As for `support` [Pa/m].
+            seated: As for `support`.
 
         Raises:
             InputError: for a side that there is not, or on which another part lies.
@@ -102,12 +132,77 @@ class PartLayout:
         side = require_whole("platen: side", side)
         friction = require_number("platen: friction", friction, NOT_NEGATIVE)
         bonded = require_flag("platen: bonded", bonded)
+        layer, turns = _strip("platen", strip), require_flag("platen: seated", seated)
         solver = self.built.solver
         return self._plate(
             "platen",
-            lambda: solver.findSidePlate(side, bonded, friction),
-            lambda: solver.addSidePlates(side, bonded=bonded, friction=friction)[0],
+            lambda: solver.findSidePlate(side, bonded, friction, layer, turns),
+            lambda: solver.addSidePlates(side, 1, bonded, friction, layer, turns)[0],
         )
+
+    def jaw(
+        self,
+        place: Place,
+        radius: float,
+        *,
+        angle: float | None = None,
+        friction: float = 0.0,
+        strip: float | None = None,
+    ) -> Part:
+        """Lay an arc around the rim of a disc: the curved jaw of a splitting test.
+
+        The disc lies against ever more of it as the load grows; `contact_of` records the angle. A
+        jaw of the disc's own radius touches all of its angle at once (deviation D95).
+
+        Args:
+            place: x and y of the jaw's middle, in whose direction from the disc's centre it lies
+                [m].
+            radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
+            angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
+                of the disc's own radius needs it.
+            friction: Coefficient [-]. Between two smooth ones of its own radius a disc is free to
+                turn, and no loading of it begins.
+            strip: As for `support` [Pa/m].
+
+        Raises:
+            InputError: for a specimen that is no disc, a place off its rim by more than 5 % of its
+                radius, a radius below the disc's, or an angle out of range or missing.
+        """
+        centre, rim = self._disc()
+        x, y, _ = require_vector("jaw: place", place)
+        way = np.array([x - centre[0], y - centre[1]])
+        off = abs(float(np.hypot(*way)) - rim)
+        if off > _OFF_RIM * rim:
+            raise InputError(
+                f"jaw: place = ({x:g}, {y:g}) m, must be on the rim, is {off:.3g} m off"
+            )
+        radius = require_number("jaw: radius", radius, POSITIVE, "m")
+        if radius < rim * (1.0 - _SAME):
+            raise InputError(f"jaw: radius = {radius:g} m, must be >= {rim:g} m, the disc's")
+        if angle is None and radius <= rim * (1.0 + _SAME):
+            raise InputError("jaw: angle = None, must be given for the disc's own radius")
+        way *= rim / float(np.hypot(*way))
+        values = (
+            (centre[0] + way[0], centre[1] + way[1], 0.0),
+            (*centre, 0.0),
+            max(radius, rim),
+            _WIDEST if angle is None else require_number("jaw: angle", angle, _ANGLE, "rad"),
+            require_number("jaw: friction", friction, NOT_NEGATIVE),
+            _strip("jaw", strip),
+        )
+        solver = self.built.solver
+        return self._plate(
+            "jaw",
+            lambda: solver.findJawPlate(*values),
+            lambda: solver.addJawPlate(*values),
+        )
+
+    def _disc(self) -> tuple[tuple[float, float], float]:
+        """Centre and radius of the disc that the specimen is [m]."""
+        outline = self.built.specimen.outline
+        if not isinstance(outline, Circle):
+            raise InputError("jaw: specimen = no disc, must be one; lay supports")
+        return (outline.x, outline.y), outline.radius
 
     def hold(
         self,
@@ -185,23 +280,28 @@ class PartLayout:
     def parts(self) -> list[Table]:
         """All parts as plain values: plates, then held nodes by their numbers.
 
-        A place is that where the part was laid, or since when displacements count [m].
+        A place is that where the part was laid, or since when displacements count [m]; a face is a
+        line along a plate, or around held nodes, when bonded [m].
         """
         solver = self.built.solver
         plates = [
             {
                 "part": "plate",
                 **{name: one[name] for name in ("normal", "width", "friction", "bonded")},
+                **{name: one[name] for name in _EXTRA if one[name]},
                 "place": _before(one),
+                "face": _face_of(one),
             }
             for one in solver.plates()
         ]
+        numbers, places = solver.nodePlaces(bonded=True)
         sets = [
             {
                 "part": "held nodes",
                 "nodes": [int(node) for node in one["nodes"]],
                 "axes": one["axes"],
                 "place": _before(one),
+                "face": _box_around(places[np.isin(numbers, one["nodes"])]),
             }
             for one in solver.nodeSets()
         ]
@@ -219,6 +319,30 @@ class PartLayout:
                 f"{what}: scene = another one than that of the rig, must be the same; after "
                 "O.reset() or O.load() make a new rig"
             )
+
+
+def _strip(label: str, strip: float | None) -> float:
+    """Stiffness per area of a soft layer [Pa/m]; 0: there is none."""
+    return 0.0 if strip is None else require_number(f"{label}: strip", strip, POSITIVE, "Pa/m")
+
+
+def _face_of(plate: Table) -> list[list[float]]:
+    """Line along a plate, or the arc of a jaw, when bonded [m]."""
+    inwards, middle, half = np.array(plate["normal"]), plate["middle"], 0.5 * plate["width"]
+    along = np.array([inwards[1], -inwards[0]])
+    at = half * np.linspace(-1.0, 1.0, 25 if plate["radius"] else 2)
+    rise = plate["radius"] - np.sqrt(np.maximum(plate["radius"] ** 2 - at**2, 0.0))
+    rise -= rise.mean()  # the middle is the mean of its points
+    line: list[list[float]] = (middle + at[:, None] * along + rise[:, None] * inwards).tolist()
+    return line
+
+
+def _box_around(places: FloatArray) -> list[list[float]]:
+    """Line around places [m]; none of a set whose grains are erased."""
+    if len(places) == 0:
+        return []
+    (left, low), (right, high) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
+    return [[left, low], [right, low], [right, high], [left, high], [left, low]]
 
 
 def _before(part: Table) -> list[float]:

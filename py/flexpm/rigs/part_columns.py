@@ -11,7 +11,7 @@ from ..files import Table
 from ..require import require_flag, require_known
 from ..results.record import COLUMNS, Curve
 from .layout import PartLayout
-from .parts import HeldNodes, RigPart, require_part
+from .parts import HeldNodes, Part, RigPart, require_part
 from .places import Place, require_column, require_direction, require_vector
 
 #: What a gauge reads.
@@ -77,6 +77,35 @@ class PartColumns(PartLayout):
             gauge.plate = part.number
         self._add_gauge(name, gauge)
 
+    def contact_of(self, name: str, jaw: Part) -> None:
+        """Record the angle over which a disc lies against a jaw [rad], in a column of this name.
+
+        It is that at the disc's centre between the outermost points in contact, each with its
+        tributary length.
+        """
+        label = f"gauge {self._gauge_name(name)}"
+        jaw = require_part(f"{label}: part", self, jaw, Part)
+        if not self.built.solver.plates()[jaw.number]["radius"]:
+            raise InputError(f"{label}: part = {jaw}, must be a jaw")
+        self._add_gauge(name, wrapper.Gauge(plate=jaw.number, reads="contact_angle"))
+
+    def angle_of(self, name: str, part: Part) -> None:
+        """Record by how much a seated part has turned [rad], in a column of this name."""
+        label = f"gauge {self._gauge_name(name)}"
+        part = require_part(f"{label}: part", self, part, Part)
+        if not self.built.solver.plates()[part.number]["seated"]:
+            raise InputError(f"{label}: part = {part}, must be seated")
+        self._add_gauge(name, wrapper.Gauge(plate=part.number, reads="angle"))
+
+    def _watch_machine(self, plate: int, unit: tuple[float, float, float]) -> None:
+        for name in ("crosshead", "machine_energy"):
+            there = [one for one in self._recorder.gauges if one.reads == name]
+            if there and not self._begun:  # another call says what loads
+                there[0].plate, there[0].direction = plate, unit
+                continue
+            label = self._gauge_name(name)
+            self._add_gauge(label, wrapper.Gauge(plate=plate, direction=unit, reads=name))
+
     def also(self, name: str, column: str) -> None:
         """Give a column of the record a second name, which the test is known by."""
         there = self._columns()
@@ -100,6 +129,7 @@ class PartColumns(PartLayout):
         for one in self._recorder.gauges:
             traits = {name: getattr(one, name) for name in _TRAITS}
             traits["direction"] = list(traits["direction"])
+            traits.update({"reads": one.reads} if one.reads else {})
             found.append({"gauge": one.name, **traits})
         return found
 
@@ -130,7 +160,7 @@ class PartColumns(PartLayout):
             recorder.addGauge(gauge)
             return
         there = next(one for one in recorder.gauges if one.name == name)
-        for trait in _TRAITS:
+        for trait in (*_TRAITS, "reads"):
             now, asked = getattr(there, trait), getattr(gauge, trait)
             if now != asked and name not in recorder.lostGauges():
                 raise InputError(

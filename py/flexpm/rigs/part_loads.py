@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +15,9 @@ from ..require import NOT_NEGATIVE, POSITIVE, require_number
 from .layout import PartLayout
 from .parts import HeldNodes, Part, RigPart, numbers, require_apart, require_parts
 from .places import Place, require_direction, require_vector
+
+#: Cosines of directions that differ by less than this from 1 are along each other [-].
+_ALONG = 1e-6
 
 
 class PartLoads(PartLayout):
@@ -28,6 +32,7 @@ class PartLoads(PartLayout):
         area: float = 1.0,
         length: float = 1.0,
         strength: float = 0.0,
+        machine: float | None = None,
     ) -> None:
         """Say which parts load the specimen, and what its stress and strain are.
 
@@ -45,6 +50,11 @@ class PartLoads(PartLayout):
             length: Displacement over strain [m].
             strength: Stress that the specimen will bear, roughly [Pa], which sets the loading rate;
                 0: twice that at which the first contact point softens.
+            machine: Stiffness of a soft machine [N/m], a spring between the one plate that loads
+                along its normal and a crosshead, which then moves in its place (deviation D95).
+                The record has the columns ``crosshead``, its way along the loading [m], and
+                ``machine_energy``, stored in the spring [J], beside those of the plate; its
+                energies are those of the specimen. None: the plate itself is moved.
 
         Raises:
             InputError: for what is no part of this rig or is there twice, nodes that are not held
@@ -61,6 +71,7 @@ class PartLoads(PartLayout):
             if isinstance(part, HeldNodes):
                 _require_along(part, unit)
         self._require_fixed("drive")
+        soft = None if machine is None else _require_soft(moved, unit, machine)
         self._load_by(
             "drive",
             driven=numbers(moved, Part),
@@ -73,6 +84,7 @@ class PartLoads(PartLayout):
             length=require_number("drive: length", length, POSITIVE, "m"),
             strength=require_number("drive: strength", strength, NOT_NEGATIVE, "Pa"),
         )
+        self._soften(moved, unit, soft)
 
     def turn(
         self,
@@ -135,7 +147,37 @@ class PartLoads(PartLayout):
             "area": frame.area,
             "length": frame.length,
             "strength": frame.strength,
+            **({"machine": self.machine} if self.machine else {}),
         }
+
+    @property
+    def machine(self) -> float:
+        """Stiffness of the machine behind what loads [N/m]; 0: none gives way."""
+        plates = self.built.solver.plates()
+        return max((float(plates[n]["machine"]) for n in self._frame.driven), default=0.0)
+
+    def _soften(
+        self, moved: Sequence[RigPart], unit: tuple[float, float, float], soft: float | None
+    ) -> None:
+        """Lay the machine's spring behind the part that loads, or find it there again."""
+        there = self.machine
+        lays = there == 0.0 and soft is not None and not self._begun
+        if not lays and there != (soft or 0.0):
+            raise InputError(
+                f"drive: machine = {soft}, must be as given before, {there or None}; make a new rig"
+            )
+        if soft is None:
+            return
+        self._watch_machine(moved[0].number, unit)
+        try:
+            if lays:
+                self.built.solver.setMachine(moved[0].number, soft)
+        except ValueError as error:
+            raise InputError(f"drive: {error}") from None
+
+    @abstractmethod
+    def _watch_machine(self, plate: int, unit: tuple[float, float, float]) -> None:
+        """Give the record the columns of a machine."""
 
     def _new_frame(self) -> wrapper.PartFrame:
         return wrapper.PartFrame()
@@ -184,6 +226,22 @@ class PartLoads(PartLayout):
         place = np.subtract(now["place"], now["displacement"])
         if now["floats"] != (pivot is None) or not (pivot is None or np.allclose(place, pivot[:2])):
             raise InputError(f"turn: about = {pivot}, must be as the record has begun")
+
+
+def _require_soft(
+    moved: Sequence[RigPart], unit: tuple[float, float, float], machine: float
+) -> float:
+    """Stiffness of a machine that moves one plate along its normal, or refuse it [N/m]."""
+    stiffness = require_number("drive: machine", machine, POSITIVE, "N/m")
+    if len(moved) != 1 or not isinstance(moved[0], Part):
+        raise InputError("drive: machine: parts = others than one plate, must be one plate alone")
+    x, y = moved[0].normal
+    if abs(abs(x * unit[0] + y * unit[1]) - 1.0) > _ALONG:
+        raise InputError(
+            f"drive: machine: direction = ({unit[0]:g}, {unit[1]:g}), must be along the normal of "
+            f"the {moved[0]}, ({x:g}, {y:g})"
+        )
+    return stiffness
 
 
 def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from typing import Unpack
 
 import numpy as np
@@ -22,7 +22,7 @@ from ..kinds.registry import OWN, kind_of
 from ..models.grains import Model
 from ..require import NOT_NEGATIVE, require_number
 from ..results import doubts, measures
-from ..runs.loading_rate import Scales, Schedule, rates_of
+from ..runs.loading_rate import Loading, Scales, Schedule, rates_of
 from ..runs.runner import Runner
 from ..specimens.space.any_spec import is_solid
 from .outcome.calls import recording
@@ -221,6 +221,18 @@ class PartRig(PartColumns, PartExcavation):
         if self._from_now:
             self._recorder.fromNow = True
         self._frame.loadingScales = list(astuple(self.scales()))
+
+    @property
+    def _ahead(self) -> float:
+        """The crosshead of a soft machine goes ahead of the part that loads."""
+        if not (machine := self.machine):
+            return 1.0
+        return 1.0 + self.scales().modulus * self._frame.area / self._frame.length / machine
+
+    def _schedule(self, loading: Loading) -> Schedule:
+        """The way at the rate is that of the parts."""
+        plan = super()._schedule(loading)
+        return replace(plan, velocity=plan.velocity * self._ahead)
 
     def _drive(self, plan: Schedule) -> None:
         self._require_scene("load")

@@ -23,7 +23,7 @@ class RigPart:
 
     rig: object = field(repr=False)  #: whose part it is
     solver: wrapper.GrainSolver = field(repr=False)
-    kind: str  #: ``support``, ``platen`` or ``held nodes``
+    kind: str  #: ``support``, ``platen``, ``jaw`` or ``held nodes``
     number: int  #: among the plates, or among the sets of nodes
 
     @property
@@ -76,6 +76,21 @@ class Part(RigPart):
     def normal(self) -> tuple[float, float]:
         """Into the specimen, a unit vector."""
         return self._pair("normal")
+
+    @property
+    def contact_angle(self) -> float:
+        """Over which a disc lies against a jaw, about the disc's centre [rad]; else 0."""
+        return float(self._now["contact_angle"])
+
+    @property
+    def angle(self) -> float:
+        """By which a seated one has turned about its middle, counter-clockwise [rad]."""
+        return float(self._now["angle"])
+
+    @property
+    def machine_energy(self) -> float:
+        """Stored in the spring between it and its crosshead, see `PartRig.drive` [J]."""
+        return 0.5 * float(self._now["machine"]) * float(self._now["machine_give"]) ** 2
 
 
 @dataclass(frozen=True, eq=False)

@@ -180,6 +180,11 @@ class RigReadings(ABC):
     @abstractmethod
     def _readings(self) -> Readings: ...
 
+    @property
+    def _ahead(self) -> float:
+        """Velocity of what is moved over that of the specimen's end, along the elastic solution."""
+        return 1.0
+
     def _schedule(self, loading: Loading) -> Schedule:
         pressure, dt = self.confinement or 0.0, yade.O.dt
         scales = self.scales()

@@ -63,7 +63,8 @@ def draw_pictures(folder: Path, result: Result, notches: Sequence[int] = ()) -> 
         minerals = [kind["name"] for kind in result.material.get("minerals", ())]
         caption = size_text(result)
         broken = result.cracks_by_pair
-        crack_picture(folder / "cracks.png", plane, caption, minerals, notches, broken)
+        parts = (result.inputs or {}).get("parts", ())
+        crack_picture(folder / "cracks.png", plane, caption, minerals, notches, broken, parts)
         fragment_picture(folder / "fragments.png", plane, caption, result.snapshot.fragments)
         emission_picture(folder / "events.png", result, caption)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -187,6 +187,15 @@ class PressureController(Engine):
 class ConfinementController(PressureController):
     sides: list[int]
 
+class ReleaseController(Engine):
+    def __init__(
+        self, *, nodes: list[int], forces: list[Vector3], part: float, dead: bool = ...
+    ) -> None: ...
+    part: float
+    startPart: float
+    rampSteps: int
+    rampBegin: int
+
 class LoadingRateController(Engine):
     loading: LoadingController | None
 
@@ -200,11 +209,24 @@ class ServoController(LoadingController):
 class Gauge(Serializable):
     name: str
     plate: int
+    reads: str
     nodes: list[int]
+    @property
+    def direction(self) -> Vector3: ...
+    @direction.setter
+    def direction(self, value: _Vector) -> None: ...
 
 class TestFrame(Serializable): ...
-class RectangleFrame(TestFrame): ...
-class DiscFrame(TestFrame): ...
+
+_Named: TypeAlias = dict[str, Any]
+
+class _EndsFrame(TestFrame):
+    def elasticState(
+        self, plates: bool, pieces: int, pressure: float | None, way: float, load: float | None
+    ) -> _Named: ...
+
+class RectangleFrame(_EndsFrame): ...
+class DiscFrame(_EndsFrame): ...
 class EndFrame(TestFrame): ...
 
 class PartFrame(TestFrame):
@@ -223,7 +245,7 @@ class PartFrame(TestFrame):
     loadingScales: list[float]
     def elasticState(
         self, pressed: list[int], pressures: list[float], way: float, load: float | None
-    ) -> dict[str, Any]: ...
+    ) -> _Named: ...
 
 class AxialRecorder(Engine):
     frame: TestFrame | None
@@ -273,7 +295,13 @@ class GrainSolver(Engine):
     def scaleMasses(self) -> None: ...
     def useRealMasses(self) -> float: ...
     def addSidePlates(
-        self, side: int, pieces: int = ..., bonded: bool = ..., friction: float = ...
+        self,
+        side: int,
+        pieces: int = ...,
+        bonded: bool = ...,
+        friction: float = ...,
+        strip: float = ...,
+        seated: bool = ...,
     ) -> list[int]: ...
     def addTouchingPlate(self, normal: _Vector, friction: float = ...) -> int: ...
     def addPatchPlate(
@@ -283,8 +311,27 @@ class GrainSolver(Engine):
         normal: _Vector = ...,
         friction: float = ...,
         bonded: bool = ...,
+        strip: float = ...,
+        seated: bool = ...,
     ) -> int: ...
-    def findSidePlate(self, side: int, bonded: bool = ..., friction: float = ...) -> int: ...
+    def addJawPlate(
+        self,
+        place: _Vector,
+        centre: _Vector,
+        radius: float,
+        angle: float,
+        friction: float = ...,
+        strip: float = ...,
+    ) -> int: ...
+    def findSidePlate(
+        self,
+        side: int,
+        bonded: bool = ...,
+        friction: float = ...,
+        strip: float = ...,
+        seated: bool = ...,
+    ) -> int: ...
+    def setMachine(self, plate: int, stiffness: float) -> None: ...
     def findPatchPlate(
         self,
         place: _Vector,
@@ -292,6 +339,17 @@ class GrainSolver(Engine):
         normal: _Vector = ...,
         friction: float = ...,
         bonded: bool = ...,
+        strip: float = ...,
+        seated: bool = ...,
+    ) -> int: ...
+    def findJawPlate(
+        self,
+        place: _Vector,
+        centre: _Vector,
+        radius: float,
+        angle: float,
+        friction: float = ...,
+        strip: float = ...,
     ) -> int: ...
     def gaugePoints(self, first: _Vector, second: _Vector) -> tuple[int, int, float]: ...
     def sectionNodes(
@@ -313,6 +371,7 @@ class GrainSolver(Engine):
     def energies(self) -> dict[str, float]: ...
     def snapshot(self) -> dict[str, npt.NDArray[Any]]: ...
     def cracks(self) -> tuple[int, int]: ...
+    def wallForces(self, grains: list[int]) -> tuple[list[int], list[Vector3]]: ...
     def counts(self) -> dict[str, int]: ...
     def unbalanced(self) -> float: ...
     def balance(self) -> dict[str, Any]: ...

@@ -159,7 +159,7 @@ TEST_CASE("What a loading gives to a measure is what the measure then grows by")
     const Point across = { 1.0, 0.0 }, down = { 0.0, -1.0 };
     const Array<double> field = loading_field(a);
     const double rates[] = { gauge_opening(field, gauge, across),
-        lateral_strain(a, Sense::compression, field), plate_rate(a, s.parts.driven[0], down),
+        lateral_strain(a, Sense::compression, field), plate_rate(a, s.parts.driven[0], down, field),
         part_load_rate(a, s.parts, field) };
     StepOptions options;
     options.measure = true;
@@ -176,7 +176,7 @@ TEST_CASE("What a loading gives to a measure is what the measure then grows by")
     s.a.plates[0].loaded = true;
     s.a.loading.plates.resize(1);
     s.a.loading.plates[0].velocity = { 3.0, 0.0 };
-    CHECK(plate_rate(a, 0, across) == 3.0);
+    CHECK(plate_rate(a, 0, across, a.grains.velocity) == 3.0);
 }
 
 TEST_CASE("A loading that goes back has the motion of the one that went on, turned round")

@@ -86,6 +86,55 @@ def test_an_excavated_hole_has_the_stress_of_one_made_before(sawn, model):
     np.testing.assert_allclose(*stresses, atol=0.01 * largest)
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_forces_on_the_wall_are_released_in_parts_each_to_balance(sawn, model):
+    rig, (floor, right, top, _) = made(sawn, model)
+    rig.press({top: 4e6, right: 2e6})
+    once = rig.elastic()
+    solver = rig.built.solver
+    stored = solver.energies()["elastic_energy"]
+    solver.resetEnergyBalance()
+    balances, roofs = [], []
+    found = rig.built.specimen.excavation("tunnel")
+
+    def look(one: flexpm.PartRig) -> None:
+        wall = one.built.required(yade.wrapper.ReleaseController)
+        if yade.O.iter == one._runner.position.stage_start + 1:
+            balances.append((wall.startPart, one._balance_of_all().largest))
+            roofs.append(one.built.snapshot().grain_stress[:, 0].copy())
+
+    rig.watch = look
+    rig.excavate("tunnel", parts=4)
+    # what a part begins with is what the one before has come to
+    assert [part for part, _ in balances] == [1.0, 0.75, 0.5, 0.25]
+    assert max(missing for _, missing in balances) < 1e-3
+    wall = rig.built.required(yade.wrapper.ReleaseController)
+    assert (wall.part, wall.acting) == (0.0, 0.0)
+    energies = solver.energies()
+    given = energies.pop("boundary_work") + energies.pop("initial_energy")
+    assert abs(given - sum(energies.values())) < 1e-6 * stored
+    assert energies["erased_energy"] > 1e-2 * stored
+    # with the forces on it the wall stays where it was; without them it is that of a free hole
+    others = np.setdiff1d(np.arange(len(roofs[0])), found.cells)
+    largest = np.abs(once.grain_stress).max()
+    if model == "flexible":  # rigid ones have the forces on them among their means
+        np.testing.assert_allclose(
+            roofs[0][others], once.grain_stress[others, 0], atol=2e-3 * largest
+        )
+    free = rig.elastic()
+    state = rig.built.snapshot()
+    moved = state.positions - state.reference
+    np.testing.assert_allclose(free.displacements, moved, atol=2e-3 * np.abs(moved).max())
+    [stage] = [one for one in rig.stages if one["stage"] == "excavate"]
+    assert stage["parts"] == 4
+    # a gradual release stirs less than one at once: next to all of the work is the wall's
+    assert energies["damping_energy"] < 0.5 * abs(given)
+    rig.watch = None
+    rig.drive(top, (0.0, -1.0), against=floor, area=SIDE * THICKNESS)
+    rig.stress_to(4.2e6)
+    assert rig.warnings == []
+
+
 def test_a_polygon_is_excavated_after_loading_and_the_record_stays_in_balance(whole):
     room = [(0.004, 0.004), (0.008, 0.004), (0.008, 0.007), (0.004, 0.007)]
     rig, (floor, right, top, _) = made(whole.with_excavations({"room": room, "shaft": CIRCLE}))
@@ -112,7 +161,7 @@ def test_a_script_that_is_started_again_finds_what_was_excavated(sawn, tmp_path)
         rig.press({top: 4e6, right: 2e6})
         rig.drive(top, (0.0, -1.0), against=floor)
         rig.stress_to(100.0)
-        rig.excavate("tunnel")
+        rig.excavate("tunnel", parts=2)
         rig.finish()
         records.append((rig.record.array.copy(), rig.built.counts(), rig.stages))
     np.testing.assert_array_equal(records[0][0], records[1][0])
@@ -152,6 +201,9 @@ def test_what_would_hang_on_nothing_is_refused_and_nothing_is_taken(whole):
     assert "\n" not in str(refused.value) and held.nodes
     with pytest.raises(InputError, match="unknown .did you mean inner"):
         rig.excavate("iner")
+    for parts in (0, -1, 1.5, "all", 10**9):
+        with pytest.raises(InputError, match="excavate: parts = .*, must be"):
+            rig.excavate("inner", parts=parts)
     assert rig.built.counts()["grains"] == grains
     assert rig.stages == []
     plain, _ = made(whole)

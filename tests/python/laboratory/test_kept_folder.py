@@ -5,16 +5,14 @@ from __future__ import annotations
 
 import importlib
 import json
-import os
-import random
 import shutil
 import signal
-import subprocess
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from killed_scripts import content, drawn, ended, killed, require_same, started
 
 import flexpm
 from flexpm.cli import main as cli
@@ -24,14 +22,12 @@ from flexpm.rigs.outcome.calls import Again, plain, recording
 
 # importing flexpm has told Python where YADE is
 yade = importlib.import_module("yade")
-PYTHON = "/usr/bin/python3"
-#: Files that have the same bytes after a kill and after a rerun.
-SAME = ("curve.csv", "cracks.csv", "fragments.csv", "events.csv", "final.vtu")
 #: A beam that is pressed sideways, loaded, unloaded, and broken; its folder is "out".
 SCRIPT = """
 import sys, flexpm
 h = 0.012
 made = flexpm.Specimen.rectangle(3.0 * h, h, 0.01, seed=1)
+
 rig = flexpm.PartRig(flexpm.build(made, model="rigid"), out="out", checkpoint_interval=INTERVAL)
 left = rig.hold(where=lambda x, y: x < 0.3 * h)
 right = rig.platen(1)
@@ -49,58 +45,6 @@ except flexpm.InputError:
 rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
 """
 
-#: Starts script after script in processes that kill themselves: imports and packing are done once.
-KILLER = """
-import functools, json, os
-import flexpm, yade
-from flexpm.rigs.outcome import kept
-from flexpm.rigs.rig import TestRig
-from flexpm.runs import runner
-runner._LOOK_UP = 1e-3
-flexpm.Specimen.rectangle = functools.cache(flexpm.Specimen.rectangle)
-flexpm.Specimen.rectangle(3.0 * 0.012, 0.012, 0.01, seed=1)
-take = TestRig._step
-
-
-def start(number, last, name):
-    child = os.fork()
-    if child == 0:
-        def step(rig):
-            take(rig)
-            if yade.O.iter >= last:
-                os.kill(os.getpid(), number)
-        TestRig._step = step if last else take
-        with open("killed.py") as file:
-            exec(file.read().replace('out="out"', f'out="{name}", report=False'), {})
-        kept.close_open()
-        os._exit(0)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-
-
-yade.O.reset()
-ends = [
-    [-start(number, last, name) for number, last in [*moments, (0, 0)]]
-    for name, moments in enumerate(json.load(open("moments.json")))
-]
-json.dump(ends, open("ends.json", "w"))
-"""
-
-
-def started(folder: Path, script: str = SCRIPT, interval: float = 30.0, rate: float = 4.0):
-    """The script as a process in a folder."""
-    text = script.replace("INTERVAL", str(interval)).replace("RATE", str(rate))
-    (folder / "script.py").write_text(text)
-    path = str(Path(flexpm.__file__).parents[1])
-    return subprocess.Popen(
-        [PYTHON, "script.py"],
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": path},
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
 
 def done_here(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str = SCRIPT) -> None:
     """Do the script in this process, with the same packing again."""
@@ -113,53 +57,12 @@ def done_here(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str = SCRIP
         kept.close_open()
 
 
-def ended(process: subprocess.Popen) -> tuple[int, str]:
-    """Its exit code and the last line of its errors."""
-    told = process.communicate(timeout=400)[1].strip()
-    return process.returncode, told.splitlines()[-1] if told else ""
-
-
-def content(folder: Path) -> dict:
-    """Its result.json, without what a machine changes."""
-    found = json.loads((folder / "result.json").read_text())
-    return {name: value for name, value in found.items() if name != "step_time"}
-
-
-def require_same(folder: Path, other: Path) -> None:
-    for name in SAME:
-        assert (folder / name).read_bytes() == (other / name).read_bytes(), name
-    assert content(folder) == content(other)
-
-
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """The folder of the script that nobody has killed."""
     folder = tmp_path_factory.mktemp("whole")
-    assert ended(started(folder)) == (0, "")
+    assert ended(started(folder, SCRIPT)) == (0, "")
     return folder / "out"
-
-
-def killed(folder: Path, chains: list[list[tuple[int, int]]]) -> list[list[int]]:
-    """Start the script again and again in processes that kill themselves at given steps.
-
-    Args:
-        folder: In which there is one folder a chain afterwards, named by its number.
-        chains: Signals and steps, in order; a last start of each chain is left alone.
-
-    Returns:
-        Signals by which the starts of each chain have ended.
-    """
-    (folder / "moments.json").write_text(json.dumps(chains))
-    (folder / "killed.py").write_text(SCRIPT.replace("INTERVAL", "0.02").replace("RATE", "4.0"))
-    process = started(folder, KILLER)
-    assert ended(process) == (0, "")
-    return json.loads((folder / "ends.json").read_text())
-
-
-def drawn(seed: int, numbers: list[int], last: int) -> list[tuple[int, int]]:
-    """Moments over all steps of the test."""
-    steps = sorted(random.Random(seed).sample(range(1, last), len(numbers)))
-    return [*zip(numbers, steps, strict=True)]
 
 
 @pytest.mark.long
@@ -169,7 +72,7 @@ def test_a_killed_script_goes_on_to_the_same_bits(whole, tmp_path):
         drawn(1, [signal.SIGTERM, signal.SIGKILL], 690),
         drawn(2, [signal.SIGKILL] * 3, last),
     ]
-    ends = killed(tmp_path, moments)
+    ends = killed(tmp_path, SCRIPT, moments)
     assert ends == [[signal.SIGTERM, signal.SIGKILL, 0], [*[signal.SIGKILL] * 3, 0]]
     for number in range(len(moments)):
         require_same(tmp_path / str(number), whole)
@@ -178,8 +81,8 @@ def test_a_killed_script_goes_on_to_the_same_bits(whole, tmp_path):
 @pytest.mark.slow
 def test_kills_over_all_stages(whole, tmp_path):
     last, both = content(whole)["steps"], [signal.SIGTERM, signal.SIGKILL, signal.SIGKILL]
-    moments = [drawn(seed, both, last) for seed in range(10, 34)]
-    for number, ends in enumerate(killed(tmp_path, moments)):
+    moments = [drawn(seed, both, last) for seed in range(10, 44)]
+    for number, ends in enumerate(killed(tmp_path, SCRIPT, moments)):
         assert ends[-1] == 0, ends
         require_same(tmp_path / str(number), whole)
 
@@ -289,7 +192,7 @@ def test_two_processes_do_not_share_a_folder(whole, tmp_path):
     first = started(tmp_path, waits)
     try:
         assert first.stdout.readline() == "has it\n"
-        code, line = ended(started(tmp_path))
+        code, line = ended(started(tmp_path, SCRIPT))
         assert code == 1
         assert "is in use by another process of flexpm" in line
         assert BusyError.__name__ in line
@@ -311,7 +214,7 @@ def test_what_was_reached_stays_when_the_script_breaks(whole, tmp_path):
     assert len(flexpm.Result.read(tmp_path / "out").curve) > 0
     assert "Start the same script again" in (tmp_path / "out" / "report.html").read_text()
     (tmp_path / "script.py").unlink()
-    assert ended(started(tmp_path)) == (0, "")  # mended, it goes on
+    assert ended(started(tmp_path, SCRIPT)) == (0, "")  # mended, it goes on
     require_same(tmp_path / "out", whole)
 
 

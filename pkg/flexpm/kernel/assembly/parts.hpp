@@ -14,6 +14,11 @@ namespace flexpm {
 /// facets of rigid grains, or both ends of those of deformable grains, each with half of the facet:
 /// a boundary node then carries its tributary length. Contacts are elastic and only
 /// press, unless the plate is bonded.
+///
+/// A jaw is a plate whose face is an arc of a circle: each point has a normal of its own, that of
+/// the arc at the reference (deviation D95).
+///
+/// A seated plate turns about the middle of its face as its contacts want it to (deviation D95).
 struct Plate {
     // what it is
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
@@ -25,15 +30,28 @@ struct Plate {
     double friction = 0.0;         ///< coefficient [-]; 0: smooth
     bool bonded = false;           ///< pulls as well as it presses
     int points = 1;                ///< per facet: 1 in the middle, 2 at the ends
+    double strip = 0.0;        ///< stiffness per area of a layer on its face, which `stiffness` has
+                               ///< in series [Pa/m]; 0: none
+    double jaw_radius = 0.0;   ///< of the arc of a jaw [m]; 0: straight
+    double disc_radius = 0.0;  ///< of the disc in it [m]
+    std::vector<double> normals;  ///< of a jaw, [facet][point][axis]
+    bool seated = false;          ///< turns freely about its seat
+    std::vector<double> arms;     ///< of a seated one, [facet][point]: what the plate's face goes
+                                  ///< along its normal there as it turns by 1 rad [m]
 
     // what drives it
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
     double load = 0.0;    ///< force on the plate along its normal [N]
     Vector velocity;      ///< half a step after `displacement` [m/s]
     double mass = 0.0;    ///< of a loaded plate, scaled [kg]
+    /// Spring between the plate and its crosshead, which then has `velocity`; it gives way along
+    /// the normal (deviation D95) [N/m]. 0: none.
+    double machine_stiffness = 0.0;
 
     // state
     Vector displacement;          ///< [m]
+    double machine_give = 0.0;    ///< what that spring is shorter by [m]
+    double angle = 0.0;           ///< by which it has turned, counter-clockwise [rad]
     std::vector<int> facets;      ///< of the boundary, which may touch it
     std::vector<double> gap;      ///< [facet][point] at the reference [m]
     std::vector<double> area;     ///< [facet][point] [m^2]
@@ -66,15 +84,24 @@ struct Plate {
         visit("friction", s.friction);
         visit("bonded", s.bonded);
         visit("points", s.points);
+        visit("strip", s.strip);
+        visit("jaw_radius", s.jaw_radius);
+        visit("disc_radius", s.disc_radius);
+        visit("normals", s.normals);
+        visit("seated", s.seated);
+        visit("arms", s.arms);
         visit("loaded", s.loaded);
         visit("load", s.load);
         visit("velocity_x", s.velocity.x);
         visit("velocity_y", s.velocity.y);
         visit("velocity_z", s.velocity.z);
         visit("mass", s.mass);
+        visit("machine_stiffness", s.machine_stiffness);
         visit("displacement_x", s.displacement.x);
         visit("displacement_y", s.displacement.y);
         visit("displacement_z", s.displacement.z);
+        visit("machine_give", s.machine_give);
+        visit("angle", s.angle);
         visit("facets", s.facets);
         visit("gap", s.gap);
         visit("area", s.area);
@@ -97,6 +124,20 @@ struct Plate {
 
 /// Place of point `point` along its facet, 0 to 1.
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
+
+/// Into the specimen at a point of a plate, a unit vector.
+inline Vector point_normal(const Plate& p, int index)
+{
+    if (p.normals.empty()) return p.normal;
+    const std::size_t i = 2 * static_cast<std::size_t>(index);
+    return { p.normals[i], p.normals[i + 1] };
+}
+
+/// What a plate's face goes along its normal at a point as the plate turns by 1 rad [m].
+inline double point_arm(const Plate& p, int index) { return p.seated ? p.arms[index] : 0.0; }
+
+/// Whether its place in a step follows from its contacts: by its machine or by its seat.
+inline bool is_soft(const Plate& p) { return p.seated || p.machine_stiffness > 0.0; }
 
 /// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid
 /// motion, a translation and a rotation about a pivot. In the plane that is about z,

@@ -242,6 +242,13 @@ void check_plate(const Plate& plate, int facets)
         check_size("values of a plate", size,
             static_cast<std::int64_t>(plate.facets.size()) * plate.points);
     }
+    if (plate.seated || !plate.arms.empty()) {
+        check_size("arms of a plate", plate.arms.size(),
+            static_cast<std::int64_t>(plate.facets.size()) * plate.points);
+    }
+    if (plate.jaw_radius == 0.0 && plate.normals.empty()) return;
+    check_size("normals of a jaw", plate.normals.size(),
+        2 * static_cast<std::int64_t>(plate.facets.size()) * plate.points);
 }
 
 void check_node_set(const Grains& grains, const NodeSet& set)

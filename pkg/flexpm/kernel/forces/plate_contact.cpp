@@ -38,18 +38,79 @@ double normal_force(const Plate& plate, const PlatePoint& p, double gap)
     return gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
 }
 
+/// Sums over the points of a plate that bear: of what a give and a turn of it do to their gaps.
+struct SoftSums {
+    double stiffness[3] = { 0.0, 0.0, 0.0 };  ///< of give, of both, of turn
+    double force[2] = { 0.0, 0.0 };           ///< on give and on turn
+
+    void add(double give, double turn, double spring, double gap)
+    {
+        stiffness[0] += spring * give * give;
+        stiffness[1] += spring * give * turn;
+        stiffness[2] += spring * turn * turn;
+        force[0] -= spring * give * gap;
+        force[1] -= spring * turn * gap;
+    }
+};
+
+/// Bring a plate to where the spring of its machine bears what its contacts do, and its seat no
+/// moment, at the end of a step that began at the present displacements of the nodes.
+///
+/// The energy of springs and contacts is convex, in pieces of second order: Newton's method ends on
+/// the piece that has the least one, where points bear that bore a look before.
+void give_way(const Assembly& a, Plate& plate, double dt)
+{
+    const int count = plate_points(plate);
+    const bool gives = plate.machine_stiffness > 0.0 && !plate.loaded;
+    std::vector<double> gaps, shares;
+    for (int i = 0; i < count; ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const auto nodes = a.facets.nodes(p.facet);
+        const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight)
+            + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
+        const Vector along = point_normal(plate, i);
+        gaps.push_back(plate.gap[i] + dot(along, way) - point_arm(plate, i) * plate.angle);
+        shares.push_back(gives ? dot(plate.normal, along) : 0.0);
+    }
+    double give = 0.0, turn = 0.0;
+    std::vector<char> bearing, before;
+    for (int look = 0; look < 2 * count + 2; ++look) {
+        bearing.clear();
+        SoftSums sums;
+        for (int i = 0; i < count; ++i) {
+            const double arm = point_arm(plate, i);
+            const bool bears = plate.bonded || gaps[i] + shares[i] * give - arm * turn < 0.0;
+            bearing.push_back(bears);
+            if (bears) sums.add(shares[i], -arm, plate_point(plate, i).stiffness, gaps[i]);
+        }
+        if (bearing == before) break;
+        before = bearing;
+        sums.stiffness[0] += gives ? plate.machine_stiffness : 1.0;
+        sums.force[0] -= gives ? plate.machine_stiffness * plate.machine_give : 0.0;
+        if (sums.stiffness[2] == 0.0) sums.stiffness[2] = 1.0;
+        const auto [k, c, m] = sums.stiffness;
+        const double whole = k * m - c * c;
+        give = (m * sums.force[0] - c * sums.force[1]) / whole;
+        turn = (k * sums.force[1] - c * sums.force[0]) / whole;
+    }
+    plate.machine_give += give;
+    plate.displacement = plate.displacement - give * plate.normal;
+    plate.angle += turn;
+}
+
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
 Vector touch(Assembly& a, Plate& plate, double dt)
 {
-    const Vector tangent = tangent_of(in_plane(plate.normal));
     Vector total;
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
+        const Vector along = point_normal(plate, i), tangent = tangent_of(in_plane(along));
         const auto nodes = a.facets.nodes(p.facet);
         const Point u = vector_on_edge(a.grains.displacement, nodes, p.weight);
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Vector way = u + dt * v - plate.displacement;
-        const double gap = plate.gap[i] + dot(plate.normal, way);
+        double gap = plate.gap[i] + dot(along, way);
+        if (plate.seated) gap -= plate.arms[i] * plate.angle;
         plate.opening[i] = gap;
         const double normal = normal_force(plate, p, gap);
         if (plate.friction > 0.0) {
@@ -57,7 +118,7 @@ Vector touch(Assembly& a, Plate& plate, double dt)
             plate.shear_force[i] = shear_force(plate, p, i, normal, dot(tangent, slip));
         }
         const double shear = plate.shear_force[i];
-        const Vector force = normal * plate.normal + shear * tangent;
+        const Vector force = normal * along + shear * tangent;
         add_force(a.facets, p, force);
         total = total + force;
     }
@@ -97,12 +158,18 @@ void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, doub
 void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 {
     Plate& plate = a.plates[number];
-    const Vector before = plate.force;
+    const Vector before = plate.force, from = plate.displacement;
+    const bool machine = plate.machine_stiffness > 0.0;
     plate.displacement = plate.displacement + dt * plate.velocity;
+    if (plate.seated || (machine && !plate.loaded)) give_way(a, plate, dt);
     plate.force = touch(a, plate, dt);
+    if (machine && plate.loaded)
+        plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
     if (plate.loaded) {
         const double undamped = dot(plate.normal, a.loading.of_plate(number).velocity);
         integrate_loaded(plate, undamped, bears_any(a, plate), dt, damping);
+    } else if (machine) {
+        plate.boundary_work += dot(0.5 * (before + plate.force), plate.displacement - from);
     } else {
         plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }
@@ -144,6 +211,29 @@ void set_velocity(Assembly& a, int plate, Vector velocity)
     p.velocity = velocity;
 }
 
+void set_machine(Assembly& a, int plate, double stiffness)
+{
+    require_plate(a, plate);
+    check_positive("stiffness of a machine", stiffness, "N/m");
+    Plate& p = a.plates[plate];
+    if (p.machine_stiffness > 0.0) {
+        refuse("stiffness of a machine", stiffness, "N/m",
+            "must be given once, was " + number(p.machine_stiffness) + " N/m");
+    }
+    if (!p.normals.empty() && p.friction > 0.0) {
+        refuse("friction of a jaw in a soft machine", p.friction, "", "must be 0");
+    }
+    p.machine_stiffness = stiffness;
+    p.machine_give = dot(p.normal, p.force) / stiffness;
+}
+
+Vector crosshead_displacement(const Plate& p) { return p.displacement + p.machine_give * p.normal; }
+
+double machine_energy(const Plate& p)
+{
+    return 0.5 * p.machine_stiffness * p.machine_give * p.machine_give;
+}
+
 int plate_points(const Plate& p) { return static_cast<int>(p.facets.size()) * p.points; }
 
 PlatePoint plate_point(const Plate& p, int index)
@@ -155,7 +245,8 @@ PlatePoint plate_point(const Plate& p, int index)
 Vector point_force(const Plate& p, int index)
 {
     const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
-    return normal * p.normal + p.shear_force[index] * tangent_of(in_plane(p.normal));
+    const Vector along = point_normal(p, index);
+    return normal * along + p.shear_force[index] * tangent_of(in_plane(along));
 }
 
 void update_plates(Assembly& a, double dt, double damping)
@@ -202,6 +293,20 @@ Vector plate_force(const Assembly& a, int side)
     return sum;
 }
 
+Point middle_of_face(const Assembly& a, const Plate& p)
+{
+    Point sum;
+    double area = 0.0;
+    for (int i = 0; i < plate_points(p); ++i) {
+        const PlatePoint point = plate_point(p, i);
+        const Point x =
+            vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight);
+        sum = sum + p.area[i] * x;
+        area += p.area[i];
+    }
+    return area > 0.0 ? (1.0 / area) * sum : in_plane(p.position);
+}
+
 double contact_width(const Assembly& a, int plate)
 {
     const Plate& p = a.plates.at(plate);
@@ -218,6 +323,31 @@ double contact_width(const Assembly& a, int plate)
         const double half = a.length_of(0.5 * p.area[i]);
         first = any ? std::min(first, place - half) : place - half;
         last = any ? std::max(last, place + half) : place + half;
+        any = true;
+    }
+    return last - first;
+}
+
+double contact_angle(const Assembly& a, int plate)
+{
+    const Plate& p = a.plates.at(plate);
+    if (p.jaw_radius == 0.0) return 0.0;
+    const Vector centre = p.position + p.disc_radius * p.normal;
+    const Point tangent = tangent_of(in_plane(p.normal));
+    // a node beyond the end of the arc bears for the part of its edge that is before it
+    const double end = std::asin(std::min(0.5 * p.width / p.disc_radius, 1.0));
+    double first = 0.0, last = 0.0;
+    bool any = false;
+    for (int i = 0; i < plate_points(p); ++i) {
+        if (p.opening[i] >= 0.0 || p.area[i] == 0.0) continue;
+        const PlatePoint point = plate_point(p, i);
+        const Vector arm =
+            vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight) - centre;
+        const double place = std::atan2(dot(tangent, arm), -dot(p.normal, arm));
+        const double half = a.length_of(0.5 * p.area[i]) / p.disc_radius;
+        const double from = std::max(place - half, -end), to = std::min(place + half, end);
+        first = any ? std::min(first, from) : from;
+        last = any ? std::max(last, to) : to;
         any = true;
     }
     return last - first;

@@ -18,8 +18,24 @@ void require_plate(const Assembly& a, int plate);
 /// balances.
 void press(Assembly& a, int plate, double pressure);
 
-/// Prescribe a plate's velocity [m/s].
+/// Prescribe a plate's velocity, or that of its crosshead [m/s].
 void set_velocity(Assembly& a, int plate, Vector velocity);
+
+/// Lay the spring of a soft machine behind a plate [N/m]. It has the plate's present force.
+///
+/// The spring and the plate have no mass: the plate is where the spring and its contacts balance,
+/// at each step. It gives way along its normal alone. A plate under a load has no use of it.
+/// Deviation D95.
+/// @throws std::invalid_argument  if there is no such plate, the stiffness is not above 0, the
+///         plate has another spring, or is a jaw with friction
+void set_machine(Assembly& a, int plate, double stiffness);
+
+/// Displacement of the crosshead behind a plate, or its own without a machine [m].
+Vector crosshead_displacement(const Plate& p);
+
+/// Stored in the spring of the machine [J]. What the crosshead works is the plate's work on the
+/// specimen and the growth of this.
+double machine_energy(const Plate& p);
 
 /// Move the plates over a step `dt`, update their forces on the grains, and integrate the loaded
 /// ones. Called by step() between contacts and grains.
@@ -45,8 +61,14 @@ double elastic_energy(const Plate& p);
 Vector plate_force(const Assembly& a, int side);
 bool has_plates(const Assembly& a, int side);
 
+/// Middle of what a plate lies on, when bonded [m].
+Point middle_of_face(const Assembly& a, const Plate& p);
+
 /// Length along the plate between its outermost points in contact, each with its tributary length
 /// [m]; 0 if nothing touches.
 double contact_width(const Assembly& a, int plate);
+
+/// Angle of the disc over which it lies against a jaw, with the same ends [rad].
+double contact_angle(const Assembly& a, int plate);
 
 }  // namespace flexpm

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Driven ends of a rectangle of deformable grains, and the ramp of a load, paper Sec. 4.1.
-/// SI units.
+/// @file  Driven ends of a rectangle of deformable grains, the ramp of a load, and where a specimen
+/// between ends would come to rest, paper Sec. 4.1. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/statics/elastic_state.hpp>
 
 #include <cstdint>
+#include <optional>
 
 namespace flexpm {
 
@@ -25,5 +27,22 @@ double ramp_factor(std::int64_t step, int ramp_steps);
 /// Load of the coming step that goes from `start` to `full` in this way, `done` steps after it was
 /// asked for.
 double ramped(double start, double full, std::int64_t done, int ramp_steps);
+
+/// What is asked of a specimen between two ends.
+struct EndLoading {
+    bool plates = false;             ///< between plates, which are laid unless they are there
+    bool disc = false;               ///< they touch a disc
+    bool tension = false;            ///< the upper end is pulled, plates are bonded
+    int pieces = 1;                  ///< plates of the membrane on each side
+    std::optional<double> pressure;  ///< on the sides, and on a top that is not driven [Pa]
+    double way = 0.0;                ///< of the upper end along the loading, from now on [m]
+    std::optional<double> load;      ///< in the end, in place of a way [N]
+};
+
+/// Where it would come to rest, if no contact broke further, see find_elastic_state(). Ends are as
+/// a test has them: smooth, the lower one at rest, one place in its middle held laterally.
+/// @throws std::invalid_argument  as find_elastic_state(), or if a disc is to have a pressure
+/// @throws std::runtime_error     likewise
+ElasticState find_end_state(const Assembly& a, const EndLoading& asked);
 
 }  // namespace flexpm

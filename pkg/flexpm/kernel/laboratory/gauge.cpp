@@ -3,6 +3,8 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <cmath>
 #include <limits>
@@ -71,10 +73,23 @@ double plate_way(const Assembly& a, int plate, Vector direction)
     return dot(plate_of(a, plate).displacement, direction);
 }
 
-double plate_rate(const Assembly& a, int plate, Vector direction)
+double crosshead_way(const Assembly& a, int plate, Vector direction)
+{
+    return dot(crosshead_displacement(plate_of(a, plate)), direction);
+}
+
+double crosshead_rate(const Assembly& a, int plate, Vector direction)
 {
     const Plate& p = plate_of(a, plate);
     return dot(p.loaded ? a.loading.of_plate(plate).velocity : p.velocity, direction);
+}
+
+double plate_rate(const Assembly& a, int plate, Vector direction, const Array<double>& velocity)
+{
+    const double rate = crosshead_rate(a, plate, direction);
+    const Plate& p = plate_of(a, plate);
+    if (p.loaded || p.machine_stiffness == 0.0) return rate;
+    return rate - plate_lag(a, p, p.velocity, &velocity).give * dot(p.normal, direction);
 }
 
 double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Vector direction)

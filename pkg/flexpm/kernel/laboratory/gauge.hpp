@@ -27,9 +27,14 @@ double gauge_length(const Assembly& a, const GaugePoints& gauge);
 /// @throws std::invalid_argument  if there is no such plate
 double plate_way(const Assembly& a, int plate, Vector direction);
 
-/// Velocity along it that the loading gives a plate [m/s].
+/// Way of the crosshead behind a plate along a unit vector [m], and its velocity there [m/s].
 /// @throws std::invalid_argument  as plate_way()
-double plate_rate(const Assembly& a, int plate, Vector direction);
+double crosshead_way(const Assembly& a, int plate, Vector direction);
+double crosshead_rate(const Assembly& a, int plate, Vector direction);
+
+/// Velocity along it that the loading gives a plate, where it gives nodes such velocities [m/s].
+/// @throws std::invalid_argument  as plate_way()
+double plate_rate(const Assembly& a, int plate, Vector direction, const Array<double>& velocity);
 
 /// How far the points move apart along a unit vector where nodes move so, in the layout of
 /// Grains::displacement [m].

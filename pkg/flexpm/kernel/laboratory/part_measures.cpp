@@ -118,28 +118,6 @@ double springs_of(const Assembly& a, const PartGeometry& parts)
 /// Part of the largest stiffness that is none [-].
 constexpr double no_stiffness = 1e-12;
 
-/// @throws std::invalid_argument  if the parts leave the whole specimen free to move or turn
-void require_held(const Assembly& a)
-{
-    RigidStiffness k = rigid_stiffness(a);
-    auto& m = k.value;
-    const double largest = std::max({ m[0][0], m[1][1], m[2][2] });
-    const char* const motions[] = { "along x", "along y", "against turning" };
-    const char* const remedies[] = { "give a part friction or a pin, or hold nodes (axes x)",
-        "lay a part there, or hold nodes (axes y)",
-        "lay another part apart from the first, or hold nodes" };
-    for (int i = 0; i < 3; ++i) {
-        if (!(m[i][i] > no_stiffness * largest))
-            refuse(std::string("parts that hold the specimen ") + motions[i], 0.0, "",
-                std::string("must be at least 1; ") + remedies[i]);
-        for (int j = i + 1; j < 3; ++j) {
-            const double factor = m[j][i] / m[i][i];
-            for (int c = i; c < 3; ++c)
-                m[j][c] -= factor * m[i][c];
-        }
-    }
-}
-
 double push(const Assembly& a, const std::vector<int>& plates, Vector direction)
 {
     double sum = 0.0;
@@ -151,7 +129,20 @@ double push(const Assembly& a, const std::vector<int>& plates, Vector direction)
 /// Whether a plate's point bears as the plate goes this way against it: not if it lifts off.
 bool bears(const Plate& plate, int point, Vector way)
 {
-    return plate.bonded || plate.opening[point] < 0.0 || dot(plate.normal, way) > 0.0;
+    return plate.bonded || plate.opening[point] < 0.0 || dot(point_normal(plate, point), way) > 0.0;
+}
+
+/// How a soft plate answers to the velocity of its crosshead, if it goes on bearing where it bears.
+PlateLag lag_of(const Assembly& a, int number, const Array<double>& velocity)
+{
+    Plate plate = a.plates[number];
+    if (!is_soft(plate) || plate.loaded) return {};
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
+        if (!bears(plate, i, plate.velocity - v)) plate.area[i] = 0.0;
+    }
+    return plate_lag(a, plate, plate.velocity, &velocity);
 }
 
 /// Sum over the driven sets along the loading, of a force and a moment of each.
@@ -186,6 +177,27 @@ EndForces ends_of(const Assembly& a, const PartGeometry& parts)
 
 }  // namespace
 
+void require_held(const Assembly& a)
+{
+    RigidStiffness k = rigid_stiffness(a);
+    auto& m = k.value;
+    const double largest = std::max({ m[0][0], m[1][1], m[2][2] });
+    const char* const motions[] = { "along x", "along y", "against turning" };
+    const char* const remedies[] = { "give a part friction or a pin, or hold nodes (axes x)",
+        "lay a part there, or hold nodes (axes y)",
+        "lay another part apart from the first, give a jaw friction, or hold nodes" };
+    for (int i = 0; i < 3; ++i) {
+        if (!(m[i][i] > no_stiffness * largest))
+            refuse(std::string("parts that hold the specimen ") + motions[i], 0.0, "",
+                std::string("must be at least 1; ") + remedies[i]);
+        for (int j = i + 1; j < 3; ++j) {
+            const double factor = m[j][i] / m[i][i];
+            for (int c = i; c < 3; ++c)
+                m[j][c] -= factor * m[i][c];
+        }
+    }
+}
+
 double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<double>& velocity)
 {
     double sum = sum_of_sets(
@@ -193,10 +205,11 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
         [&](int set) { return a.loading.of_set(set).moment.z; });
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
+        const PlateLag lag = lag_of(a, number, velocity);
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
-            const Vector way = plate.velocity - v;
+            const Vector way = point_way(plate, i, plate.velocity, lag) - v;
             if (!bears(plate, i, way)) continue;
             const StiffnessBlock k = plate_springs(plate, i);
             const Vector force = { k.xx * way.x + k.xy * way.y, k.yx * way.x + k.yy * way.y };
@@ -247,6 +260,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     for (int p : parts.driven) {
         moved.plates[p].velocity = parts.direction;
         moved.plates[p].loaded = false;  // its pressure ends as the loading takes it over
+        moved.plates[p].machine_stiffness = 0.0;
     }
     require_held(moved);
     for (NodeSet& set : moved.node_sets) {

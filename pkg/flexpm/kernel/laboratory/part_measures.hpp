@@ -24,6 +24,9 @@ struct PartGeometry {
     double turn = 0.0;  ///< 1: sets turn; load and way are moments [N m] and an angle
 };
 
+/// @throws std::invalid_argument  if the parts leave the whole specimen free to move or turn
+void require_held(const Assembly& a);
+
 /// Load [N, or N m]: mean of what the driven parts push and the holding ones push back. Deviation
 /// D25.
 double part_load(const Assembly& a, const PartGeometry& parts);
@@ -45,7 +48,7 @@ TestFrame part_frame(const Assembly& a, const PartGeometry& parts);
 /// stiffness gives the modulus, and the mass that takes part in the motion the steps of a crossing.
 /// These are those of a bar of the same lowest frequency: sqrt(3 m / k) / dt, with the kinetic
 /// energy m / 2 and the stored energy k / 2 at a unit velocity and way. Joints that the loading
-/// opens carry nothing.
+/// opens carry nothing. The way is that of the plates themselves, also in a soft machine.
 ///
 /// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
 ///                  contact point leaves its elastic branch

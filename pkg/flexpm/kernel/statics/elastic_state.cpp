@@ -115,6 +115,7 @@ StaticCase case_at(const Assembly& a, const ElasticLoading& loading, double way)
     StaticCase found;
     found.prescribed = prescribed_at(a, loading, way);
     found.plates.resize(a.plates.size());
+    found.turns.assign(a.plates.size(), 0.0);
     for (int p : loading.plates)
         found.plates[p] = way * loading.direction;
     found.angles.assign(a.node_sets.size(), 0.0);
@@ -128,7 +129,8 @@ StaticCase case_at(const Assembly& a, const ElasticLoading& loading, double way)
 /// Displacements from the present state, and the forces of its nodes there.
 struct Motion {
     Array<double> displacement, force;
-    std::vector<Vector> plates;
+    std::vector<PlateWay> plates;
+    std::vector<double> gives;  ///< of the springs of machines, what they are longer by
     std::vector<double> angles;
     double way = 0.0;
 
@@ -138,8 +140,10 @@ struct Motion {
             displacement[i] += factor * s.displacement[i];
             force[i] += factor * s.force[i];
         }
-        for (std::size_t i = 0; i < plates.size(); ++i)
-            plates[i] = plates[i] + factor * of.plates[i];
+        for (std::size_t i = 0; i < plates.size(); ++i) {
+            plates[i].displacement = plates[i].displacement + factor * of.plates[i];
+            plates[i].turn += factor * of.turns[i];
+        }
         for (std::size_t i = 0; i < angles.size(); ++i)
             angles[i] += factor * of.angles[i];
     }
@@ -164,7 +168,7 @@ void set_forces(const OneSidedPoints& points, const Closed& closed, const Assemb
 {
     s.grains.force = m.force;
     for (std::size_t i = 0; i < s.plates.size(); ++i)
-        s.plates[i].force = points.plate_force(closed, trial, i, m.displacement, m.plates[i]);
+        s.plates[i].force = points.plate_push(closed, trial, i, m.displacement, m.plates[i]).force;
     update_node_sets(s, 1.0, 0.0);  // their velocities are zero: forces alone
 }
 
@@ -185,8 +189,13 @@ Assembly state_after(const Assembly& a, const OneSidedPoints& points, const Clos
     });
     for (std::size_t i = 0; i < s.grains.displacement.size(); ++i)
         s.grains.displacement[i] += m.displacement[i];
-    for (std::size_t i = 0; i < s.plates.size(); ++i)
-        s.plates[i].displacement = s.plates[i].displacement + m.plates[i];
+    for (std::size_t i = 0; i < s.plates.size(); ++i) {
+        for (int k = 0; k < plate_points(s.plates[i]); ++k)
+            s.plates[i].opening[k] = points.gap(i, k, m.displacement, m.plates[i]);
+        s.plates[i].displacement = s.plates[i].displacement + m.plates[i].displacement;
+        s.plates[i].angle += m.plates[i].turn;
+        s.plates[i].machine_give -= m.gives[i];
+    }
     for (std::size_t i = 0; i < s.node_sets.size(); ++i)
         s.node_sets[i].angle.z += m.angles[i];
     return s;
@@ -205,8 +214,17 @@ double load_of(const Assembly& a, const ElasticLoading& loading)
     return sum;
 }
 
-/// One solution with points open and closed as they are: the plates under a load, and what is
-/// driven by one, find their way.
+/// A plate whose way along its normal, or whose turn, is to be found.
+struct FreeWay {
+    int plate;
+    bool turns;
+};
+
+/// Turn of a plate that moves the ends of its face by 1 m [rad].
+double unit_turn(const Plate& plate) { return 2.0 / plate.width; }
+
+/// One solution with points open and closed as they are: the plates under a load, in a soft machine
+/// or on a seat, and what is driven by a load, find their way.
 class Solution {
 public:
     Solution(const Assembly& a, const ElasticLoading& loading, const OneSidedPoints& points,
@@ -222,16 +240,25 @@ public:
         cases.push_back(case_at(a, loading, loading.load ? 0.0 : loading.way));
         cases.front().loads = &forces;
         for (std::size_t i = 0; i < a.plates.size(); ++i) {
-            if (!a.plates[i].loaded || is_idle(a.plates[i])) continue;
-            pressed.push_back(static_cast<int>(i));
-            cases.push_back(case_at(a, loading, 0.0));
-            cases.back().plates[i] = a.plates[i].normal;
+            trial.plates[i].machine_stiffness = 0.0;  // their springs find their way here
+            trial.plates[i].seated = false;           // likewise
+            const Plate& plate = a.plates[i];
+            if (is_idle(plate)) continue;
+            if (plate.loaded || plate.machine_stiffness > 0.0) {
+                let_go({ static_cast<int>(i), false });
+                cases.back().plates[i] = plate.normal;
+            }
+            if (plate.seated) {
+                let_go({ static_cast<int>(i), true });
+                cases.back().turns[i] = unit_turn(plate);
+            }
         }
         if (loading.load) cases.push_back(case_at(a, loading, 1.0));
         found = solve_static_cases(trial, cases, points.springs(closed, kept));
         motion.displacement.assign(forces.size(), 0.0);
         motion.force = forces;
         motion.plates.resize(a.plates.size());
+        motion.gives.assign(a.plates.size(), 0.0);
         motion.angles.assign(a.node_sets.size(), 0.0);
         motion.add(found.front(), cases.front(), 1.0);
         motion.way = loading.load ? 0.0 : loading.way;
@@ -243,14 +270,27 @@ public:
     const Motion& moved() const { return motion; }
 
 private:
+    void let_go(FreeWay way)
+    {
+        free.push_back(way);
+        cases.push_back(case_at(a, loading, 0.0));
+    }
+
     /// What each way must bring about, less what a motion does.
     Eigen::VectorXd missing(const Motion& m) const
     {
         Eigen::VectorXd out(static_cast<Eigen::Index>(cases.size() - 1));
         Eigen::Index row = 0;
-        for (int i : pressed) {
-            const Vector force = points.plate_force(closed, trial, i, m.displacement, m.plates[i]);
-            out[row++] = a.plates[i].load - dot(a.plates[i].normal, force);
+        for (const auto& [i, turns] : free) {
+            const Plate& p = a.plates[i];
+            const PlatePush push = points.plate_push(closed, trial, i, m.displacement, m.plates[i]);
+            if (turns) {
+                out[row++] = -unit_turn(p) * push.moment;
+                continue;
+            }
+            const double load =
+                p.loaded ? p.load : p.machine_stiffness * (p.machine_give - m.gives[i]);
+            out[row++] = load - dot(p.normal, push.force);
         }
         if (loading.load) {
             Assembly loaded = a;
@@ -260,19 +300,27 @@ private:
         return out;
     }
 
+    /// Add a part of a case that lets one of them go its way.
+    void add_way(Motion& m, Eigen::Index which, double factor) const
+    {
+        m.add(found[which + 1], cases[which + 1], factor);
+        if (which < static_cast<Eigen::Index>(free.size()) && !free[which].turns)
+            m.gives[free[which].plate] += factor;
+    }
+
     void find_ways()
     {
         const Eigen::VectorXd base = missing(motion);
         Eigen::MatrixXd stiffness(base.size(), base.size());
         for (Eigen::Index j = 0; j < base.size(); ++j) {
             Motion one = motion;
-            one.add(found[j + 1], cases[j + 1], 1.0);
+            add_way(one, j, 1.0);
             stiffness.col(j) = base - missing(one);
         }
         require_resistance(stiffness);
         const Eigen::VectorXd ways = stiffness.fullPivLu().solve(base);
         for (Eigen::Index j = 0; j < ways.size(); ++j)
-            motion.add(found[j + 1], cases[j + 1], ways[j]);
+            add_way(motion, j, ways[j]);
         if (loading.load) motion.way = ways[ways.size() - 1];
     }
 
@@ -293,7 +341,7 @@ private:
     const Closed& closed;
     Assembly trial;
     std::vector<StaticCase> cases;
-    std::vector<int> pressed;
+    std::vector<FreeWay> free;
     std::vector<StaticSolution> found;
     Motion motion;
 };
@@ -323,7 +371,7 @@ ElasticState find_elastic_state(const Assembly& a, const ElasticLoading& loading
     apply(now, loading);
     refresh_forces(now);
     const OneSidedPoints points(now);
-    const std::vector<Vector> still(now.plates.size());
+    const std::vector<PlateWay> still(now.plates.size());
     const Array<double> none(now.grains.displacement.size(), 0.0);
     Closed closed = points.closed(none, still, now.grains.radius.front());
     for (int solutions = 1; solutions < most_solutions; ++solutions) {

@@ -21,7 +21,7 @@ void add(Array<double>& to, int node, Point force)
 }  // namespace
 
 Closed OneSidedPoints::closed(
-    const Array<double>& moved, const std::vector<Vector>& plates, double size) const
+    const Array<double>& moved, const std::vector<PlateWay>& plates, double size) const
 {
     Closed found;
     const double none = no_gap * size;
@@ -35,12 +35,19 @@ Closed OneSidedPoints::closed(
         const Plate& plate = a.plates[i];
         found.plates.emplace_back();
         for (int k = 0; k < plate_points(plate); ++k) {
-            const double gap = plate.opening[k]
-                + dot(plate.normal, way_of(a, plate_point(plate, k), moved) - plates[i]);
-            found.plates.back().push_back(plate.bonded || (gap <= none && !is_idle(plate)));
+            const bool shut = gap(i, k, moved, plates[i]) <= none;
+            found.plates.back().push_back(plate.bonded || (shut && !is_idle(plate)));
         }
     }
     return found;
+}
+
+double OneSidedPoints::gap(
+    std::size_t i, int k, const Array<double>& moved, const PlateWay& own) const
+{
+    const Plate& plate = a.plates[i];
+    const Vector way = way_of(a, plate_point(plate, k), moved) - own.at(plate, k);
+    return plate.opening[k] + dot(point_normal(plate, k), way);
 }
 
 PointSprings OneSidedPoints::springs(const Closed& now, double kept) const
@@ -116,19 +123,24 @@ Vector OneSidedPoints::point_force(
 {
     const Plate& plate = a.plates[i];
     const PlatePoint p = plate_point(trial.plates[i], k);
-    const Vector t = tangent_of(in_plane(plate.normal));
-    const double kept = now.plates[i][k] ? plate.shear_force[k] : 0.0;
-    return -p.stiffness * (plate.opening[k] + dot(plate.normal, way)) * plate.normal
-        + (kept - p.shear_stiffness * dot(t, way)) * t;
+    const Vector normal = point_normal(plate, k), t = tangent_of(in_plane(normal));
+    // the little that an open one keeps holds what would float; it must not pull across a wide gap
+    const double gap = now.plates[i][k] ? plate.opening[k] : 0.0;
+    const double shear = now.plates[i][k] ? plate.shear_force[k] : 0.0;
+    return -p.stiffness * (gap + dot(normal, way)) * normal
+        + (shear - p.shear_stiffness * dot(t, way)) * t;
 }
 
-Vector OneSidedPoints::plate_force(const Closed& now, const Assembly& trial, std::size_t i,
-    const Array<double>& moved, Vector displacement) const
+PlatePush OneSidedPoints::plate_push(const Closed& now, const Assembly& trial, std::size_t i,
+    const Array<double>& moved, const PlateWay& own) const
 {
-    Vector sum;
-    for (int k = 0; k < plate_points(a.plates[i]); ++k) {
-        const Vector way = way_of(a, plate_point(a.plates[i], k), moved) - displacement;
-        sum = sum + point_force(now, trial, i, k, way);
+    const Plate& plate = a.plates[i];
+    PlatePush sum;
+    for (int k = 0; k < plate_points(plate); ++k) {
+        const Vector way = way_of(a, plate_point(plate, k), moved) - own.at(plate, k);
+        const Vector force = point_force(now, trial, i, k, way);
+        sum.force = sum.force + force;
+        sum.moment += point_arm(plate, k) * dot(force, point_normal(plate, k));
     }
     return sum;
 }

@@ -19,6 +19,24 @@ inline bool is_idle(const Plate& plate)
     return plate.loaded && plate.load == 0.0 && !plate.bonded;
 }
 
+/// How a plate moves.
+struct PlateWay {
+    Vector displacement;  ///< [m]
+    double turn = 0.0;    ///< about its seat [rad]
+
+    Vector at(const Plate& plate, int point) const
+    {
+        return turn == 0.0 ? displacement
+                           : displacement + turn * plate.arms[point] * point_normal(plate, point);
+    }
+};
+
+/// Force of a plate on the specimen [N], and its moment about its seat [N m].
+struct PlatePush {
+    Vector force;
+    double moment = 0.0;
+};
+
 /// Whether each point that can be open is closed.
 struct Closed {
     std::vector<char> contacts;             ///< [contact * points + point]
@@ -37,7 +55,8 @@ public:
     explicit OneSidedPoints(const Assembly& a) : a(a), points(a.contacts.group.points) { }
 
     /// Which are closed after displacements [m] from the present state; `size` is that of these.
-    Closed closed(const Array<double>& moved, const std::vector<Vector>& plates, double size) const;
+    Closed closed(
+        const Array<double>& moved, const std::vector<PlateWay>& plates, double size) const;
 
     /// Stiffnesses of the contacts' points; one that is open keeps a part of its own.
     PointSprings springs(const Closed& now, double kept) const;
@@ -51,9 +70,12 @@ public:
     /// Traction of a contact's point after a way [m] from the present state [Pa].
     PointTraction traction(const Closed& now, int contact, int point, Point way) const;
 
-    /// Force of a plate on the specimen after displacements [m] from the present state [N].
-    Vector plate_force(const Closed& now, const Assembly& trial, std::size_t plate,
-        const Array<double>& moved, Vector displacement) const;
+    /// Gap of a plate's point then [m].
+    double gap(std::size_t plate, int point, const Array<double>& moved, const PlateWay& way) const;
+
+    /// What a plate does to the specimen after displacements [m] from the present state.
+    PlatePush plate_push(const Closed& now, const Assembly& trial, std::size_t plate,
+        const Array<double>& moved, const PlateWay& way) const;
 
     /// Calls visit(contact, point) for all that bear.
     template <class Visit> void for_each_point(const Visit& visit) const

@@ -25,16 +25,18 @@ using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
 /// A pivot below this share of its diagonal term is round-off: the part it belongs to moves freely.
 constexpr double smallest_pivot = 1e-10;
 
-/// Forces on the nodes when the plates are displaced and the grains are not.
-void add_plate_loads(
-    const Assembly& a, const std::vector<Vector>& displacements, Array<double>& loads)
+/// Forces on the nodes when the plates are displaced and turned and the grains are not.
+void add_plate_loads(const Assembly& a, const StaticCase& of, Array<double>& loads)
 {
     for (std::size_t number = 0; number < a.plates.size(); ++number) {
         const Plate& plate = a.plates[number];
+        const PlateLag lag = plate_lag(a, plate, of.plates[number], nullptr);
+        const double turn = of.turns.empty() ? 0.0 : of.turns[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
             const StiffnessBlock k = plate_springs(plate, i);
-            const Vector u = displacements[number];
+            Vector u = point_way(plate, i, of.plates[number], lag);
+            if (turn != 0.0) u = u + turn * plate.arms[i] * point_normal(plate, i);
             const auto n = a.facets.nodes(p.facet);
             const auto part = facet_parts(p.weight);
             for (int r = 0; r < facet_nodes; ++r) {
@@ -284,6 +286,7 @@ std::vector<StaticSolution> solve_static_cases(
     for (const StaticCase& one : cases) {
         require_size("plates", one.plates.size(), a.plates.size());
         require_size("angles", one.angles.size(), a.node_sets.size());
+        if (!one.turns.empty()) require_size("turns", one.turns.size(), a.plates.size());
         Array<double> given;
         const Unknowns n = number_unknowns(a, one, given);
         if (found.empty()) factorised.assign(n.index.begin(), n.index.end());
@@ -299,7 +302,7 @@ std::vector<StaticSolution> solve_static_cases(
         StaticSolution& s = found.back();
         s.displacement.assign(size, 0.0);
         s.force.assign(size, 0.0);
-        add_plate_loads(a, one.plates, s.force);
+        add_plate_loads(a, one, s.force);
         const Eigen::VectorXd rhs = right_side(entries, n, given, s.force, one.loads);
         const bool any = !n.index.empty();
         if (any && found.size() == 1) {

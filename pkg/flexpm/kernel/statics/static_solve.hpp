@@ -25,9 +25,10 @@ struct StaticSolution {
 /// What acts in one of several solutions of the same assembly.
 struct StaticCase {
     std::vector<Prescribed> prescribed;    ///< the same components in all cases
-    std::vector<Vector> plates;            ///< displacement of each plate [m]
+    std::vector<Vector> plates;            ///< displacement of each plate, or crosshead [m]
     std::vector<double> angles;            ///< of each node set that floats, about z [rad]
     const Array<double>* loads = nullptr;  ///< as for solve_static()
+    std::vector<double> turns;             ///< of each plate about its seat [rad]; none: 0
 };
 
 /// solve_static() for several cases by one factorisation, with the springs of contacts as given.

@@ -6,6 +6,8 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace flexpm {
 
@@ -94,7 +96,64 @@ void add_contact(const Assembly& a, int contact, const PointSprings& springs,
         a, contact, share, spring_block(n, law.normal_stiffness, law.shear_stiffness), entries);
 }
 
-/// Springs of a plate's points to where the plate is.
+/// Part of a node in what moves the spring of a machine behind a plate, and what turns the plate.
+struct LagShare {
+    int node;
+    Point pull;  ///< force that lets the spring give, for a unit way [N/m]
+    Point turn;  ///< moment about the seat [N]
+};
+
+/// How a soft plate answers to the ways of the nodes before it.
+struct LagAnswer {
+    std::vector<LagShare> shares;  ///< of all nodes
+    double give, both, turn;       ///< inverse of the stiffness against its give and its turn
+};
+
+LagAnswer lag_answer(const Assembly& a, const Plate& plate)
+{
+    const bool gives = plate.machine_stiffness > 0.0;
+    LagAnswer found {};
+    double k = gives ? plate.machine_stiffness : 1.0, c = 0.0, m = 0.0;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const Point n = in_plane(point_normal(plate, i));
+        const double share = gives ? dot(plate.normal, n) : 0.0, arm = point_arm(plate, i);
+        const auto nodes = a.facets.nodes(p.facet);
+        const auto parts = facet_parts(p.weight);
+        k += share * share * p.stiffness;
+        c -= share * arm * p.stiffness;
+        m += arm * arm * p.stiffness;
+        for (int f = 0; f < facet_nodes; ++f) {
+            const double part = parts[f] * p.stiffness;
+            if (part != 0.0)
+                found.shares.push_back({ nodes[f], part * share * n, -part * arm * n });
+        }
+    }
+    if (m == 0.0) m = 1.0;
+    const double whole = k * m - c * c;
+    found.give = m / whole;
+    found.both = -c / whole;
+    found.turn = k / whole;
+    return found;
+}
+
+/// What the give and the turn of a soft plate take from the stiffness of its points: they couple
+/// all of them.
+void add_lag(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
+{
+    const LagAnswer answer = lag_answer(a, plate);
+    for (const LagShare& r : answer.shares) {
+        const Point give = (-answer.give) * r.pull - answer.both * r.turn;
+        const Point turn = (-answer.both) * r.pull - answer.turn * r.turn;
+        for (const LagShare& c : answer.shares) {
+            add_block(entries, r.node, c.node,
+                { give.x * c.pull.x + turn.x * c.turn.x, give.x * c.pull.y + turn.x * c.turn.y,
+                    give.y * c.pull.x + turn.y * c.turn.x, give.y * c.pull.y + turn.y * c.turn.y });
+        }
+    }
+}
+
+/// Springs of a plate's points to where the plate, or its crosshead, is.
 void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
@@ -109,6 +168,7 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
             }
         }
     }
+    if (is_soft(plate)) add_lag(a, plate, entries);
 }
 
 }  // namespace
@@ -116,7 +176,29 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
 StiffnessBlock plate_springs(const Plate& plate, int point)
 {
     const PlatePoint p = plate_point(plate, point);
-    return spring_block(in_plane(plate.normal), p.stiffness, p.shear_stiffness);
+    return spring_block(in_plane(point_normal(plate, point)), p.stiffness, p.shear_stiffness);
+}
+
+PlateLag plate_lag(
+    const Assembly& a, const Plate& plate, Vector displacement, const Array<double>* moved)
+{
+    if (!is_soft(plate)) return {};
+    const LagAnswer answer = lag_answer(a, plate);
+    double force = 0.0, moment = 0.0;
+    for (const LagShare& s : answer.shares) {
+        const Vector way = moved ? displacement - a.grains.vector_at(*moved, s.node) : displacement;
+        force += dot(s.pull, way);
+        moment += dot(s.turn, way);
+    }
+    return { answer.give * force + answer.both * moment,
+        answer.both * force + answer.turn * moment };
+}
+
+Vector point_way(const Plate& plate, int point, Vector displacement, const PlateLag& lag)
+{
+    if (!is_soft(plate)) return displacement;
+    return displacement - lag.give * plate.normal
+        + lag.turn * point_arm(plate, point) * point_normal(plate, point);
 }
 
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs)

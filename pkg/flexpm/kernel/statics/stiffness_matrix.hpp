@@ -33,4 +33,18 @@ std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSpri
 /// Springs at one point of a plate: stiffness between the plate and the point [N/m].
 StiffnessBlock plate_springs(const Plate& plate, int point);
 
+/// How a soft plate answers to a motion.
+struct PlateLag {
+    double give = 0.0;  ///< how far it stays behind its crosshead along its normal [m]
+    double turn = 0.0;  ///< about its seat, counter-clockwise [rad]
+};
+
+/// That of a plate all of whose points bear, as its crosshead moves by `displacement` and nodes
+/// move so, in the layout of Grains::displacement, or not at all. Zero of one that is not soft.
+PlateLag plate_lag(
+    const Assembly& a, const Plate& plate, Vector displacement, const Array<double>* moved);
+
+/// Way of a plate at one of its points, of a way of its crosshead and its answer [m].
+Vector point_way(const Plate& plate, int point, Vector displacement, const PlateLag& lag);
+
 }  // namespace flexpm

@@ -107,9 +107,9 @@ void add_contact(const Assembly& a, int contact, StiffnessBound& bound)
 double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
 {
     double own = 0.0;
-    const Point n = in_plane(plate.normal);
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
+        const Point n = in_plane(point_normal(plate, i));
         for (const auto& [direction, stiffness] :
             { std::pair { n, p.stiffness }, std::pair { tangent_of(n), p.shear_stiffness } }) {
             const SpringSide s = spring_side(

@@ -37,6 +37,7 @@ void update_grain_block(Assembly& a, int block, const StepOptions& o)
     const MeshGroup& group = grains.group(block);
     sum_forces(a, block);
     if (a.has_gravity()) add_weight(a, block);
+    if (o.outer != nullptr) add_outer_forces(a, block, *o.outer);
     StepSums sums;
     if (group.rigid) {
         step_rigid(rigid_rows(a, block), o.dt, o.damping, o.measure, sums);
@@ -94,6 +95,7 @@ void update_boundary(Assembly& a, const StepOptions& options)
     a.ledger.erased_next = 0.0;
     for (int b = 0; b < a.facets.blocks(); ++b)
         a.ledger.pressure_work += update_facet_block(a, b, options.dt);
+    if (options.outer != nullptr) a.ledger.pressure_work += work_of(a, *options.outer, options.dt);
     update_plates(a, options.dt, options.damping);
 }
 
@@ -129,6 +131,7 @@ void show_positions(Assembly& a)
 void step(Assembly& a, const StepOptions& options)
 {
     check(options);
+    if (options.outer != nullptr) check(a, *options.outer);
     if (a.plan.tiles.count() == 0) {
         refuse("tiles of a step", 0.0, "", "must be at least 1; call prepare_step() after loading");
     }

@@ -33,9 +33,15 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
     Plate p;
     p.normal = normal;
     p.stiffness = contact.stiffness > 0.0 ? contact.stiffness : normal_stiffness;
+    if (contact.strip != 0.0) {
+        check_positive("stiffness of a strip", contact.strip, "Pa/m");
+        p.strip = contact.strip;
+        p.stiffness = 1.0 / (1.0 / p.stiffness + 1.0 / p.strip);
+    }
     p.shear_stiffness = p.stiffness * shear_stiffness / normal_stiffness;
     p.friction = contact.friction;
     p.bonded = contact.bonded;
+    p.seated = contact.seated;
     return p;
 }
 
@@ -61,6 +67,23 @@ void lay(const Assembly& a, Plate& p)
     }
     p.opening = p.gap;
     p.shear_force.assign(p.gap.size(), 0.0);
+}
+
+/// Let a seated plate turn about the middle of its face, where an even pressure has no moment.
+void seat(const Assembly& a, Plate& p)
+{
+    if (!p.seated) return;
+    const Point middle = middle_of_face(a, p);
+    for (int i = 0; i < plate_points(p); ++i) {
+        const PlatePoint point = plate_point(p, i);
+        const Point x =
+            vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight);
+        const double arm = cross(x - middle, in_plane(p.normal));
+        // a point at the seat itself has none, or round-off would turn the plate out of its way
+        p.arms.push_back(std::fabs(arm) < 1e-9 * p.width ? 0.0 : arm);
+    }
+    if (std::all_of(p.arms.begin(), p.arms.end(), [](double arm) { return arm == 0.0; }))
+        refuse("points of a seated plate", plate_points(p), "", "must be at least 2, apart");
 }
 
 Point unit(Point normal)
@@ -191,7 +214,8 @@ int find_like(const Assembly& a, const Plate& p)
         const Plate& q = a.plates[i];
         const bool alike = q.side == p.side && q.facets == p.facets && q.area == p.area
             && q.normal.x == p.normal.x && q.normal.y == p.normal.y && q.friction == p.friction
-            && q.bonded == p.bonded;
+            && q.bonded == p.bonded && q.strip == p.strip && q.jaw_radius == p.jaw_radius
+            && q.seated == p.seated;
         if (alike) return static_cast<int>(i);
     }
     return -1;
@@ -276,6 +300,7 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
         }
         p.points = points_on_facet(a, p);
         lay(a, p);
+        seat(a, p);
         plates.push_back(p);
     }
     return plates;
@@ -323,6 +348,73 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
         p.area[2 * i + 1] = middle * area;
     }
     require_on_outline(a, p, patch);
+    seat(a, p);
+    return p;
+}
+
+/// Largest angle of a jaw: an edge further round does not face its normal.
+constexpr double widest_jaw = 2.0 / 3.0 * pi;
+
+void check(const Jaw& jaw, const PlateContact& contact)
+{
+    check_finite("place of a jaw", jaw.place.x + jaw.place.y, "m");
+    const double least = norm(jaw.centre - jaw.place);
+    check_positive("distance of a jaw from the disc's centre", least, "m");
+    check_finite("radius of a jaw", jaw.radius, "m");
+    if (!(jaw.radius >= least * (1.0 - 1e-9)))
+        refuse(
+            "radius of a jaw", jaw.radius, "m", "must be >= " + number(least) + " m, the disc's");
+    if (!(jaw.angle > 0.0 && jaw.angle <= widest_jaw * (1.0 + 1e-9)))
+        refuse("angle of a jaw", jaw.angle, "rad", "must be above 0 and <= 2 pi / 3");
+    if (contact.bonded) refuse("bond of a jaw", 1.0, "", "must be 0: a jaw only presses");
+}
+
+Plate jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
+{
+    check(jaw, contact);
+    Plate p = plate_of(a, unit(jaw.centre - jaw.place), contact);
+    p.points = 2;
+    p.position = jaw.place;
+    p.disc_radius = norm(jaw.centre - jaw.place);
+    p.jaw_radius = std::max(jaw.radius, p.disc_radius);
+    const Point inwards = in_plane(p.normal), tangent = tangent_of(inwards);
+    const double half = 0.5 * jaw.angle, apart = p.jaw_radius - p.disc_radius;
+    const auto angle_of = [&](Point x) {
+        return std::atan2(along(tangent, x - jaw.centre), -along(inwards, x - jaw.centre));
+    };
+    for (int e = 0; e < a.facets.count; ++e) {
+        const FacetPlace facet = facet_place(a, e);
+        const bool outer = a.facets.side[e] >= 0 && !a.grains.erased[a.facets.grain[e]];
+        if (!outer || !(along(inwards, facet.normal()) > 0.0)) continue;
+        const double start = angle_of(facet.start), way = angle_of(facet.end) - start;
+        const double one = (-half - start) / way, other = (half - start) / way;
+        const double first = std::clamp(std::min(one, other), 0.0, 1.0);
+        const double last = std::clamp(std::max(one, other), 0.0, 1.0);
+        if (!(last > first)) continue;
+        p.facets.push_back(e);
+        p.width += (last - first) * facet.length() * along(inwards, facet.normal());
+        const double middle = 0.5 * (first + last);
+        const double area = a.area_of((last - first) * facet.length());
+        p.area.insert(p.area.end(), { (1.0 - middle) * area, middle * area });
+        for (const Point x : { facet.start, facet.end }) {
+            const double angle = angle_of(x);
+            // from the disc's rim, as the jaw's centre sees it, to the arc
+            const Point from =
+                p.disc_radius * (std::sin(angle) * tangent - std::cos(angle) * inwards)
+                - apart * inwards;
+            p.gap.push_back(p.jaw_radius - norm(from));
+            const Point normal = unit(-1.0 * from);
+            p.normals.insert(p.normals.end(), { normal.x, normal.y });
+        }
+    }
+    if (p.facets.empty())
+        refuse("edges at a jaw", 0.0, "", "must be at least 1; lay it on the rim of the disc");
+    // the rim has a node near the middle, not on it
+    const double nearest = *std::min_element(p.gap.begin(), p.gap.end());
+    for (double& gap : p.gap)
+        gap = apart > 1e-9 * p.disc_radius ? gap - nearest : 0.0;
+    p.opening = p.gap;
+    p.shear_force.assign(p.gap.size(), 0.0);
     return p;
 }
 
@@ -346,6 +438,16 @@ int find_side_plate(const Assembly& a, int side, const PlateContact& contact)
 int find_patch_plate(const Assembly& a, const Patch& patch, const PlateContact& contact)
 {
     return find_like(a, patch_plate(a, patch, contact));
+}
+
+int add_jaw_plate(Assembly& a, const Jaw& jaw, const PlateContact& contact)
+{
+    return add_plates(a, { jaw_plate(a, jaw, contact) }).front();
+}
+
+int find_jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
+{
+    return find_like(a, jaw_plate(a, jaw, contact));
 }
 
 int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)

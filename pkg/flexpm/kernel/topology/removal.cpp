@@ -24,6 +24,8 @@ void forget_facets(const Assembly& a, int grain, Plate& plate)
     Plate kept = plate;
     for (auto* values : { &kept.gap, &kept.area, &kept.opening, &kept.shear_force })
         values->clear();
+    kept.normals.clear();
+    kept.arms.clear();
     kept.facets.clear();
     for (std::size_t e = 0; e < plate.facets.size(); ++e) {
         const bool stays = a.facets.grain[plate.facets[e]] != grain;
@@ -38,6 +40,10 @@ void forget_facets(const Assembly& a, int grain, Plate& plate)
             kept.area.push_back(plate.area[i]);
             kept.opening.push_back(plate.opening[i]);
             kept.shear_force.push_back(plate.shear_force[i]);
+            if (plate.seated) kept.arms.push_back(plate.arms[i]);
+            if (plate.normals.empty()) continue;
+            const Vector normal = point_normal(plate, i);
+            kept.normals.insert(kept.normals.end(), { normal.x, normal.y });
         }
     }
     plate = kept;

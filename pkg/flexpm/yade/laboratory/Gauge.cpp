@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/Gauge.hpp>
 
+#include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 
 #include <algorithm>
@@ -22,17 +23,32 @@ Real Gauge::way(const flexpm::Array<double>& moved) const
 Real Gauge::moved(const flexpm::Assembly& assembly) const
 {
 	const flexpm::Point along = { direction[0], direction[1] };
+	if (reads == "crosshead") return flexpm::crosshead_way(assembly, plate, along);
 	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : way(assembly.grains.displacement);
 }
 
-void Gauge::setZero(const flexpm::Assembly& assembly) { zero = moved(assembly); }
+bool Gauge::isState() const { return reads == "machine_energy" || reads == "contact_angle" || reads == "angle"; }
 
-Real Gauge::reading(const flexpm::Assembly& assembly) const { return perLength(moved(assembly) - zero); }
+void Gauge::setZero(const flexpm::Assembly& assembly)
+{
+	if (!isState()) zero = moved(assembly);
+}
+
+Real Gauge::reading(const flexpm::Assembly& assembly) const
+{
+	if (!isState()) return perLength(moved(assembly) - zero);
+	flexpm::require_plate(assembly, plate);
+	const flexpm::Plate& read = assembly.plates[plate];
+	if (reads == "angle") return read.angle;
+	return reads == "contact_angle" ? flexpm::contact_angle(assembly, plate) : flexpm::machine_energy(read);
+}
 
 Real Gauge::rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const
 {
 	const flexpm::Point along = { direction[0], direction[1] };
-	return perLength(plate >= 0 ? flexpm::plate_rate(assembly, plate, along) : way(velocity));
+	if (isState()) return 0;
+	if (reads == "crosshead") return flexpm::crosshead_rate(assembly, plate, along);
+	return perLength(plate >= 0 ? flexpm::plate_rate(assembly, plate, along, velocity) : way(velocity));
 }
 
 bool Gauge::lost(const flexpm::Assembly& assembly) const

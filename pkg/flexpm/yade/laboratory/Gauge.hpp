@@ -15,7 +15,7 @@ public:
 	/// Count from here on.
 	/// @throws std::runtime_error  as reading()
 	void setZero(const flexpm::Assembly& assembly);
-	/// Opening or way, less that at its zero [m], or a strain [-].
+	/// Opening or way, less that at its zero [m], or a strain [-], or what `reads` names.
 	Real reading(const flexpm::Assembly& assembly) const;
 	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.
 	Real rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const;
@@ -24,6 +24,8 @@ public:
 
 private:
 	Real moved(const flexpm::Assembly& assembly) const;
+	/// Whether it reads what the plate has now, not how far something has gone.
+	bool isState() const;
 	/// What nodes move that move so.
 	Real way(const flexpm::Array<double>& moved) const;
 	Real perLength(Real moved) const;
@@ -36,6 +38,7 @@ public:
 		((int, first, -1,, "Node at the first place, as GrainSolver.gaugePoints gives it [-]."))
 		((int, second, -1,, "Node at the second place [-]."))
 		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))
+		((string, reads,,, "What is read of that plate instead of its way: crosshead, the way of its crosshead; machine_energy, stored in the spring between both [J]; contact_angle, of a disc in a jaw [rad]; angle, by which a seated plate has turned [rad]."))
 		((vector<int>, nodes,,, "Nodes whose mean way is read instead, as GrainSolver.sectionNodes gives them [-]."))
 		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or the way, a unit vector [-]."))
 		((Real, zero, 0.,, "What it has opened, or the plate has moved, when it began to count [m]."))

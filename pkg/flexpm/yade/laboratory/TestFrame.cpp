@@ -4,6 +4,9 @@
 #include <flexpm/yade/solver/snapshot_dict.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 
@@ -36,6 +39,39 @@ flexpm::AxialObservation TestFrame::observed(GrainSolver& solver) const
 
 flexpm::TestScales TestFrame::scalesOf(GrainSolver& solver, Real dt) const { return scales(solver.assembly, dt); }
 
+namespace {
+
+	py::dict dictOf(const flexpm::ElasticState& found)
+	{
+		py::list plates, sets;
+		for (std::size_t i = 0; i < found.state.plates.size(); ++i) {
+			const flexpm::Plate& p = found.state.plates[i];
+			plates.append(py::make_tuple(
+			        p.force.x, p.force.y, p.displacement.x, p.displacement.y, p.angle, flexpm::contact_angle(found.state, static_cast<int>(i))));
+		}
+		for (const flexpm::NodeSet& s : found.state.node_sets)
+			sets.append(py::make_tuple(s.force.x, s.force.y, s.displacement.x, s.displacement.y, s.moment.z));
+		py::dict d;
+		d["snapshot"]        = flexpm_bindings::snapshot_dict(found.state);
+		d["plates"]          = plates;
+		d["node_sets"]       = sets;
+		d["way"]             = found.way;
+		d["load"]            = found.load;
+		d["solutions"]       = found.solutions;
+		d["beyond_friction"] = found.beyond_friction;
+		return d;
+	}
+
+	std::optional<double> optional(const py::object& value)
+	{
+		if (value.is_none()) return {};
+		return py::extract<Real>(value)();
+	}
+
+	const flexpm::Assembly& present() { return GrainSolver::ofScene(*Omega::instance().getScene())->current(); }
+
+} // namespace
+
 flexpm::TestFrame RectangleFrame::frame(const flexpm::Assembly& assembly) const { return flexpm::rectangle_frame(assembly, sense()); }
 
 flexpm::TestScales RectangleFrame::scales(const flexpm::Assembly& assembly, Real dt) const { return flexpm::rectangle_scales(assembly, sense(), dt); }
@@ -44,6 +80,16 @@ std::optional<TestFrame::Measure> RectangleFrame::measure(const string& column, 
 {
 	if (column != "lateral_strain") return {};
 	return Measure { flexpm::lateral_strain(assembly, sense(), assembly.grains.displacement), flexpm::lateral_strain(assembly, sense(), velocity) };
+}
+
+py::dict RectangleFrame::elasticState(bool plates, int pieces, py::object pressure, Real way, py::object load) const
+{
+	return dictOf(flexpm::find_end_state(present(), { plates, false, tension, pieces, optional(pressure), way, optional(load) }));
+}
+
+py::dict DiscFrame::elasticState(bool plates, int pieces, py::object pressure, Real way, py::object load) const
+{
+	return dictOf(flexpm::find_end_state(present(), { plates, true, false, pieces, optional(pressure), way, optional(load) }));
 }
 
 flexpm::TestFrame DiscFrame::frame(const flexpm::Assembly& assembly) const { return flexpm::disc_frame(assembly, diameter); }
@@ -62,22 +108,13 @@ py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Re
 	flexpm::ElasticLoading asked { {}, driven, drivenSets, backSets, { direction[0], direction[1] }, direction[2], way, {} };
 	for (std::size_t i = 0; i < pressed.size(); ++i)
 		asked.pressures.emplace_back(pressed[i], pressures[i]);
-	if (!load.is_none()) asked.load = py::extract<Real>(load)();
-	const auto found = flexpm::find_elastic_state(GrainSolver::ofScene(*Omega::instance().getScene())->current(), asked);
-	py::list   plates, sets;
-	for (const flexpm::Plate& p : found.state.plates)
-		plates.append(py::make_tuple(p.force.x, p.force.y, p.displacement.x, p.displacement.y));
-	for (const flexpm::NodeSet& s : found.state.node_sets)
-		sets.append(py::make_tuple(s.force.x, s.force.y, s.displacement.x, s.displacement.y, s.moment.z));
-	py::dict d;
-	d["snapshot"]        = flexpm_bindings::snapshot_dict(found.state);
-	d["plates"]          = plates;
-	d["node_sets"]       = sets;
-	d["way"]             = found.way;
-	d["load"]            = found.load;
-	d["solutions"]       = found.solutions;
-	d["beyond_friction"] = found.beyond_friction;
-	return d;
+	asked.load = optional(load);
+	try {
+		return dictOf(flexpm::find_elastic_state(present(), asked));
+	} catch (const std::runtime_error&) {
+		flexpm::require_held(present()); // names the motion and a remedy if all of the specimen is free
+		throw;
+	}
 }
 
 flexpm::TestFrame PartFrame::frame(const flexpm::Assembly& assembly) const { return flexpm::part_frame(assembly, parts()); }

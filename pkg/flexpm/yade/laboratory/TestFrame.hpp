@@ -47,11 +47,15 @@ public:
 	flexpm::TestFrame      frame(const flexpm::Assembly& assembly) const override;
 	flexpm::TestScales     scales(const flexpm::Assembly& assembly, Real dt) const override;
 	std::optional<Measure> measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
+	boost::python::dict    elasticState(bool plates, int pieces, boost::python::object pressure, Real way, boost::python::object load) const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(RectangleFrame, TestFrame,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(RectangleFrame, TestFrame,
 		"A rectangle between its bottom and its top.",
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
+		, /* ctor */
+		, .def("elasticState", &RectangleFrame::elasticState, (boost::python::arg("plates"), boost::python::arg("pieces"), boost::python::arg("pressure"), boost::python::arg("way"), boost::python::arg("load")),
+			"Where the scene's specimen would come to rest between its ends, by their nodes or by plates, if no contact broke further: with a pressure on its sides, by so many plates on each, and on a top that is not driven (None: those that act now) [Pa], and a way [m] or a load [N] (None: the way alone counts) of the top. Returns what PartFrame.elasticState does.")
 	);
 	// clang-format on
 
@@ -63,13 +67,17 @@ REGISTER_SAVED(RectangleFrame);
 class DiscFrame : public TestFrame {
 public:
 	~DiscFrame() override;
-	flexpm::TestFrame  frame(const flexpm::Assembly& assembly) const override;
-	flexpm::TestScales scales(const flexpm::Assembly& assembly, Real dt) const override;
+	flexpm::TestFrame   frame(const flexpm::Assembly& assembly) const override;
+	flexpm::TestScales  scales(const flexpm::Assembly& assembly, Real dt) const override;
+	boost::python::dict elasticState(bool plates, int pieces, boost::python::object pressure, Real way, boost::python::object load) const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(DiscFrame, TestFrame,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(DiscFrame, TestFrame,
 		"A disc between a lower and an upper plate, the first two of :yref:`GrainSolver`.",
 		((Real, diameter, 0.,, "Of the disc [m]."))
+		, /* ctor */
+		, .def("elasticState", &DiscFrame::elasticState, (boost::python::arg("plates"), boost::python::arg("pieces"), boost::python::arg("pressure"), boost::python::arg("way"), boost::python::arg("load")),
+			"As RectangleFrame.elasticState, between two plates and without a pressure.")
 	);
 	// clang-format on
 };

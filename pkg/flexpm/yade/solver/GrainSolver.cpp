@@ -9,6 +9,8 @@
 #include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
+#include <utility>
+
 namespace yade {
 
 CREATE_LOGGER(GrainSolver);
@@ -37,7 +39,9 @@ void GrainSolver::takeStep()
 {
 	forEngines();
 	if (assembly.step == 0) flexpm::reset_energy_balance(assembly);
-	flexpm::step(assembly, stepOptions());
+	auto options  = stepOptions();
+	options.outer = std::exchange(outer, nullptr);
+	flexpm::step(assembly, options);
 }
 
 flexpm::StepOptions GrainSolver::stepOptions() const

@@ -2,6 +2,7 @@
 /// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
 #pragma once
 
+#include <flexpm/kernel/forces/outer_forces.hpp>
 #include <flexpm/kernel/solids/solid_state.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
@@ -76,6 +77,9 @@ public:
 	/// @throws std::runtime_error  if O.engines holds none with grains
 	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
 
+	/// Let forces act in the next step alone; they are read there.
+	void act(const flexpm::OuterForces& forces) { outer = &forces; }
+
 	/// Whether the last step was measured.
 	/// @throws std::runtime_error  if measurePeriod is below 1
 	bool measured() const;
@@ -86,11 +90,14 @@ public:
 	Real       useRealMasses();
 	void       mirrorBodies();
 	void       resetEnergyBalance();
-	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction);
+	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction, Real strip, bool seated);
 	int        addTouchingPlate(Vector3r normal, Real friction);
-	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
-	int        findSidePlate(int side, bool bonded, Real friction);
-	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded);
+	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
+	int        addJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	int        findSidePlate(int side, bool bonded, Real friction, Real strip, bool seated);
+	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
+	int        findJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	void       setMachine(int plate, Real stiffness);
 	py::tuple  gaugePoints(Vector3r first, Vector3r second);
 	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
 	void       fixTangential(int plate);
@@ -108,6 +115,7 @@ public:
 	py::dict   energies();
 	py::dict   snapshot();
 	py::tuple  cracks();
+	py::tuple  wallForces(vector<int> grains);
 	py::dict   parting();
 	py::dict   counts();
 	py::object sideNodes(int side);
@@ -147,16 +155,22 @@ public:
 		.def("addToScene", WithGrains<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", AfterAssembly<&GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", AfterAssembly<&GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
-		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0.),
-			"Lay rigid plates on a side of the outline, side by side, and return their numbers. Scale the masses afterwards.")
+		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
+			"Lay rigid plates on a side of the outline, side by side, with a layer of a stiffness per area before them (0: none) [Pa/m], seated ones to turn about the middle of their faces, and return their numbers. Scale the masses afterwards.")
 		.def("addTouchingPlate", AfterAssembly<&GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
-		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
-			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number. Scale the masses afterwards.")
-		.def("findSidePlate", AfterAssembly<&GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0.),
+		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
+			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number; strip and seated as above. Scale the masses afterwards.")
+		.def("addJawPlate", AfterAssembly<&GrainSolver::addJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+			"Lay a rigid arc of a radius [m] around the rim of a disc of this centre [m], over an angle of the disc [rad] about a place on the rim [m], and return its number. Scale the masses afterwards.")
+		.def("findSidePlate", AfterAssembly<&GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
 			"Number of the one plate that addSidePlates has laid along a side with the same arguments, -1 if there is none.")
-		.def("findPatchPlate", AfterAssembly<&GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false),
+		.def("findPatchPlate", AfterAssembly<&GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
 			"Number of the plate that addPatchPlate has laid with the same arguments, -1 if there is none.")
+		.def("findJawPlate", AfterAssembly<&GrainSolver::findJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+			"Number of the plate that addJawPlate has laid with the same arguments, -1 if there is none.")
+		.def("setMachine", AfterAssembly<&GrainSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")),
+			"Lay the spring of a soft machine [N/m] behind a plate, along its normal. What drives the plate then drives its crosshead, the spring's other end.")
 		.def("gaugePoints", AfterAssembly<&GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("sectionNodes", AfterAssembly<&GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
@@ -182,6 +196,7 @@ public:
 		.def("energies", WithGrains<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
 		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
 		.def("cracks", WithGrains<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
+		.def("wallForces", AfterAssembly<&GrainSolver::wallForces>::call, (py::arg("grains")), "Nodes on which some grains act from outside of them, and their forces there, x and y, at the last step [N], for :yref:`ReleaseController`.")
 		.def("parting", AfterAssembly<&GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
@@ -227,9 +242,10 @@ protected:
 
 private:
 	flexpm::NearPairs           nearPairs;
-	vector<flexpm::GrainPair>   candidates;     // near pairs without a contact
-	bool                        listed = false; // the candidates are up to date
-	mutable vector<std::size_t> places;         // of the contacts among the interactions, when last seen
+	vector<flexpm::GrainPair>   candidates;       // near pairs without a contact
+	bool                        listed = false;   // the candidates are up to date
+	const flexpm::OuterForces*  outer  = nullptr; // of the next step
+	mutable vector<std::size_t> places;           // of the contacts among the interactions, when last seen
 	void                        requireReady() const;
 	void                        takeStep();
 	void                        insertBodies();

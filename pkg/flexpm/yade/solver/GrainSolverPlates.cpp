@@ -11,10 +11,10 @@
 
 namespace yade {
 
-py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction)
+py::list GrainSolver::addSidePlates(int side, int pieces, bool bonded, Real friction, Real strip, bool seated)
 {
 	py::list numbers;
-	for (int plate : flexpm::add_side_plates(assembly, side, pieces, { 0, friction, bonded }))
+	for (int plate : flexpm::add_side_plates(assembly, side, pieces, { 0, friction, bonded, strip, seated }))
 		numbers.append(plate);
 	return numbers;
 }
@@ -24,17 +24,32 @@ int GrainSolver::addTouchingPlate(Vector3r normal, Real friction)
 	return flexpm::add_touching_plate(assembly, { normal[0], normal[1] }, { 0, friction, false });
 }
 
-int GrainSolver::addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded)
+int GrainSolver::addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated)
 {
-	return flexpm::add_patch_plate(assembly, { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded });
+	return flexpm::add_patch_plate(assembly, { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded, strip, seated });
 }
 
-int GrainSolver::findSidePlate(int side, bool bonded, Real friction) { return flexpm::find_side_plate(current(), side, { 0, friction, bonded }); }
-
-int GrainSolver::findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded)
+int GrainSolver::findSidePlate(int side, bool bonded, Real friction, Real strip, bool seated)
 {
-	return flexpm::find_patch_plate(current(), { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded });
+	return flexpm::find_side_plate(current(), side, { 0, friction, bonded, strip, seated });
 }
+
+int GrainSolver::findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated)
+{
+	return flexpm::find_patch_plate(current(), { { place[0], place[1] }, length, { normal[0], normal[1] } }, { 0, friction, bonded, strip, seated });
+}
+
+int GrainSolver::addJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip)
+{
+	return flexpm::add_jaw_plate(assembly, { { place[0], place[1] }, { centre[0], centre[1] }, radius, angle }, { 0, friction, false, strip });
+}
+
+int GrainSolver::findJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip)
+{
+	return flexpm::find_jaw_plate(current(), { { place[0], place[1] }, { centre[0], centre[1] }, radius, angle }, { 0, friction, false, strip });
+}
+
+void GrainSolver::setMachine(int plate, Real stiffness) { flexpm::set_machine(assembly, plate, stiffness); }
 
 py::tuple GrainSolver::gaugePoints(Vector3r first, Vector3r second)
 {
@@ -123,10 +138,19 @@ py::list GrainSolver::plates()
 		d["bonded"]        = p.bonded;
 		d["pressed"]       = p.loaded;
 		d["place"]         = py::make_tuple(p.position.x + p.displacement.x, p.position.y + p.displacement.y);
+		const auto middle  = flexpm::middle_of_face(a, p);
+		d["middle"]        = py::make_tuple(middle.x, middle.y);
 		d["work"]          = p.boundary_work;
 		d["displacement"]  = py::make_tuple(p.displacement.x, p.displacement.y);
 		d["velocity"]      = py::make_tuple(p.velocity.x, p.velocity.y);
 		d["force"]         = py::make_tuple(p.force.x, p.force.y);
+		d["strip"]         = p.strip;
+		d["radius"]        = p.jaw_radius;
+		d["machine"]       = p.machine_stiffness;
+		d["machine_give"]  = p.machine_give;
+		d["seated"]        = p.seated;
+		d["angle"]         = p.angle;
+		d["contact_angle"] = flexpm::contact_angle(a, static_cast<int>(i));
 		d["contact_width"] = flexpm::contact_width(a, static_cast<int>(i));
 		all.append(d);
 	}

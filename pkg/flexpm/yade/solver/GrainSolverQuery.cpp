@@ -4,6 +4,7 @@
 #include <flexpm/yade/solver/snapshot_dict.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/test_frame.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
@@ -50,6 +51,22 @@ py::tuple GrainSolver::cracks()
 	current();
 	const auto count = onState([](const auto& state) { return flexpm::count_cracks(state); });
 	return py::make_tuple(count.tensile, count.shear);
+}
+
+py::tuple GrainSolver::wallForces(vector<int> grains)
+{
+	std::vector<char> inside(current().grains.count, 0);
+	for (int grain : grains) {
+		if (grain < 0 || grain >= assembly.grains.count) flexpm::refuse("wallForces: grain", grain, "", "must be one that there is");
+		inside[grain] = 1;
+	}
+	const auto found = flexpm::forces_on_wall(assembly, inside);
+	py::list   nodes, forces;
+	for (std::size_t i = 0; i < found.nodes.size(); ++i) {
+		nodes.append(found.nodes[i]);
+		forces.append(Vector3r(found.forces[i].x, found.forces[i].y, 0));
+	}
+	return py::make_tuple(nodes, forces);
 }
 
 py::dict GrainSolver::parting()

@@ -209,5 +209,6 @@ def _fixed(inputs: Table, name: str) -> object:
     """An input without the places of parts, whose last digits come from where they are now."""
     value = inputs.get(name)
     if name == "parts":
-        return [{key: one[key] for key in one if key != "place"} for one in inputs.get(name, ())]
+        moving = ("place", "face")  # without erased grains a face is shorter
+        return [{key: one[key] for key in one if key not in moving} for one in inputs.get(name, ())]
     return value

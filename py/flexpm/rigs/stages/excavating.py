@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stage that takes away what lies within a line of the specimen. SI units.
+"""A stage that takes away what lies within a line of the specimen, at once or in parts. SI units.
 
 Deviation D77.
 """
@@ -10,30 +10,37 @@ from functools import partial
 
 import numpy as np
 import yade
+from yade import wrapper
 
 from ...arrays import IntArray
 from ...errors import InputError, SimulationError
+from ...require import Bounds, require_whole
 from ...results.fragments import connected
 from ...runs.runner import Span
 from ...specimens.joint_cutting import Excavation
 from ..parts import HeldNodes
-from ..rig import AT_REST, REST_CROSSINGS
+from ..rig import AT_REST, RAMP_CROSSINGS, REST_CROSSINGS
 from .cycles import PartCycles
+
+#: Parts in which forces on a wall may be released.
+_PARTS = Bounds(at_least=1, at_most=1000)
 
 
 class PartExcavation(PartCycles):
     """Base of a rig of parts whose specimen is excavated."""
 
-    def excavate(self, name: str) -> None:
+    def excavate(self, name: str, parts: int = 1) -> None:
         """Take away the cells within a line of ``Specimen.with_excavations``, until all balances.
 
-        They leave at once; what they bore falls on the wall as a wave. What they store and how they
-        move leaves as ``erased_energy``, by which ``boundary_work`` of the record is less.
-        Pressures stay, what is driven stands, and damping is on meanwhile, as in `relax`. Strains
-        and gauges of a record that begins later count from there on.
+        What they store and how they move leaves as ``erased_energy``, by which ``boundary_work`` of
+        the record is less. Pressures stay, what is driven stands, and damping is on meanwhile, as
+        in `relax`. Strains and gauges of a record that begins later count from there on.
 
         Args:
             name: Name of the excavation.
+            parts: 1: they leave at once, and what they bore falls on the wall as a wave. Else the
+                forces that they exert on the wall stay, and are released in so many equal parts,
+                each slowly and until all balances; their work is boundary work.
 
         Raises:
             InputError: for a name that the specimen has not, what is excavated already, and cells
@@ -41,38 +48,60 @@ class PartExcavation(PartCycles):
             SimulationError: if the forces do not come to balance.
         """
         found = self.built.specimen.excavation(name)
+        parts = require_whole("excavate: parts", parts, _PARTS)
         self._require_scene("excavate")
         about = {"area": found.area, "raggedness": found.raggedness}
-        self._tell("excavate", name=name, **about)
-        begin = partial(self._begin_excavation, found)
-        over = partial(self._has_come_to_rest, REST_CROSSINGS)
-        entered = self._damped_stage(begin, over, "excavation")
-        if entered and not self.diverged and not self._is_at_rest():
-            imbalance = self._balance_of_all().largest
-            raise SimulationError(
-                f"excavate: imbalance = {imbalance:.2g} of the largest force, must fall below "
-                f"{AT_REST}; {self._most_borne}; lower what loads, or excavate less"
-            )
+        self._tell("excavate", name=name, **about, **({"parts": parts} if parts > 1 else {}))
+        ramp = RAMP_CROSSINGS if parts > 1 else 0
+        for number in range(1, parts + 1):
+            begin = partial(self._begin_excavation, found, number, parts)
+            over = partial(self._has_come_to_rest, ramp + REST_CROSSINGS, ramp)
+            entered = self._damped_stage(begin, over, "excavation")
+            if entered and not self.diverged and not self._is_at_rest():
+                imbalance = self._balance_of_all().largest
+                raise SimulationError(
+                    f"excavate: imbalance = {imbalance:.2g} of the largest force, must fall below "
+                    f"{AT_REST}, {number} of {parts} parts released; {self._most_borne}; lower "
+                    "what loads, excavate less, or release in more parts"
+                )
 
-    def _begin_excavation(self, found: Excavation) -> Span:
-        self._take_away(found)
-        return self._begin_rest(REST_CROSSINGS)
+    def _begin_excavation(self, found: Excavation, number: int, parts: int) -> Span:
+        if number == 1:
+            self._take_away(found, gradually=parts > 1)
+        if parts == 1:
+            return self._begin_rest(REST_CROSSINGS)
+        span = self._begin_rest(RAMP_CROSSINGS + REST_CROSSINGS)
+        wall = self.built.required(wrapper.ReleaseController)
+        wall.startPart, wall.part = wall.part, 1.0 - number / parts
+        wall.rampSteps = span.longest // (RAMP_CROSSINGS + REST_CROSSINGS) * RAMP_CROSSINGS
+        wall.rampBegin = -1
+        return span
 
-    def _take_away(self, found: Excavation) -> None:
-        """Erase the cells."""
+    def _take_away(self, found: Excavation, *, gradually: bool) -> None:
+        """Erase the cells; an engine keeps their forces on the wall if they go gradually."""
         solver, bodies = self.built.solver, yade.O.bodies
         cells = [int(n) for n in found.cells if bodies[solver.bodyIds[int(n)]] is not None]
         if not cells:
             raise InputError(
                 f"excavate: name = {found.name}, is excavated, must be another one or left out"
             )
+        earlier = self.built.engine(wrapper.ReleaseController)
+        if earlier is not None and earlier.part > 0.0:
+            raise InputError(
+                f"excavate: name = {found.name}, must come when the one before has come to balance"
+            )
         self._require_hanging(found, np.array(cells))
+        nodes, forces = solver.wallForces(cells) if gradually else ([], [])
         self._scales = None
         if not self._begun:
             self._from_now = True
         for cell in cells:
             bodies.erase(solver.bodyIds[cell])
         solver.counts()  # they are gone from here on
+        if gradually:
+            self.built.remove_engines(earlier)
+            wall = wrapper.ReleaseController(nodes=nodes, forces=forces, part=1.0)
+            self.built.add_engines(before=(wall,))
 
     def _require_hanging(self, found: Excavation, cells: IntArray) -> None:
         """Refuse cells without which others are cut off, or sets of nodes lose all of theirs."""

@@ -70,9 +70,11 @@ class PartStill(PartStatics, GrainRig):
             self._damp()
         return self._span_of(crossings, 0.3 * crossings)
 
-    def _has_come_to_rest(self, crossings: float) -> bool:
+    def _has_come_to_rest(self, crossings: float, least: int = 0) -> bool:
+        """Whether a stage of at least some crossings is over: it looks after each."""
         steps = yade.O.iter - self._runner.position.stage_start
-        looks = steps > 0 and steps % self._crossing_of(crossings) == 0
+        crossing = self._crossing_of(crossings)
+        looks = steps > least * crossing and steps % crossing == 0
         return self.diverged or (looks and self._is_at_rest())
 
     def _is_at_rest(self) -> bool:
@@ -169,6 +171,7 @@ class PartStill(PartStatics, GrainRig):
         plan = self._steering_plan()
         scales = self.scales()
         way = 0.0 if stress is None else abs(stress - self.stress) / scales.modulus * scales.height
+        way *= self._ahead
         back = math.ceil(2.0 * way / (rate * plan.fastest * plan.velocity * yade.O.dt))
         self._drive(replace(endless(plan), velocity=_STILL * plan.velocity))
         if damped:
@@ -184,7 +187,7 @@ class PartStill(PartStatics, GrainRig):
         """Velocity of the driven parts that brings the load nearer to a value. Deviation D74."""
         scales, plan = self.scales(), self._steering_plan()
         time = _STEERING_CROSSINGS * scales.crossing_steps * yade.O.dt
-        wanted = (stress - self.stress) / scales.modulus * scales.height / time
+        wanted = (stress - self.stress) / scales.modulus * scales.height / time * self._ahead
         fastest = rate * plan.fastest * plan.velocity
         return float(np.clip(wanted, -fastest, fastest)) or _STILL * plan.velocity
 

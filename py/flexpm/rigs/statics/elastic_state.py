@@ -29,7 +29,8 @@ class ElasticState(Snapshot):
     #: Points of open cracks and joints that are closed here, stick, and bear more than friction.
     beyond_friction: int = 0
     rig: object = field(default=None, repr=False)  #: whose parts have the forces
-    plates: tuple[tuple[float, ...], ...] = ()  #: force and displacement of each, x and y
+    #: Force and displacement of each, x and y, angle of a seated one, contact angle of a jaw.
+    plates: tuple[tuple[float, ...], ...] = ()
     node_sets: tuple[tuple[float, ...], ...] = ()  #: the same, and moment
 
     @property
@@ -50,6 +51,14 @@ class ElasticState(Snapshot):
     def moment(self, part: HeldNodes) -> float:
         """Moment of held nodes on the specimen about their place, counter-clockwise [N m]."""
         return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[4]
+
+    def angle(self, part: Part) -> float:
+        """Angle by which a seated part has turned, counter-clockwise [rad]."""
+        return self._of(require_part("elastic: part", self.rig, part, Part))[4]
+
+    def contact_angle(self, jaw: Part) -> float:
+        """Angle over which a disc lies against a jaw, about the disc's centre [rad]."""
+        return self._of(require_part("elastic: part", self.rig, jaw, Part))[5]
 
     def _of(self, part: RigPart) -> tuple[float, ...]:
         part = require_part("elastic: part", self.rig, part, RigPart)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The static solution of grains between two ends. SI units."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from yade import wrapper
+
+from ...errors import InputError
+from ...require import NOT_NEGATIVE, require_number
+from ..grain_rig import GrainRig, NodeRig, PlateRig
+from .elastic_state import ElasticState
+
+
+class EndStatics(GrainRig):
+    """Base of a rig between two ends that answers without a step."""
+
+    #: Whether its ends are plates.
+    _between_plates: ClassVar[bool]
+
+    def elastic(
+        self, pressure: float | None = None, *, way: float = 0.0, load: float | None = None
+    ) -> ElasticState:
+        """Where the specimen would come to rest, if no contact broke further: a static solution.
+
+        It is as that of ``PartRig.elastic``: linear about the present state, points without a bond
+        open and close until all agree, and the scene is not changed (deviation D72). The ends are
+        those that the test has, or would have.
+
+        Args:
+            pressure: On the sides, and on a top that is not driven [Pa]. None: what acts now.
+            way: How far the upper end goes from here, along the loading [m].
+            load: What it bears in the end, along the loading [N], in place of a way.
+
+        Raises:
+            InputError: for rigid grains, a value out of range, a pressure on a disc, and a specimen
+                of which a piece is free to move: it names the motion.
+        """
+        if self.built.name != "flexible":
+            raise InputError(
+                f"elastic: model = {self.built.name}, must be flexible; use PartRig for others"
+            )
+        way = require_number("elastic: way", way, unit="m")
+        if load is not None:
+            load = require_number("elastic: load", load, unit="N")
+            if way != 0.0:
+                raise InputError(f"elastic: way = {way:g}, must be left out beside a load")
+        if pressure is not None:
+            pressure = require_number("elastic: pressure", pressure, NOT_NEGATIVE, "Pa")
+        frame = self._recorder.frame
+        assert isinstance(frame, (wrapper.RectangleFrame, wrapper.DiscFrame))
+        try:
+            found = frame.elasticState(self._between_plates, self._pieces, pressure, way, load)
+        except (ValueError, RuntimeError) as error:
+            raise InputError(f"elastic: {error}") from None
+        return ElasticState(
+            **found.pop("snapshot"),
+            **self.built.of_snapshots,
+            rig=self,
+            plates=tuple(found.pop("plates")),
+            node_sets=tuple(found.pop("node_sets")),
+            **found,
+        )
+
+    @property
+    def _pieces(self) -> int:
+        """Plates of a membrane on each side."""
+        return 1
+
+
+class NodeEnds(EndStatics, NodeRig):
+    """Deformable grains between their ends, by their boundary nodes and edges."""
+
+    _between_plates = False
+
+
+class PlateEnds(EndStatics, PlateRig):
+    """Rigid grains between their ends, and discs, by plates."""
+
+    _between_plates = True
+
+    @property
+    def _pieces(self) -> int:
+        return 1 if self.disc else self._membrane_pieces

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The static solution of rigs between ends, beside the states that they come to."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.errors import InputError
+
+WIDTH, HEIGHT, THICKNESS = 0.012, 0.018, 0.01
+AREA = WIDTH * THICKNESS
+
+
+def made(model: str = "flexible", kind: str = "rectangle", **options: object):
+    yade.O.reset()
+    specimen = (
+        flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3)
+        if kind == "rectangle"
+        else flexpm.Specimen.disc(HEIGHT, THICKNESS, seed=3)
+    )
+    return flexpm.rig(flexpm.build(specimen, model=model), **options)
+
+
+def moved(state: flexpm.Snapshot) -> np.ndarray:
+    """Displacements [m]."""
+    return state.positions - state.reference
+
+
+@pytest.mark.parametrize("model", ["flexible"])
+def test_it_is_the_state_that_a_pressure_from_all_sides_brings_about(model):
+    rig = made(model)
+    state = rig.elastic(2e6)
+    rig.confine(2e6)
+    rig.built.run(3000)
+    there = moved(rig.built.snapshot())
+    np.testing.assert_allclose(moved(state), there, atol=1e-3 * np.abs(there).max())
+    means = state.grain_areas @ state.grain_stress / (WIDTH * HEIGHT)
+    np.testing.assert_allclose(means[:2], -2e6, rtol=2e-3)
+    again = moved(rig.elastic())
+    np.testing.assert_allclose(again, there, atol=1e-3 * np.abs(there).max())
+
+
+@pytest.mark.parametrize("model", ["flexible"])
+@pytest.mark.parametrize("tension", [False, True])
+def test_its_modulus_is_that_of_the_elastic_solve(model, tension):
+    rig = made(model, tension=tension)
+    state = rig.elastic(way=1e-7)
+    young = flexpm.elastic(rig.built.specimen, model=model)["youngs_modulus"]
+    assert state.load / AREA / (1e-7 / HEIGHT) == pytest.approx(young, rel=1e-6)
+    back = rig.elastic(load=state.load)
+    assert back.way == pytest.approx(1e-7, rel=1e-9)
+    sign = 1.0 if tension else -1.0
+    assert state.grain_stress[:, 1].mean() * sign > 0.0
+
+
+def test_a_load_beside_a_pressure_is_that_of_the_steps():
+    rig = made()
+    asked = 3e6 * AREA
+    state = rig.elastic(2e6, load=asked)
+    rig.confine(2e6)
+    rig.stress_to(3e6)
+    part = rig.record["axial_stress"][-1] * AREA / asked
+    there = moved(rig.built.snapshot())
+    scaled = moved(rig.elastic(load=asked * part))
+    np.testing.assert_allclose(scaled, there, atol=0.01 * np.abs(there).max())
+    means = state.grain_areas @ state.grain_stress / (WIDTH * HEIGHT)
+    np.testing.assert_allclose(means, [-2e6, -3e6, 0.0], atol=0.01 * 3e6)
+
+
+def test_a_disc_lies_against_ever_more_of_its_plates():
+    yade.O.reset()
+    fine = flexpm.Specimen.disc(HEIGHT, THICKNESS, diameters=(4e-4, 6e-4), seed=3)
+    rig = flexpm.rig(flexpm.build(fine))
+    least, little, more = (rig.elastic(way=way) for way in (1e-9, 1e-6, 1.6e-4))
+    # nothing pulls across the gaps before the rim: a disc on its tips is linear
+    assert little.load == pytest.approx(1e3 * least.load, rel=1e-9)
+    assert more.load > 1.2 * 160.0 * little.load > 0.0
+    middle = more.stress_at([(0.0, 0.0)])
+    # stress that a concentrated load would have there [Pa]; grains are few
+    splitting = 2.0 * more.load / (np.pi * HEIGHT * THICKNESS)
+    assert middle.xx[0] == pytest.approx(splitting, rel=0.12)
+    assert middle.yy[0] == pytest.approx(-3.0 * splitting, rel=0.12)
+
+
+def test_the_scene_is_not_changed():
+    rows = []
+    for asks in (False, True):
+        rig = made()
+        if asks:
+            rig.elastic(1e6, way=1e-7)
+        rig.strain_to(2e-5)
+        if asks:
+            rig.elastic(load=100.0)
+            rig.elastic(1e6)
+        rig.strain_to(3e-5)
+        rows.append(rig.record.array.copy())
+    np.testing.assert_array_equal(*rows)
+
+
+def test_what_it_cannot_do_is_refused_in_one_line():
+    rig = made()
+    for asked, told in (
+        (lambda: rig.elastic(-1.0), "elastic: pressure = -1.0 Pa, must be >= 0"),
+        (lambda: rig.elastic(way=np.nan), "elastic: way = nan m"),
+        (lambda: rig.elastic(way=1e-7, load=1.0), "elastic: way = 1e-07, must be left out"),
+        (lambda: rig.elastic(load="a"), "elastic: load = 'a'"),
+    ):
+        with pytest.raises(InputError) as refused:
+            asked()
+        assert str(refused.value).startswith(told), str(refused.value)
+    disc = made("flexible", "disc")
+    with pytest.raises(InputError, match="elastic: pressure on a disc = 1000000 Pa"):
+        disc.elastic(1e6)
+    with pytest.raises(InputError, match="elastic: model = rigid, must be flexible"):
+        made("rigid").elastic()

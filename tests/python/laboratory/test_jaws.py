@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curved jaws around a disc: contact angle by Hertz, the disc's own radius, strips, refusals."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+
+DIAMETER, THICKNESS = 0.03, 0.01
+RADIUS = 0.5 * DIAMETER
+#: Strength that sets the loading rate; nothing breaks here [Pa].
+STRENGTH = 3e7
+DOWN = (0.0, -1.0)
+
+
+def made(model: str = "rigid", **leaves: object) -> flexpm.PartRig:
+    yade.O.reset()
+    disc = flexpm.Specimen.disc(DIAMETER, THICKNESS, diameters=(1.6e-3, 2.4e-3), seed=1)
+    rock = flexpm.materials.load("augig-table2-bilinear", model)
+    strong = {"tensile_strength": 1e12, "cohesion": 1e12, "softening": "brittle"}
+    return flexpm.PartRig(flexpm.build(disc, rock.with_set(strong, model), model), **leaves)
+
+
+def between(rig: flexpm.PartRig, radius: float, **jaws: object):
+    top, low = (rig.jaw((0.0, y), radius, **jaws) for y in (RADIUS, -RADIUS))
+    rig.contact_of("angle", top)
+    rig.drive(top, DOWN, against=low, length=DIAMETER, area=DIAMETER * THICKNESS, strength=STRENGTH)
+    return top, low
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_the_contact_angle_grows_with_the_load(model):
+    rig = made(model)
+    top, low = between(rig, 1.5 * RADIUS)
+    rig.strain_to(1e-2, rate=4.0)
+    load, angle = rig.record["load"], rig.record["angle"]
+    assert np.all(np.diff(load[load > 0.2 * load.max()]) > 0.0)
+    assert np.all(np.diff(angle) >= 0.0)
+    assert 0.0 < angle[len(angle) // 4] < angle[-1] < 1.5
+    assert top.contact_angle == angle[-1]
+    assert top.force[1] == pytest.approx(-low.force[1], rel=0.05)
+    assert top.kind == "jaw"
+
+
+def hertz(load: float, young: float) -> float:
+    """Contact angle of two cylinders, the jaw hollow and rigid, in plane stress [rad]."""
+    relative = 1.0 / (1.0 / RADIUS - 1.0 / (1.5 * RADIUS))
+    half = np.sqrt(4.0 * load * relative / (np.pi * THICKNESS * young))
+    return 2.0 * half / RADIUS
+
+
+def middle_stresses(state: flexpm.Snapshot) -> tuple[float, float]:
+    """Means of the lateral and the axial stress over the middle tenth of the disc [Pa]."""
+    radii, angles = np.meshgrid(0.1 * RADIUS * np.array([0.4, 0.7, 1.0]), np.arange(0.0, 6.2, 0.26))
+    places = np.column_stack([(radii * np.cos(angles)).ravel(), (radii * np.sin(angles)).ravel()])
+    found = state.stress_at(places)
+    return float(np.nanmean(found.xx)), float(np.nanmean(found.yy))
+
+
+@pytest.mark.long
+def test_contact_angle_and_splitting_stress_are_those_of_hertz():
+    """The angle, mean over loads, since it grows node by node: within 5 %; each within a node at
+    both ends. The stress in the middle: within 2 %, that of diametric loads spread as Hertz's.
+    """
+    yade.O.reset()
+    grain = DIAMETER / 40.0
+    sizes = (0.9 * grain, 1.1 * grain)
+    disc = flexpm.Specimen.disc(DIAMETER, THICKNESS, diameters=sizes, seed=1)
+    rock = flexpm.materials.load("augig-table7")
+    stiff = {"normal_stiffness": 100.0 * rock.law("flexible")["normal_stiffness"]}
+    rock = rock.with_set(stiff, "flexible")
+    square = flexpm.Specimen.rectangle(*[0.02] * 2, THICKNESS, diameters=(1e-3, 1.2e-3), seed=1)
+    young = flexpm.elastic(square, rock)["youngs_modulus"]
+    rig = flexpm.PartRig(flexpm.build(disc, rock))
+    top, low = between(rig, 1.5 * RADIUS)
+    ratios = []
+    for angle in np.linspace(0.25, 0.40, 7):
+        load = (angle / hertz(1.0, young)) ** 2
+        state = rig.elastic(load=load)
+        ratios.append(state.contact_angle(top) / angle)
+        assert state.contact_angle(top) == pytest.approx(angle, abs=2.0 * grain / RADIUS)
+        assert state.force(low)[1] == pytest.approx(load, rel=1e-6)
+        splitting = 2.0 * load / (np.pi * DIAMETER * THICKNESS)
+        # a pair of loads at an angle t splits by cos^2 t - 3 sin^2 t; t^2 is (angle / 4)^2 in mean
+        spread = 0.25 * (0.5 * angle) ** 2
+        lateral, axial = middle_stresses(state)
+        assert lateral == pytest.approx(splitting * (1.0 - 3.5 * spread), rel=0.02)
+        assert axial == pytest.approx(-3.0 * splitting * (1.0 - 5.0 / 6.0 * spread), rel=0.04)
+    assert np.mean(ratios) == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_jaw_of_the_discs_own_radius_lies_on_its_angle_at_once():
+    rig = made()
+    top, _ = between(rig, RADIUS, angle=0.5, friction=0.3)
+    rig.strain_to(1e-4)
+    assert rig.record["angle"][-1] == pytest.approx(0.5, rel=0.02)
+    assert top.width == pytest.approx(2.0 * RADIUS * np.sin(0.25), rel=0.02)
+    found = rig.laid["parts"][0]
+    assert found["radius"] == RADIUS
+
+
+def test_a_smooth_jaw_of_the_discs_own_radius_leaves_it_free_to_turn():
+    rig = made()
+    between(rig, RADIUS, angle=0.5)
+    for call in (lambda: rig.strain_to(1e-5), lambda: rig.elastic(way=1e-8)):
+        with pytest.raises(InputError) as error:
+            call()
+        assert "against turning = 0, must be at least 1; " in str(error.value)
+        assert "give a jaw friction" in str(error.value)
+        assert "\n" not in str(error.value)
+
+
+def test_the_static_solution_has_the_force_of_the_steps():
+    rig = made("flexible")
+    top, low = between(rig, RADIUS, angle=0.5, friction=0.3)
+    state = rig.elastic(way=1e-8)
+    assert state.force(low)[1] == pytest.approx(-state.force(top)[1], rel=1e-9)
+    rig.strain_to(1e-3)
+    rig.dwell(60.0, by="way")
+    way = rig.record["displacement"][-1]
+    assert top.force[1] == pytest.approx(state.force(top)[1] * way / 1e-8, rel=0.02)
+
+
+def test_strips_soften_what_a_disc_lies_on():
+    stiffness = []
+    for strip in (None, 1e14, 1e11):
+        rig = made("flexible")
+        between(rig, RADIUS, angle=0.5, friction=0.3, strip=strip)
+        stiffness.append(rig.elastic(way=1e-9).load / 1e-9)
+    assert stiffness[0] > stiffness[1] > 2.0 * stiffness[2]
+    assert rig.laid["parts"][0]["strip"] == 1e11
+
+
+def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
+    rig = made()
+    top = (0.0, RADIUS)
+    for call, message in (
+        (lambda: rig.jaw(top, 0.9 * RADIUS), "jaw: radius = 0.0135 m, must be >= 0.015 m"),
+        (lambda: rig.jaw(top, RADIUS), "jaw: angle = None, must be given for the disc's own"),
+        (lambda: rig.jaw(top, np.inf), "jaw: radius = inf"),
+        (lambda: rig.jaw(top, 1.0, angle=0.0), "jaw: angle = 0.0 rad, must be > 0"),
+        (lambda: rig.jaw(top, 1.0, angle=3.0), "jaw: angle = 3.0 rad, must be <="),
+        (lambda: rig.jaw((0.0, 0.5 * RADIUS), 1.0), "jaw: place = (0, 0.0075) m, must be on"),
+        (lambda: rig.jaw(top, 1.0, friction=-1.0), "jaw: friction = -1.0, must be >= 0"),
+        (lambda: rig.jaw(top, 1.0, strip=0.0), "jaw: strip = 0.0 Pa/m, must be > 0"),
+    ):
+        with pytest.raises(InputError) as error:
+            call()
+        assert str(error.value).startswith(message), str(error.value)
+        assert "\n" not in str(error.value)
+    jaw = rig.jaw(top, 1.5 * RADIUS, friction=0.2)
+    with pytest.raises(InputError, match="friction of a jaw in a soft machine"):
+        rig.drive(jaw, DOWN, machine=1e8)
+    with pytest.raises(InputError, match="jaw: .* lies on plate 0"):
+        rig.jaw(top, 1.5 * RADIUS)
+    yade.O.reset()
+    plain = flexpm.PartRig(flexpm.build(flexpm.Specimen.rectangle(0.02, 0.02, 0.01), None, "rigid"))
+    with pytest.raises(InputError, match="jaw: specimen = no disc"):
+        plain.jaw((0.01, 0.02), 0.05)
+    side = plain.platen(2)
+    with pytest.raises(InputError, match="gauge angle: part = platen .* must be a jaw"):
+        plain.contact_of("angle", side)
+
+
+def test_jaws_in_a_folder_are_made_again_to_the_same_bytes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rig = made(out="first", report=False)
+    between(rig, 1.5 * RADIUS)
+    rig.strain_to(2e-3, rate=4.0)
+    rig.finish()
+    parts = json.loads((tmp_path / "first" / "result.json").read_text())["inputs"]["parts"]
+    assert [part["radius"] for part in parts] == [1.5 * RADIUS] * 2
+    yade.O.reset()
+    assert cli.main(["rerun", "first", "--out", "second", "--no-report"]) == 0
+    for name in ("curve.csv", "final.vtu"):
+        assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()

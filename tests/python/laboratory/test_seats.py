@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts on a spherical seat: a beam on long supports that turn with it; columns; folders."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
+
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+
+LENGTH, HEIGHT, THICKNESS, SPAN = 0.06, 0.010, 0.01, 0.044
+DOWN = (0.0, -1.0)
+
+
+def beam(length: float | None, *, seated: bool = False, model: str = "flexible", **leaves: object):
+    """A beam between two supports and a pin; these, and the rig."""
+    yade.O.reset()
+    made = flexpm.Specimen.rectangle(LENGTH, HEIGHT, THICKNESS, seed=1)
+    name = "augig-table7" if model == "flexible" else "augig-table2-bilinear"
+    rig = flexpm.PartRig(flexpm.build(made, name, model), **leaves)
+    left, right = (
+        rig.support((0.5 * (LENGTH + s * SPAN), 0.0), length, seated=seated) for s in (-1, 1)
+    )
+    pin = rig.support((0.5 * LENGTH, HEIGHT), pinned=True)
+    rig.drive(pin, DOWN, against=[left, right])
+    return rig, left, right
+
+
+def stiffness(length: float | None, *, seated: bool = False) -> float:
+    return beam(length, seated=seated)[0].elastic(way=1e-9).load
+
+
+def test_a_beam_on_long_seats_is_as_stiff_as_on_short_ones():
+    """One that rests on the inner ends of long plates has a shorter span, and is stiffer."""
+    short, long = stiffness(None, seated=True), 0.012
+    assert stiffness(long, seated=True) == pytest.approx(short, rel=0.03)
+    inner = (SPAN / (SPAN - long)) ** 3
+    assert stiffness(long) > 0.5 * (1.0 + inner) * short
+
+
+def test_seats_turn_as_the_ends_of_the_beam_do():
+    """By 3 delta / span, of the part of the deflection that bends the beam."""
+    rig, left, right = beam(0.012, seated=True)
+    rig.angle_of("tilt", left)
+    way = 1e-6
+    state = rig.elastic(way=way)
+    thin = 1.0 + 3.0 * (HEIGHT / SPAN) ** 2  # Timoshenko's, of the shear modulus that granite has
+    assert state.angle(left) == pytest.approx(-3.0 * way / SPAN / thin, rel=0.1)
+    assert state.angle(right) == pytest.approx(-state.angle(left), rel=0.05)
+    rig.strain_to(2e-7)
+    record = rig.record
+    per_way = np.polyfit(record["displacement"], record["tilt"], 1)[0]
+    assert per_way == pytest.approx(state.angle(left) / way, rel=1e-3)
+    slope = np.polyfit(record["displacement"], record["load"], 1)[0]
+    assert slope == pytest.approx(state.load / way, rel=1e-3)
+    assert left.angle == record["tilt"][-1]
+    assert rig.warnings == []
+
+
+def test_a_seated_platen_divides_its_load_evenly():
+    """Two columns on seats, one softer: it bears less, but for a seated platen, by moments."""
+    shares = []
+    for seated in (False, True):
+        yade.O.reset()
+        made = flexpm.Specimen.rectangle(0.016, 0.016, THICKNESS, seed=1)
+        cut = made.with_joints(
+            {"slit": [[0.008, -1e-3], [0.008, 0.017]], "soft": [[0.008, 0.008], [0.017, 0.008]]}
+        )
+        law = {"normal_stiffness": 2e12, "shear_stiffness": 1e12, "friction": 0.5}
+        law |= {"tensile_strength": 1e9, "cohesion": 1e9}
+        rock = flexpm.materials.load("augig-table7").with_set("joint.slit.open=true")
+        rock = rock.with_set({f"joint.soft.{key}": value for key, value in law.items()})
+        rig = flexpm.PartRig(flexpm.build(cut, rock))
+        low = [rig.support((x, 0.0), 7.9e-3, friction=10.0, seated=True) for x in (0.004, 0.012)]
+        top = rig.platen(2, seated=seated)
+        rig.drive(top, DOWN, against=low)
+        state = rig.elastic(way=1e-7)
+        left, right = (state.force(part)[1] for part in low)
+        shares.append(left / (left + right))
+    assert shares[0] > 0.58
+    middles = [0.5 * (ends[0][0] + ends[1][0]) for ends in (one["face"] for one in rig.parts[:2])]
+    even = (middles[1] - 0.008) / (middles[1] - middles[0])
+    assert shares[1] == pytest.approx(even, rel=1e-6)
+    assert state.force(low[0])[1] + state.force(low[1])[1] == pytest.approx(state.load, rel=1e-9)
+
+
+def test_what_has_no_seat_is_not_read_and_a_folder_tells_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rig, left, _ = beam(0.012, seated=True, model="rigid", out="first", report=False)
+    with pytest.raises(InputError, match="gauge tilt: part = plate at .*, must be seated"):
+        rig.angle_of("tilt", rig._all_parts[2])
+    with pytest.raises(InputError, match="support: seated = 1, must be"):
+        rig.support((0.0, 0.5 * HEIGHT), seated=1)
+    rig.angle_of("tilt", left)
+    rig.strain_to(1e-7)
+    rig.finish()
+    told = json.loads((tmp_path / "first" / "result.json").read_text())["inputs"]
+    assert [part.get("seated", False) for part in told["parts"]] == [True, True, False]
+    yade.O.reset()
+    assert cli.main(["rerun", "first", "--out", "second", "--no-report"]) == 0
+    for name in ("curve.csv", "final.vtu"):
+        assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()
+    assert "tilt" in (tmp_path / "first" / "curve.csv").read_text().splitlines()[0]
+
+
+@pytest.mark.parametrize("seated", [False, True])
+def test_energies_close_with_seats(seated):
+    rig, *_ = beam(0.012, seated=seated, model="rigid")
+    rig.strain_to(2e-6)
+    rig.relax()
+    energies = rig.built.solver.energies()
+    given = energies.pop("boundary_work") + energies.pop("initial_energy")
+    assert np.isclose(sum(energies.values()), given, rtol=1e-6)
