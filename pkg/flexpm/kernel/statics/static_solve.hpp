@@ -28,7 +28,7 @@ struct StaticCase {
     std::vector<Vector> plates;            ///< displacement of each plate, or crosshead [m]
     std::vector<double> angles;            ///< of each node set that floats, about z [rad]
     const Array<double>* loads = nullptr;  ///< as for solve_static()
-    std::vector<double> turns;             ///< of each plate about its seat [rad]; none: 0
+    std::vector<double> turns = {};        ///< of each plate about its seat [rad]; none: 0
 };
 
 /// solve_static() for several cases by one factorisation, with the springs of contacts as given.
