@@ -115,8 +115,26 @@ def _source(packed: AnySpec | None, file: Path | None, options: Table) -> Specim
     return found
 
 
+def side_pressures(options: Table) -> Table:
+    """Both pressures of a box by their names, where one option has them between a comma.
+
+    Raises:
+        InputError: if the second one is given twice.
+    """
+    first, *second = options["confinement"]
+    given = options["second_confinement"]
+    if second and given is not None:
+        raise InputError(
+            f"second_confinement = {given:g} Pa, must be left out beside confinement = "
+            f"{first:g},{second[0]:g} Pa"
+        )
+    return {"confinement": first, "second_confinement": second[0] if second else given}
+
+
 def run_spec(test: str, options: Table, chosen: Material, specimen: SpecimenSource) -> RunSpec:
     """The run that the options describe."""
+    if isinstance(options.get("confinement"), tuple):
+        options = options | side_pressures(options)
     given = options | {"points": int(options["points"])}
     spec = RunSpec.from_options(test, given, chosen, specimen.spec)
     refuse_unused(test)

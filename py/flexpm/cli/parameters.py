@@ -31,6 +31,23 @@ class Quantity(click.ParamType):
         return require_number(label_of(param), number, self.bounds, self.unit, shown=str(value))
 
 
+class Pressures(Quantity):
+    """One pressure, or two between a comma."""
+
+    name = "pressures"
+
+    def convert(  # type: ignore[override]  # one or two
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, ...]:
+        """Return one or two numbers, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = str(value).split(",")
+        if len(parts) > 2:
+            raise InputError(f"{label_of(param)} = {value} Pa, must be one pressure or two: P,P")
+        return tuple(super(Pressures, self).convert(part.strip(), param, ctx) for part in parts)
+
+
 class Rate(Quantity):
     """A factor on the loading rate, or ``auto``."""
 

@@ -23,7 +23,7 @@ from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
-from .parameters import Quantity
+from .parameters import Pressures
 from .solids import shape_options
 
 if TYPE_CHECKING:
@@ -53,11 +53,12 @@ _discard_option = click.option(
 @cli_options.cut_options
 @click.option(
     "--confinement",
-    type=Quantity("Pa", NOT_NEGATIVE),
-    default=RunSpec.confinement,
-    metavar="PA",
+    type=Pressures("Pa", NOT_NEGATIVE),
+    default=str(RunSpec.confinement),
+    metavar="PA[,PA]",
     show_default=True,
-    help=f"Lateral pressure, for {' and '.join(names(lambda kind: kind.confined))} [Pa].",
+    help=f"Lateral pressure, for {' and '.join(names(lambda kind: kind.confined))}; with a comma "
+    "that on the sides of a box across x, and the --second-confinement [Pa].",
 )
 @cli_options.loading_options
 @cli_options.range_option

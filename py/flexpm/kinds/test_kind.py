@@ -57,7 +57,9 @@ class TestKind:
     # What is tested
     shape: str = "rectangle"  #: a kind of specimen
     solids: tuple[str, ...] = ()  #: kinds of space that it takes, too
-    solid_hint: str = ""  #: what serves a user who wants one, if it takes none
+    other_hint: str = (
+        ""  #: what serves a user who has a solid, or of a solid's test one of the plane
+    )
     sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
     models: tuple[str, ...] = MODELS
     #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
@@ -107,6 +109,7 @@ class TestKind:
     quasi_static: bool = True
     regains: bool = False  #: stress that comes back once a specimen is broken does not count
     pulled: bool = False  #: cracks follow the tension all over the specimen
+    is_core: bool = False  #: a laboratory reads off where its cracks begin, see ``results.core``
     no_constants: tuple[str, ...] = ()  #: slopes of its record that are none of the rock
     #: What it measures beside its peak: keys of result.json, from the record and the peak stress.
     measure: Callable[[Frame, Columns, float | None], Mapping[str, float | None]] | None = None

@@ -18,6 +18,7 @@ from ..results.vtu import write_vtu
 from ..rigs.fitting import rig as rig_of
 from ..rigs.frames import FrameWriter, show_frames
 from ..rigs.rig import TestRig
+from ..rigs.solids.end_rig import EndRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
 from ..runs.loading_rate import Loading
@@ -161,7 +162,11 @@ def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) ->
 
 
 def _confine(rig: TestRig, spec: RunSpec) -> None:
-    rig.confine(spec.confinement)
+    second = spec.own.get("second_confinement")
+    if isinstance(rig, EndRig) and isinstance(second, float):
+        rig.confine(spec.confinement, second)
+    else:
+        rig.confine(spec.confinement)
     rig.built.damping = spec.local_damping
 
 

@@ -64,6 +64,7 @@ def run(
     Args:
         test: ``uniaxial``: compression between frictionless ends; ``tension``: direct tension of
             the same ends; ``biaxial``: compression under `confinement`, applied to all sides first;
+            ``triaxial``: the same of solids, ``second_confinement`` on front and back of a box;
             ``brazilian``: a disc between two plates, whose axial stress is 2 P / (pi D t), P the
             force, D the diameter, t the thickness; ``bending``: a beam on two supports, pressed in
             the middle; ``scb``: half a disc with a notch on two supports, pressed on top;
@@ -73,7 +74,8 @@ def run(
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc; for ``uniaxial``
-            and ``tension`` also a box or a cylinder, z is the axial direction.
+            and ``tension`` also, for ``triaxial`` only a box or a cylinder, z is the axial
+            direction.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.

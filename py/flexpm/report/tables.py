@@ -17,6 +17,9 @@ if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
     from ..results.strength import Envelope
 
+#: Stress of crack initiation over the peak that granites show [-], uniaxial and under a pressure:
+#: Nicksiar and Martin 2013, 376 tests.
+_GRANITES, _CONFINED_GRANITES = (0.42, 0.47), (0.50, 0.54)
 #: Figures of a specimen: words, factor to the unit, unit. The rest is counts named by their keys.
 _FIGURES = {
     "uncollapsed_contacts": ("contacts before short edges were removed", 1.0, ""),
@@ -81,6 +84,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("Poisson's ratio", _poissons_ratio(result)),
         (words_of_test(result.test).peak, scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
+        *_core(result),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
         ("cracked points", counts),
         ("first tensile, shear crack", _first_cracks(result)),
@@ -118,8 +122,11 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
 def test_text(result: Result) -> str:
     """Test, model and material in one line."""
     name = name_of(result.material.get("name", ""))
-    pressure = (result.inputs or {}).get("confinement", result.confinement)
-    confined = f" under {1e-6 * pressure:g} MPa" if pressure else ""
+    given = result.inputs or {}
+    pressure = given.get("confinement", result.confinement)
+    second = given.get("second_confinement")
+    told = [f"{1e-6 * one:g}" for one in (pressure, second) if one is not None]
+    confined = f" under {' and '.join(told)} MPa" if pressure or second else ""
     return f"{result.test}{confined}, {result.model} model, {name}"
 
 
@@ -140,6 +147,25 @@ def size_text(result: Result) -> str:
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
+
+
+def _core(result: Result) -> list[tuple[str, str]]:
+    """Where the cracks of a core begin, beside what granites show: not fitted."""
+    if not kind_of(result.test).is_core:
+        return []
+    deviator = (result.peak_stress or 0.0) - (result.confinement or 0.0)
+
+    def told(value: float | None, how: str = "") -> str:
+        part = f" ({value / deviator:.2f} of the peak)" if value and deviator > 0.0 else ""
+        return scaled(value, 1e-6, "MPa") + part + how
+
+    low, high = _CONFINED_GRANITES if result.confinement else _GRANITES
+    initiation = told(result.crack_initiation_stress, " by cracks, ")
+    initiation += told(result.crack_initiation_stress_volumetric, " by volume; ")
+    return [
+        ("crack initiation", f"{initiation}granites {low:.2f} to {high:.2f}"),
+        ("crack damage", told(result.crack_damage_stress)),
+    ]
 
 
 def _overlap(result: Result) -> list[tuple[str, str]]:

@@ -21,6 +21,7 @@ _USUAL: dict[str, tuple[float, float, str]] = {
     "friction": (0.0, 5.0, "1, the tangent of an angle; that of 30 degrees is 0.577"),
     "density": (100.0, 3e4, "kg/m3"),
     "confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
+    "second_confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
     "normal_stress": (1e3, 1e11, "Pa; 1 MPa is 1e6"),
     "width": (1e-6, 5.0, "m; 20 mm is 0.02"),
     "height": (1e-6, 5.0, "m; 40 mm is 0.04"),

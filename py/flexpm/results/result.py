@@ -14,7 +14,7 @@ from ..files import Table, json_text, load_json, output_folder, write_text
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Rig
 from ..notebook import Shown
-from . import doubts, measures, waves
+from . import core, doubts, measures, waves
 from .cracks import MODES, AnyCrack, cracks_csv, read_cracks
 from .emission import AnyEvent, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
@@ -79,6 +79,11 @@ class Result(Shown):
     tensile_onset_stress: float | None = None  #: axial stress then [Pa]
     shear_onset_strain: float | None = None  #: the same of shear cracks [-]
     shear_onset_stress: float | None = None  #: axial stress then [Pa]
+    #: deviator at which 1 % of the cracks at the peak of a compressed core are there [Pa]
+    crack_initiation_stress: float | None = None
+    #: deviator from which crack volumetric strain exceeds 2 % of the elastic one [Pa]
+    crack_initiation_stress_volumetric: float | None = None
+    crack_damage_stress: float | None = None  #: deviator at the extreme of volumetric strain [Pa]
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
@@ -196,6 +201,17 @@ class Result(Shown):
         largest = doubts.LARGEST_GROWTH_OF_JOINTS.get(self.model, math.inf)
         fast = fast or (growth is not None and growth > largest)
         self.status = self._status(diverged, peak, fast)
+
+    def measure_core(self, *, solid: bool) -> None:
+        """Fill what a laboratory reads off a compressed core; a solid's record gets its volume."""
+        record, moduli = self.curve, (self.youngs_modulus, self.poissons_ratio)
+        self.crack_initiation_stress = core.crack_initiation_stress(record)
+        self.crack_initiation_stress_volumetric = core.crack_initiation_stress_volumetric(
+            record, *moduli, solid=solid
+        )
+        self.crack_damage_stress = core.crack_damage_stress(record, solid=solid)
+        if solid:
+            self.curve = core.with_volume(record)
 
     def measure_wave(self, wave: str, distance: float) -> None:
         """Fill the speed of a pulse.

@@ -139,7 +139,7 @@ class GrainRig(TestRig):
         """
         now, energies = self.built.solver.balance(), self.built.solver.energies()
         mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
-        missing = part_of(np.hypot(*now["missing_force"]), self._pressing_force())
+        missing = part_of(np.hypot.reduce(now["missing_force"]), self._pressing_force())
         stress = part_of(np.abs(mean - outside).max(), np.abs(outside).max())
         # a product of two velocities is negative where a node turns within a step
         moving = abs(energies["kinetic_energy"])

@@ -165,10 +165,11 @@ def _check_test(run: RunInputs) -> None:
     require_joints(run.specimen.joints_with_law, laws)
     require_shape(run.kind, run.specimen.kind)
     if not run.kind.confined and run.confinement != 0.0:
-        raise InputError(
-            f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}"
-            f"{'; triaxial is still to come' if run.is_solid else run.kind.confine_hint}"
-        )
+        hint = run.kind.confine_hint
+        if run.is_solid:
+            shape = run.specimen.kind
+            hint = f"; use {names(lambda kind: kind.confined and shape in kind.solids)[0]}"
+        raise InputError(f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}{hint}")
 
 
 def require_shape(kind: TestKind, shape: str) -> None:
@@ -178,7 +179,7 @@ def require_shape(kind: TestKind, shape: str) -> None:
         InputError: naming that of the plane, which it takes.
     """
     if shape not in (kind.shape, *kind.solids):
-        hint = kind.solid_hint if is_solid(shape) else ""
+        hint = kind.other_hint if is_solid(shape) != is_solid(kind.shape) else ""
         raise InputError(f"run: specimen = {shape}, must be a {kind.shape} for {kind.name}{hint}")
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..files import Table, load_toml
 from ..kinds.registry import ELASTIC, KINDS, TESTS, names
+from ..kinds.test_kind import TestKind
 from ..materials import interface
 from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
 from ..require import (
@@ -34,6 +35,7 @@ from ..require import (
 from ..results import strength
 from ..runs import input_names
 from ..specimens.checks import require_seed
+from ..specimens.space.any_spec import is_solid
 from .study import MOST_RUNS, flat
 
 #: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each
@@ -53,8 +55,18 @@ MEASURES: dict[str, tuple[str, ...]] = {
     "hoek_brown_strength": ("envelope",),
     "hoek_brown_m": ("envelope",),
 }
-#: Test of an envelope without and with a confinement.
-_OF_ENVELOPE = {KINDS[test].confined: test for test in names(lambda kind: kind.envelope)}
+
+
+def _of_envelope_in(*, space: bool) -> dict[bool, str]:
+    """Test of an envelope without and with a confinement, in the plane or in space."""
+
+    def fits(kind: TestKind) -> bool:
+        return kind.envelope and (bool(kind.solids) if space else not is_solid(kind.shape))
+
+    return {KINDS[test].confined: test for test in names(fits)}
+
+
+_OF_ENVELOPE = {space: _of_envelope_in(space=space) for space in (False, True)}
 _TABLES = ("calibration", "common", "screen", "verify", "target", "free", "ratio")
 _ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "confinements")
 _DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
@@ -146,7 +158,8 @@ class Calibration:
         """Tests with their confinements [Pa] that a measure needs."""
         tests = MEASURES[target.name]
         if tests == ("envelope",):
-            return [(_OF_ENVELOPE[bool(c)], c) for c in self.confinements]
+            tests_of = _OF_ENVELOPE[is_solid(self.screen.options.get("shape", ""))]
+            return [(tests_of[bool(c)], c) for c in self.confinements]
         return [(test, 0.0) for test in tests]
 
     def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:

@@ -5,10 +5,10 @@
 
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
-#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include "support/specimens.hpp"
 

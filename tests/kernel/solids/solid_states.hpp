@@ -5,9 +5,9 @@
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
-#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include "reference/solid_samples.hpp"
 

@@ -13,8 +13,8 @@ NUMBERS = st.sampled_from(
     ["0", "1", "2", "-1", "1e-9", "0.5", "1e9", "1e-400", "nan", "inf", "0x1", "٣", "1,2", "", "a"]
 )
 WORDS = st.sampled_from(
-    """uniaxial tension biaxial brazilian flexible rigid inner jcfpm static adaptive constant
-    waiting box cylinder p s
+    """uniaxial tension biaxial triaxial brazilian flexible rigid inner jcfpm static adaptive
+    constant waiting box cylinder p s
     axial lateral displacement cmod gif augig-table7 augig-table2-brittle
     nofile.toml""".split()
 )
@@ -25,7 +25,7 @@ KEYS = st.sampled_from(
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
     --thickness --depth --origin --diameters --points --gravity --diameter --length --span --notch
-    --distance --normal-stress
+    --distance --normal-stress --second-confinement
     --max-displacement --network-seed --seeds --frames --workers --damping
     --interaction-range --pixel --edge --smallest
     --halvings --misorientation --scale --short-edge --confinements""".split()
@@ -47,7 +47,11 @@ COMMANDS = st.sampled_from(
     [
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
         *(("run", test) for test in ("bending", "scb", "shear", "punch", "sonic")),
-        *(("run", test, "--shape", "box") for test in ("uniaxial", "tension", "biaxial")),
+        *(
+            ("run", test, "--shape", "box")
+            for test in ("uniaxial", "tension", "biaxial", "triaxial")
+        ),
+        ("run", "triaxial"),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box", "cylinder")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
@@ -65,6 +69,8 @@ SIZES = {
     "run uniaxial --shape box": [*BOX, *FEW],
     "run tension --shape box": [*BOX, *FEW],
     "run biaxial --shape box": [*BOX, *FEW],
+    "run triaxial --shape box": [*BOX, *FEW],
+    "run triaxial": ["--diameter", "0.009", "--height", "0.012", *FEW],
     "specimen cylinder": ["--diameter", "0.009", "--height", "0.012", "--out", "made"],
     "run brazilian": ["--diameter", "0.012", *FEW],
     "run bending": [*BEAM, *FEW],

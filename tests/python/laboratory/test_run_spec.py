@@ -29,7 +29,9 @@ from flexpm.runs.run_spec import (
     RunSpec,
     described,
 )
-from flexpm.specimens.spec import SIZES, SpecimenSpec
+from flexpm.specimens.space.any_spec import SIZES, is_solid
+from flexpm.specimens.space.spec import SolidSpec
+from flexpm.specimens.spec import SpecimenSpec
 
 POSITIVE = st.floats(1e-6, 1e6)
 CHECKSUMS = st.text("0123456789abcdef", min_size=16, max_size=16)
@@ -54,6 +56,17 @@ def specimens(draw, kind: str) -> SpecimenSpec:
 
 
 @st.composite
+def solids(draw, kind: str) -> SolidSpec:
+    """Packed or given spheres in a solid of a kind."""
+    values = {name: draw(st.floats(0.01, 0.03)) for name in SIZES[kind]}  # memory bears its grains
+    smallest = draw(st.floats(1e-3, 2e-3))
+    values["diameters"] = (smallest, smallest * draw(st.floats(1.0, 2.0)))
+    values["porosity"] = draw(st.floats(0.0, 0.9))
+    values["seed"] = draw(st.integers(0, 2**64 - 1))
+    return SolidSpec(kind, **values)
+
+
+@st.composite
 def specs(draw) -> RunSpec:
     """Any run that can be asked for."""
     test = draw(st.sampled_from((*TESTS, ELASTIC)))
@@ -61,7 +74,8 @@ def specs(draw) -> RunSpec:
     grains = model in GRAIN_MODELS
     loaded = test != "sonic"
     unused = UNUSED[test]
-    dynamic = not loaded or ("dynamic" not in unused and draw(st.booleans()))
+    of_plane = not is_solid(shape_of(test))
+    dynamic = not loaded or (of_plane and "dynamic" not in unused and draw(st.booleans()))
     cohesion = draw(st.floats(1e7, 3e7))
     material = materials.load(None, model).with_set([f"cohesion={cohesion!r}"], model)
     starts = ["", "rest"]
@@ -70,21 +84,27 @@ def specs(draw) -> RunSpec:
     adapts = grains and not dynamic and test != ELASTIC
     waits = adapts and not model.startswith("inner") and not is_brittle(described(material, model))
     loadings = [name for name in LOADINGS if waits or name != "waiting"] if adapts else ["constant"]
-    specimen = draw(specimens(shape_of(test)))
+    shape = shape_of(test)
+    solid = is_solid(shape)
+    if solid:
+        shape = draw(st.sampled_from(kind_of(test).solids))
+    specimen = draw(solids(shape) if solid else specimens(shape))
     if test == "sonic":  # of 50 grains at least
         specimen = dataclasses.replace(specimen, height=draw(st.floats(0.2, 1.0)))
     own = {}
     if test == "punch":  # of ten grains at least
         specimen = dataclasses.replace(specimen, width=0.2, height=draw(st.floats(0.1, 1.0)))
         own = {"distance": draw(st.none() | st.floats(0.04, 0.16))}
+    if shape == "box":
+        own = {"second_confinement": draw(st.none() | st.floats(0.0, 1e9))}
     spheres = st.none() | st.floats(1.0, 2.0) if model in SPHERE_MODELS else st.none()
     return RunSpec(
         test,
         specimen,
         described(material, model),
         model,
-        points=draw(st.sampled_from(POINTS)) if grains else 3,
-        mesh=draw(st.sampled_from(MESHES)) if grains else "refined",
+        points=draw(st.sampled_from(POINTS)) if grains and not solid else 3,
+        mesh=draw(st.sampled_from(MESHES)) if grains and not solid else "refined",
         confinement=draw(st.floats(0.0, 1e9)) if kind_of(test).confined else 0.0,
         rate=1.0 if "rate" in unused else draw(POSITIVE),
         max_strain=None if "max_strain" in unused else draw(st.none() | POSITIVE),
@@ -119,6 +139,13 @@ class LaterSpecimen(SpecimenSpec):
 
 
 @dataclasses.dataclass(frozen=True)
+class LaterSolid(SolidSpec):
+    """The same of a solid."""
+
+    temperature: float = 20.0
+
+
+@dataclasses.dataclass(frozen=True)
 class LaterSpec(RunSpec):
     """Inputs of a later version, which has learnt to wet."""
 
@@ -131,7 +158,8 @@ def test_a_new_option_leaves_all_keys_as_they_are(spec):
     def fields(of: Any) -> dict[str, Any]:
         return {field.name: getattr(of, field.name) for field in dataclasses.fields(of)}
 
-    specimen = LaterSpecimen(**fields(spec.specimen))
+    later_type = LaterSolid if isinstance(spec.specimen, SolidSpec) else LaterSpecimen
+    specimen = later_type(**fields(spec.specimen))
     later = LaterSpec(**fields(spec) | {"specimen": specimen})
     assert later.key() == spec.key()
     assert dataclasses.replace(later, humidity=0.4).key() != spec.key()

@@ -12,6 +12,7 @@ from flexpm.materials import material as materials
 from flexpm.results import doubts
 from flexpm.runs.input_names import models_of, shape_of
 from flexpm.runs.run_spec import TESTS, RunSpec, described
+from flexpm.specimens.space.any_spec import spec_type
 from flexpm.specimens.spec import SpecimenSpec
 
 SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"
@@ -24,7 +25,8 @@ def test_no_preset_and_no_default_is_doubtful(test, preset):
     for model in models_of(test):
         chosen = materials.load(preset, model)
         if materials.elastic_set_name(model) in chosen.elastic:
-            specimen = SpecimenSpec(shape_of(test))
+            shape = shape_of(test)
+            specimen = spec_type(shape)(shape)
             spec = RunSpec(test, specimen, described(chosen, model), model)
             assert doubts.of_inputs(spec.to_json()) == []
 

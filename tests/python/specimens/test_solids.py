@@ -141,7 +141,7 @@ def test_wrong_input_is_refused_in_one_line(make, message):
 @pytest.mark.parametrize(
     ("use", "message"),
     [
-        (lambda solid: flexpm.run("biaxial", solid), "must be a rectangle for biaxial; triaxial"),
+        (lambda solid: flexpm.run("biaxial", solid), "rectangle for biaxial; triaxial"),
         (lambda solid: flexpm.run("brazilian", solid), "must be a disc for brazilian"),
         (lambda solid: flexpm.compare("shear", solid), "must be a rectangle for shear"),
         (lambda solid: flexpm.run("uniaxial", solid, model="inner"), "one of flexible, rigid"),
@@ -216,8 +216,15 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
         ("uniaxial --shape box --model inner", "must be one of flexible, rigid"),
         ("uniaxial --shape box --dynamic", "must be left out for a box"),
         ("uniaxial --shape box --control lateral", "must be left out for a box"),
-        ("uniaxial --shape box --confinement 1e6", "triaxial is still to come"),
-        ("biaxial --shape cylinder --confinement 1e6", "triaxial, the test of solids under"),
+        ("uniaxial --shape box --confinement 1e6", "must be 0 for uniaxial; use triaxial"),
+        ("biaxial --shape cylinder --confinement 1e6", "triaxial is the test of solids"),
+        ("triaxial --width 0.02", "must not be given for a cylinder"),
+        ("triaxial --confinement 1e6,2e6", "second_confinement = 2e+06 Pa, must be left out for a"),
+        ("triaxial --confinement 1e6,2e6,3e6", "must be one pressure or two: P,P"),
+        ("triaxial --confinement -1", "confinement = -1 Pa, must be >= 0"),
+        ("triaxial --shape box --confinement 1,2 --second-confinement 3", "left out beside"),
+        ("triaxial --shape box --second-confinement -3", "must be >= 0"),
+        ("uniaxial --second-confinement 3", "second_confinement = 3.0 Pa, must not be given for"),
         ("uniaxial --shape cylinder --diameter 5 --height 10", "GB of memory, must be at most"),
     ],
 )

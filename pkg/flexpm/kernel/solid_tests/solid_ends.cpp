@@ -26,12 +26,40 @@ std::vector<int> need_nodes(const SolidState& s, SolidSide side)
     return nodes;
 }
 
+/// Node on the bottom next to a place; of rigid grains the centre of one that lies there.
+int node_near(const SolidState& s, double x, double y)
+{
+    int nearest = -1;
+    double least = 0.0;
+    const auto look = [&](int node) {
+        const Vector r = space_vector(s.grains.reference, node);
+        const double way = (r.x - x) * (r.x - x) + (r.y - y) * (r.y - y);
+        if (nearest >= 0 && way >= least) return;
+        nearest = node;
+        least = way;
+    };
+    for (std::size_t t = 0; t < s.surface.side.size(); ++t) {
+        if (s.surface.side[t] != static_cast<int>(SolidSide::bottom)) continue;
+        if (!s.bodies.empty()) {
+            look(s.grains.centre(s.surface.grain[t]));
+            continue;
+        }
+        for (int n : s.surface.nodes[t])
+            look(n);
+    }
+    return nearest;
+}
+
+bool is_held(const SolidState& s, SolidSide side)
+{
+    if (!s.bodies.empty()) return find_plate(s, side) >= 0;
+    const std::vector<int> nodes = side_nodes(s, side);
+    return !nodes.empty() && s.grains.prescribed[s.grains.component(nodes.front(), axial)];
+}
+
 bool is_held(const SolidState& s)
 {
-    if (!s.bodies.empty())
-        return find_plate(s, SolidSide::bottom) >= 0 && find_plate(s, SolidSide::top) >= 0;
-    const std::vector<int> top = side_nodes(s, SolidSide::top);
-    return !top.empty() && s.grains.prescribed[s.grains.component(top.front(), axial)];
+    return is_held(s, SolidSide::bottom) && is_held(s, SolidSide::top);
 }
 
 void need_held(const SolidState& s)
@@ -46,6 +74,21 @@ void set_top_velocity(SolidState& s, double velocity)
     } else {
         s.plates[find_plate(s, SolidSide::top)].velocity = { 0.0, 0.0, velocity };
     }
+}
+
+double height_of(const SolidState& s)
+{
+    const auto z = [&](SolidSide side) {
+        return s.grains.reference[s.grains.component(side_nodes(s, side).front(), axial)];
+    };
+    return z(SolidSide::top) - z(SolidSide::bottom);
+}
+
+/// Let damping act on all motion.
+void forget_loading(SolidState& s)
+{
+    std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
+    std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
 }
 
 /// What held nodes do in the half step that begins.
@@ -144,13 +187,35 @@ void hold_ends(SolidState& s, bool pulled)
     for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
         need_nodes(s, side);
     if (is_held(s)) refuse("held ends", 2.0, "", "must be 0; the ends are held already");
-    for (const SolidSide side : { SolidSide::bottom, SolidSide::top }) {
-        if (s.bodies.empty()) {
-            prescribe(s, side_nodes(s, side), axial, 0.0);
-        } else {
-            add_end_plate(s, side, pulled);
-        }
+    for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
+        hold_end(s, side, pulled);
+}
+
+void hold_end(SolidState& s, SolidSide side, bool pulled)
+{
+    if (is_held(s, side)) return;
+    if (s.bodies.empty()) {
+        prescribe(s, need_nodes(s, side), axial, 0.0);
+    } else {
+        add_end_plate(s, side, pulled);
     }
+}
+
+void hold_against_sliding(SolidState& s)
+{
+    const std::vector<int> bottom = need_nodes(s, SolidSide::bottom);
+    Vector middle;
+    double farthest = 0.0;
+    for (int n : bottom)
+        middle = middle
+            + (1.0 / static_cast<double>(bottom.size())) * space_vector(s.grains.reference, n);
+    for (int n : bottom)
+        farthest = std::max(farthest, s.grains.reference[n] - middle.x);
+    const int centre = node_near(s, middle.x, middle.y);
+    prescribe(s, { centre }, 0, 0.0);
+    prescribe(s, { centre }, 1, 0.0);
+    const int other = node_near(s, middle.x + 0.5 * farthest, middle.y);
+    if (other != centre) prescribe(s, { other }, 1, 0.0);
 }
 
 void hold_side(SolidState& s, int side, int axis)
@@ -171,10 +236,7 @@ void start_ends(SolidState& s, const SolidField& field, double strain, double ve
     check_finite("velocity of the top", velocity, "m/s");
     check_finite("strain of the start", strain, "");
     check_positive("time step", dt, "s");
-    const auto z = [&](SolidSide side) {
-        return s.grains.reference[s.grains.component(side_nodes(s, side).front(), axial)];
-    };
-    const double height = z(SolidSide::top) - z(SolidSide::bottom);
+    const double height = height_of(s);
     if (!s.bodies.empty()) {
         s.plates[find_plate(s, SolidSide::top)].displacement = { 0.0, 0.0, strain * height };
         s.plates[find_plate(s, SolidSide::bottom)].displacement = {};
@@ -182,9 +244,21 @@ void start_ends(SolidState& s, const SolidField& field, double strain, double ve
     set_top_velocity(s, velocity);
     begin_from(s, field, strain, velocity / height);
     update_prescribed_work(s, dt);
-    if (undamped) return;
-    std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
-    std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
+    if (!undamped) forget_loading(s);
+}
+
+void take_over_ends(
+    SolidState& s, const SolidField& field, double velocity, bool undamped, double dt)
+{
+    need_held(s);
+    check_finite("velocity of the top", velocity, "m/s");
+    check_positive("time step", dt, "s");
+    const double rate = velocity / height_of(s), before = kinetic_of_velocities(s);
+    set_top_velocity(s, velocity);
+    add_motion(s, field, rate);
+    update_prescribed_work(s, dt);
+    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+    if (!undamped) forget_loading(s);
 }
 
 void drive_top(SolidState& s, double velocity, double dt)

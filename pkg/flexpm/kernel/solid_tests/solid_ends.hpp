@@ -5,7 +5,7 @@
 /// positive.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 namespace flexpm {
 
@@ -13,6 +13,16 @@ namespace flexpm {
 /// @param pulled  plates of rigid grains are bonded
 /// @throws std::invalid_argument  if the ends are held already, or there are none
 void hold_ends(SolidState& s, bool pulled);
+
+/// Take hold of one of them, if it is not held yet. Grains under a pressure go on to bear it: a
+/// plate that is laid on them presses as much (deviation D93).
+/// @throws std::invalid_argument  if it has no nodes
+void hold_end(SolidState& s, SolidSide side, bool pulled);
+
+/// Keep a specimen under pressures from sliding and turning between smooth ends, which nothing else
+/// does once it is cracked: a node next to the middle of the bottom stays along x and y, another
+/// one along y; of rigid grains their centres (deviation D93).
+void hold_against_sliding(SolidState& s);
 
 /// Hold the nodes of a side along an axis (0: x), as a smooth plane that they may not leave does
 /// along its normal. Front and back held along y make plane strain of a box.
@@ -30,6 +40,12 @@ void hold_side(SolidState& s, int side, int axis);
 /// @throws std::invalid_argument  as begin_from(), or if ends are not held
 void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,
     bool undamped, double dt);
+
+/// Begin from the present state, as of a specimen that bears pressures, with the motion that a
+/// linear solution adds at the top's velocity. The kinetic energy that this gives is work of the
+/// boundary. Arguments and errors as of start_ends().
+void take_over_ends(
+    SolidState& s, const SolidField& field, double velocity, bool undamped, double dt);
 
 /// Move the top at another velocity from now on, and with it the motion that the loading gives, so
 /// that the change raises no wave. The kinetic energy that this gives is work of the boundary.

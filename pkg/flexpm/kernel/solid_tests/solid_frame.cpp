@@ -3,8 +3,9 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
-#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -152,6 +153,7 @@ SolidFrame solid_frame(const SolidState& s, Sense sense)
     frame.strains = [sign, sense](const SolidState& now) {
         return TestStrains { sign * axial_strain(now), lateral_strain(now, sense) };
     };
+    frame.confinement = least_side_pressure;
     return frame;
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
-#include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 namespace flexpm {
 

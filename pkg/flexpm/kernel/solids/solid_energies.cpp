@@ -63,7 +63,7 @@ Energies energies(const SolidState& s)
     add_points(s, e);
     e.drag = sum_of_first(s.ledger.drag_work);
     e.damping = sum_of_first(s.ledger.damping_work) - e.drag;
-    e.boundary_work = sum_of_first(s.ledger.prescribed_work);
+    e.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
     for (const Plate& plate : s.plates) {
         e.elastic += solid_plate_energy(plate);
         e.boundary_work += plate.boundary_work;
@@ -102,7 +102,7 @@ Dissipation dissipation(const SolidState& s)
             d.friction += area * c.state(contact, p, FaceRow::friction_energy);
         }
     }
-    d.boundary_work = sum_of_first(s.ledger.prescribed_work);
+    d.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
     for (const Plate& plate : s.plates)
         d.boundary_work += plate.boundary_work;
     return d;

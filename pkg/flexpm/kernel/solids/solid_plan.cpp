@@ -108,6 +108,24 @@ void find_presses(SolidState& s)
     s.plan.first_press.push_back(static_cast<int>(s.plan.presses.size()));
 }
 
+/// Surface triangles of each block of grains, if pressures act on them.
+void find_pressed(SolidState& s)
+{
+    SolidPlan& plan = s.plan;
+    plan.first_pressed.clear();
+    plan.pressed.clear();
+    plan.pressure_works.assign(s.surface.pressure.size(), 0.0);
+    if (s.surface.pressure.empty()) return;
+    std::vector<std::vector<int>> of_block(s.grains.blocks());
+    for (std::size_t t = 0; t < s.surface.pressure.size(); ++t)
+        of_block[s.grains.block_of(s.surface.grain[t])].push_back(static_cast<int>(t));
+    for (const auto& triangles : of_block) {
+        plan.first_pressed.push_back(static_cast<int>(plan.pressed.size()));
+        plan.pressed.insert(plan.pressed.end(), triangles.begin(), triangles.end());
+    }
+    plan.first_pressed.push_back(static_cast<int>(plan.pressed.size()));
+}
+
 }  // namespace
 
 int tile_of(const SolidState& s, int contact)
@@ -128,6 +146,7 @@ void prepare_step(SolidState& s)
     find_moves(s);
     find_parcels(s);
     find_presses(s);
+    find_pressed(s);
 }
 
 }  // namespace flexpm

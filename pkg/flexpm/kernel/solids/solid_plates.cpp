@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 
 #include <algorithm>
 #include <string>
@@ -43,6 +44,20 @@ double push(const Plate& plate, int index)
     return gap < 0.0 || plate.bonded ? -point_stiffness(plate, index) * gap : 0.0;
 }
 
+/// Let a plate press as the pressure has done that acts on its side, and store what that takes.
+/// Deviation D93.
+void take_over_pressure(SolidState& s, Plate& p)
+{
+    if (!is_pressed(s)) return;
+    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
+        const int triangle = p.facets[i];
+        p.opening[i] = -dot(p.normal, pressure_on(s, triangle)) / point_stiffness(p, i);
+        const Vector way = middle(s.grains.displacement, s.surface.nodes[triangle]);
+        p.gap[i] = p.opening[i] - dot(p.normal, way);
+    }
+    s.ledger.initial += solid_plate_energy(p);
+}
+
 }  // namespace
 
 void add_end_plate(SolidState& s, SolidSide side, bool bonded)
@@ -70,6 +85,7 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     p.position = middle(s.grains.reference, s.surface.nodes[p.facets.front()]);
     p.gap.assign(p.facets.size(), 0.0);
     p.opening.assign(p.facets.size(), 0.0);
+    take_over_pressure(s, p);
     s.plates.push_back(p);
     prepare_step(s);
 }

@@ -221,17 +221,23 @@ struct FaceContacts {
     }
 };
 
-/// Triangles of the specimen's surface.
+/// Triangles of the specimen's surface. What pressures have is empty where none has ever acted.
 struct SurfaceTriangles {
     std::vector<int> grain;
     std::vector<int> side;                  ///< SolidSide of the wall
     std::vector<std::array<int, 3>> nodes;  ///< counter-clockwise as seen from outside
+    std::vector<double> pressure;           ///< compressive positive [Pa]
+    Array<double> push;  ///< force of the pressure at the last forces, [triangle][x y z] [N]
+    Array<double> way;   ///< mean displacement there, [triangle][x y z] [m]
 
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
         visit("grain", s.grain);
         visit("side", s.side);
         visit("nodes", s.nodes);
+        visit("pressure", s.pressure);
+        visit("push", s.push);
+        visit("way", s.way);
     }
 };
 
@@ -295,6 +301,11 @@ struct SolidPlan {
     // contacts of plates on each block of grains, in the order of plates
     std::vector<int> first_press;  ///< of each block, in `presses`, and the end; empty: no plates
     std::vector<PlateTouch> presses;
+
+    // surface triangles of each block of grains, in their order
+    std::vector<int> first_pressed;      ///< of each block, in `pressed`; empty: no pressures
+    std::vector<int> pressed;            ///< number of the triangle
+    std::vector<double> pressure_works;  ///< of each triangle since the last forces [J]
 
     int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
 };

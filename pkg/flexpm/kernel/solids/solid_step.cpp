@@ -9,6 +9,7 @@
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_motion.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_works.hpp>
@@ -82,7 +83,7 @@ FLEXPM_INLINE void add_parcels(
         row_of_four(force + p->node) += row_of_four(parcels + p->place);
 }
 
-/// Complete the forces of contacts and plates on a block of grains.
+/// Complete the forces of contacts, plates and pressures on a block of grains.
 void sum_outer_forces(SolidState& s, int block)
 {
     const SolidPlan& plan = s.plan;
@@ -92,6 +93,7 @@ void sum_outer_forces(SolidState& s, int block)
             plan.parcels.data(), s.grains.force.data() + s.grains.block_nodes[block]);
     }
     if (!plan.first_press.empty()) add_plate_forces(s, block);
+    if (!plan.first_pressed.empty()) add_pressure_forces(s, block);
 }
 
 /// Sum the forces on a block of grains and integrate its velocities.
@@ -178,6 +180,7 @@ void step(SolidState& s, const StepOptions& options)
     };
     team.run(share);
     sum_plates(s, options.dt);
+    sum_pressure_work(s);
     ++s.step;
     if (turned > 0) {
         fail("step " + std::to_string(s.step) + ": contacts without a middle face",

@@ -143,8 +143,11 @@ SolidField field_of_bodies(const SolidState& s)
         }
     }
     rigid.gather(on_nodes, load.data());
-    const FreeSolution found =
-        solve_free(rigid, std::vector<std::uint8_t>(guess.size(), 0), load, guess);
+    std::vector<std::uint8_t> held(guess.size(), 0);
+    for (int g = 0; g < s.grains.count; ++g)
+        for (int axis = 0; axis < 3; ++axis)
+            held[6 * g + axis] = s.grains.prescribed[s.grains.component(s.grains.centre(g), axis)];
+    const FreeSolution found = solve_free(rigid, held, load, guess);
     SolidField field;
     for (int g = 0; g < s.grains.count; ++g) {
         field.ways.push_back(triple_at(found.u.data(), 2 * g));

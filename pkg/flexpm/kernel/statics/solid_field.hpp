@@ -3,9 +3,9 @@
 /// grains that deform or are rigid. SI units.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_loading.hpp>
 #include <flexpm/kernel/space/face_frame.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 namespace flexpm {
 

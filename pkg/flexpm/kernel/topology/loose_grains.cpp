@@ -2,37 +2,15 @@
 #include <flexpm/kernel/topology/loose_grains.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/groups.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace flexpm {
 
 namespace {
-
-/// Grains that contacts join; each group has the number of its first grain.
-class Groups {
-public:
-    explicit Groups(int grains) : first(grains) { std::iota(first.begin(), first.end(), 0); }
-
-    int of(int grain)
-    {
-        while (first[grain] != grain)
-            grain = first[grain] = first[first[grain]];
-        return grain;
-    }
-
-    void join(int a, int b)
-    {
-        const int i = of(a), j = of(b);
-        first[std::max(i, j)] = std::min(i, j);
-    }
-
-private:
-    std::vector<int> first;
-};
 
 bool presses_any(const Assembly& a)
 {

@@ -2,6 +2,8 @@
 #include <flexpm/yade/laboratory/ConfinementController.hpp>
 
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
+#include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
 
@@ -9,11 +11,11 @@ YADE_PLUGIN((ConfinementController));
 
 ConfinementController::~ConfinementController() = default;
 
-void ConfinementController::press(flexpm::Assembly& assembly, Real now) const
+void ConfinementController::press(GrainSolver& solver, Real now) const
 {
 	for (int side : sides)
-		flexpm::set_pressure(assembly, side, now);
-	PressureController::press(assembly, now);
+		solver.onState([&](auto& state) { flexpm::set_pressure(state, side, now); });
+	PressureController::press(solver, now);
 }
 
 } // namespace yade

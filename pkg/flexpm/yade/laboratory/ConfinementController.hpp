@@ -11,13 +11,13 @@ public:
 	~ConfinementController() override;
 
 protected:
-	void press(flexpm::Assembly& assembly, Real now) const override;
+	void press(GrainSolver& solver, Real now) const override;
 
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ConfinementController, PressureController,
-		"Presses on sides of the specimen itself; the pressure follows the deforming edges. Place it before :yref:`GrainSolver`.",
-		((vector<int>, sides, (vector<int> { 1, 3 }),, "Sides of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left [-]."))
+		"Presses on sides of the specimen itself; the pressure follows the deforming edges, or the triangles of a solid. Place it before :yref:`GrainSolver`.",
+		((vector<int>, sides, (vector<int> { 1, 3 }),, "Sides of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left; of a box also 4 front, 5 back; of a cylinder 0 bottom, 1 mantle, 2 top [-]."))
 	);
 	// clang-format on
 };

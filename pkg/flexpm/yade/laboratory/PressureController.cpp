@@ -13,15 +13,16 @@ PressureController::~PressureController() = default;
 
 void PressureController::action()
 {
-	auto& assembly = GrainSolver::ofScene(*scene)->assembly;
-	if (rampBegin < 0) rampBegin = assembly.step;
-	press(assembly, flexpm::ramped(startPressure, pressure, assembly.step - rampBegin, rampSteps));
+	const auto solver = GrainSolver::ofScene(*scene);
+	const long step   = solver->stepsDone();
+	if (rampBegin < 0) rampBegin = step;
+	press(*solver, flexpm::ramped(startPressure, pressure, step - rampBegin, rampSteps));
 }
 
-void PressureController::press(flexpm::Assembly& assembly, Real now) const
+void PressureController::press(GrainSolver& solver, Real now) const
 {
 	for (int plate : plates)
-		flexpm::press(assembly, plate, now);
+		flexpm::press(solver.assembly, plate, now);
 }
 
 } // namespace yade

@@ -2,11 +2,12 @@
 /// @file  Pressure on the rigid plates of a test, paper Sec. 4.1.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 
 namespace yade {
+
+class GrainSolver;
 
 class PressureController : public BoundaryController {
 public:
@@ -15,7 +16,7 @@ public:
 
 protected:
 	/// Press with what the pressure is in the coming step [Pa].
-	virtual void press(flexpm::Assembly& assembly, Real now) const;
+	virtual void press(GrainSolver& solver, Real now) const;
 
 public:
 	// clang-format off

@@ -2,6 +2,7 @@
 #include <flexpm/yade/laboratory/SolidEndsController.hpp>
 
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -20,6 +21,8 @@ void SolidEndsController::action()
 	if (gripped && drivenAt == before) return;
 	if (gripped)
 		flexpm::drive_top(*state, drivenAt, scene->dt);
+	else if (flexpm::is_pressed(*state))
+		flexpm::take_over_ends(*state, flexpm::elastic_field(*state), drivenAt, undampedLoading, scene->dt);
 	else
 		flexpm::start_ends(*state, flexpm::elastic_field(*state), 0, drivenAt, undampedLoading, scene->dt);
 	gripped = true;

@@ -4,8 +4,10 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
@@ -50,6 +52,14 @@ void SolidSolver::holdEnds(bool bonded) { flexpm::hold_ends(state, bonded); }
 
 bool SolidSolver::holds(int place) const { return !isInScene() || hasInteraction(place); }
 
+void SolidSolver::holdBottom()
+{
+	flexpm::hold_end(state, flexpm::SolidSide::bottom, false);
+	flexpm::hold_against_sliding(state);
+}
+
+void SolidSolver::clearPressure(int side) { flexpm::set_pressure(state, side, 0.); }
+
 void SolidSolver::holdSide(int side, bool x, bool y, bool z)
 {
 	const bool axes[] = { x, y, z };
@@ -69,7 +79,10 @@ void SolidSolver::requireReady() const
 void SolidSolver::action()
 {
 	requireReady();
-	if (state.step % checkPeriod == 0) requireOwnScene();
+	if (state.step % checkPeriod == 0) {
+		requireOwnScene();
+		flexpm::find_loose(state);
+	}
 	if (state.step % checkPeriod == 0 || destroyedContacts() != seenDestroyed) removeErased();
 	flexpm::step(state, stepOptions());
 	if (state.step % mirrorPeriod == 0) mirrorStates();

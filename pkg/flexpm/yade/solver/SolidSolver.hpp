@@ -24,10 +24,13 @@ public:
 	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
 	void scaleMasses();
 	void holdEnds(bool bonded);
+	void holdBottom();
+	void clearPressure(int side);
 	void holdSide(int side, bool x, bool y, bool z);
 	py::dict snapshot();
 	py::dict counts();
 	py::dict overlaps();
+	py::dict balance();
 	Real     crossingSteps(Real diameter);
 	py::list nothing() { return py::list(); }
 
@@ -43,6 +46,10 @@ public:
 		.def("scaleMasses", WithGrains<&SolidSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, py::arg("bonded") = false,
 			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. Scale the masses afterwards.")
+		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile.")
+		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")
+		.def("balance", WithGrains<&SolidSolver::balance>::call,
+			"How far the specimen is in balance at the last step, by name: mean_stress and outside_stress [Pa], each (xx, yy, zz, yz, xz, xy), missing_force [N], plate_share, 0.")
 		.def("holdSide", WithGrains<&SolidSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
 			"Hold the nodes of deformable grains on a side along the axes named. Sides: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends: plane strain of a box.")
 		.def("snapshot", WithGrains<&SolidSolver::snapshot>::call, "The state as plain arrays, by name.")

@@ -2,6 +2,7 @@
 /// @file  What Python asks of a solid: counts, overlaps, arrays.
 #include <flexpm/yade/solver/SolidSolver.hpp>
 
+#include <flexpm/kernel/solid_tests/solid_balance.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solid_tests/solid_record.hpp>
 #include <flexpm/kernel/solid_tests/solid_snapshot.hpp>
@@ -37,6 +38,18 @@ py::dict SolidSolver::overlaps()
 	d["of_diameter"] = found.of_diameter;
 	d["grains"]      = py::make_tuple(found.pair[0], found.pair[1]);
 	d["pairs"]       = found.pairs;
+	return d;
+}
+
+py::dict SolidSolver::balance()
+{
+	const auto now    = flexpm::balance(state);
+	const auto values = [](const flexpm::SpaceTensor& t) { return py::make_tuple(t.xx, t.yy, t.zz, t.yz, t.xz, t.xy); };
+	py::dict   d;
+	d["mean_stress"]    = values(now.mean_stress);
+	d["outside_stress"] = values(now.outside_stress);
+	d["missing_force"]  = py::make_tuple(now.missing_force.x, now.missing_force.y, now.missing_force.z);
+	d["plate_share"]    = 0.;
 	return d;
 }
 

@@ -9,7 +9,7 @@ _SPHERES = Rates(0.0025, 0.02)
 
 KIND = TestKind(
     name="biaxial",
-    solid_hint="; triaxial, the test of solids under pressure, is still to come",
+    other_hint="; triaxial is the test of solids",
     order=3,
     about="compression under the confinement, which acts on all sides first",
     # the last: a pressure is balanced once reactions and mean stress are; loose grains bear none
@@ -27,5 +27,6 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
+    is_core=True,
     envelope=True,
 )

@@ -35,6 +35,7 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
+    is_core=True,
     calibrates={"compressive_strength": "peak_stress"},
     envelope=True,
 )

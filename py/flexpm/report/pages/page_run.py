@@ -24,6 +24,7 @@ from ..style import COLOURS, CYCLE, MODE_NAMES
 from ..tables import result_rows, scaled, size_text, test_text
 from ..words import words_of_test
 from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
+from .page_core import volume_chart
 from .page_map import crack_map
 
 #: Points of a curve.
@@ -129,7 +130,7 @@ def write_page(
         status=STATUS.get(result.status),
         results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1], _reading(result)),
         warnings=[*result.warnings, *missing],
-        charts=[chart, _energy_chart(result)] if len(rows) else [],
+        charts=[chart, *_volume(result), _energy_chart(result)] if len(rows) else [],
         maps=maps,
         tables=_tables(result, inputs, _rates_table(result), _networks_table(result)),
         pictures=_pictures(folder, _PICTURES),
@@ -183,6 +184,11 @@ def _pictures(folder: Path, titles: Mapping[str, str]) -> list[Picture]:
     """Pictures of a page: those that its folder has."""
     there = {folder / name: title for name, title in titles.items()}
     return [Picture(title, file) for file, title in there.items() if file.is_file()]
+
+
+def _volume(result: Result) -> list[Chart]:
+    found = volume_chart(result)
+    return [] if found is None else [found]
 
 
 def _told_tables(inputs: Table) -> Iterator[Rows]:

@@ -59,6 +59,8 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         diverged=rig.diverged,
         initial_energy=rig.initial_energy,
     )
+    if kind_of(test).is_core:
+        result.measure_core(solid=rig.solid)
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     if isinstance(snapshot, SolidSnapshot):

@@ -3,34 +3,115 @@
 
 from __future__ import annotations
 
+import math
+
 from yade import wrapper
 
 from ...errors import InputError
+from ...files import Table
+from ...require import NOT_NEGATIVE, require_number
 from ...results import doubts
 from ..grain_rig import GrainRig
-from ..readings import Balance
+from ..rig import LEFT, RIGHT, TOP
+
+FRONT, BACK = 4, 5
 
 
 class EndRig(GrainRig):
-    """Both ends of a solid, along z: nodes of deformable grains, plates on rigid ones."""
+    """Both ends of a solid, along z: nodes of deformable grains, plates on rigid ones.
+
+    Pressures act on the surface triangles of either, and on the top until it is driven.
+    """
+
+    #: Pressure on front and back of a box [Pa]; None: that on the other sides.
+    _second: float | None = None
+
+    def confine(self, pressure: float, second: float | None = None) -> None:
+        """Press on the sides and the top, the bottom held, until the forces balance.
+
+        They do when the reactions and the mean stress of the specimen differ from the pressures by
+        less than 0.1 %, and the waves that still run are as small. Strains count from there on. The
+        top bears the larger pressure.
+
+        Args:
+            pressure: On the mantle of a cylinder, or on all sides of a box [Pa].
+            second: On front and back of a box, across y, instead [Pa].
+
+        Raises:
+            InputError: for a second pressure on a cylinder.
+            SimulationError: if the forces do not come to balance.
+        """
+        if second is not None:
+            second = require_number("confine: second", second, NOT_NEGATIVE, "Pa")
+            if self.built.specimen.kind != "box":
+                raise InputError(
+                    f"confine: second = {second:g} Pa, must be left out for a "
+                    f"{self.built.specimen.kind}, whose mantle is one side"
+                )
+        self._second = second
+        super().confine(pressure)
+
+    @property
+    def confinement(self) -> float | None:
+        """Least pressure on the sides that was asked for [Pa], None without."""
+        found = [one.pressure for one in self._presses() if TOP not in one.sides]
+        return min(found, default=None)
+
+    @property
+    def _pressed_part(self) -> Table:
+        return {} if self._second is None else {"second": self._second}
 
     def _new_frame(self) -> wrapper.TestFrame:
         return wrapper.EndFrame(tension=self.tension)
 
-    def _press(self, pressure: float, ramp: int) -> None:
-        raise InputError(
-            f"confine: pressure = {pressure:g} Pa, must not be put on a solid; triaxial, its test "
-            "under pressure, is still to come"
-        )
+    def _presses(self) -> list[wrapper.ConfinementController]:
+        """What presses on the sides, and on the top until it is driven."""
+        kind = wrapper.ConfinementController
+        return [one for one in self.built.engines if isinstance(one, kind)]
 
-    def balance(self) -> Balance:
-        """Refused: balance is asked of pressures, which solids are not under yet."""
-        raise InputError("balance: specimen = a solid, must be plane; rig.unbalanced() is of both")
+    def _press(self, pressure: float, ramp: int) -> None:
+        second = pressure if self._second is None else self._second
+        asked: dict[tuple[int, ...], float] = {(RIGHT,): pressure, (TOP,): max(pressure, second)}
+        if self.built.specimen.kind == "box":
+            asked = {(RIGHT, LEFT): pressure, (FRONT, BACK): second, (TOP,): max(pressure, second)}
+        if self._recorder.loading is not None:
+            raise InputError(
+                f"confine: pressure = {pressure:g} Pa, must come before the load; the top is driven"
+            )
+        there = {tuple(one.sides): one for one in self._presses()}
+        if not there:
+            self._solid.holdBottom()
+            self.built.set_masses()
+        for sides, value in asked.items():
+            if one := there.get(sides):
+                one.startPressure, one.pressure = one.pressure, value
+                one.rampSteps, one.rampBegin = ramp, -1
+                continue
+            one = wrapper.ConfinementController(pressure=value, sides=list(sides), rampSteps=ramp)
+            self.built.add_engines(before=(one,))
+
+    def _pressing_force(self) -> float:
+        """Least force with which a pressure acts on a whole side [N]."""
+        sizes = self.built.specimen.dimensions
+        width = sizes.get("width", sizes.get("diameter", 0.0))
+        across = {BACK: width, FRONT: width}
+        lengths = {RIGHT: sizes.get("depth", width), **across}
+        forces = [
+            one.pressure * lengths[side] * sizes["height"]
+            for one in self._presses()
+            for side in one.sides
+            if side in lengths
+        ]
+        area = width * lengths[RIGHT] * (1.0 if "depth" in sizes else 0.25 * math.pi)
+        forces += [one.pressure * area for one in self._presses() if TOP in one.sides]
+        return min((force for force in forces if force > 0.0), default=0.0)
 
     def _take_hold(self) -> wrapper.LoadingController:
-        solver = self.built.solver
-        assert isinstance(solver, wrapper.SolidSolver)
-        solver.holdEnds(self.tension)
+        for one in self._presses():
+            if TOP in one.sides:  # what is driven takes over there
+                self.built.remove_engines(one)
+                self._solid.clearPressure(TOP)
+        self._solid.holdEnds(self.tension)
         self.built.set_masses()
         ends = wrapper.SolidEndsController()
         self.built.add_engines(before=(ends,))
@@ -44,8 +125,12 @@ class EndRig(GrainRig):
         return ()
 
     @property
-    def warnings(self) -> list[str]:
-        """What makes the record doubtful, see `GrainRig.warnings`; grains that lie on others."""
+    def _solid(self) -> wrapper.SolidSolver:
         solver = self.built.solver
         assert isinstance(solver, wrapper.SolidSolver)
-        return super().warnings + doubts.of_overlap(solver.overlaps()["of_diameter"])
+        return solver
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful, see `GrainRig.warnings`; grains that lie on others."""
+        return super().warnings + doubts.of_overlap(self._solid.overlaps()["of_diameter"])

@@ -33,4 +33,9 @@ struct SolidField {
 ///         rigid grain
 void begin_from(SolidState& s, const SolidField& field, double extent, double rate);
 
+/// Add `rate` times a field to the velocities of what is free to move, at the present places, and
+/// let damping leave these alone.
+/// @throws std::invalid_argument  as begin_from()
+void add_motion(SolidState& s, const SolidField& field, double rate);
+
 }  // namespace flexpm

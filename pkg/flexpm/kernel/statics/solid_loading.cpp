@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/solids/solid_loading.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
@@ -77,7 +77,34 @@ void begin_body(SolidState& s, int grain, const SolidField& field, double extent
     set_space_vector(s.loading.grains.spin, 3 * grain, spin);
 }
 
+void add_node_motion(SolidState& s, int node, Vector velocity)
+{
+    set_space_vector(s.loading.grains.velocity, node, velocity);
+    const double values[] = { velocity.x, velocity.y, velocity.z };
+    for (int axis = 0; axis < s.grains.layout.dimension; ++axis) {
+        const int i = s.grains.component(node, axis);
+        if (!s.grains.prescribed[i]) s.grains.velocity[i] += values[axis];
+    }
+}
+
 }  // namespace
+
+void add_motion(SolidState& s, const SolidField& field, double rate)
+{
+    check_field(s, field);
+    if (s.bodies.empty()) {
+        auto next = field.ways.begin();
+        for_each_node(s, [&](int grain, int number) {
+            add_node_motion(s, s.grains.node(grain, number), rate * *next++);
+        });
+    }
+    for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g) {
+        add_node_motion(s, s.grains.centre(g), rate * field.ways[g]);
+        const Vector spin = rate * field.turns[g];
+        if (!s.bodies[g].spin_held) set_spin(s, g, s.bodies[g].spin + spin, false);
+        set_space_vector(s.loading.grains.spin, 3 * g, spin);
+    }
+}
 
 void begin_from(SolidState& s, const SolidField& field, double extent, double rate)
 {

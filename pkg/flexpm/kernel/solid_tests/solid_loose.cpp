@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solid_tests/solid_loose.hpp>
+
+#include <flexpm/kernel/core/groups.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace flexpm {
+
+namespace {
+
+/// Whether any point of a contact has its bond, or bears pressure.
+bool joins(const FaceContacts& c, int contact)
+{
+    for (int p = 0; p < c.points_of(contact); ++p) {
+        if (!(c.area(contact, p) > 0.0)) continue;
+        if (c.crack(contact, p).mode == intact || c.place_of(contact, p).opening < 0.0) return true;
+    }
+    return false;
+}
+
+std::vector<std::uint8_t> held_grains(const SolidState& s)
+{
+    const Grains& grains = s.grains;
+    std::vector<std::uint8_t> held(grains.count, 0);
+    for_each_node(s, [&](int grain, int number) {
+        for (int axis = 0; axis < grains.layout.dimension; ++axis)
+            if (grains.prescribed[grains.component(grains.node(grain, number), axis)])
+                held[grain] = 1;
+    });
+    for (const Plate& plate : s.plates)
+        for (std::size_t i = 0; i < plate.facets.size(); ++i)
+            if (plate.bonded || plate.opening[i] <= 0.0) held[s.surface.grain[plate.facets[i]]] = 1;
+    return held;
+}
+
+}  // namespace
+
+void find_loose(SolidState& s)
+{
+    std::vector<std::uint8_t>& loose = s.grains.loose;
+    std::fill(loose.begin(), loose.end(), 0);
+    if (!is_pressed(s)) return;
+    Groups groups(s.grains.count);
+    for (int c = 0; c < s.contacts.count; ++c)
+        if (joins(s.contacts, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
+    const std::vector<std::uint8_t> held = held_grains(s);
+    std::vector<std::uint8_t> stands(s.grains.count, 0);  // by group
+    for (int g = 0; g < s.grains.count; ++g)
+        if (held[g]) stands[groups.of(g)] = 1;
+    if (std::find(stands.begin(), stands.end(), 1) == stands.end()) return;
+    for (int g = 0; g < s.grains.count; ++g)
+        loose[g] = !stands[groups.of(g)];
+}
+
+}  // namespace flexpm

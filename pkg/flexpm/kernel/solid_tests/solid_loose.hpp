@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Grains of a solid that have come loose: loose_grains.hpp for those of the plane.
+#pragma once
+
+#include <flexpm/kernel/solids/solid_state.hpp>
+
+namespace flexpm {
+
+/// Find the grains that no chain of contacts, bonded or pressed together, joins to what is held:
+/// nodes whose velocity is given, and grains that touch a plate. Without a pressure none is loose.
+/// Deviation D57.
+void find_loose(SolidState& s);
+
+}  // namespace flexpm

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compression of a solid under pressures on its sides, which act first. Deviations D93, D94."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...errors import InputError
+from ...require import Bounds
+from ..option import Asked, Option, Value
+from ..rates import Rates
+from ..test_kind import Stage, TestKind
+
+_PRESSURE = Bounds(at_least=0.0, at_most=1e15)
+
+
+def _settle(asked: Asked) -> Mapping[str, Value]:
+    second = asked.values.get("second_confinement")
+    if second is None:
+        return {}
+    pressure = asked.number("second_confinement", 0.0, _PRESSURE, "Pa")
+    if "depth" not in asked.sizes:
+        raise InputError(
+            f"run: second_confinement = {pressure:g} Pa, must be left out for a cylinder, whose "
+            "mantle is one side; test a box"
+        )
+    return {"second_confinement": pressure}
+
+
+KIND = TestKind(
+    name="triaxial",
+    order=10,
+    about="compression of a cylinder or a box under the confinement, which acts all around first; "
+    "of a box under two, which is true triaxial",
+    shape="cylinder",
+    solids=("box", "cylinder"),
+    other_hint="; biaxial is the test of the plane",
+    models=("flexible", "rigid"),
+    confined=True,
+    stages=(Stage.CONFINE, Stage.LOAD),
+    options=(
+        Option(
+            "second_confinement",
+            "Pressure on front and back of a box, across y",
+            "Pa",
+            _PRESSURE,
+            default="the confinement",
+            open="the confinement",
+        ),
+    ),
+    settle=_settle,
+    solid_rates={
+        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=125),
+        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=130),
+    },
+    falls_freely=True,
+    is_core=True,
+    envelope=True,
+)

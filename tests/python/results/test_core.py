@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a laboratory reads off a core, on curves that are drawn."""
+
+import numpy as np
+import pytest
+
+from flexpm.results import core
+from flexpm.results.record import COLUMNS, Curve
+
+E, NU = 50e9, 0.25
+#: Deviators at which the drawn cracks begin to widen the specimen, and at the peak [Pa].
+WIDENS, PEAK = 60e6, 120e6
+
+
+def curve(*, solid, confinement=0.0, own_lateral=None, start=0.0, widening=2.0, rows=601):
+    """A straight rise to the peak and a fall; from WIDENS on cracks widen by a parabola."""
+    up = np.linspace(0.0, PEAK, rows)
+    deviator = np.concatenate([up, np.linspace(PEAK, 0.4 * PEAK, 50)[1:]])
+    axial = np.concatenate([up / E, PEAK / E * np.linspace(1.0, 1.3, 50)[1:]])
+    over = np.maximum(deviator[:rows] - WIDENS, 0.0) / (PEAK - WIDENS)
+    ways = 2.0 if solid else 1.0
+    lateral = NU * axial
+    lateral[:rows] += widening * PEAK / E * over**2 / ways
+    lateral[rows:] += widening * PEAK / E / ways
+    columns = dict.fromkeys(COLUMNS, np.zeros(len(axial)))
+    columns |= {
+        "step": np.arange(len(axial), dtype=float),
+        "axial_strain": axial,
+        "lateral_strain": lateral if own_lateral is None else own_lateral(axial),
+        "axial_stress": deviator + confinement + start,
+        "confinement": np.full(len(axial), confinement),
+        # 200 at the peak, from a quarter of it on
+        "tensile_cracks": np.round(200 * np.clip((deviator / PEAK - 0.25) / 0.75, 0.0, 1.0)),
+    }
+    return Curve.from_array(np.column_stack([columns[name] for name in COLUMNS]))
+
+
+@pytest.mark.parametrize("solid", [False, True])
+@pytest.mark.parametrize(("confinement", "start"), [(0.0, 0.0), (8e6, 0.0), (8e6, 20e6)])
+def test_readings_of_a_drawn_curve(solid, confinement, start):
+    record = curve(solid=solid, confinement=confinement, start=start)
+    row = PEAK / 600
+    # the second of 200 cracks, of which 1 % counts, is there at 1.5 of 200
+    expected = start + PEAK * (0.25 + 0.75 * 1.5 / 200)
+    assert core.crack_initiation_stress(record) == pytest.approx(expected, abs=1.01 * row)
+    found = core.crack_initiation_stress_volumetric(record, E, NU, solid=solid)
+    # 2 (s - 60)^2 / 60^2 = 0.02 (1 - n nu) s / 120
+    slope = 0.02 * (1.0 - (2.0 if solid else 1.0) * NU) / PEAK
+    s = np.linspace(WIDENS, PEAK, 600001)
+    passes = 2.0 * ((s - WIDENS) / (PEAK - WIDENS)) ** 2 > slope * s
+    assert found == pytest.approx(start + s[np.argmax(passes)], abs=1.01 * row)
+    # where the sum's slope is 0: 2 * 2 (s - 60) / 60^2 = (1 - n nu) / 120
+    damage = WIDENS + (1.0 - (2.0 if solid else 1.0) * NU) / PEAK * (PEAK - WIDENS) ** 2 / 4.0
+    assert core.crack_damage_stress(record, solid=solid) == pytest.approx(
+        start + damage, abs=1.01 * row
+    )
+
+
+def test_the_volume_of_elasticity():
+    record = curve(solid=True, widening=0.0)
+    total = core.volumetric_strain(record, solid=True)
+    elastic = core.elastic_volumetric_strain(record, E, NU, solid=True)
+    assert np.allclose(total[:601], elastic[:601], rtol=1e-12, atol=1e-18)
+    assert total[600] == pytest.approx((1 - 2 * NU) * PEAK / E)
+    plane = core.volumetric_strain(record, solid=False)
+    assert plane[600] == pytest.approx((1 - NU) * PEAK / E)
+    with_it = core.with_volume(record)
+    assert with_it.own == ("volumetric_strain",)
+    assert np.array_equal(with_it["volumetric_strain"], total)
+    assert np.array_equal(with_it["axial_stress"], record["axial_stress"])
+
+
+def test_what_a_curve_does_not_tell_is_none():
+    shrinks = curve(solid=True, widening=0.0)
+    assert core.crack_damage_stress(shrinks, solid=True) is None
+    assert core.crack_initiation_stress_volumetric(shrinks, E, NU, solid=True) is None
+    rising = shrinks.until(500)
+    assert core.crack_initiation_stress(rising) is None
+    assert core.crack_damage_stress(rising, solid=True) is None
+    assert core.crack_initiation_stress_volumetric(rising, E, NU, solid=True) is None
+    unknown = curve(solid=True, own_lateral=lambda axial: np.full(len(axial), np.nan))
+    assert core.crack_damage_stress(unknown, solid=True) is None
+    assert core.crack_initiation_stress_volumetric(unknown, E, NU, solid=True) is None
+    assert core.crack_initiation_stress_volumetric(shrinks, None, NU, solid=True) is None
+    whole = shrinks.array.copy()
+    whole[:, COLUMNS.index("tensile_cracks")] = 0.0
+    assert core.crack_initiation_stress(Curve.from_array(whole)) is None
+    empty = Curve()
+    assert core.crack_initiation_stress(empty) is None
+    assert core.crack_damage_stress(empty, solid=False) is None
+    assert len(core.elastic_volumetric_strain(empty, E, NU, solid=False)) == 0
+
+
+def test_a_spike_that_passes_does_not_count():
+    record = curve(solid=True)
+    whole = record.array.copy()
+    whole[100, COLUMNS.index("lateral_strain")] *= 1.5
+    found = core.crack_initiation_stress_volumetric(Curve.from_array(whole), E, NU, solid=True)
+    assert found == core.crack_initiation_stress_volumetric(record, E, NU, solid=True)
