@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tomli_w
-from fuzz_child import examples
-from hypothesis import HealthCheck, example, given, settings
+from fuzz_child import drawing
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import flexpm
@@ -137,11 +137,7 @@ def test_the_documents_are_right_before_they_are_changed(tmp_path, kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 @given(data=st.data())
-@settings(
-    max_examples=examples(150),
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
+@drawing(150)
 def test_any_shape_is_read_or_refused(tmp_path, kind, data):
     whole, read = KINDS[kind]
     content = data.draw(documents(whole))
@@ -160,11 +156,7 @@ def inputs_of_a_run():
 
 
 @given(data=st.data())
-@settings(
-    max_examples=examples(150),
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
+@drawing(150)
 def test_any_shape_of_a_result_is_read_or_refused(tmp_path, data):
     file = tmp_path / "result.json"
     whole = inputs_of_a_run()
@@ -186,7 +178,7 @@ def test_any_shape_of_a_result_is_read_or_refused(tmp_path, data):
 @example(b"a = " + b"9" * 5000)
 @example(b"a = " + b"[" * 3000)
 @example(b"a = 1e999999\n[a]")
-@settings(max_examples=examples(100), suppress_health_check=[HealthCheck.function_scoped_fixture])
+@drawing(100)
 def test_any_bytes_are_toml_or_refused(tmp_path, content):
     (tmp_path / "it.toml").write_bytes(content)
     try:
@@ -201,11 +193,7 @@ CELLS = SCALARS.map(str) | st.sampled_from(["0", "0.005", "-1e300", '"', ",", "\
 @given(rows=st.lists(st.lists(CELLS, max_size=6), max_size=4), named=st.booleans())
 @example(rows=[["0", "0.004", "0.012", "0.004", "saw"]], named=True)
 @example(rows=[["0", "0.004", "1e300", "0.004", "saw"]], named=True)
-@settings(
-    max_examples=examples(150),
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
+@drawing(150)
 def test_any_file_of_joints_cuts_or_is_refused(tmp_path, small, rows, named):
     text = "\n".join(",".join(row) for row in rows)
     header = ",".join(joint_lines.COLUMNS) + "\n" if named else ""
@@ -218,11 +206,7 @@ def test_any_file_of_joints_cuts_or_is_refused(tmp_path, small, rows, named):
 
 
 @given(place=st.integers(0, 10**6), byte=st.integers(0, 255))
-@settings(
-    max_examples=examples(100),
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
+@drawing(100)
 def test_a_saved_specimen_with_another_byte_is_the_same_or_refused(tmp_path, small, place, byte):
     file = tmp_path / "grains.json"
     small.save(file)

@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 import pytest
-from fuzz_child import examples
+from fuzz_child import drawing
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from sample_snapshot import read_vtu as read_by_vtk
@@ -193,7 +193,7 @@ WAYS = st.lists(st.floats(0.0, 1.0, exclude_max=True), min_size=1, max_size=4)
 
 
 @given(name=st.sampled_from(["curve.csv", "cracks.csv", "events.csv"]), change=changes())
-@settings(max_examples=examples(60), suppress_health_check=list(HealthCheck))
+@drawing(60)
 def test_tables_that_were_changed_are_reported_or_refused(
     capsys, tmp_path_factory, finished, name, change
 ):
@@ -203,7 +203,7 @@ def test_tables_that_were_changed_are_reported_or_refused(
 
 
 @given(way=WAYS, value=ODD)
-@settings(max_examples=examples(120), suppress_health_check=list(HealthCheck))
+@drawing(120)
 def test_numbers_that_were_changed_are_reported_or_refused(
     capsys, tmp_path_factory, finished, way, value
 ):

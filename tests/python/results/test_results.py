@@ -60,6 +60,7 @@ KEYS = [
     "tensile_onset_stress",
     "shear_onset_strain",
     "shear_onset_stress",
+    *("crack_initiation_stress", "crack_initiation_stress_volumetric", "crack_damage_stress"),
     "peak_load",
     "notch_depth",
     "joint_bend",

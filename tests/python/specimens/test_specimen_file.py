@@ -8,8 +8,8 @@ import json
 
 import numpy as np
 import pytest
-from fuzz_child import examples
-from hypothesis import given, settings
+from fuzz_child import drawing
+from hypothesis import given
 from hypothesis import strategies as st
 
 import flexpm
@@ -200,7 +200,7 @@ def edited(content, edit):
 
 
 @given(kind=st.sampled_from(KINDS), changes=st.lists(edits(), min_size=1, max_size=3))
-@settings(max_examples=examples(400))
+@drawing(400)
 def test_any_change_is_refused_in_one_line_or_leaves_a_specimen(
     contents, tmp_path_factory, kind, changes
 ):
@@ -278,7 +278,7 @@ def test_a_changed_solid_with_a_right_checksum_is_refused(solids, tmp_path, kind
 
 
 @given(kind=st.sampled_from(SOLIDS), changes=st.lists(edits(), min_size=1, max_size=3))
-@settings(max_examples=examples(100))
+@drawing(100)
 def test_any_change_of_a_solid_is_refused_in_one_line_or_leaves_one(
     solids, tmp_path_factory, kind, changes
 ):
