@@ -328,11 +328,12 @@ def _strip(label: str, strip: float | None) -> float:
 
 def _face_of(plate: Table) -> list[list[float]]:
     """Line along a plate, or the arc of a jaw, when bonded [m]."""
-    inwards, middle, half = np.array(plate["normal"]), plate["middle"], 0.5 * plate["width"]
+    inwards, radius, half = np.array(plate["normal"]), plate["radius"], 0.5 * plate["width"]
     along = np.array([inwards[1], -inwards[0]])
-    at = half * np.linspace(-1.0, 1.0, 25 if plate["radius"] else 2)
-    rise = plate["radius"] - np.sqrt(np.maximum(plate["radius"] ** 2 - at**2, 0.0))
-    rise -= rise.mean()  # the middle is the mean of its points
+    at = half * np.linspace(-1.0, 1.0, 25 if radius else 2)
+    rise = radius - np.sqrt(np.maximum(radius**2 - at**2, 0.0))
+    # an arc is laid with its middle on the rim, beyond the mean of the points that face it
+    middle = _before(plate) if radius else plate["middle"]
     line: list[list[float]] = (middle + at[:, None] * along + rise[:, None] * inwards).tolist()
     return line
 

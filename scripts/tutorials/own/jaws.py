@@ -8,8 +8,9 @@ import flexpm
 diameter, thickness = 0.03, 0.015
 disc = flexpm.Specimen.disc(diameter, thickness, seed=1)
 rig = flexpm.PartRig(flexpm.build(disc, "augig-table2-bilinear", "rigid"))
-top = rig.jaw((0.0, 0.5 * diameter), 0.75 * diameter)
-bottom = rig.jaw((0.0, -0.5 * diameter), 0.75 * diameter)
+# smooth jaws would let the disc roll between them
+top = rig.jaw((0.0, 0.5 * diameter), 0.75 * diameter, friction=0.3)
+bottom = rig.jaw((0.0, -0.5 * diameter), 0.75 * diameter, friction=0.3)
 rig.contact_of("contact_angle", top)
 rig.drive(top, (0.0, -1.0), against=bottom)
 rig.load(flexpm.Loading(kind="waiting", stop_ratio=0.5))

@@ -22,7 +22,7 @@ PRINTED = {
     "cycles": (r"peak ([\d.]+) MPa", 100.0, 200.0),
     "four_point_bending": (r"strength ([\d.]+) MPa", 11.5, 40.0),
     "incline": (r"slid ([\d.]+) um", 1.0, 20.0),
-    "jaws": (r"strength ([\d.]+) MPa", 8.0, 30.0),
+    "jaws": (r"strength ([\d.]+) MPa", 10.0, 16.0),
     "joint_sets": (r"network 1: ([\d.]+) MPa", 10.0, 120.0),
     "kirsch": (r"at the side: ([\d.]+) MPa", 41.0, 44.0),
     "punch_through": (r"strength ([\d.]+) MPa", 8.0, 40.0),

@@ -50,6 +50,20 @@ def test_the_contact_angle_grows_with_the_load(model):
     assert top.kind == "jaw"
 
 
+def test_the_face_of_a_jaw_touches_the_disc_at_its_place_alone():
+    rig = made()
+    between(rig, 1.5 * RADIUS, friction=0.3)
+    for one, y in zip(rig.parts, (RADIUS, -RADIUS), strict=True):
+        face = np.array(one["face"])
+        assert face[len(face) // 2] == pytest.approx([0.0, y], abs=1e-3 * RADIUS)
+        away = np.linalg.norm(face, axis=1) - RADIUS
+        assert np.all(away > -1e-5 * RADIUS)
+        assert away[0] > 0.1 * RADIUS
+        # on the circle of the jaw
+        centre = [0.0, y - 1.5 * y]
+        assert np.linalg.norm(face - centre, axis=1) == pytest.approx(1.5 * RADIUS, rel=1e-3)
+
+
 def hertz(load: float, young: float) -> float:
     """Contact angle of two cylinders, the jaw hollow and rigid, in plane stress [rad]."""
     relative = 1.0 / (1.0 / RADIUS - 1.0 / (1.5 * RADIUS))
