@@ -20,7 +20,7 @@ from ..runs.input_names import PACKING, SIZE_NAMES, UNUSED, shape_of, with_unit
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.space.any_spec import SIZES, SOLIDS, AnySpec
+from ..specimens.space.any_spec import SIZES, SOLIDS, AnySpec, is_solid
 from ..specimens.spec import SpecimenSpec
 from . import signals, terminal
 
@@ -84,10 +84,11 @@ def material(options: Table, model: str | None = None) -> Material:
 def source(test: str, options: Table) -> SpecimenSource:
     """The specimen that the options describe, with its files, which are read once."""
     file, solid = options["specimen_file"], options.get("shape")
-    if solid is not None:
-        _refuse_plane(solid)
+    shape = solid or shape_of(test)
+    if is_solid(shape):
+        _refuse_plane(shape)
     if file is None:
-        refuse_other_sizes(solid or shape_of(test))
+        refuse_other_sizes(shape)
     else:
         refuse_packing()
     packed = RunSpec.packed(test, options) if file is None else None

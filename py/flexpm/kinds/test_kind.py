@@ -57,9 +57,7 @@ class TestKind:
     # What is tested
     shape: str = "rectangle"  #: a kind of specimen
     solids: tuple[str, ...] = ()  #: kinds of space that it takes, too
-    other_hint: str = (
-        ""  #: what serves a user who has a solid, or of a solid's test one of the plane
-    )
+    other_hint: str = ""  #: what serves a user of the other dimension, if it takes none of that
     sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
     models: tuple[str, ...] = MODELS
     #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference

@@ -211,6 +211,8 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
         ("uniaxial --shape box --diameter 0.05", "must not be given for a box"),
         ("uniaxial --shape box --thickness 0.1", "thickness = 0.1 m, must not be given for a box"),
         ("uniaxial --depth 0.05", "must not be given for a rectangle"),
+        ("triaxial --thickness 0.1", "thickness = 0.1 m, must not be given for a cylinder"),
+        ("triaxial --joints a.csv", "joints = a.csv, must not be given for a cylinder"),
         ("uniaxial --shape box --joints a.csv", "joints = a.csv, must not be given for a box"),
         ("uniaxial --shape box --notch 0.01", "must not be given for uniaxial"),
         ("uniaxial --shape box --model inner", "must be one of flexible, rigid"),

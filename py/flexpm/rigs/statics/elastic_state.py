@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from yade import wrapper
 
 from ...arrays import FloatArray
 from ...errors import InputError
+from ...files import Table
+from ...models.grains import Model
 from ...require import NOT_NEGATIVE, quoted, require_number
 from ...results.snapshot import Snapshot
 from ..part_loads import PartLoads
@@ -65,6 +67,33 @@ class ElasticState(Snapshot):
         return (self.node_sets if isinstance(part, HeldNodes) else self.plates)[part.number]
 
 
+def required_loading(way: float, load: float | None) -> tuple[float, float | None]:
+    """Way [m, or rad] and load [N, or N m] of a static solution; at most one of them is given."""
+    way = require_number("elastic: way", way, unit="m")
+    if load is None:
+        return way, None
+    load = require_number("elastic: load", load, unit="N")
+    if way != 0.0:
+        raise InputError(f"elastic: way = {way:g}, must be left out beside a load")
+    return way, load
+
+
+def solved(rig: object, built: Model, solve: Callable[[], Table]) -> ElasticState:
+    """The state that a frame's solve finds, or one line of what it says."""
+    try:
+        found = solve()
+    except (ValueError, RuntimeError) as error:
+        raise InputError(f"elastic: {error}") from None
+    return ElasticState(
+        **found.pop("snapshot"),
+        **built.of_snapshots,
+        rig=rig,
+        plates=tuple(found.pop("plates")),
+        node_sets=tuple(found.pop("node_sets")),
+        **found,
+    )
+
+
 class PartStatics(PartLoads):
     """Base of a rig of parts that answers without a step."""
 
@@ -98,25 +127,14 @@ class PartStatics(PartLoads):
                 leave the specimen, or a piece of it, free to move: it names the motion.
         """
         frame = self._frame
-        way = require_number("elastic: way", way, unit="m")
-        if load is not None:
-            load = require_number("elastic: load", load, unit="N")
-            if way != 0.0:
-                raise InputError(f"elastic: way = {way:g}, must be left out beside a load")
+        way, load = required_loading(way, load)
         if (load is not None or way != 0.0) and not (frame.driven or frame.drivenSets):
             raise InputError("elastic: driven parts = none, must be at least 1; call drive or turn")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
-        try:
-            found = frame.elasticState(list(pressed), list(pressed.values()), way, load)
-        except (ValueError, RuntimeError) as error:
-            raise InputError(f"elastic: {error}") from None
-        return ElasticState(
-            **found.pop("snapshot"),
-            **self.built.of_snapshots,
-            rig=self,
-            plates=tuple(found.pop("plates")),
-            node_sets=tuple(found.pop("node_sets")),
-            **found,
+        return solved(
+            self,
+            self.built,
+            lambda: frame.elasticState(list(pressed), list(pressed.values()), way, load),
         )
 
     def _pressed(self, frame: wrapper.PartFrame, pressures: object) -> dict[int, float]:

@@ -10,7 +10,7 @@ from yade import wrapper
 from ...errors import InputError
 from ...require import NOT_NEGATIVE, require_number
 from ..grain_rig import GrainRig, NodeRig, PlateRig
-from .elastic_state import ElasticState
+from .elastic_state import ElasticState, required_loading, solved
 
 
 class EndStatics(GrainRig):
@@ -41,26 +41,15 @@ class EndStatics(GrainRig):
             raise InputError(
                 f"elastic: model = {self.built.name}, must be flexible; use PartRig for others"
             )
-        way = require_number("elastic: way", way, unit="m")
-        if load is not None:
-            load = require_number("elastic: load", load, unit="N")
-            if way != 0.0:
-                raise InputError(f"elastic: way = {way:g}, must be left out beside a load")
+        way, load = required_loading(way, load)
         if pressure is not None:
             pressure = require_number("elastic: pressure", pressure, NOT_NEGATIVE, "Pa")
         frame = self._recorder.frame
         assert isinstance(frame, (wrapper.RectangleFrame, wrapper.DiscFrame))
-        try:
-            found = frame.elasticState(self._between_plates, self._pieces, pressure, way, load)
-        except (ValueError, RuntimeError) as error:
-            raise InputError(f"elastic: {error}") from None
-        return ElasticState(
-            **found.pop("snapshot"),
-            **self.built.of_snapshots,
-            rig=self,
-            plates=tuple(found.pop("plates")),
-            node_sets=tuple(found.pop("node_sets")),
-            **found,
+        return solved(
+            self,
+            self.built,
+            lambda: frame.elasticState(self._between_plates, self._pieces, pressure, way, load),
         )
 
     @property
