@@ -33,7 +33,7 @@ shape_options = combined(
         "--shape",
         type=Name(*SOLIDS),
         metavar="|".join(SOLIDS),
-        help=f"Test a solid, in {' and '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
+        help=f"Test a solid, in {', '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
         "the shape of the test in the plane, a cylinder for tests of solids alone]",
     ),
     length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
