@@ -84,7 +84,7 @@ def material(options: Table, model: str | None = None) -> Material:
 def source(test: str, options: Table) -> SpecimenSource:
     """The specimen that the options describe, with its files, which are read once."""
     file, solid = options["specimen_file"], options.get("shape")
-    shape = solid or shape_of(test)
+    shape = shape_of(test, solid, options.get("depth") if file is None else None)
     if is_solid(shape):
         _refuse_plane(shape)
     if file is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that make solids: ``flexpm specimen box`` and ``cylinder``; their options. SI units."""
+"""Commands that make solids: ``flexpm specimen box``, ``cylinder``, ``solid-disc``; options."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .parameters import Name
 if TYPE_CHECKING:
     from ..specimens.space.specimen import SolidSpecimen
 
-_BOX, _CYLINDER = SIZES["box"], SIZES["cylinder"]
+_BOX, _CYLINDER, _DISC = SIZES["box"], SIZES["cylinder"], SIZES["solid-disc"]
 box_options = combined(
     length_option("--width", _BOX["width"], "Width, along x"),
     length_option("--depth", _BOX["depth"], "Depth, along y"),
@@ -34,9 +34,10 @@ shape_options = combined(
         type=Name(*SOLIDS),
         metavar="|".join(SOLIDS),
         help=f"Test a solid, in {', '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
-        "the shape of the test in the plane, a cylinder for tests of solids alone]",
+        "that of the test in the plane; a solid-disc for a disc with --depth; a cylinder for tests "
+        "of solids alone]",
     ),
-    length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
+    length_option("--depth", _BOX["depth"], "Depth of a box or a disc, along y"),
 )
 #: The same of a benchmark.
 bench_options = combined(
@@ -52,26 +53,29 @@ cylinder_options = combined(
     length_option("--diameter", _CYLINDER["diameter"], "Diameter"),
     length_option("--height", _CYLINDER["height"], "Height, along z"),
 )
+disc_options = combined(
+    length_option("--diameter", _DISC["diameter"], "Diameter"),
+    length_option("--depth", _DISC["depth"], "Depth, along y"),
+)
 
 
-@click.command()
-@box_options
-@cli_options.grain_options
-@cli_options.out_option
-@cli_options.quiet_option
-def box(out: Path, quiet: bool, **options: Any) -> None:
-    """A box of polyhedral grains."""
-    _make(SolidSpec("box", **options), out, quiet)
+def _command(kind: str, sizes: cli_options.Decorator, about: str) -> click.Command:
+    """The command that makes a shape of given sizes."""
+
+    @click.command(kind, help=about)
+    @sizes
+    @cli_options.grain_options
+    @cli_options.out_option
+    @cli_options.quiet_option
+    def made(out: Path, quiet: bool, **options: Any) -> None:
+        _make(SolidSpec(kind, **options), out, quiet)
+
+    return made
 
 
-@click.command()
-@cylinder_options
-@cli_options.grain_options
-@cli_options.out_option
-@cli_options.quiet_option
-def cylinder(out: Path, quiet: bool, **options: Any) -> None:
-    """An upright cylinder of polyhedral grains."""
-    _make(SolidSpec("cylinder", **options), out, quiet)
+box = _command("box", box_options, "A box of polyhedral grains.")
+cylinder = _command("cylinder", cylinder_options, "An upright cylinder of polyhedral grains.")
+solid_disc = _command("solid-disc", disc_options, "A disc of polyhedral grains, about the y axis.")
 
 
 def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:

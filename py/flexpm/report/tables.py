@@ -134,7 +134,10 @@ def size_text(result: Result) -> str:
     """Size of a specimen, its grains and its seed in one line."""
     specimen = (result.inputs or {}).get("specimen") or {}
     parts = []
-    if specimen.get("depth"):
+    if specimen.get("kind") == "solid-disc":
+        sizes = (specimen[name] for name in ("diameter", "depth"))
+        parts.append("disc of " + " x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
+    elif specimen.get("depth"):
         sizes = (specimen[name] for name in ("width", "depth", "height"))
         parts.append(" x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
     elif specimen.get("kind") == "cylinder":

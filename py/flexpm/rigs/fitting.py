@@ -13,12 +13,13 @@ from ..specimens.space.any_spec import SOLIDS, is_solid
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig
+from .solids.disc_rig import SolidDiscRig
 from .solids.end_rig import EndRig
 from .sphere_rig import SphereRig
 from .statics.end_state import NodeEnds, PlateEnds
 
 #: Rigs that note what a script calls, for its folder.
-_RIGS = [recording(kind) for kind in (NodeEnds, PlateEnds, EndRig, SphereRig)]
+_RIGS = [recording(kind) for kind in (NodeEnds, PlateEnds, EndRig, SolidDiscRig, SphereRig)]
 
 
 def rig(
@@ -33,7 +34,7 @@ def rig(
     Args:
         built: A rectangle, which is compressed or pulled between its bottom and top, or a disc,
             which is compressed between two plates; or a solid, between its ends along z.
-        tension: Pull instead of press; a rectangle only.
+        tension: Pull instead of press; no disc.
         runner: Steps, shows progress and saves checkpoints; None for one that only steps.
         leaves: What the test leaves, by these names:
 
@@ -67,7 +68,8 @@ def _fitting(built: Model | SphereModel, tension: bool, runner: Runner | None) -
     if isinstance(built, SphereModel):
         return SphereRig(built, tension=tension, runner=runner)
     if is_solid(built.specimen.kind):
-        return EndRig(built, tension=tension, runner=runner)
+        kind = SolidDiscRig if built.specimen.kind == "solid-disc" else EndRig
+        return kind(built, tension=tension, runner=runner)
     if built.name == "flexible" and built.specimen.kind == "rectangle":
         return NodeEnds(built, tension=tension, runner=runner)
     return PlateEnds(built, tension=tension, runner=runner)

@@ -77,7 +77,7 @@ class RigReadings(ABC):
     def __init__(self, built: Model | SphereModel, *, tension: bool = False) -> None:
         """Take a specimen that has just been built, or whose scene has been loaded."""
         self.built, self.tension = built, tension
-        self.disc = built.specimen.kind == "disc"
+        self.disc = built.specimen.kind in ("disc", "solid-disc")
         self.solid = is_solid(built.specimen.kind)
 
     @property

@@ -119,6 +119,10 @@ def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, 
     return {model: interaction_range if takes_range(model) else None for model in models}
 
 
-def shape_of(test: str) -> str:
-    """Shape of the specimen that a test needs."""
-    return kind_of(test).shape
+def shape_of(test: str, shape: object = None, depth: object = None) -> str:
+    """Shape of a test's specimen: what is asked for, by a depth the only solid that it may have."""
+    kind = kind_of(test)
+    if shape:
+        return str(shape)
+    by_depth = depth is not None and len(kind.solids) == 1
+    return kind.solids[0] if by_depth else kind.shape

@@ -168,7 +168,8 @@ def _check_test(run: RunInputs) -> None:
         hint = run.kind.confine_hint
         if run.is_solid:
             shape = run.specimen.kind
-            hint = f"; use {names(lambda kind: kind.confined and shape in kind.solids)[0]}"
+            confined = names(lambda kind: kind.confined and shape in kind.solids)
+            hint = f"; use {confined[0]}" if confined else ""
         raise InputError(f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}{hint}")
 
 

@@ -19,7 +19,7 @@ from ..materials.mixing import description, is_brittle
 from ..models.options import DAMPING
 from ..require import require_known
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of, spec_type
-from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced
+from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced, shape_of
 from .run_checks import require_shape, settle
 from .run_inputs import RunInputs
 
@@ -72,7 +72,7 @@ class RunSpec(RunInputs):
     def packed(test: str, options: Table) -> AnySpec:
         """The packed specimen that options of the command describe for a test."""
         kind = kind_of(test)
-        shape = options.get("shape") or kind.shape
+        shape = shape_of(test, options.get("shape"), options.get("depth"))
         if is_solid(shape):
             require_shape(kind, shape)
         known = set(field_names(shape))

@@ -146,10 +146,11 @@ def make(inputs: Table, base: Path) -> Job:
     test = given.pop("test")
     require_known("study test", test, _TESTS)
     output = Output(False, **{key: given.pop(key) for key in _OUTPUTS if key in given})
+    shape = input_names.shape_of(test, given.get("shape"), given.get("depth"))
     used = {
         key: value
         for key, value in given.items()
-        if has_use(key, test, given.get("model", RunSpec.model), given.get("shape"))
+        if has_use(key, test, given.get("model", RunSpec.model), shape)
     }
     changes = {key.removeprefix("set."): key for key in used if key.startswith("set.")}
     for key in used:

@@ -52,7 +52,8 @@ int node_near(const SolidState& s, double x, double y)
 
 bool is_held(const SolidState& s, SolidSide side)
 {
-    if (!s.bodies.empty()) return find_plate(s, side) >= 0;
+    if (find_plate(s, side) >= 0) return true;
+    if (!s.bodies.empty()) return false;
     const std::vector<int> nodes = side_nodes(s, side);
     return !nodes.empty() && s.grains.prescribed[s.grains.component(nodes.front(), axial)];
 }
@@ -69,19 +70,17 @@ void need_held(const SolidState& s)
 
 void set_top_velocity(SolidState& s, double velocity)
 {
-    if (s.bodies.empty()) {
-        prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
+    const int plate = find_plate(s, SolidSide::top);
+    if (plate >= 0) {
+        s.plates[plate].velocity = { 0.0, 0.0, velocity };
     } else {
-        s.plates[find_plate(s, SolidSide::top)].velocity = { 0.0, 0.0, velocity };
+        prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
     }
 }
 
 double height_of(const SolidState& s)
 {
-    const auto z = [&](SolidSide side) {
-        return s.grains.reference[s.grains.component(side_nodes(s, side).front(), axial)];
-    };
-    return z(SolidSide::top) - z(SolidSide::bottom);
+    return end_place(s, SolidSide::top) - end_place(s, SolidSide::bottom);
 }
 
 /// Let damping act on all motion.
@@ -237,7 +236,7 @@ void start_ends(SolidState& s, const SolidField& field, double strain, double ve
     check_finite("strain of the start", strain, "");
     check_positive("time step", dt, "s");
     const double height = height_of(s);
-    if (!s.bodies.empty()) {
+    if (!s.plates.empty()) {
         s.plates[find_plate(s, SolidSide::top)].displacement = { 0.0, 0.0, strain * height };
         s.plates[find_plate(s, SolidSide::bottom)].displacement = {};
     }
@@ -278,7 +277,8 @@ void drive_top(SolidState& s, double velocity, double dt)
 double top_velocity(const SolidState& s)
 {
     need_held(s);
-    if (!s.bodies.empty()) return s.plates[find_plate(s, SolidSide::top)].velocity.z;
+    const int plate = find_plate(s, SolidSide::top);
+    if (plate >= 0) return s.plates[plate].velocity.z;
     return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
 }
 

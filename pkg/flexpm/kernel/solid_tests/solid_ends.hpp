@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Ends of a specimen in space that move along z, and the motion that they give to it:
 /// end_displacement.hpp, loading_motion.hpp and steady_motion.hpp there. Ends are free laterally.
-/// Nodes of deformable grains are driven, rigid ones lie between plates. SI units, tension
-/// positive.
+/// Nodes of deformable grains are driven, rigid ones, and discs of any, lie between plates. SI
+/// units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/statics/solid_loading.hpp>

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/measure/centre_strain.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
+#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
@@ -103,6 +104,24 @@ double lateral_extension(const SolidState& s)
     return way / whole;
 }
 
+/// Growth of the distance between the outermost grains of a disc on both sides along x [m].
+double widening(const SolidState& s)
+{
+    const double reach = mean_diameter(s);
+    double farthest = 0.0, ways[2] = { 0.0, 0.0 };
+    int grains[2] = { 0, 0 };
+    const auto place = [&](int g) { return s.grains.reference[s.grains.centre(g)]; };
+    for (int g = 0; g < s.grains.count; ++g)
+        farthest = std::max(farthest, std::fabs(place(g)));
+    for (int g = 0; g < s.grains.count; ++g) {
+        if (std::fabs(place(g)) < farthest - reach) continue;
+        const int side = place(g) > 0.0;
+        ways[side] += s.grains.displacement[s.grains.centre(g)];
+        ++grains[side];
+    }
+    return ways[1] / std::max(grains[1], 1) - ways[0] / std::max(grains[0], 1);
+}
+
 /// Mean over all grains.
 template <class Value> double grain_mean(const SolidState& s, Value value)
 {
@@ -115,6 +134,15 @@ template <class Value> double grain_mean(const SolidState& s, Value value)
 const LawParameters& own_law(const SolidState& s, int grain)
 {
     return s.contacts.laws[s.grains.law_index(grain, grain)];
+}
+
+double volume_of(const SolidState& s)
+{
+    double sum = 0.0;
+    for (int block = 0; block < s.grains.blocks(); ++block)
+        for_each_tetrahedron(s, block,
+            [&](const TetrahedronShape& t, const std::array<int, 4>&) { sum += t.volume; });
+    return sum;
 }
 
 double mean_modulus(const SolidState& s)
@@ -157,6 +185,26 @@ SolidFrame solid_frame(const SolidState& s, Sense sense)
     return frame;
 }
 
+SolidFrame solid_disc_frame(const SolidState& s, double diameter, double depth)
+{
+    check_positive("diameter", diameter, "m");
+    check_positive("depth", depth, "m");
+    const int lower = find_plate(s, SolidSide::bottom), upper = find_plate(s, SolidSide::top);
+    if (lower < 0 || upper < 0) {
+        refuse("solid_disc_frame: plates", static_cast<double>(s.plates.size()), "",
+            "must be a lower and an upper one; add them first");
+    }
+    SolidFrame frame;
+    frame.area = splitting_area(diameter, depth);
+    frame.height = diameter;
+    frame.ends = end_forces;
+    frame.strains = [=](const SolidState& now) {
+        const double closure = now.plates[lower].displacement.z - now.plates[upper].displacement.z;
+        return TestStrains { closure / diameter, widening(now) / diameter };
+    };
+    return frame;
+}
+
 double lateral_strain(const SolidState& s, Sense sense)
 {
     const double extension = lateral_extension(s);
@@ -168,7 +216,7 @@ EndForces end_forces(const SolidState& s)
     return { end_force(s, SolidSide::bottom), end_force(s, SolidSide::top) };
 }
 
-ScaleInputs scale_inputs(const SolidState& s, Sense sense, double dt)
+ScaleInputs scale_inputs(const SolidState& s, Sense sense, double thickness, double dt)
 {
     ScaleInputs in;
     in.modulus = mean_modulus(s);
@@ -178,7 +226,7 @@ ScaleInputs scale_inputs(const SolidState& s, Sense sense, double dt)
             grain_mean(s, [&](int g) { return own_law(s, g).friction; }) });
     for (double m : s.grains.inverse_mass)
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
-    in.thickness = std::sqrt(extent_of(s).area);
+    in.thickness = thickness;
     in.dt = dt;
     in.damage_share = 1.0;
     for (int g = 0; g < s.grains.count; ++g)
@@ -189,7 +237,23 @@ ScaleInputs scale_inputs(const SolidState& s, Sense sense, double dt)
 TestScales solid_scales(const SolidState& s, Sense sense, double dt)
 {
     const SolidExtent extent = extent_of(s);
-    return rectangle_scales(scale_inputs(s, sense, dt), std::sqrt(extent.area), extent.height);
+    const double width = std::sqrt(extent.area);
+    return rectangle_scales(scale_inputs(s, sense, width, dt), width, extent.height);
+}
+
+TestScales solid_disc_scales(const SolidState& s, double diameter, double depth, double dt)
+{
+    check_positive("diameter", diameter, "m");
+    check_positive("depth", depth, "m");
+    return disc_scales(scale_inputs(s, Sense::tension, depth, dt), diameter);
+}
+
+double ball_crossing_steps(const SolidState& s, double diameter, double dt)
+{
+    // the shape does not matter: a cube has the same volume
+    const double edge = std::cbrt(volume_of(s));
+    const ScaleInputs in = scale_inputs(s, Sense::compression, edge, dt);
+    return rectangle_scales(in, edge, edge).crossing_steps * diameter / edge;
 }
 
 }  // namespace flexpm

@@ -23,17 +23,26 @@ SolidExtent extent_of(const SolidState& s);
 /// of the mantle over the radius.
 SolidFrame solid_frame(const SolidState& s, Sense sense);
 
+/// Frame of a disc between its plates: disc_frame() of the plane, its depth along y for the
+/// thickness. Widened is it between the grains outermost along x, those within a mean diameter.
+/// @throws std::invalid_argument  if a size is not above 0, or there are no plates
+SolidFrame solid_disc_frame(const SolidState& s, double diameter, double depth);
+
 /// Lateral strain, positive as Poisson's effect under the sense of the loading [-].
 double lateral_strain(const SolidState& s, Sense sense);
 
 /// Forces that hold the ends along z [N].
 EndForces end_forces(const SolidState& s);
 
-/// The inputs of the scales, means over all grains, as of the plane; `thickness` is the area over
-/// the width, which is its root.
-ScaleInputs scale_inputs(const SolidState& s, Sense sense, double dt);
+/// The inputs of the scales, means over all grains, as of the plane.
+/// @param thickness  the section's area over its width [m]
+ScaleInputs scale_inputs(const SolidState& s, Sense sense, double thickness, double dt);
 
 /// Scales of a test of the specimen as it is; the width is the root of the area.
 TestScales solid_scales(const SolidState& s, Sense sense, double dt);
+TestScales solid_disc_scales(const SolidState& s, double diameter, double depth, double dt);
+
+/// Steps in which a wave crosses a ball of the grains [-].
+double ball_crossing_steps(const SolidState& s, double diameter, double dt);
 
 }  // namespace flexpm

@@ -101,6 +101,11 @@ void add_point(const SolidState& s, int contact, int point, SolidBound& bound)
 void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& bound)
 {
     const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    if (!s.grains.is_rigid(grain)) {
+        for (int n : s.surface.nodes[triangle])
+            bound.node[s.grains.scalar_index(n)] += point_stiffness(plate, index) / 3.0;
+        return;
+    }
     const double r = s.grains.radius[grain];
     Vector place;
     for (int n : s.surface.nodes[triangle])

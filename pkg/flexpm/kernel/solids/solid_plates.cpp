@@ -6,6 +6,7 @@
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace flexpm {
@@ -21,12 +22,13 @@ double mean_stiffness(const SolidState& s)
     return sum / s.grains.count;
 }
 
-double triangle_area(const SolidState& s, int triangle)
+/// Area of a triangle along its normal, outwards [m^2].
+Vector area_vector(const SolidState& s, int triangle)
 {
     std::array<Vector, 3> r;
     for (int k = 0; k < 3; ++k)
         r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
-    return 0.5 * norm(cross(r[1] - r[0], r[2] - r[0]));
+    return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
 }
 
 /// Mean of a vector over a triangle.
@@ -58,6 +60,72 @@ void take_over_pressure(SolidState& s, Plate& p)
     s.ledger.initial += solid_plate_energy(p);
 }
 
+/// A plate without contacts yet.
+Plate plate_on(const SolidState& s, SolidSide side)
+{
+    Plate p;
+    p.side = static_cast<int>(side);
+    p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
+    p.stiffness = mean_stiffness(s);
+    return p;
+}
+
+void add_contact(const SolidState& s, Plate& p, int triangle)
+{
+    p.facets.push_back(triangle);
+    p.area.push_back(norm(area_vector(s, triangle)));
+}
+
+/// Least cosine between a plate's normal and that of a triangle, inwards, that may touch it.
+constexpr double facing = 0.5;
+/// Gap over the way from end to end that is none: round-off [-].
+constexpr double no_gap = 1e-9;
+
+/// A plate that touches the mantle where this reaches farthest against its normal.
+Plate touching_plate(const SolidState& s, SolidSide side)
+{
+    Plate p = plate_on(s, side);
+    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
+        if (s.surface.side[t] != static_cast<int>(SolidSide::mantle)) continue;
+        const Vector outwards = area_vector(s, t);
+        if (-dot(p.normal, outwards) > facing * norm(outwards)) add_contact(s, p, t);
+    }
+    if (p.facets.empty())
+        refuse("add_disc_plates: triangles before side " + std::to_string(p.side), 0.0, "",
+            "must be above 0; give a disc");
+    for (int t : p.facets)
+        p.gap.push_back(dot(p.normal, middle(s.grains.reference, s.surface.nodes[t])));
+    const auto first = std::min_element(p.gap.begin(), p.gap.end());
+    const double nearest = *first;
+    p.position = middle(s.grains.reference, s.surface.nodes[p.facets[first - p.gap.begin()]]);
+    for (double& gap : p.gap)
+        gap = gap - nearest < no_gap * std::fabs(nearest) ? 0.0 : gap - nearest;
+    p.opening = p.gap;
+    return p;
+}
+
+void hold(SolidState& s, int node, int axis)
+{
+    const int i = s.grains.component(node, axis);
+    s.grains.velocity[i] = 0.0;
+    s.grains.prescribed[i] = 1;
+}
+
+/// Keep what a plate touches from sliding across the disc's axis; returns a node of it.
+int keep_from_rolling(SolidState& s, const Plate& p)
+{
+    int held = -1;
+    for (std::size_t i = 0; i < p.facets.size(); ++i) {
+        if (p.gap[i] > 0.0) continue;
+        std::array<int, 3> nodes = s.surface.nodes[p.facets[i]];
+        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[p.facets[i]]));
+        for (int n : nodes)
+            hold(s, n, 0);
+        held = nodes.front();
+    }
+    return held;
+}
+
 }  // namespace
 
 void add_end_plate(SolidState& s, SolidSide side, bool bonded)
@@ -69,16 +137,10 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
         refuse("add_end_plate: rigid grains", 0.0, "", "must be all; drive the nodes of others");
     if (find_plate(s, side) >= 0)
         refuse("add_end_plate: side", number, "", "must be without a plate; it has one");
-    Plate p;
-    p.side = number;
-    p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
-    p.stiffness = mean_stiffness(s);
+    Plate p = plate_on(s, side);
     p.bonded = bonded;
-    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
-        if (s.surface.side[t] != number) continue;
-        p.facets.push_back(t);
-        p.area.push_back(triangle_area(s, t));
-    }
+    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t)
+        if (s.surface.side[t] == number) add_contact(s, p, t);
     if (p.facets.empty())
         refuse("add_end_plate: triangles of side " + std::to_string(number), 0.0, "",
             "must be above 0; give cells of a solid with bottom and top");
@@ -88,6 +150,25 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     take_over_pressure(s, p);
     s.plates.push_back(p);
     prepare_step(s);
+}
+
+void add_disc_plates(SolidState& s)
+{
+    if (!s.plates.empty())
+        refuse("add_disc_plates: plates", static_cast<double>(s.plates.size()), "", "must be 0");
+    for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
+        s.plates.push_back(touching_plate(s, side));
+    keep_from_rolling(s, s.plates.back());
+    hold(s, keep_from_rolling(s, s.plates.front()), 1);
+    prepare_step(s);
+}
+
+double pressed_area(const Plate& plate)
+{
+    double area = 0.0;
+    for (std::size_t i = 0; i < plate.facets.size(); ++i)
+        if (plate.opening[i] < 0.0) area += plate.area[i];
+    return area;
 }
 
 int find_plate(const SolidState& s, SolidSide side)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Smooth plates on the ends of a specimen of rigid grains in space: plate_contact.hpp
-/// there. A contact lies in the middle of each surface triangle. SI units; forces of a plate on the
-/// specimen are positive along its normal, which points into it.
+/// @file  Smooth plates on the ends of a specimen of rigid grains in space, and against the mantle
+/// of a disc of any grains: plate_contact.hpp there. A contact lies in the middle of each surface
+/// triangle. SI units; forces of a plate on the specimen are positive along its normal, which
+/// points into it.
 /// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area.
 #pragma once
 
@@ -16,6 +17,12 @@ namespace flexpm {
 ///         if grains deform
 void add_end_plate(SolidState& s, SolidSide side, bool bonded);
 
+/// Lay plates below and on top of a disc, as bottom and top, that touch it and press alone. What
+/// they touch at first does not move along x, else the disc would roll (deviation D28), and one
+/// place of it not along y. Masses must be scaled again afterwards.
+/// @throws std::invalid_argument  if there are plates, or no mantle faces them
+void add_disc_plates(SolidState& s);
+
 /// Number of the plate on a side; -1 if there is none.
 int find_plate(const SolidState& s, SolidSide side);
 
@@ -27,6 +34,9 @@ void add_plate_forces(SolidState& s, int block);
 
 /// Sum forces and works of all plates after the grains have moved by a step.
 void sum_plates(SolidState& s, double dt);
+
+/// Area on which a plate presses [m^2].
+double pressed_area(const Plate& plate);
 
 /// Stored energy of a plate's contacts [J].
 double solid_plate_energy(const Plate& plate);

@@ -8,7 +8,7 @@
 
 namespace flexpm {
 
-/// Side of a specimen that a wall belongs to; the mantle of a cylinder is one.
+/// Side of a specimen that a wall belongs to; the mantle of a cylinder or a disc is one.
 enum class SolidSide { bottom = 0, right = 1, mantle = 1, top = 2, left = 3, front = 4, back = 5 };
 
 /// Plane that bounds a solid: points p with dot(normal, p) > offset lie outside.
@@ -31,6 +31,10 @@ struct Solid {
     /// each grain of the given size around it, and at least 16 (deviation D63).
     /// @throws std::invalid_argument  unless all are finite and above 0
     static Solid cylinder(double diameter, double height, double grain);
+    /// Disc about the y axis from y = 0, as a prism of the same section: a facet for each grain
+    /// around it, an even number, one below and one on top. Tests load it along z.
+    /// @throws std::invalid_argument  unless all are finite and above 0
+    static Solid disc(double diameter, double depth, double grain);
 };
 
 /// Distance from the nearest wall, positive inside [m].

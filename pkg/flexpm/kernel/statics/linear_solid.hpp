@@ -28,6 +28,8 @@ struct LinearSolid : LinearForces {
     };
     /// A smooth plate before the middle of a surface triangle; it bears both ways.
     struct Press {
+        int plate;
+        bool touches;
         std::array<int, 3> nodes;
         Vector normal;
         double stiffness;  ///< [N/m]

@@ -72,32 +72,48 @@ void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& sol
 
 void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
 {
-    for (const Plate& plate : s.plates) {
+    for (int number = 0; number < static_cast<int>(s.plates.size()); ++number) {
+        const Plate& plate = s.plates[number];
         for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
             const int triangle = plate.facets[i], grain = s.surface.grain[triangle];
             std::array<int, 3> nodes = s.surface.nodes[triangle];
             for (int& n : nodes)
                 n = numbers.of(grain, n);
-            solid.presses.push_back({ nodes, plate.normal, point_stiffness(plate, i) });
+            const bool touches = plate.bonded || plate.opening[i] <= 0.0;
+            solid.presses.push_back(
+                { number, touches, nodes, plate.normal, point_stiffness(plate, i) });
         }
     }
 }
 
-/// z of an end at the reference.
-double end_of(const SolidState& s, SolidSide side)
+/// Forces of an intact specimen that plates which do not touch it have no part in.
+LinearSolid touched_solid(const SolidState& s)
 {
-    const std::vector<int> nodes = side_nodes(s, side);
-    if (nodes.empty()) {
-        refuse("elastic_field: nodes of an end", 0.0, "",
-            "must be above 0; give a solid with bottom and top");
+    LinearSolid solid = linear_solid(s);
+    auto& presses = solid.presses;
+    presses.erase(std::remove_if(presses.begin(), presses.end(),
+                      [](const LinearSolid::Press& p) { return !p.touches; }),
+        presses.end());
+    return solid;
+}
+
+/// Forces on nodes when the top's plate has gone a way.
+std::vector<double> push_of_top(const SolidState& s, const LinearSolid& solid, Vector way)
+{
+    std::vector<double> on_nodes(3 * solid.places.size(), 0.0);
+    for (const LinearSolid::Press& p : solid.presses) {
+        if (s.plates[p.plate].side != static_cast<int>(SolidSide::top)) continue;
+        for (int n : p.nodes)
+            add_triple(on_nodes.data(), n, (p.stiffness * dot(p.normal, way) / 3.0) * p.normal);
     }
-    return s.grains.reference[s.grains.component(nodes.front(), 2)];
+    return on_nodes;
 }
 
 SolidField field_of_nodes(const SolidState& s)
 {
-    const LinearSolid solid = linear_solid(s);
-    const double low = end_of(s, SolidSide::bottom);
+    const LinearSolid solid = touched_solid(s);
+    const double low = end_place(s, SolidSide::bottom);
+    const double height = end_place(s, SolidSide::top) - low;
     const std::size_t size = 3 * solid.places.size();
     std::vector<std::uint8_t> held(size, 0);
     std::size_t next = 0;
@@ -108,7 +124,8 @@ SolidField field_of_nodes(const SolidState& s)
     });
     if (std::find(held.begin(), held.end(), 1) == held.end())
         refuse("elastic_field: held nodes", 0.0, "", "must be those of both ends; hold them first");
-    std::vector<double> given(size, 0.0), guess(size, 0.0), load(size, 0.0);
+    std::vector<double> given(size, 0.0), guess(size, 0.0);
+    std::vector<double> load = push_of_top(s, solid, { 0.0, 0.0, -height });
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - low;
     solid.add(given.data(), load.data());
@@ -124,25 +141,15 @@ SolidField field_of_nodes(const SolidState& s)
 
 SolidField field_of_bodies(const SolidState& s)
 {
-    const LinearSolid solid = linear_solid(s);
+    const LinearSolid solid = touched_solid(s);
     const RigidSolid rigid = rigid_solid(s, solid);
-    const double low = end_of(s, SolidSide::bottom);
-    const double height = end_of(s, SolidSide::top) - low;
+    const double low = end_place(s, SolidSide::bottom);
+    const double height = end_place(s, SolidSide::top) - low;
     std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
     for (int g = 0; g < s.grains.count; ++g)
         guess[6 * g + 2] = rigid.centres[g].z - low;
-    std::vector<double> on_nodes(3 * solid.places.size(), 0.0), load(guess.size(), 0.0);
-    std::size_t next = 0;
-    for (const Plate& plate : s.plates) {
-        const bool moves = plate.side == static_cast<int>(SolidSide::top);
-        for (std::size_t i = 0; i < plate.facets.size(); ++i, ++next) {
-            const LinearSolid::Press& p = solid.presses[next];
-            const double along = moves ? dot(p.normal, { 0.0, 0.0, height }) : 0.0;
-            for (int n : p.nodes)
-                add_triple(on_nodes.data(), n, (p.stiffness * along / 3.0) * p.normal);
-        }
-    }
-    rigid.gather(on_nodes, load.data());
+    std::vector<double> load(guess.size(), 0.0);
+    rigid.gather(push_of_top(s, solid, { 0.0, 0.0, height }), load.data());
     std::vector<std::uint8_t> held(guess.size(), 0);
     for (int g = 0; g < s.grains.count; ++g)
         for (int axis = 0; axis < 3; ++axis)

@@ -11,7 +11,7 @@ namespace flexpm {
 
 /// Displacements of the intact, unloaded specimen at an axial strain of 1, with held ends
 /// (hold_ends()): of deformable grains as solid_extension() has it, of rigid ones between their
-/// plates. The bottom stays.
+/// plates, and of a disc between those that touch it (add_disc_plates()). The bottom stays.
 ///
 /// @throws std::invalid_argument  unless ends are held
 /// @throws std::runtime_error  if the forces do not come to balance

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
 
 #include <algorithm>
@@ -21,6 +22,18 @@ std::vector<int> side_nodes(const SolidState& s, SolidSide side)
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
+}
+
+double end_place(const SolidState& s, SolidSide side)
+{
+    const std::vector<int> nodes = side_nodes(s, side);
+    if (!nodes.empty()) return s.grains.reference[s.grains.component(nodes.front(), 2)];
+    const int plate = find_plate(s, side);
+    if (plate < 0) {
+        refuse("nodes of an end", 0.0, "",
+            "must be above 0; give a solid with bottom and top, or a disc between plates");
+    }
+    return s.plates[plate].position.z;
 }
 
 void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double velocity)

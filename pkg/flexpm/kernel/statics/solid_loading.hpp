@@ -13,6 +13,10 @@ namespace flexpm {
 /// Nodes of the grains on a side, without repetition, by their offsets.
 std::vector<int> side_nodes(const SolidState& s, SolidSide side);
 
+/// z of an end at the reference, by its nodes, or by the plate that touches it [m].
+/// @throws std::invalid_argument  if there is neither
+double end_place(const SolidState& s, SolidSide side);
+
 /// Give nodes a velocity along an axis (0: x) from now on [m/s].
 void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double velocity);
 

@@ -149,6 +149,11 @@ void register_space_bindings()
 	        .staticmethod("box")
 	        .def("cylinder", Solid::cylinder, (py::arg("diameter"), py::arg("height"), py::arg("grain")), "Upright prism about the z axis, from z = 0.")
 	        .staticmethod("cylinder")
+	        .def("disc",
+	             Solid::disc,
+	             (py::arg("diameter"), py::arg("depth"), py::arg("grain")),
+	             "Prism about the y axis, from y = 0, with a facet below and one on top.")
+	        .staticmethod("disc")
 	        .add_property("walls", walls, "Rows nx, ny, nz, offset: outside where n . p > offset.")
 	        .add_property("sides", sides, "Side of each wall: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back.")
 	        .def_readonly("volume", &Solid::volume, "[m^3]");

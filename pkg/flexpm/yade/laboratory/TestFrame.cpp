@@ -12,17 +12,19 @@
 
 namespace yade {
 
-YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame));
+YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame)(SolidDiscFrame));
 
 TestFrame::~TestFrame()           = default;
 RectangleFrame::~RectangleFrame() = default;
 DiscFrame::~DiscFrame()           = default;
 PartFrame::~PartFrame()           = default;
 EndFrame::~EndFrame()             = default;
+SolidDiscFrame::~SolidDiscFrame() = default;
 
 flexpm::TestFrame TestFrame::frame(const flexpm::Assembly&) const
 {
-	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame of a solid");
+	throw std::invalid_argument(
+	        "AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame or SolidDiscFrame of a solid");
 }
 
 flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) const
@@ -132,7 +134,7 @@ namespace {
 	flexpm::SolidState& solidOf(GrainSolver& solver)
 	{
 		if (auto* state = solver.solid()) return *state;
-		throw std::invalid_argument("AxialRecorder.frame = EndFrame, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
+		throw std::invalid_argument("AxialRecorder.frame = one of a solid, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
 	}
 
 } // namespace
@@ -144,5 +146,13 @@ flexpm::AxialObservation EndFrame::observed(GrainSolver& solver) const
 }
 
 flexpm::TestScales EndFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_scales(solidOf(solver), sense(), dt); }
+
+flexpm::AxialObservation SolidDiscFrame::observed(GrainSolver& solver) const
+{
+	const auto& state = solidOf(solver);
+	return flexpm::observe(state, flexpm::solid_disc_frame(state, diameter, depth));
+}
+
+flexpm::TestScales SolidDiscFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_disc_scales(solidOf(solver), diameter, depth, dt); }
 
 } // namespace yade

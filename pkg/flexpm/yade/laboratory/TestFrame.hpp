@@ -135,4 +135,20 @@ private:
 };
 REGISTER_SAVED(EndFrame);
 
+class SolidDiscFrame : public TestFrame {
+public:
+	~SolidDiscFrame() override;
+	flexpm::AxialObservation observed(GrainSolver& solver) const override;
+	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(SolidDiscFrame, TestFrame,
+		"A disc of space, whose axis is y, between the plates of :yref:`SolidSolver.holdDisc`.",
+		((Real, diameter, 0.,, "Of the disc [m]."))
+		((Real, depth, 0.,, "Of the disc, along y [m]."))
+	);
+	// clang-format on
+};
+REGISTER_SAVED(SolidDiscFrame);
+
 } // namespace yade

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
@@ -56,6 +57,16 @@ void SolidSolver::holdBottom()
 {
 	flexpm::hold_end(state, flexpm::SolidSide::bottom, false);
 	flexpm::hold_against_sliding(state);
+}
+
+void SolidSolver::holdDisc() { flexpm::add_disc_plates(state); }
+
+py::list SolidSolver::pressedAreas()
+{
+	py::list areas;
+	for (const auto& plate : state.plates)
+		areas.append(flexpm::pressed_area(plate));
+	return areas;
 }
 
 void SolidSolver::clearPressure(int side) { flexpm::set_pressure(state, side, 0.); }

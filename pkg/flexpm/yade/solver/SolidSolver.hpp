@@ -25,8 +25,10 @@ public:
 	void scaleMasses();
 	void holdEnds(bool bonded);
 	void holdBottom();
-	void clearPressure(int side);
-	void holdSide(int side, bool x, bool y, bool z);
+	void holdDisc();
+	py::list pressedAreas();
+	void     clearPressure(int side);
+	void     holdSide(int side, bool x, bool y, bool z);
 	py::dict snapshot();
 	py::dict counts();
 	py::dict overlaps();
@@ -47,6 +49,8 @@ public:
 		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, py::arg("bonded") = false,
 			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. Scale the masses afterwards.")
 		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile.")
+		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, "Lay a smooth plate below a disc and one on top, which touch it. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
+		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")
 		.def("balance", WithGrains<&SolidSolver::balance>::call,
 			"How far the specimen is in balance at the last step, by name: mean_stress and outside_stress [Pa], each (xx, yy, zz, yz, xz, xy), missing_force [N], plate_share, 0.")

@@ -53,11 +53,7 @@ py::dict SolidSolver::balance()
 	return d;
 }
 
-Real SolidSolver::crossingSteps(Real diameter)
-{
-	const auto scales = flexpm::solid_scales(state, flexpm::Sense::compression, Omega::instance().getScene()->dt);
-	return scales.crossing_steps * diameter / scales.height;
-}
+Real SolidSolver::crossingSteps(Real diameter) { return flexpm::ball_crossing_steps(state, diameter, Omega::instance().getScene()->dt); }
 
 py::dict SolidSolver::snapshot()
 {

@@ -14,6 +14,7 @@ KIND = TestKind(
     about="compression of a disc between two plates, whose axial stress is 2 P / (pi D t), P the "
     "force, D the diameter, t the thickness",
     shape="disc",
+    solids=("solid-disc",),
     results={
         **dict.fromkeys(("flexible", "rigid"), 5),
         **dict.fromkeys(("inner", "inner-un"), 4),
@@ -24,6 +25,10 @@ KIND = TestKind(
         "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=100),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+    },
+    solid_rates={
+        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=42),
+        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=100),
     },
     largest_strain=16.0,  # plates press into discs, which softening lets carry more
     falls_freely=True,

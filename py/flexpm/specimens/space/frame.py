@@ -20,12 +20,12 @@ _BEYOND = 0.05
 
 @dataclass(frozen=True)
 class SolidFrame:
-    """Box from the origin, or upright cylinder about the z axis from z = 0.
+    """Box from the origin, upright cylinder about the z axis, disc about the y axis, both from 0.
 
     Attributes:
-        kind: ``box`` or ``cylinder``.
-        sizes: Width, depth and height, or diameter and height [m].
-        grain: Mean diameter of the spheres, which the facets of a cylinder follow [m].
+        kind: ``box``, ``cylinder`` or ``solid-disc``.
+        sizes: Width, depth and height, diameter and height, or diameter and depth [m].
+        grain: Mean diameter of the spheres, which the facets of a mantle follow [m].
     """
 
     kind: str
@@ -44,10 +44,11 @@ class SolidFrame:
 
     def solid(self) -> Solid:
         """Return the outline as the kernel's object."""
-        if self.kind == "cylinder":
-            diameter, height = self.sizes
-            return Solid.cylinder(diameter, height, self.grain)
-        return Solid.box(*self.sizes)
+        if self.kind == "box":
+            return Solid.box(*self.sizes)
+        diameter, length = self.sizes
+        make = Solid.cylinder if self.kind == "cylinder" else Solid.disc
+        return make(diameter, length, self.grain)
 
     def insert(self, radii: FloatArray, shrink: float, seed: int) -> FloatArray:
         """Return random places at which shrunken spheres do not overlap, (n, 3) [m]."""
@@ -62,7 +63,7 @@ class SolidFrame:
                 side = int(normal[axis])
                 wall = utils.wall(side * offset, axis, sense=-side, material=material)
                 bodies.append(wall)
-        return bodies + (self._mantle(material) if self.kind == "cylinder" else [])
+        return bodies + ([] if self.kind == "box" else self._mantle(material))
 
     def has_inside(self, place: FloatArray) -> bool:
         """Whether a place x, y, z is inside."""
@@ -77,13 +78,20 @@ class SolidFrame:
         low = -_BEYOND * max(self.sizes)
         high = self.sizes[1] - low
         # numpy has cosines of its own on some processors: spheres would differ between machines
-        angles = [2.0 * math.pi * k / count for k in range(count + 1)]
+        upright = self.kind == "cylinder"
+        first = 0.0 if upright else math.pi / count
+        angles = [first + 2.0 * math.pi * k / count for k in range(count + 1)]
         rim = [(corner * math.cos(angle), corner * math.sin(angle)) for angle in angles]
+
+        def place(point: tuple[float, float], along: float) -> tuple[float, float, float]:
+            # the mantle of a disc is that of a cylinder that has been laid down
+            return (*point, along) if upright else (point[1], along, point[0])
+
         facets = []
         for a, b in itertools.pairwise(rim):
             for corners in (
-                [(*a, low), (*b, low), (*a, high)],
-                [(*b, low), (*b, high), (*a, high)],
+                [place(a, low), place(b, low), place(a, high)],
+                [place(b, low), place(b, high), place(a, high)],
             ):
                 facets.append(utils.facet(corners, material=material))
         return facets

@@ -49,25 +49,39 @@ class SolidShapes:
         return _packed("cylinder", {"diameter": diameter, "height": height}, packing)
 
     @staticmethod
+    def solid_disc(diameter: float, depth: float, **packing: Unpack[Packing]) -> SolidSpecimen:
+        """Pack a disc about the y axis, from y = 0, for Brazilian tests: a prism of its section.
+
+        Args:
+            diameter: Diameter of the specimen [m].
+            depth: Along y [m]; the load is along z.
+            packing: As for ``box``.
+
+        Raises:
+            InputError: as for ``box``.
+        """
+        return _packed("solid-disc", {"diameter": diameter, "depth": depth}, packing)
+
+    @staticmethod
     def from_spheres(
         spheres: npt.ArrayLike | Path | str,
         *,
-        height: float,
+        height: float | None = None,
         width: float | None = None,
         depth: float | None = None,
         diameter: float | None = None,
         short_edge: float = SHORT_EDGE,
         drop_hidden: bool = False,
     ) -> SolidSpecimen:
-        """Make a solid of given spheres: a box, or with `diameter` a cylinder.
+        """Make a solid of given spheres: a box, a cylinder or, without `height`, a disc.
 
         Args:
             spheres: Rows x, y, z, radius [m], centres inside the outline, or a text file of such
                 rows, between blanks or commas.
-            height: Along z, from 0 [m].
+            height: That of a box or a cylinder, along z, from 0 [m].
             width: Width of a box, along x from 0 [m].
-            depth: Depth of a box, along y from 0 [m].
-            diameter: Diameter of a cylinder about the z axis [m].
+            depth: Depth of a box or a disc, along y from 0 [m].
+            diameter: Diameter of a cylinder about the z axis, or of a disc about the y axis [m].
             short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
             drop_hidden: Leave out spheres that others hide, and count them in ``removed_spheres``.
 

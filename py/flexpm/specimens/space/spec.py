@@ -24,6 +24,7 @@ from ..checks import (
 SIZES: dict[str, dict[str, float]] = {
     "box": {"width": 0.025, "depth": 0.025, "height": 0.05},
     "cylinder": {"diameter": 0.05, "height": 0.1},
+    "solid-disc": {"diameter": 0.05, "depth": 0.025},
 }
 #: Edges of cells below this share of the mean diameter are collapsed.
 SHORT_EDGE = 0.10
@@ -37,11 +38,11 @@ class SolidSpec:
     """Shape, size and packing of a solid, or a checksum of what was given instead of a packing.
 
     Attributes:
-        kind: ``box`` or ``cylinder``.
+        kind: ``box``, ``cylinder`` or ``solid-disc``.
         width: Width of a box, along x [m]; if None its default, and None for another shape.
-        depth: Depth of a box, along y [m]; None as for `width`.
-        height: Along z, the axis of tests [m]; None as for `width`.
-        diameter: Diameter of a cylinder [m]; None as for `width`.
+        depth: Depth of a box or a disc, along y [m]; None as for `width`.
+        height: That of a box or a cylinder, along z, the axis of tests [m]; None as for `width`.
+        diameter: Diameter of a cylinder or a disc [m]; None as for `width`.
         diameters: Smallest and largest diameter of the packed spheres [m]; None for given ones.
         porosity: Sets the number of packed spheres [-]; None for given ones.
         seed: Seed of the packing; None for given spheres.
@@ -91,7 +92,7 @@ class SolidSpec:
 
     @property
     def sizes(self) -> dict[str, float]:
-        """``width``, ``depth`` and ``height``, or ``diameter`` and ``height`` [m]."""
+        """Sizes of the shape by their names [m]."""
         return {name: getattr(self, name) for name in SIZES[self.kind]}
 
     @property
@@ -109,9 +110,10 @@ class SolidSpec:
     def volume(self) -> float:
         """Volume of the outline [m3]."""
         sizes = self.sizes
-        if self.kind == "cylinder":
-            return 0.25 * math.pi * sizes["diameter"] ** 2 * sizes["height"]
-        return math.prod(sizes.values())
+        if self.kind == "box":
+            return math.prod(sizes.values())
+        diameter, length = sizes.values()
+        return 0.25 * math.pi * diameter**2 * length
 
     def _require_memory(self, where: str) -> None:
         """Refuse a packing that the machine has no memory for, before it is begun."""

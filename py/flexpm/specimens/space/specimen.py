@@ -27,9 +27,9 @@ from .spec import SHORT_EDGE, SolidSpec
 
 @dataclass(frozen=True, eq=False)
 class SolidSpecimen:
-    """Bonded polyhedral grains that fill a box or a cylinder.
+    """Bonded polyhedral grains that fill a box, a cylinder or a disc.
 
-    Make it by ``Specimen.box``, ``cylinder``, ``from_spheres`` or ``load_solid``.
+    Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``from_spheres`` or ``load_solid``.
 
     Attributes:
         spheres: Rows x, y, z, radius [m], one per grain.
@@ -74,7 +74,9 @@ class SolidSpecimen:
     ) -> SolidSpecimen:
         """Make a specimen of given spheres; see ``Specimen.from_spheres``."""
         require_flag("Specimen.from_spheres: drop_hidden", drop_hidden)
-        kind = "box" if sizes.get("diameter") is None else "cylinder"
+        kind = "box"
+        if sizes.get("diameter") is not None:
+            kind = "solid-disc" if sizes.get("height") is None else "cylinder"
         given = of_spheres.sphere_rows(spheres)
         spec = SolidSpec(
             kind,
@@ -142,12 +144,12 @@ class SolidSpecimen:
 
     @property
     def kind(self) -> str:
-        """``box`` or ``cylinder``."""
+        """``box``, ``cylinder`` or ``solid-disc``."""
         return self.spec.kind
 
     @property
     def dimensions(self) -> dict[str, float]:
-        """``width``, ``depth`` and ``height``, or ``diameter`` and ``height`` [m]."""
+        """Sizes of the shape by their names [m]."""
         return self.spec.sizes
 
     @property
@@ -157,7 +159,12 @@ class SolidSpecimen:
 
     @property
     def thickness(self) -> float:
-        """Root of the section's area [m]: with the scales' width, which is the same, the area."""
+        """Depth of a disc, else the root of the section's area [m].
+
+        With the scales' width it gives the area that the stress refers to.
+        """
+        if "height" not in self.dimensions:
+            return self.dimensions["depth"]
         return math.sqrt(self.outline().volume / self.dimensions["height"])
 
     @property

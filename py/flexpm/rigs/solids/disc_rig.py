@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rig of a disc of space: two plates that touch it, paper Sec. 4.1. SI units."""
+
+from __future__ import annotations
+
+import numpy as np
+from yade import wrapper
+
+from ...errors import InputError
+from ...models.grains import Model
+from ...runs.runner import Runner
+from .end_rig import EndRig
+
+
+class SolidDiscRig(EndRig):
+    """A disc about the y axis between smooth plates, of which the upper one goes down along z."""
+
+    def __init__(
+        self, built: Model, *, tension: bool = False, runner: Runner | None = None
+    ) -> None:
+        """Take grains as `EndRig` does.
+
+        Raises:
+            InputError: for tension, which plates that touch do not give.
+        """
+        if tension:
+            raise InputError("rig: tension = True, must be False for a disc; plates press it")
+        super().__init__(built, tension=tension, runner=runner)
+
+    def confine(self, pressure: float, second: float | None = None) -> None:
+        """Refuse a pressure.
+
+        Raises:
+            InputError: always.
+        """
+        raise InputError(f"confine: pressure = {pressure:g} Pa, must be left out for a disc")
+
+    @property
+    def contact_width(self) -> float:
+        """Mean width on which the plates touch the disc, over its depth [m]."""
+        areas = self._solid.pressedAreas()
+        return float(np.mean(areas)) / self.built.specimen.dimensions["depth"]
+
+    def _new_frame(self) -> wrapper.TestFrame:
+        sizes = self.built.specimen.dimensions
+        return wrapper.SolidDiscFrame(diameter=sizes["diameter"], depth=sizes["depth"])
+
+    def _take_hold(self) -> wrapper.LoadingController:
+        self._solid.holdDisc()
+        self.built.set_masses()
+        upper = wrapper.SolidEndsController()
+        self.built.add_engines(before=(upper,))
+        return upper

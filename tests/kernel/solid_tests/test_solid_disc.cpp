@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Discs of space between plates that touch them: the outline, what is pressed and held,
+/// forces and works.
+#include "support/catch.hpp"
+
+#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+#include "solids/solid_states.hpp"
+
+using namespace solid_states;
+
+namespace {
+
+constexpr double damping = 0.7, dt = 1.0;
+
+Packing disc()
+{
+    const double side = solid_samples::side;
+    const Solid solid = Solid::disc(6.0 * side, 3.0 * side, side);
+    return { solid,
+        polyhedra(flexpm_test::packed_spheres(solid, 120, 3), solid, { 0.1 * side, false }) };
+}
+
+/// Area of the facet that a plate touches [m^2].
+double facet_area(const Packing& p)
+{
+    const auto facets = static_cast<double>(p.solid.walls.size() - 2);
+    return 2.0 * p.solid.walls[2].offset * std::tan(pi / facets) * 3.0 * solid_samples::side;
+}
+
+SolidState between_plates(const Packing& p, bool rigid)
+{
+    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+    add_disc_plates(s);
+    scale_masses(s, damping);
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("A disc has its section's area, and a facet below and on top", "[space]")
+{
+    const Solid disc = Solid::disc(0.05, 0.025, 3e-3);
+    CHECK(disc.volume == Approx(0.25 * pi * 0.05 * 0.05 * 0.025));
+    REQUIRE(disc.walls.size() % 2 == 0);
+    const std::size_t facets = disc.walls.size() - 2;
+    CHECK(facets == 52);
+    CHECK(disc.walls[2].normal.z == -1.0);
+    CHECK(disc.walls[3].normal.z == 1.0);
+    Vector sum;
+    double section = 0.0;
+    for (std::size_t k = 2; k < disc.walls.size(); ++k) {
+        sum = sum + disc.walls[k].normal;
+        section += disc.walls[k].offset * disc.walls[k].offset * std::tan(pi / facets);
+        CHECK(norm(disc.walls[k].normal) == Approx(1.0));
+    }
+    CHECK(norm(sum) < 1e-12);  // as of a closed ring
+    CHECK(section * 0.025 == Approx(disc.volume));
+    CHECK_THROWS_WITH(Solid::disc(0.05, 0.0, 3e-3), Catch::Contains("disc: depth = 0 m"));
+}
+
+TEST_CASE("Plates touch a facet of a disc each, which does not move across", "[solids]")
+{
+    const Packing p = disc();
+    for (const bool rigid : { false, true }) {
+        SolidState s = between_plates(p, rigid);
+        REQUIRE(s.plates.size() == 2);
+        for (const Plate& plate : s.plates) {
+            double touched = 0.0;
+            for (std::size_t i = 0; i < plate.facets.size(); ++i) {
+                CHECK(plate.gap[i] >= 0.0);
+                if (plate.gap[i] == 0.0) touched += plate.area[i];
+            }
+            CHECK(touched == Approx(facet_area(p)).epsilon(1e-6));
+            CHECK(pressed_area(plate) == 0.0);
+        }
+        CHECK_THROWS_WITH(add_disc_plates(s), Catch::Contains("plates = 2, must be 0"));
+    }
+    const Packing other = box(20, 1);
+    SolidState s = make_solid(other.cells, other.solid, granite());
+    CHECK_THROWS_WITH(add_disc_plates(s), Catch::Contains("give a disc"));
+    CHECK_THROWS_WITH(
+        solid_disc_frame(s, 1.0, 1.0), Catch::Contains("must be a lower and an upper one"));
+}
+
+TEST_CASE("Both plates bear what is pressed, which is the work that is stored", "[solids]")
+{
+    const Packing p = disc();
+    const double diameter = 6.0 * solid_samples::side, depth = 3.0 * solid_samples::side;
+    for (const bool rigid : { false, true }) {
+        SolidState s = between_plates(p, rigid);
+        const SolidFrame frame = solid_disc_frame(s, diameter, depth);
+        CHECK(frame.area == Approx(0.5 * pi * diameter * depth));
+        start_ends(s, elastic_field(s), 0.0, -2e-9 * diameter, true, dt);
+        for (int k = 0; k < 4000; ++k)
+            step(s, { dt, damping, 1, true });
+        const AxialObservation now = observe(s, frame);
+        CHECK(now.axial_strain == Approx(8e-6).epsilon(1e-9));
+        CHECK(now.axial_stress > 0.0);
+        CHECK(now.lateral_strain > 0.0);
+        CHECK(now.end_mismatch < 0.01);
+        const Energies& e = now.energies;
+        const double force = 0.5 * (end_forces(s).bottom - end_forces(s).top);
+        // linear while no other triangle comes to lie on a plate
+        CHECK(e.elastic == Approx(0.5 * force * 8e-6 * diameter).epsilon(0.01));
+        CHECK(std::fabs(e.kinetic + e.elastic + e.damping + e.drag - e.boundary_work - e.initial)
+            < 1e-4 * e.elastic);
+        CHECK(pressed_area(s.plates[0]) == Approx(facet_area(p)).epsilon(0.2));
+    }
+}

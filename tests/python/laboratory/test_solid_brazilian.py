@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Brazilian tests of solid discs: elastic stresses, a whole test, same bits, what is refused."""
+
+import itertools
+import json
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import flexpm
+from flexpm import Specimen
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.runs import runner
+
+import yade  # isort: skip  (flexpm tells Python where YADE is)
+
+#: A few hundred grains, ten across.
+DIAMETER, DEPTH = 0.03, 0.012
+
+
+@pytest.fixture(scope="module")
+def disc():
+    return Specimen.solid_disc(DIAMETER, DEPTH, seed=1)
+
+
+@pytest.fixture(scope="module")
+def small():
+    return Specimen.solid_disc(0.014, 0.008, seed=1)
+
+
+def split(x, z, force):
+    """Stresses xx and zz of a disc under two forces along z: Timoshenko and Goodier, sec. 41."""
+    radius = 0.5 * DIAMETER
+    above, below = x * x + (radius - z) ** 2, x * x + (radius + z) ** 2
+    scale = 2.0 * force / (math.pi * DEPTH)
+    even = 1.0 / DIAMETER
+    across = x * x * (radius - z) / above**2 + x * x * (radius + z) / below**2
+    along = (radius - z) ** 3 / above**2 + (radius + z) ** 3 / below**2
+    return scale * (even - across), scale * (even - along)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_the_middle_of_a_disc_has_its_elastic_stresses(disc, model):
+    yade.O.reset()
+    built = flexpm.build(disc, model=model)
+    rig = flexpm.rig(built)
+    rig.strain_to(2e-4)
+    force = rig.stress * 0.5 * math.pi * DIAMETER * DEPTH
+    state = built.snapshot()
+    x, _, z = state.centres.T
+    inner = np.hypot(x, z) < 0.25 * DIAMETER
+    for axis, expected in zip((0, 2), split(x, z, force), strict=True):
+        found = np.average(state.grain_stress[inner, axis], weights=state.volumes[inner])
+        told = np.average(expected[inner], weights=state.volumes[inner])
+        assert found == pytest.approx(told, rel=0.08)
+    along = np.average(state.grain_stress[inner, 1], weights=state.volumes[inner])
+    assert abs(along) < 0.05 * rig.stress
+    # a facet of the mantle lies on each plate from the start
+    assert rig.contact_width == pytest.approx(math.pi * DIAMETER / 32, rel=0.05)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_disc_splits_along_the_load(disc, model):
+    result = flexpm.run("brazilian", disc, model=model, rate=4.0)
+    assert result.energy_error < 0.01
+    assert 5e6 < result.peak_stress < 40e6
+    assert result.tensile_cracks > 5 * result.shear_cracks
+    assert result.youngs_modulus is None
+    stress = result.curve["axial_stress"]
+    assert stress[-1] <= 0.5 * stress.max()
+    places = np.array([(one.x, one.z) for one in result.cracks if one.mode == 1])
+    assert np.median(np.abs(places[:, 0])) < 0.15 * DIAMETER
+    assert np.ptp(places[:, 1]) > 0.8 * DIAMETER
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_threads_and_a_stop_change_no_bit(small, model, tmp_path, monkeypatch):
+    seconds = itertools.count(step=runner._LOOK_UP / 10)  # a look at each tenth step
+    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+
+    class StopError(Exception):
+        pass
+
+    def stop(done, expected, text):
+        if done > 60:
+            raise StopError
+
+    asked = {"model": model, "max_strain": 2e-3}
+    whole = flexpm.run("brazilian", small, threads=2, **asked)
+    with pytest.raises(StopError):
+        flexpm.run(
+            "brazilian", small, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked
+        )
+    again = flexpm.run("brazilian", small, out=tmp_path, **asked)
+    assert again.resumed_at > 0
+    for name in whole.curve.columns:
+        assert np.array_equal(whole.curve[name], again.curve[name], equal_nan=True)
+
+
+@pytest.mark.long
+def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    asked = ["brazilian", "--diameter", "0.014", "--depth", "0.008", "--max-strain", "1e-3"]
+    assert cli.main(["run", *asked, "--quiet", "--out", "disc"]) in (0, 3)
+    inputs = json.loads((tmp_path / "disc/result.json").read_text())["inputs"]
+    assert inputs["specimen"]["kind"] == "solid-disc"
+    assert "--shape solid-disc" in (tmp_path / "disc/report.html").read_text()
+    capsys.readouterr()
+    assert cli.main(["rerun", "disc", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
+    assert "the same as in" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        (["--depth", "0.02", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
+        (["--depth", "0.02", "--height", "0.1"], "height = 0.1 m, must not be given for a"),
+        (
+            ["--depth", "0.02", "--confinement", "1e6"],
+            "confinement = 1000000.0 Pa, must be 0",
+        ),
+        (["--depth", "0.02", "--model", "inner"], "must be one of flexible, rigid"),
+        (["--shape", "cylinder"], "specimen = cylinder, must be a disc for brazilian"),
+    ],
+)
+def test_what_does_not_fit_a_disc_is_refused(asked, told, tmp_path, capsys):
+    assert cli.main(["run", "brazilian", *asked, "--out", str(tmp_path / "none")]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert told in error
+    assert not (tmp_path / "none").exists()
+
+
+def test_a_disc_has_neither_sides_to_press_nor_ends_to_pull(small):
+    yade.O.reset()
+    built = flexpm.build(small)
+    with pytest.raises(InputError, match="rig: tension = True, must be False for a disc"):
+        flexpm.rig(built, tension=True)
+    with pytest.raises(InputError, match="confine: pressure = 1e\\+06 Pa, must be left out"):
+        flexpm.rig(built).confine(1e6)
+
+
+def test_given_spheres_without_a_height_make_a_disc():
+    spheres = Specimen.solid_disc(0.012, 0.008, seed=2).spheres
+    again = Specimen.from_spheres(spheres, diameter=0.012, depth=0.008)
+    assert again.kind == "solid-disc"
+    assert again.cells.volumes.sum() == pytest.approx(0.25 * math.pi * 0.012**2 * 0.008, rel=1e-9)
