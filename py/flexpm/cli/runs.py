@@ -24,7 +24,7 @@ from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
 from .parameters import Pressures
-from .solids import shape_options
+from .solids import cylinder_diameter, shape_options
 
 if TYPE_CHECKING:
     from ..specimens.files.source import AnySpecimen
@@ -128,9 +128,11 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
         _tell_differences(file, before, folder)
 
 
-@click.command(short_help="Elastic constants by one direct solve.")
+@click.command(short_help="Elastic constants by one static solve.")
 @cli_options.model_options
+@shape_options
 @cli_options.rectangle_options
+@cylinder_diameter
 @cli_options.packing_options
 @cli_options.specimen_option
 @cli_options.cut_options
@@ -142,7 +144,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 )
 @cli_options.quiet_option
 def elastic(out: Path | None, **options: Any) -> None:
-    """Young's modulus and Poisson's ratio of a specimen by one direct solve."""
+    """Young's modulus and Poisson's ratio of a specimen by one static solve."""
     chosen = inputs.material(options)
     source = inputs.source(ELASTIC, options)
     spec = inputs.run_spec(ELASTIC, options, chosen, source)

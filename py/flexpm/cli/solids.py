@@ -33,7 +33,7 @@ shape_options = combined(
         "--shape",
         type=Name(*SOLIDS),
         metavar="|".join(SOLIDS),
-        help=f"Test a solid, in {', '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
+        help=f"Take a solid, in {', '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
         "that of the test in the plane; a solid-disc for a disc with --depth; a cylinder for tests "
         "of solids alone]",
     ),
@@ -49,8 +49,9 @@ bench_options = combined(
     ),
     length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
 )
+cylinder_diameter = length_option("--diameter", _CYLINDER["diameter"], "Diameter of a cylinder")
 cylinder_options = combined(
-    length_option("--diameter", _CYLINDER["diameter"], "Diameter"),
+    cylinder_diameter,
     length_option("--height", _CYLINDER["height"], "Height, along z"),
 )
 disc_options = combined(

@@ -60,6 +60,7 @@ class TestKind:
     other_hint: str = ""  #: what serves a user of the other dimension, if it takes none of that
     sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
     models: tuple[str, ...] = MODELS
+    solid_models: tuple[str, ...] = ()  #: for solids, if it has no rates of them
     #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
     #: command (scripts/checks/reference.py) raises the number of its test and model; runs of these
     #: that were finished before get other keys and are done again.
@@ -123,7 +124,8 @@ class TestKind:
 
     def models_of(self, shape: str) -> tuple[str, ...]:
         """Models for a shape; of a solid those that have rates."""
-        return tuple(self.solid_rates) if shape in self.solids else self.models
+        of_solids = tuple(self.solid_rates) or self.solid_models
+        return of_solids if shape in self.solids else self.models
 
     @property
     def is_solve(self) -> bool:

@@ -325,9 +325,9 @@ def elastic(
     """Elastic constants of a rectangle or a solid by one static solve, without a simulation.
 
     Args:
-        specimen: A rectangle, or a box or cylinder of flexible grains, which is pulled along z.
+        specimen: A rectangle, or a box or a cylinder, which is pulled along z.
         material: Preset, file, or material; None for the default of the model.
-        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``.
+        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``; of solids the first two.
         points: Contact points per contact; inner particles have one. Not of solids.
         mesh: ``refined`` or ``fan``. Not of solids.
 

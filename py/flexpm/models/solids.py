@@ -77,15 +77,33 @@ def _minerals(specimen: SolidSpecimen, chosen: Material, model: str) -> IntArray
     return mineral_map.minerals_of(specimen, chosen)
 
 
+def _elastic_of_rigid(specimen: SolidSpecimen, chosen: Material) -> dict[str, float]:
+    try:
+        modulus, ratio = solver_of(specimen, chosen, "rigid").elasticConstants()
+    except RuntimeError as error:
+        raise SimulationError(str(error)) from None
+    return {
+        "youngs_modulus": modulus,
+        "poissons_ratio": ratio,
+        "grains": specimen.cells.cells,
+        "contacts": specimen.cells.contacts,
+    }
+
+
 def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> dict[str, float]:
     """Elastic constants along z by conjugate gradients; see ``flexpm.elastic``.
+
+    Rigid grains lie between plates that they are bonded to; their strains are those of a test.
 
     Raises:
         InputError: for a model that solids do not have, or minerals that do not go together.
         SimulationError: if the forces do not come to balance.
     """
-    if model != "flexible":
-        raise InputError(f"elastic: model = {model}, must be flexible for a solid")
+    require_one_of(f"elastic: model for a {specimen.kind}", model, SOLID_MODELS)
+    if "height" not in specimen.dimensions:
+        raise InputError(f"elastic: specimen = {specimen.kind}, must be a box or a cylinder")
+    if model == "rigid":
+        return _elastic_of_rigid(specimen, chosen)
     minerals = _minerals(specimen, chosen, model)
     pairs = [chosen] if minerals is None else pair_materials(chosen, model)
     # a pair's element constants are those of its first mineral

@@ -106,6 +106,29 @@ TEST_CASE("A solid keeps the modulus of its linear field, and its Poisson's rati
     }
 }
 
+TEST_CASE("Constants between the ends are those of the static solve, and of springs", "[solids]")
+{
+    const Packing p = box(60, 2);
+    const auto grain = specimens::granite();
+    const auto contact = specimens::granite_contact();
+    const SolidConstants expected = solid_constants(p.cells, p.solid,
+        SolidElasticity {
+            grain.young, grain.poisson, contact.normal_stiffness, contact.shear_ratio });
+    const ElasticConstants found = constants_between_ends(make_solid(p.cells, p.solid, granite()));
+    CHECK(found.youngs_modulus == Approx(expected.youngs_modulus).epsilon(1e-5));
+    CHECK(found.poissons_ratio == Approx(expected.poissons_ratio).epsilon(1e-4));
+
+    // faces of rigid cubes are springs in rows side by side
+    const Packing cubes = column(2, 2, 6);
+    const ElasticConstants rigid = constants_between_ends(
+        make_solid(cubes.cells, cubes.solid, granite(FacePointRule::corners_and_inner, true)));
+    CHECK(rigid.youngs_modulus
+        == Approx(contact.normal_stiffness * solid_samples::side).epsilon(1e-5));
+    CHECK(std::fabs(rigid.poissons_ratio) < 1e-6);
+
+    CHECK_THROWS_WITH(constants_between_ends(held(p, true, true)), Catch::Contains("held already"));
+}
+
 TEST_CASE("A column of rigid grains between plates is springs in a row", "[solids]")
 {
     const int grains = 6;

@@ -19,6 +19,8 @@ import yade  # isort: skip  (flexpm tells Python where YADE is)
 
 #: A few hundred grains, ten across.
 DIAMETER, DEPTH = 0.03, 0.012
+#: What a calibration runs.
+PARTS = ("screen", "verify")
 
 
 @pytest.fixture(scope="module")
@@ -150,3 +152,29 @@ def test_given_spheres_without_a_height_make_a_disc():
     again = Specimen.from_spheres(spheres, diameter=0.012, depth=0.008)
     assert again.kind == "solid-disc"
     assert again.cells.volumes.sum() == pytest.approx(0.25 * math.pi * 0.012**2 * 0.008, rel=1e-9)
+
+
+@pytest.mark.long
+def test_a_calibration_takes_boxes_and_discs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    box = 'shape = "box"\nwidth = 0.009\ndepth = 0.009\nheight = 0.014\n'
+    disc = 'shape = "solid-disc"\ndiameter = 0.014\ndepth = 0.008\n'
+    parts = [f"[{part}]\nseeds = [1]\n{box}[{part}.brazilian]\n{disc}" for part in PARTS]
+    (tmp_path / "solid.toml").write_text(
+        '[calibration]\nname = "solid"\nevaluations = 2\nrounds = 1\ncandidates = 1\n'
+        "[common]\nstop_ratio = 0.9\nrate = 4.0\n" + "".join(parts) + "[target]\n"
+        "youngs_modulus = 25.8e9\nindirect_tensile_strength = 8.8e6\n"
+        "[free]\nyoung = [20e9, 40e9]\ntensile_strength = [3e6, 20e6]\n"
+    )
+    assert cli.main(["calibrate", "solid.toml", "--out", "out", "--quiet"]) in (0, 3)
+    verdict = json.loads((tmp_path / "out/verdict.json").read_text())
+    assert "youngs_modulus" not in str(verdict.get("missed"))
+    found = flexpm.elastic(
+        Specimen.box(0.009, 0.009, 0.014, seed=1), str(tmp_path / "out/solid.toml")
+    )
+    assert found["youngs_modulus"] == pytest.approx(25.8e9, rel=0.002)
+    kinds = {
+        json.loads(file.read_text())["inputs"]["specimen"]["kind"]
+        for file in (tmp_path / "out/runs").rglob("result.json")
+    }
+    assert kinds == {"box", "solid-disc"}

@@ -76,6 +76,34 @@ def test_the_elastic_part_is_that_of_the_static_solve(core):
 
 
 @pytest.mark.long
+def test_a_rigid_solid_has_the_constants_of_its_static_solve(core):
+    solved = flexpm.elastic(core, model="rigid")
+    tested = flexpm.run("uniaxial", core, model="rigid", max_strain=2e-4).curve
+    modulus = tested["axial_stress"][-1] / tested["axial_strain"][-1]
+    assert modulus == pytest.approx(solved["youngs_modulus"], rel=0.005)
+    ratio = tested["lateral_strain"][-1] / tested["axial_strain"][-1]
+    assert ratio == pytest.approx(solved["poissons_ratio"], rel=0.03)
+
+
+@pytest.mark.long
+def test_the_command_solves_a_solid_and_repeats_it(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sizes = [f"--{name}={value}" for name, value in BOX.items()]
+    for model in ("flexible", "rigid"):
+        asked = ["elastic", "--shape", "box", *sizes, "--model", model, "--quiet"]
+        assert cli.main([*asked, "--out", model]) == 0
+        found = json.loads((tmp_path / model / "result.json").read_text())
+        made = Specimen.box(**BOX)
+        assert found["youngs_modulus"] == flexpm.elastic(made, model=model)["youngs_modulus"]
+        assert found["inputs"]["specimen"]["kind"] == "box"
+        capsys.readouterr()
+        assert cli.main(["rerun", model, "--quiet", "--out", f"{model}-again"]) == 0
+        assert "the same as in" in capsys.readouterr().out
+    assert cli.main(["elastic", "--shape", "solid-disc", "--quiet"]) == 2
+    assert "must be a rectangle for elastic" in capsys.readouterr().err
+
+
+@pytest.mark.long
 def test_the_folder_has_what_a_run_leaves(core, broken):
     result, folder = broken
     names = {one.name for one in folder.iterdir()}

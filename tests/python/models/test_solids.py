@@ -44,8 +44,10 @@ def test_a_cylinder_has_the_constants_of_a_box(box):
 
 
 def test_what_solids_do_not_have_is_refused(box):
-    with pytest.raises(InputError, match="model = rigid, must be flexible for a solid"):
-        flexpm.elastic(box, "augig-table2-bilinear", model="rigid")
+    with pytest.raises(InputError, match="model for a box = 'inner', must be one of flexible, ri"):
+        flexpm.elastic(box, model="inner")
+    with pytest.raises(InputError, match="specimen = solid-disc, must be a box or a cylinder"):
+        flexpm.elastic(Specimen.solid_disc(0.012, 0.008))
     with pytest.raises(InputError, match="points, mesh = 1, refined, must be left out"):
         flexpm.elastic(box, points=1)
     with pytest.raises(InputError, match="build: points, mesh, dynamic = 1, refined, False, must"):

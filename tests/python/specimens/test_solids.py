@@ -195,7 +195,7 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
     assert "smallest dimension, 0.0015 m" in capsys.readouterr().err
     box.save(tmp_path / "solid.json")
     file = str(tmp_path / "solid.json")
-    for command in (["run", "shear"], ["elastic"], ["compare", "shear"]):
+    for command in (["run", "shear"], ["compare", "shear"]):
         assert main([*command, "--specimen", file, "--out", str(tmp_path / "out")]) == 2
         told = capsys.readouterr().err
         assert "specimen = box, must be a rectangle" in told

@@ -2,9 +2,11 @@
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/statics/solid_field.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,8 @@ namespace flexpm {
 namespace {
 
 constexpr int axial = 2;
-constexpr int turn_values = 4;  ///< of a quaternion in SteadyMotion::angle
+constexpr int turn_values = 4;         ///< of a quaternion in SteadyMotion::angle
+constexpr double small_strain = 1e-7;  ///< at which stretch and turns are linear, but no round-off
 
 std::vector<int> need_nodes(const SolidState& s, SolidSide side)
 {
@@ -272,6 +275,15 @@ void drive_top(SolidState& s, double velocity, double dt)
     const double before = kinetic_of_velocities(s);
     change_loading(s, velocity / old);
     s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+}
+
+ElasticConstants constants_between_ends(SolidState s)
+{
+    hold_ends(s, true);
+    const SolidFrame frame = solid_frame(s, Sense::tension);
+    start_ends(s, elastic_field(s), small_strain, 0.0, false, 1.0);
+    const AxialObservation found = observe(s, frame);
+    return { found.axial_stress / found.axial_strain, found.lateral_strain / found.axial_strain };
 }
 
 double top_velocity(const SolidState& s)

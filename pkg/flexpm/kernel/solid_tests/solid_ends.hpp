@@ -5,6 +5,7 @@
 /// units, tension positive.
 #pragma once
 
+#include <flexpm/kernel/statics/elastic_constants.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 namespace flexpm {
@@ -53,6 +54,13 @@ void take_over_ends(
 /// @param dt  time step [s]
 /// @throws std::invalid_argument  if ends are not held, or the velocity is not finite
 void drive_top(SolidState& s, double velocity, double dt);
+
+/// Young's modulus and Poisson's ratio of grains between smooth ends that they are bonded to, by
+/// their linear solution and as a record has them: grains that deform or are rigid.
+/// @param s  an unloaded specimen whose ends are not held
+/// @throws std::invalid_argument  if they are held, or there are none
+/// @throws std::runtime_error  as elastic_field()
+ElasticConstants constants_between_ends(SolidState s);
 
 /// Velocity of the top [m/s].
 double top_velocity(const SolidState& s);

@@ -61,6 +61,12 @@ void SolidSolver::holdBottom()
 
 void SolidSolver::holdDisc() { flexpm::add_disc_plates(state); }
 
+py::tuple SolidSolver::elasticConstants()
+{
+	const auto found = flexpm::constants_between_ends(state);
+	return py::make_tuple(found.youngs_modulus, found.poissons_ratio);
+}
+
 py::list SolidSolver::pressedAreas()
 {
 	py::list areas;

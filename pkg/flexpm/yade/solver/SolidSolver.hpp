@@ -26,15 +26,16 @@ public:
 	void holdEnds(bool bonded);
 	void holdBottom();
 	void holdDisc();
-	py::list pressedAreas();
-	void     clearPressure(int side);
-	void     holdSide(int side, bool x, bool y, bool z);
-	py::dict snapshot();
-	py::dict counts();
-	py::dict overlaps();
-	py::dict balance();
-	Real     crossingSteps(Real diameter);
-	py::list nothing() { return py::list(); }
+	py::list  pressedAreas();
+	py::tuple elasticConstants();
+	void      clearPressure(int side);
+	void      holdSide(int side, bool x, bool y, bool z);
+	py::dict  snapshot();
+	py::dict  counts();
+	py::dict  overlaps();
+	py::dict  balance();
+	Real      crossingSteps(Real diameter);
+	py::list  nothing() { return py::list(); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidSolver, GrainSolver,
@@ -51,6 +52,7 @@ public:
 		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile.")
 		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, "Lay a smooth plate below a disc and one on top, which touch it. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
 		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")
+		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")
 		.def("balance", WithGrains<&SolidSolver::balance>::call,
 			"How far the specimen is in balance at the last step, by name: mean_stress and outside_stress [Pa], each (xx, yy, zz, yz, xz, xy), missing_force [N], plate_share, 0.")

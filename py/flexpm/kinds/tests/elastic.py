@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Elastic constants of a rectangle by one direct solve, which is no simulation."""
+"""Elastic constants of a rectangle or a solid by one static solve, which is no simulation."""
 
 from ..model_names import GRAIN_MODELS
 from ..test_kind import Rig, TestKind
@@ -7,8 +7,10 @@ from ..test_kind import Rig, TestKind
 KIND = TestKind(
     name="elastic",
     order=99,
-    about="elastic constants of a rectangle by one direct solve",
+    about="elastic constants of a rectangle, a box or a cylinder by one static solve",
+    solids=("box", "cylinder"),
     models=GRAIN_MODELS,
+    solid_models=("flexible", "rigid"),
     without=(
         *("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start", "loading"),
     ),
