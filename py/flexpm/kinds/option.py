@@ -6,7 +6,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from ..errors import InputError
 from ..require import ANY, POSITIVE, Bounds, require_number, require_one_of
+from .model_names import BLOCK_MODELS
 
 #: A value of an option; None: not given.
 Value = float | str | None
@@ -30,6 +32,7 @@ class Option:
     default: str = ""  #: what stands for it if it is not given, for the help
     open: str = ""  #: what a page says if the run itself finds the value; empty: none has to
     size: str = ""  #: size of the specimen that it is another name of
+    models: tuple[str, ...] = ()  #: that have it; none: all of the test
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,35 @@ def control_of(*measures: str) -> Option:
         default=measures[0],
         open="displacement of the ends",
     )
+
+
+#: Friction of the ends of a solid.
+END_FRICTION = Option(
+    "end_friction",
+    "Friction coefficient of the ends of a solid, from the loading on",
+    bounds=Bounds(at_least=0.0, at_most=10.0),
+    default="0, smooth ends",
+    open="0, smooth ends",
+    models=BLOCK_MODELS,
+)
+
+
+def end_friction_of(asked: Asked) -> Mapping[str, Value]:
+    """Friction of the ends; none if it is 0.
+
+    Raises:
+        InputError: for one out of range, or for a specimen of the plane.
+    """
+    name = END_FRICTION.name
+    if asked.values.get(name) is None:
+        return {}
+    friction = asked.number(name, 0.0, END_FRICTION.bounds, "")
+    if friction > 0.0 and asked.sizes.keys() == {"width", "height"}:
+        raise InputError(
+            f"run: {name} = {friction:g}, must be left out for a rectangle, whose ends are smooth; "
+            "test a solid"
+        )
+    return {name: friction or None}
 
 
 #: Checks and completes the values of a test's own options.

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import yade
 
+from ..kinds.option import END_FRICTION
 from ..kinds.test_kind import Rig, Stage
 from ..models.grains import Model, build
 from ..models.spheres import SphereModel
@@ -149,7 +150,11 @@ def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRi
         return part_rig(built, spec, runner)
     if spec.kind.rig is Rig.WAVE and isinstance(built, Model):
         return WaveRig(built, spec.wave or "", runner=runner)
-    return rig_of(built, tension=spec.kind.pulls, runner=runner)
+    rig = rig_of(built, tension=spec.kind.pulls, runner=runner)
+    friction = spec.own.get(END_FRICTION.name)
+    if isinstance(rig, EndRig) and isinstance(friction, float):
+        rig.end_friction = friction
+    return rig
 
 
 def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) -> None:

@@ -203,6 +203,12 @@ def _settle_own(run: RunInputs) -> None:
     sizes, packed = run.specimen.sizes, run.specimen.diameters
     diameter = None if packed is None else float(sum(packed)) / 2.0
     given = run.options
+    for option in run.kind.options:
+        if option.models and run.model not in option.models and given.get(option.name) is not None:
+            raise InputError(
+                f"run: {with_unit(option.name, given[option.name])}, must be left out for model "
+                f"{run.model}; it is for {' and '.join(option.models)}"
+            )
     found = {**given, **run.kind.settle(Asked(run.test, sizes, given, diameter))}
     for name in given.keys() & {field.name for field in fields(run)}:
         _set(run, name, found.pop(name))

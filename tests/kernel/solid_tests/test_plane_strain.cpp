@@ -43,7 +43,7 @@ SolidState prisms(const specimens::Specimen& plane, double depth)
 /// Constants of the elastic solution: the mean of both lateral strains is half the one along x.
 ElasticConstants constants(SolidState s)
 {
-    hold_ends(s, false);
+    hold_ends(s, { false, false });
     scale_masses(s, 0.7);
     start_ends(s, elastic_field(s), 1e-7, 1e-12, true, 1.0);
     const AxialObservation now = observe(s, solid_frame(s, Sense::tension));

@@ -28,7 +28,7 @@ Packing column(int nx, int ny, int nz)
 SolidState held(const Packing& p, bool rigid, bool pulled)
 {
     SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
-    hold_ends(s, pulled);
+    hold_ends(s, { pulled, false });
     scale_masses(s, damping);
     return s;
 }
@@ -190,7 +190,7 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
     CHECK_THROWS_WITH(add_end_plate(s, SolidSide::left, false), Catch::Contains("side = 3"));
     add_end_plate(s, SolidSide::bottom, false);
     scale_masses(s, damping);
-    CHECK_THROWS_WITH(hold_ends(s, false), Catch::Contains("held already"));
+    CHECK_THROWS_WITH(hold_ends(s, { false, false }), Catch::Contains("held already"));
     drive_top(s, 1e-9, dt);
     for (int k = 0; k < 10; ++k)
         step(s, { dt, damping, 1, true });
@@ -200,9 +200,66 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
 
     SolidState soft = make_solid(p.cells, p.solid, granite());
     CHECK_THROWS_WITH(elastic_field(soft), Catch::Contains("held nodes = 0"));
-    CHECK_THROWS_WITH(
-        add_end_plate(soft, SolidSide::top, false), Catch::Contains("drive the nodes"));
     CHECK_THROWS_WITH(drive_top(soft, 1.0, dt), Catch::Contains("call hold_ends()"));
+}
+
+TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solids]")
+{
+    const Packing p = box(120, 2);
+    for (const bool rigid : { false, true }) {
+        double stress[3], lateral[3];
+        const double friction[3] = { 0.0, 0.005, 100.0 };
+        for (int k = 0; k < 3; ++k) {
+            SolidState s =
+                make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+            hold_ends(s, { false, true });
+            roughen_plates(s, friction[k]);
+            scale_masses(s, damping);
+            const SolidFrame frame = solid_frame(s, Sense::compression);
+            start_ends(s, elastic_field(s), 0.0, -2e-9 * frame.height, true, dt);
+            for (int n = 0; n < 4000; ++n)
+                step(s, { dt, damping, 1, true });
+            const AxialObservation now = observe(s, frame);
+            // strains of rigid grains lie between their centres, away from the plates
+            stress[k] = now.axial_stress;
+            lateral[k] = now.lateral_strain;
+            CHECK(now.end_mismatch < 0.01);
+            const Energies& e = now.energies;
+            CHECK(std::fabs(e.kinetic + e.elastic + e.friction + e.damping + e.drag
+                      - e.boundary_work - e.initial)
+                < 2e-4 * e.elastic);
+            double most = 0.0, sum = 0.0;
+            for (const Plate& plate : s.plates) {
+                for (std::size_t i = 0; i < plate.facets.size(); ++i) {
+                    if (friction[k] == 0.0) continue;
+                    const double along =
+                        std::hypot(plate.shear_force[3 * i], plate.shear_force[3 * i + 1]);
+                    const double pushed =
+                        point_stiffness(plate, static_cast<int>(i)) * -plate.opening[i];
+                    most = std::max(most, along / (friction[k] * std::max(pushed, 1e-300)));
+                    CHECK(plate.shear_force[3 * i + 2] == 0.0);
+                    CHECK(plate.rubbed[i] >= 0.0);
+                    sum += plate.rubbed[i];
+                }
+            }
+            CHECK(most <= 1.0 + 1e-12);
+            CHECK(e.friction == Approx(sum));
+            if (friction[k] == 0.005) {
+                CHECK(most > 0.99);
+                CHECK(sum > 0.0);
+            } else {
+                CHECK(e.friction < 1e-6 * e.elastic);
+            }
+        }
+        CHECK(stress[0] < stress[1]);
+        CHECK(stress[1] < stress[2]);
+        CHECK(lateral[0] > lateral[1]);
+        CHECK(lateral[1] > lateral[2]);
+    }
+    SolidState pulled = held(p, true, true);
+    CHECK_THROWS_WITH(roughen_plates(pulled, 0.2), Catch::Contains("of plates that press"));
+    SolidState bare = make_solid(p.cells, p.solid, granite());
+    CHECK_THROWS_WITH(roughen_plates(bare, 0.2), Catch::Contains("lay them first"));
 }
 
 TEST_CASE("A change of the velocity raises no wave and is work of the ends", "[solids]")

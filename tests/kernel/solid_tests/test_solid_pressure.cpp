@@ -96,7 +96,7 @@ SolidState made(const Packing& p, bool rigid, double stiffer = 1.0)
     SolidInput input = granite(FacePointRule::corners_and_inner, rigid);
     input.contacts.front().normal_stiffness *= stiffer;
     SolidState s = make_solid(p.cells, p.solid, input);
-    hold_end(s, SolidSide::bottom, false);
+    hold_end(s, SolidSide::bottom, { false, false });
     hold_against_sliding(s);
     scale_masses(s, each.damping);
     return s;
@@ -230,7 +230,7 @@ TEST_CASE("Each side of a box stands at its own pressure, and the ends take over
         const double area = p.solid.volume / p.solid.high.z;
         CHECK(end_forces(s).bottom == Approx(along_y * area).epsilon(2e-3));
         set_pressure(s, top, 0.0);
-        hold_ends(s, false);
+        hold_ends(s, { false, false });
         scale_masses(s, each.damping);
         take_over_ends(s, elastic_field(s), -1e-9 * p.solid.high.z, true, each.dt);
         step(s, each);

@@ -36,7 +36,7 @@ Broken broken(int grains, bool rigid, Sense sense, double rate, int threads = 1)
         flexpm_test::packed_spheres(solid, grains, 3), solid, { 0.1 * solid_samples::side, false });
     Broken b { make_solid(cells, solid, granite(FacePointRule::corners_and_inner, rigid)) };
     SolidState& s = b.state;
-    hold_ends(s, pulled);
+    hold_ends(s, { pulled, false });
     scale_masses(s, damping);
     const SolidField field = elastic_field(s);
     const SolidFrame frame = solid_frame(s, sense);
@@ -114,7 +114,7 @@ TEST_CASE("Plates of rigid grains have the same bits on any number of threads", 
         const Packing p = packing(3 * tile_grains, 6);
         SolidState s =
             make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
-        hold_ends(s, true);
+        hold_ends(s, { true, false });
         scale_masses(s, damping);
         start_ends(s, elastic_field(s), 1e-5, 1e-7 * p.solid.high.z, true, dt);
         for (int k = 0; k < 60; ++k)
@@ -137,7 +137,7 @@ TEST_CASE("A snapshot of a solid has its volumes, places and stresses", "[solids
         const Packing p = packing(30, 4);
         SolidState s =
             make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
-        hold_ends(s, false);
+        hold_ends(s, { false, false });
         scale_masses(s, damping);
         const SolidField field = elastic_field(s);
         start_ends(s, field, -2e-5, 0.0, true, dt);

@@ -20,7 +20,7 @@ SolidState torn(bool rigid)
 {
     const Packing p = packing(40, 6);
     SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
-    hold_ends(s, true);
+    hold_ends(s, { true, false });
     scale_masses(s, each.damping);
     start_ends(s, elastic_field(s), 1e-4, 2e-6 * p.solid.high.z, true, each.dt);
     for (int k = 0; k < 800; ++k)

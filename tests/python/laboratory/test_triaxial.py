@@ -167,6 +167,49 @@ def test_the_command_and_its_repetition(tmp_path, capsys, monkeypatch):
     assert "the same as in" in capsys.readouterr().out
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_ends_with_friction_hold_a_core_across(core, model, tmp_path, monkeypatch):
+    asked = {"model": model, "confinement": 2e6, "max_strain": 1e-3}
+    smooth, rough = (
+        flexpm.run("triaxial", core, end_friction=friction, **asked) for friction in (0.0, 0.3)
+    )
+    assert smooth.inputs["specimen"] == rough.inputs["specimen"]
+    first = [one.curve["axial_stress"][0] for one in (smooth, rough)]
+    assert first[1] == pytest.approx(first[0], rel=0.03)  # a plate begins at what the pressure was
+    assert rough.energy_error < 0.01
+    assert 1.0 < rough.curve["axial_stress"][-1] / smooth.curve["axial_stress"][-1] < 1.2
+    assert rough.curve["lateral_strain"][-1] < smooth.curve["lateral_strain"][-1]
+    assert same(flexpm.run("triaxial", core, threads=2, end_friction=0.3, **asked), rough)
+
+    seconds = itertools.count(step=runner._LOOK_UP / 10)
+    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+
+    class StopError(Exception):
+        pass
+
+    def stop(done, expected, text):
+        if yade.O.iter > rough.steps - 40:
+            raise StopError
+
+    asked |= {"end_friction": 0.3, "out": tmp_path}
+    with pytest.raises(StopError):
+        flexpm.run("triaxial", core, progress=stop, checkpoint_interval=1e-3, **asked)
+    again = flexpm.run("triaxial", core, **asked)
+    assert again.resumed_at > 0
+    assert same(again, rough)
+
+
+def test_friction_of_ends_is_refused_where_there_is_none(core):
+    plane = Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
+    with pytest.raises(InputError, match="end_friction = 0.2, must be left out for a rectangle"):
+        flexpm.run("uniaxial", plane, end_friction=0.2)
+    with pytest.raises(InputError, match="end_friction = 0.2, must be left out for model jcfpm"):
+        flexpm.run("uniaxial", core, model="jcfpm", end_friction=0.2)
+    with pytest.raises(InputError, match="run: end_friction = 11.0, must be <= 10"):
+        flexpm.run("uniaxial", core, end_friction=11.0)
+
+
 def test_what_does_not_fit_is_refused_in_one_line(core, box):
     plane = Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
     with pytest.raises(InputError, match="rectangle, must be a cylinder for triaxial; biaxial is"):

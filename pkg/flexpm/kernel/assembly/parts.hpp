@@ -56,9 +56,11 @@ struct Plate {
     std::vector<double> gap;      ///< [facet][point] at the reference [m]
     std::vector<double> area;     ///< [facet][point] [m^2]
     std::vector<double> opening;  ///< [facet][point] gap at the last step [m]
-    std::vector<double>
-        shear_force;  ///< [facet][point] on the grain along (-normal.y, normal.x) [N]
-    Vector force;     ///< on the specimen at the last step [N]
+    /// [facet][point] on the grain along (-normal.y, normal.x); in space [facet][axis] [N]
+    std::vector<double> shear_force;
+    std::vector<double> slid;    ///< in space [facet][axis]: where a contact with friction is [m]
+    std::vector<double> rubbed;  ///< in space [facet]: energy of friction [J]
+    Vector force;                ///< on the specimen at the last step [N]
 
     // energy [J]
     double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows
@@ -107,6 +109,8 @@ struct Plate {
         visit("area", s.area);
         visit("opening", s.opening);
         visit("shear_force", s.shear_force);
+        visit("slid", s.slid);
+        visit("rubbed", s.rubbed);
         visit("force_x", s.force.x);
         visit("force_y", s.force.y);
         visit("force_z", s.force.z);

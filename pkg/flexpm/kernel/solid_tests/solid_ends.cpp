@@ -184,22 +184,22 @@ void take_mean(SolidState& s, double time, double fastest)
 
 }  // namespace
 
-void hold_ends(SolidState& s, bool pulled)
+void hold_ends(SolidState& s, const EndHold& how)
 {
     for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
         need_nodes(s, side);
     if (is_held(s)) refuse("held ends", 2.0, "", "must be 0; the ends are held already");
     for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
-        hold_end(s, side, pulled);
+        hold_end(s, side, how);
 }
 
-void hold_end(SolidState& s, SolidSide side, bool pulled)
+void hold_end(SolidState& s, SolidSide side, const EndHold& how)
 {
     if (is_held(s, side)) return;
-    if (s.bodies.empty()) {
+    if (s.bodies.empty() && !how.plates) {
         prescribe(s, need_nodes(s, side), axial, 0.0);
     } else {
-        add_end_plate(s, side, pulled);
+        add_end_plate(s, side, how.pulled);
     }
 }
 
@@ -279,7 +279,7 @@ void drive_top(SolidState& s, double velocity, double dt)
 
 ElasticConstants constants_between_ends(SolidState s)
 {
-    hold_ends(s, true);
+    hold_ends(s, { true, false });
     const SolidFrame frame = solid_frame(s, Sense::tension);
     start_ends(s, elastic_field(s), small_strain, 0.0, false, 1.0);
     const AxialObservation found = observe(s, frame);

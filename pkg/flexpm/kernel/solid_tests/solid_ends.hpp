@@ -10,15 +10,20 @@
 
 namespace flexpm {
 
+/// How ends are held.
+struct EndHold {
+    bool pulled = false;  ///< plates are bonded
+    bool plates = false;  ///< those of grains that deform lie between plates, too
+};
+
 /// Take hold of both ends at rest. Masses must be scaled afterwards.
-/// @param pulled  plates of rigid grains are bonded
 /// @throws std::invalid_argument  if the ends are held already, or there are none
-void hold_ends(SolidState& s, bool pulled);
+void hold_ends(SolidState& s, const EndHold& how);
 
 /// Take hold of one of them, if it is not held yet. Grains under a pressure go on to bear it: a
 /// plate that is laid on them presses as much (deviation D93).
 /// @throws std::invalid_argument  if it has no nodes
-void hold_end(SolidState& s, SolidSide side, bool pulled);
+void hold_end(SolidState& s, SolidSide side, const EndHold& how);
 
 /// Keep a specimen under pressures from sliding and turning between smooth ends, which nothing else
 /// does once it is cracked: a node next to the middle of the bottom stays along x and y, another

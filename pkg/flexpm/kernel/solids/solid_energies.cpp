@@ -66,6 +66,7 @@ Energies energies(const SolidState& s)
     e.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
     for (const Plate& plate : s.plates) {
         e.elastic += solid_plate_energy(plate);
+        e.friction += rubbed_energy(plate);
         e.boundary_work += plate.boundary_work;
     }
     e.initial = s.ledger.initial;

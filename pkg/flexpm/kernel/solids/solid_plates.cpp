@@ -7,18 +7,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace flexpm {
 
 namespace {
 
-/// Normal stiffness of a grain's own contacts over all grains [Pa/m].
-double mean_stiffness(const SolidState& s)
+/// A stiffness of a grain's own contacts over all grains [Pa/m].
+double mean_stiffness(const SolidState& s, double LawParameters::*stiffness)
 {
     double sum = 0.0;
     for (int g = 0; g < s.grains.count; ++g)
-        sum += s.contacts.laws[s.grains.law_index(g, g)].normal_stiffness;
+        sum += s.contacts.laws[s.grains.law_index(g, g)].*stiffness;
     return sum / s.grains.count;
 }
 
@@ -46,6 +47,39 @@ double push(const Plate& plate, int index)
     return gap < 0.0 || plate.bonded ? -point_stiffness(plate, index) * gap : 0.0;
 }
 
+Vector axes_of(const std::vector<double>& values, int index)
+{
+    return { values[3 * index], values[3 * index + 1], values[3 * index + 2] };
+}
+void set_axes(std::vector<double>& values, int index, Vector v)
+{
+    values[3 * index] = v.x;
+    values[3 * index + 1] = v.y;
+    values[3 * index + 2] = v.z;
+}
+
+Vector along_face(const Plate& plate, Vector way)
+{
+    return way - dot(plate.normal, way) * plate.normal;
+}
+
+/// Force along the face on a grain that is at a way from its reference: a spring, and a slider that
+/// bears friction. What slides rubs with the mean of the forces before and after.
+Vector rub(Plate& plate, int index, Vector way)
+{
+    const double stiffness = sliding_stiffness(plate, index);
+    const Vector slid = axes_of(plate.slid, index), old = axes_of(plate.shear_force, index);
+    const Vector stretch = along_face(plate, way) - slid;
+    const double most = plate.friction * std::max(push(plate, index), 0.0) / stiffness;
+    const double size = norm(stretch);
+    const Vector stuck = size > most ? (most / size) * stretch : stretch;
+    const Vector slip = stretch - stuck, force = -stiffness * stuck;
+    plate.rubbed[index] -= 0.5 * dot(old + force, slip);
+    set_axes(plate.slid, index, slid + slip);
+    set_axes(plate.shear_force, index, force);
+    return force;
+}
+
 /// Let a plate press as the pressure has done that acts on its side, and store what that takes.
 /// Deviation D93.
 void take_over_pressure(SolidState& s, Plate& p)
@@ -66,7 +100,8 @@ Plate plate_on(const SolidState& s, SolidSide side)
     Plate p;
     p.side = static_cast<int>(side);
     p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
-    p.stiffness = mean_stiffness(s);
+    p.stiffness = mean_stiffness(s, &LawParameters::normal_stiffness);
+    p.shear_stiffness = mean_stiffness(s, &LawParameters::shear_stiffness);
     return p;
 }
 
@@ -133,8 +168,6 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     const int number = static_cast<int>(side);
     if (side != SolidSide::bottom && side != SolidSide::top)
         refuse("add_end_plate: side", number, "", "must be 0, the bottom, or 2, the top");
-    if (s.bodies.empty())
-        refuse("add_end_plate: rigid grains", 0.0, "", "must be all; drive the nodes of others");
     if (find_plate(s, side) >= 0)
         refuse("add_end_plate: side", number, "", "must be without a plate; it has one");
     Plate p = plate_on(s, side);
@@ -163,6 +196,25 @@ void add_disc_plates(SolidState& s)
     prepare_step(s);
 }
 
+void roughen_plates(SolidState& s, double friction)
+{
+    check_not_negative("friction of plates", friction, "");
+    if (s.plates.empty() || s.plates.front().bonded) {
+        refuse("friction of plates", friction, "", "must be of plates that press; lay them first");
+    }
+    for (Plate& plate : s.plates) {
+        plate.friction = friction;
+        const auto count = static_cast<int>(plate.facets.size());
+        plate.rubbed.assign(count, 0.0);
+        plate.shear_force.assign(3 * plate.facets.size(), 0.0);
+        plate.slid.assign(3 * plate.facets.size(), 0.0);
+        for (int i = 0; i < count; ++i) {
+            const Vector way = middle(s.grains.displacement, s.surface.nodes[plate.facets[i]]);
+            set_axes(plate.slid, i, along_face(plate, way));
+        }
+    }
+}
+
 double pressed_area(const Plate& plate)
 {
     double area = 0.0;
@@ -183,6 +235,11 @@ double point_stiffness(const Plate& plate, int index)
     return plate.stiffness * plate.area[index];
 }
 
+double sliding_stiffness(const Plate& plate, int index)
+{
+    return plate.friction > 0.0 ? plate.shear_stiffness * plate.area[index] : 0.0;
+}
+
 void add_plate_forces(SolidState& s, int block)
 {
     const SolidPlan& plan = s.plan;
@@ -192,7 +249,9 @@ void add_plate_forces(SolidState& s, int block)
         const auto& nodes = s.surface.nodes[plate.facets[touch.index]];
         const Vector way = middle(s.grains.displacement, nodes) - plate.displacement;
         plate.opening[touch.index] = plate.gap[touch.index] + dot(plate.normal, way);
-        const Vector third = (push(plate, touch.index) / 3.0) * plate.normal;
+        Vector force = push(plate, touch.index) * plate.normal;
+        if (plate.friction > 0.0) force = force + rub(plate, touch.index, way);
+        const Vector third = (1.0 / 3.0) * force;
         for (int n : nodes)
             set_space_vector(s.grains.force, n, space_vector(s.grains.force, n) + third);
     }
@@ -215,7 +274,17 @@ double solid_plate_energy(const Plate& plate)
     double sum = 0.0;
     for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
         sum -= 0.5 * push(plate, i) * plate.opening[i];
+    if (!(plate.friction > 0.0)) return sum;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+        const Vector force = axes_of(plate.shear_force, i);
+        sum += 0.5 * dot(force, force) / sliding_stiffness(plate, i);
+    }
     return sum;
+}
+
+double rubbed_energy(const Plate& plate)
+{
+    return std::accumulate(plate.rubbed.begin(), plate.rubbed.end(), 0.0);
 }
 
 }  // namespace flexpm

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Smooth plates on the ends of a specimen of rigid grains in space, and against the mantle
-/// of a disc of any grains: plate_contact.hpp there. A contact lies in the middle of each surface
-/// triangle. SI units; forces of a plate on the specimen are positive along its normal, which
-/// points into it.
-/// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area.
+/// @file  Plates on the ends of a specimen in space, and against the mantle of a disc:
+/// plate_contact.hpp there. A contact lies in the middle of each surface triangle. SI units; forces
+/// of a plate on the specimen are positive along its normal, which points into it.
+/// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area, and
+/// along the plate, if that is not smooth, K_s.
 #pragma once
 
 #include <flexpm/kernel/solids/solid_state.hpp>
@@ -11,10 +11,9 @@
 
 namespace flexpm {
 
-/// Lay a plate on the bottom or the top. Masses must be scaled again afterwards.
+/// Lay a smooth plate on the bottom or the top. Masses must be scaled again afterwards.
 /// @param bonded  it pulls as well as it presses
-/// @throws std::invalid_argument  for another side, for one without triangles or with a plate, or
-///         if grains deform
+/// @throws std::invalid_argument  for another side, or one without triangles or with a plate
 void add_end_plate(SolidState& s, SolidSide side, bool bonded);
 
 /// Lay plates below and on top of a disc, as bottom and top, that touch it and press alone. What
@@ -23,11 +22,18 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded);
 /// @throws std::invalid_argument  if there are plates, or no mantle faces them
 void add_disc_plates(SolidState& s);
 
+/// Let grains stick to the plates from their present places on, as far as friction bears it.
+/// @param friction  coefficient [-]
+/// @throws std::invalid_argument  if it is below 0, or there are no plates, or bonded ones
+void roughen_plates(SolidState& s, double friction);
+
 /// Number of the plate on a side; -1 if there is none.
 int find_plate(const SolidState& s, SolidSide side);
 
-/// Contact `index` of a plate [N/m].
+/// Contact `index` of a plate along its normal [N/m].
 double point_stiffness(const Plate& plate, int index);
+/// The same along its face; 0: it is smooth [N/m].
+double sliding_stiffness(const Plate& plate, int index);
 
 /// Add the forces of plates on the nodes of a block of grains, at their present places.
 void add_plate_forces(SolidState& s, int block);
@@ -37,6 +43,9 @@ void sum_plates(SolidState& s, double dt);
 
 /// Area on which a plate presses [m^2].
 double pressed_area(const Plate& plate);
+
+/// Energy of friction of a plate's contacts [J].
+double rubbed_energy(const Plate& plate);
 
 /// Stored energy of a plate's contacts [J].
 double solid_plate_energy(const Plate& plate);

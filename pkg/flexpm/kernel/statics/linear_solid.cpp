@@ -31,8 +31,10 @@ void add_block(SpaceGradient& sum, double factor, const SpaceGradient& k)
 
 SpaceGradient press_block(const LinearSolid::Press& p)
 {
-    const Vector n = p.normal;
-    return { (p.stiffness * n.x) * n, (p.stiffness * n.y) * n, (p.stiffness * n.z) * n };
+    const Vector n = (p.stiffness - p.sliding) * p.normal;
+    return { n.x * p.normal + Vector { p.sliding, 0.0, 0.0 },
+        n.y * p.normal + Vector { 0.0, p.sliding, 0.0 },
+        n.z * p.normal + Vector { 0.0, 0.0, p.sliding } };
 }
 
 Vector product(const SpaceGradient& k, Vector v)
@@ -87,8 +89,10 @@ void LinearSolid::add(const double* u, double* forces) const
         Vector way;
         for (int n : p.nodes)
             way = way + (1.0 / 3.0) * triple_at(u, n);
+        const Vector across = dot(p.normal, way) * p.normal;
+        const Vector force = p.stiffness * across + p.sliding * (way - across);
         for (int n : p.nodes)
-            add_triple(forces, n, (p.stiffness * dot(p.normal, way) / 3.0) * p.normal);
+            add_triple(forces, n, (1.0 / 3.0) * force);
     }
 }
 

@@ -26,13 +26,14 @@ struct LinearSolid : LinearForces {
         double normal_stiffness, shear_stiffness;  ///< [Pa/m]
         std::vector<Spring> springs;
     };
-    /// A smooth plate before the middle of a surface triangle; it bears both ways.
+    /// A plate before the middle of a surface triangle; it bears both ways, and grains stick to it.
     struct Press {
         int plate;
         bool touches;
         std::array<int, 3> nodes;
         Vector normal;
         double stiffness;  ///< [N/m]
+        double sliding;    ///< the same along its face; 0: smooth [N/m]
     };
 
     std::vector<PlaneStiffness> kinds;  ///< of elements

@@ -80,8 +80,8 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             for (int& n : nodes)
                 n = numbers.of(grain, n);
             const bool touches = plate.bonded || plate.opening[i] <= 0.0;
-            solid.presses.push_back(
-                { number, touches, nodes, plate.normal, point_stiffness(plate, i) });
+            solid.presses.push_back({ number, touches, nodes, plate.normal,
+                point_stiffness(plate, i), sliding_stiffness(plate, i) });
         }
     }
 }
@@ -122,7 +122,7 @@ SolidField field_of_nodes(const SolidState& s)
         for (int axis = 0; axis < 3; ++axis)
             held[next++] = s.grains.prescribed[s.grains.component(node, axis)];
     });
-    if (std::find(held.begin(), held.end(), 1) == held.end())
+    if (s.plates.empty() && std::find(held.begin(), held.end(), 1) == held.end())
         refuse("elastic_field: held nodes", 0.0, "", "must be those of both ends; hold them first");
     std::vector<double> given(size, 0.0), guess(size, 0.0);
     std::vector<double> load = push_of_top(s, solid, { 0.0, 0.0, -height });

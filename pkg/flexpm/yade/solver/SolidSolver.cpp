@@ -49,13 +49,17 @@ void SolidSolver::scaleMasses()
 	massDamping = damping;
 }
 
-void SolidSolver::holdEnds(bool bonded) { flexpm::hold_ends(state, bonded); }
+void SolidSolver::holdEnds(bool bonded, Real friction)
+{
+	flexpm::hold_ends(state, { bonded, friction > 0. });
+	if (friction > 0.) flexpm::roughen_plates(state, friction);
+}
 
 bool SolidSolver::holds(int place) const { return !isInScene() || hasInteraction(place); }
 
-void SolidSolver::holdBottom()
+void SolidSolver::holdBottom(bool plate)
 {
-	flexpm::hold_end(state, flexpm::SolidSide::bottom, false);
+	flexpm::hold_end(state, flexpm::SolidSide::bottom, { false, plate });
 	flexpm::hold_against_sliding(state);
 }
 

@@ -23,8 +23,8 @@ public:
 
 	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
 	void scaleMasses();
-	void holdEnds(bool bonded);
-	void holdBottom();
+	void holdEnds(bool bonded, Real friction);
+	void holdBottom(bool plate);
 	void holdDisc();
 	py::list  pressedAreas();
 	py::tuple elasticConstants();
@@ -47,9 +47,9 @@ public:
 		, .def("assembleSolid", &SolidSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false),
 			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j; minerals: that of each cell.")
 		.def("scaleMasses", WithGrains<&SolidSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
-		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, py::arg("bonded") = false,
-			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. Scale the masses afterwards.")
-		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile.")
+		.def("holdEnds", WithGrains<&SolidSolver::holdEnds>::call, (py::arg("bonded") = false, py::arg("friction") = 0.),
+			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. With a friction above 0 [-] by plates of any grains, to which they stick from now on as far as it bears. Scale the masses afterwards.")
+		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, (py::arg("plate") = false), "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile. plate: by a plate of any grains.")
 		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, "Lay a smooth plate below a disc and one on top, which touch it. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
 		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")
 		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")

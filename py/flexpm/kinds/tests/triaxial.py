@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from ...errors import InputError
 from ...require import Bounds
-from ..option import Asked, Option, Value
+from ..option import END_FRICTION, Asked, Option, Value, end_friction_of
 from ..rates import Rates
 from ..test_kind import Stage, TestKind
 
@@ -15,16 +15,17 @@ _PRESSURE = Bounds(at_least=0.0, at_most=1e15)
 
 
 def _settle(asked: Asked) -> Mapping[str, Value]:
+    friction = end_friction_of(asked)
     second = asked.values.get("second_confinement")
     if second is None:
-        return {}
+        return friction
     pressure = asked.number("second_confinement", 0.0, _PRESSURE, "Pa")
     if "depth" not in asked.sizes:
         raise InputError(
             f"run: second_confinement = {pressure:g} Pa, must be left out for a cylinder, whose "
             "mantle is one side; test a box"
         )
-    return {"second_confinement": pressure}
+    return {"second_confinement": pressure, **friction}
 
 
 KIND = TestKind(
@@ -47,6 +48,7 @@ KIND = TestKind(
             default="the confinement",
             open="the confinement",
         ),
+        END_FRICTION,
     ),
     settle=_settle,
     solid_rates={

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compression between frictionless ends. Paper Sec. 4.1."""
 
-from ..option import control_of
+from ..option import END_FRICTION, control_of, end_friction_of
 from ..rates import Rates
 from ..test_kind import TestKind
 
@@ -19,7 +19,8 @@ KIND = TestKind(
         **{"flexible": 5, "rigid": 6, "inner": 4, "inner-un": 3},
         **dict.fromkeys(("jcfpm", "cohfrict"), 2),
     },
-    options=(control_of(*_CONTROLS),),
+    options=(control_of(*_CONTROLS), END_FRICTION),
+    settle=end_friction_of,
     confine_hint="; use biaxial",
     static_models=("flexible",),
     controls=_CONTROLS,

@@ -23,6 +23,9 @@ class EndRig(GrainRig):
     Pressures act on the surface triangles of either, and on the top until it is driven.
     """
 
+    #: Friction coefficient of the ends from the loading on [-]; 0: they are smooth. To be set before
+    #: the first stage.
+    end_friction: float = 0.0
     #: Pressure on front and back of a box [Pa]; None: that on the other sides.
     _second: float | None = None
 
@@ -80,7 +83,7 @@ class EndRig(GrainRig):
             )
         there = {tuple(one.sides): one for one in self._presses()}
         if not there:
-            self._solid.holdBottom()
+            self._solid.holdBottom(plate=self.end_friction > 0.0)
             self.built.set_masses()
         for sides, value in asked.items():
             if one := there.get(sides):
@@ -111,7 +114,7 @@ class EndRig(GrainRig):
             if TOP in one.sides:  # what is driven takes over there
                 self.built.remove_engines(one)
                 self._solid.clearPressure(TOP)
-        self._solid.holdEnds(self.tension)
+        self._solid.holdEnds(self.tension, self.end_friction)
         self.built.set_masses()
         ends = wrapper.SolidEndsController()
         self.built.add_engines(before=(ends,))
