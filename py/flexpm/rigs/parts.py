@@ -84,7 +84,7 @@ class Part(RigPart):
 
     @property
     def angle(self) -> float:
-        """By which a seated one has turned about its middle, counter-clockwise [rad]."""
+        """Turn of a seated one about its middle, counter-clockwise from square to `normal` [rad]."""
         return float(self._now["angle"])
 
     @property
