@@ -11,7 +11,7 @@ from ..files import Table
 from ..kinds.registry import kind_of
 from ..materials.references import Reference
 from ..text import name_of, words_of
-from .words import words_of_test
+from .words import words_of_result
 
 if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
@@ -82,7 +82,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
         ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
         ("Poisson's ratio", _poissons_ratio(result)),
-        (words_of_test(result.test).peak, scaled(result.peak_stress, 1e-6, "MPa")),
+        (words_of_result(result).peak, scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
         *_core(result),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
