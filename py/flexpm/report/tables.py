@@ -136,14 +136,16 @@ def size_text(result: Result) -> str:
     parts = []
     if specimen.get("depth"):
         sizes = (specimen[name] for name in ("width", "depth", "height"))
-        parts.append(" x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
+        parts.append(" x ".join(f"{1e3 * size:.4g}" for size in sizes) + " mm")
     elif specimen.get("kind") == "cylinder":
-        parts.append(f"{1e3 * specimen['diameter']:g} x {1e3 * specimen['height']:g} mm cylinder")
+        parts.append(
+            f"{1e3 * specimen['diameter']:.4g} x {1e3 * specimen['height']:.4g} mm cylinder"
+        )
     elif specimen.get("width") and specimen.get("height"):
-        parts.append(f"{1e3 * specimen['width']:g} x {1e3 * specimen['height']:g} mm")
+        parts.append(f"{1e3 * specimen['width']:.4g} x {1e3 * specimen['height']:.4g} mm")
     elif specimen.get("diameter"):
         half = "half a " if specimen.get("kind") == "half-disc" else ""
-        parts.append(f"{half}disc of {1e3 * specimen['diameter']:g} mm")
+        parts.append(f"{half}disc of {1e3 * specimen['diameter']:.4g} mm")
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)

@@ -204,6 +204,9 @@ class KeptTest:
         """Draw pictures and page of what has been written last."""
         rig = self._rig()
         broken = _broken()
+        if rig is not None and _is_there(rig) and yade.O.iter != self._done[0]:
+            last = self.calls.made[-1]["call"]
+            self._reason = self._reason or f"steps were made by hand after {last}"
         if rig is not None and self._is_behind(rig, broken):
             self._write(rig, broken)
         if self._result is None:
