@@ -97,6 +97,8 @@ def test_what_has_no_size_is_drawn_as_a_load_over_a_way(specimen, tmp_path, size
     result = rig.save(tmp_path, report=False)
     words = words_of_result(result)
     assert (words.x.label, words.y.label) == labels
+    named = [label.partition(" [")[0] for label in reversed(labels)]
+    assert words.title().lower() == " over ".join(named)
     measures = ("peak_stress", "peak_strain", "youngs_modulus")
     assert {name for name in measures if getattr(result, name) is not None} <= {*known}
     if "area" not in sizes:
