@@ -96,10 +96,10 @@ class Words:
 
     def title(self, also: str = "") -> str:
         """Heading of a picture of the record, and of what it shows beside the test's own."""
-        name = self.y.name if self.y.column != "axial_stress" else "stress"
+        name = self.y.name if (self.y.column, self.y.unit) != ("axial_stress", "MPa") else "stress"
         return f"{name[0].upper()}{name[1:]}{also} over {self.over}"
 
     @property
     def over(self) -> str:
         """What is drawn along the axis x, in one word where it is a strain."""
-        return self.x.name if self.x.column != "axial_strain" else "strain"
+        return self.x.name if (self.x.column, self.x.unit) != ("axial_strain", "%") else "strain"

@@ -18,6 +18,7 @@ from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..rigs.fitting import rig as rig_of
 from ..rigs.frames import FrameWriter, show_frames
+from ..rigs.outcome.folder import lines_in
 from ..rigs.rig import TestRig
 from ..rigs.solids.end_rig import EndRig
 from ..rigs.wave_rig import WaveRig
@@ -27,7 +28,7 @@ from ..runs.loading_start import LoadingStart
 from ..runs.output import ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
-from ..runs.written import about, notches_of, write_files
+from ..runs.written import about, write_files
 from ..specimens.files import given
 from . import halving
 from .outcome import outcome
@@ -80,8 +81,8 @@ def carry_out(
         restore = start.restore if position.start else None
     result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
     if folder is not None:
-        cut = bool(result.material.get("joints"))
-        write_files(folder, result, notches_of(folder / "specimen.vtu") if cut else ())
+        state = result.snapshot
+        write_files(folder, result, *(() if state is None else lines_in(rig, state)))
         _write_others(folder, result, plan.output, rig)
     return result
 

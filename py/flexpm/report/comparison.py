@@ -24,7 +24,7 @@ from ..text import label_of
 from .curves import fits_a_picture, peak_place
 from .maps import draw_cracks
 from .style import CYCLE, MODE_NAMES, STYLE, can_be_drawn, save
-from .words import words_of_test
+from .words import words_of_result
 
 Runs = Sequence[tuple[str, Result]]
 
@@ -48,14 +48,14 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
         figure = Figure(figsize=(6.2, 6.0), layout="constrained")
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1.0))
         for (label, result), (colour, dash) in zip(runs, _styles(runs), strict=True):
-            names = words_of_test(result.test)
+            names = words_of_result(result)
             over = names.x.of(result.curve)
             upper.plot(over, names.y.of(result.curve), color=colour, ls=dash, lw=1.4, label=label)
             if (place := peak_place(result)) is not None:
                 upper.plot(*place, "o", ms=4.0, mfc="white", mec=colour, mew=1.1)
             cracks = result.curve["tensile_cracks"] + result.curve["shear_cracks"]
             lower.plot(over, cracks, color=colour, ls=dash, lw=1.4)
-        names = words_of_test(runs[0][1].test)
+        names = words_of_result(runs[0][1])
         upper.set_ylabel(names.y.label)
         upper.legend(frameon=False, loc="best")
         upper.set_title(_caption(runs), fontsize=9.5, loc="left")

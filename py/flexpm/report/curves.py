@@ -22,7 +22,7 @@ from ..results.result import Result
 from ..text import label_of
 from .style import COLOURS, CYCLE, MODE_NAMES, STYLE, save
 from .tables import scaled, size_text, test_text
-from .words import words_of_test
+from .words import words_of_result
 
 #: What the sections are called, the lower one first.
 SECTIONS = ("lower section", "upper section")
@@ -43,16 +43,18 @@ def fits_a_picture(record: Curve) -> bool:
 
 def peak_place(result: Result) -> tuple[float, float] | None:
     """Where the peak lies in a picture of the record, in the units of its axes."""
-    if result.peak_stress is None or not len(result.curve):
+    # a script's own test without an area has a load for stress
+    peak = result.peak_load if result.peak_stress is None else result.peak_stress
+    if peak is None or not len(result.curve):
         return None
-    row = np.argmin(np.abs(result.curve["axial_stress"] - result.peak_stress))
-    names = words_of_test(result.test)
+    row = np.argmin(np.abs(result.curve["axial_stress"] - peak))
+    names = words_of_result(result)
     return float(names.x.of(result.curve)[row]), float(names.y.of(result.curve)[row])
 
 
 def places_of(result: Result, strain: float | FloatArray) -> FloatArray:
     """Where axial strains of a record lie along the axis x of a picture, in its unit."""
-    axis = words_of_test(result.test).x
+    axis = words_of_result(result).x
     if axis.column == "axial_strain":
         return axis.factor * np.asarray(strain)
     return np.interp(strain, result.curve["axial_strain"], axis.of(result.curve))
@@ -69,7 +71,7 @@ def curve_picture(path: Path | str, result: Result) -> None:
     with rc_context(STYLE):
         figure = Figure(figsize=(5.6, 4.3), layout="constrained")
         axes = figure.add_subplot()
-        record, names = result.curve, words_of_test(result.test)
+        record, names = result.curve, words_of_result(result)
         counts = axes.twinx()
         _draw_counts(counts, names.x.of(record), record)
         axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
@@ -110,7 +112,7 @@ def _draw_modulus(axes: Axes, result: Result) -> None:
     ends = np.array([max(0.0, middle[1] - result.youngs_modulus * middle[0]), top])
     places = middle[0] + (ends - middle[1]) / result.youngs_modulus
     label = f"E = {1e-9 * result.youngs_modulus:.1f} GPa"
-    names = words_of_test(result.test)
+    names = words_of_result(result)
     across = names.x.factor if names.x.column == "axial_strain" else 100.0
     up = names.y.factor if names.y.column == "axial_stress" else 1e-6
     axes.plot(across * places, up * ends, color="0.45", lw=1.0, ls=(0, (5, 3)), label=label)
@@ -123,9 +125,8 @@ def _draw_peak(axes: Axes, result: Result) -> None:
     axes.plot(*place, "o", ms=5.0, mfc="white", mec="black", mew=1.2)
     along = place[0] / axes.get_xlim()[1]
     side = "left" if along < _MARGIN else "right" if along > 1.0 - _MARGIN else "center"
-    unit = words_of_test(result.test).y.unit
-    # what a script's own test calls stress has any size
-    text = f"{place[1]:.4g}" if unit == "SI" else f"{place[1]:.1f} MPa"
+    unit = words_of_result(result).y.unit
+    text = f"{place[1]:.1f} MPa" if unit == "MPa" else f"{place[1]:.4g} {unit}"
     axes.annotate(text, place, (0, 7), textcoords="offset points", ha=side)
 
 

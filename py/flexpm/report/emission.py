@@ -25,7 +25,7 @@ from .maps import draw_grains
 from .pages.page import Rows
 from .style import COLOURS, STYLE, can_be_drawn, save
 from .tables import scaled
-from .words import words_of_test
+from .words import words_of_result
 
 #: Area of an event of the largest magnitude [point2]; one magnitude less has a tenth of it.
 _LARGEST = 350.0
@@ -96,7 +96,7 @@ def _label(mode: int, events: Sequence[AnyEvent]) -> str:
 
 
 def _draw_growth(axes: Axes, result: Result, events: Sequence[AnyEvent]) -> None:
-    record, names = result.curve, words_of_test(result.test)
+    record, names = result.curve, words_of_result(result)
     places = places_of(result, np.sort([one.strain for one in events]))
     counts = axes.twinx()
     counts.step(places, np.arange(1, len(places) + 1), where="post", color=COLOURS[TENSILE])
@@ -137,7 +137,7 @@ def emission_table(result: Result) -> Rows | None:
     if not result.emission:
         return None
     largest = sorted(result.emission, key=lambda one: -one.energy)[:_LISTED]
-    words = words_of_test(result.test)
+    words = words_of_result(result)
     rows = [
         (
             scaled(float(places_of(result, one.strain)), 1.0, words.x.unit),

@@ -16,7 +16,7 @@ from .curves import fits_a_picture, places_of
 from .maps import draw_cracks
 from .style import STYLE, can_be_drawn
 from .tables import size_text, test_text
-from .words import words_of_test
+from .words import words_of_result
 
 #: Frames a second.
 _PACE = 8
@@ -51,7 +51,7 @@ def write_film(path: Path, result: Result, frames: Sequence[tuple[Path, float, f
         figure = Figure(figsize=(4.6 * width / height + 4.6, 5.2), layout="constrained")
         rock, curve = figure.subplots(1, 2, width_ratios=(width / height, 1.0))
         figure.suptitle(f"{test_text(result)}\n{size_text(result)}", fontsize=9.5)
-        names = words_of_test(result.test)
+        names = words_of_result(result)
         curve.plot(names.x.of(result.curve), names.y.of(result.curve), color="black", lw=1.4)
         curve.set(xlabel=names.x.label, ylabel=names.y.label, xlim=(0, None))
         curve.set_ylim(bottom=0.0)

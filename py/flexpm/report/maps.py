@@ -39,6 +39,8 @@ MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
 _EDGE = "#6b6455"
 #: Plates and held nodes of a rig.
 _PART = "#3a5a78"
+#: Joints that were not cut open.
+_JOINT = "#8fae8b"
 #: Pairs of minerals that a legend names.
 _MOST_PAIRS = 6
 
@@ -112,6 +114,7 @@ def crack_picture(
     notches: Sequence[int] = (),
     by_pair: Mapping[str, Mapping[str, int]] | None = None,
     parts: Sequence[Table] = (),
+    joints: Sequence[int] = (),
 ) -> None:
     """Draw the deformed grains with their cracks; each point colours its share of a contact.
 
@@ -125,12 +128,13 @@ def crack_picture(
         notches: Numbers of contacts that were cut open before the test.
         by_pair: Cracks of each pair of minerals by mode, for the legend.
         parts: Parts of a rig, with their faces.
+        joints: Numbers of contacts of joints that were not cut open.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        save(crack_figure(snapshot, caption, minerals, notches, by_pair, parts), path)
+        save(crack_figure(snapshot, caption, minerals, notches, by_pair, parts, joints), path)
 
 
 def crack_figure(
@@ -140,12 +144,14 @@ def crack_figure(
     notches: Sequence[int] = (),
     by_pair: Mapping[str, Mapping[str, int]] | None = None,
     parts: Sequence[Table] = (),
+    joints: Sequence[int] = (),
 ) -> Figure:
     """The figure of `crack_picture`."""
     with rc_context(STYLE):
         figure, axes = map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
-        handles += _draw_notches(axes, snapshot, notches) + _draw_parts(axes, parts)
+        handles += _draw_cut(axes, snapshot, joints, "joints")
+        handles += _draw_cut(axes, snapshot, notches, "notch") + _draw_parts(axes, parts)
         handles += _mineral_handles(minerals)
         handles += _pair_handles(by_pair or {})
         columns = 1 if by_pair else 2  # names of pairs are long
@@ -170,11 +176,12 @@ def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     _draw_rock(axes, snapshot, tints)
     segments, handles = crack_segments(snapshot), []
     for mode in (TENSILE, SHEAR):
-        lines = LineCollection(1e3 * segments[mode], colors=COLOURS[mode], linewidths=1.3)
+        colour = COLOURS[mode]
+        lines = LineCollection(1e3 * segments[mode], colors=colour, linewidths=1.3, zorder=1.5)
         axes.add_collection(lines)
         points = int(np.count_nonzero(snapshot.crack_mode == mode))
         label = f"{MODE_NAMES[mode]} ({points})"
-        handles.append(Line2D([], [], color=COLOURS[mode], lw=2.0, label=label))
+        handles.append(Line2D([], [], color=colour, lw=2.0, label=label))
     handles += _draw_erased(axes, snapshot)
     draw_scale_bar(axes)
     return handles
@@ -205,20 +212,20 @@ def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:
     return [Patch(alpha=0.0, label=label_of(text)) for text in texts]
 
 
-def _draw_notches(axes: Axes, snapshot: Snapshot, notches: Sequence[int]) -> list[Line2D]:
-    """Draw what was cut open before the test; a handle if there is any."""
-    ends = snapshot.contact_ends[np.isin(snapshot.contact, notches)]
-    if len(ends) == 0:
+def _draw_cut(axes: Axes, snapshot: Snapshot, contacts: Sequence[int], name: str) -> list[Line2D]:
+    """Draw what was cut before the test, joints below the cracks; a handle if there is any."""
+    if not len(ends := snapshot.contact_ends[np.isin(snapshot.contact, contacts)]):
         return []
-    axes.add_collection(LineCollection(1e3 * ends, colors=CUT, linewidths=2.2))
-    return [Line2D([], [], color=CUT, lw=2.2, label="notch")]
+    colour, order = (_JOINT, 1.4) if name == "joints" else (CUT, 1.6)
+    axes.add_collection(LineCollection(1e3 * ends, colors=colour, linewidths=2.2, zorder=order))
+    return [Line2D([], [], color=colour, lw=2.2, label=name)]
 
 
 def _draw_parts(axes: Axes, parts: Sequence[Table]) -> list[Line2D]:
     """Draw plates and boxes around held nodes where they were laid; a handle if there are any."""
     if not (faces := [1e3 * np.array(part["face"]) for part in parts if part.get("face")]):
         return []
-    axes.add_collection(LineCollection(faces, colors=_PART, linewidths=2.6))
+    axes.add_collection(LineCollection(faces, colors=_PART, linewidths=2.6, zorder=1.7))
     return [Line2D([], [], color=_PART, lw=2.6, label="parts")]
 
 
@@ -227,10 +234,10 @@ def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
     if snapshot.erased_ends is None:
         return []
     cuts = snapshot.erased_ends[np.all(np.isfinite(snapshot.erased_ends), axis=(1, 2))]
-    if len(cuts) == 0:
+    if not len(cuts):
         return []
     colour = COLOURS[ERASED]
-    axes.add_collection(LineCollection(1e3 * cuts, colors=colour, linewidths=1.6))
+    axes.add_collection(LineCollection(1e3 * cuts, colors=colour, linewidths=1.6, zorder=1.6))
     label = f"{MODE_NAMES[ERASED]} ({len(cuts)})"
     return [Line2D([], [], color=colour, lw=2.0, label=label)]
 
@@ -243,9 +250,7 @@ def fragment_picture(
     Grains of the largest fragment are pale, grains that hang on no other one are dark.
 
     Args:
-        path: Picture to write.
-        snapshot: The state.
-        caption: Line above the number of fragments.
+        path, snapshot, caption: As for `crack_picture`; the number of fragments stands below.
         of: Fragments of the solid that the state is a section of; None: of the state.
     """
     if not can_be_drawn(snapshot.positions):
@@ -270,6 +275,7 @@ def fragment_figure(snapshot: Snapshot, caption: str = "", of: Fragments | None 
         size = "area" if of is None or of is snapshot.fragments else "volume"
         largest = 100.0 * found.areas[0] / found.areas.sum()
         text = f"{len(found)} fragments, the largest has {largest:.0f} % of the {size}"
+        text = text if len(found) > 1 else "1 fragment"
         lines = [line for line in (label_of(caption), text) if line]
         axes.set_title("\n".join(lines), fontsize=9.5, loc="left")
     return figure

@@ -11,7 +11,7 @@ from ..files import Table
 from ..kinds.registry import kind_of
 from ..materials.references import Reference
 from ..text import name_of, words_of
-from .words import words_of_test
+from .words import words_of_result
 
 if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
@@ -82,7 +82,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
         ("Young's modulus", scaled(result.youngs_modulus, 1e-9, "GPa")),
         ("Poisson's ratio", _poissons_ratio(result)),
-        (words_of_test(result.test).peak, scaled(result.peak_stress, 1e-6, "MPa")),
+        (words_of_result(result).peak, scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
         *_core(result),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
@@ -139,14 +139,16 @@ def size_text(result: Result) -> str:
         parts.append("disc of " + " x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
     elif specimen.get("depth"):
         sizes = (specimen[name] for name in ("width", "depth", "height"))
-        parts.append(" x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
+        parts.append(" x ".join(f"{1e3 * size:.4g}" for size in sizes) + " mm")
     elif specimen.get("kind") == "cylinder":
-        parts.append(f"{1e3 * specimen['diameter']:g} x {1e3 * specimen['height']:g} mm cylinder")
+        parts.append(
+            f"{1e3 * specimen['diameter']:.4g} x {1e3 * specimen['height']:.4g} mm cylinder"
+        )
     elif specimen.get("width") and specimen.get("height"):
-        parts.append(f"{1e3 * specimen['width']:g} x {1e3 * specimen['height']:g} mm")
+        parts.append(f"{1e3 * specimen['width']:.4g} x {1e3 * specimen['height']:.4g} mm")
     elif specimen.get("diameter"):
         half = "half a " if specimen.get("kind") == "half-disc" else ""
-        parts.append(f"{half}disc of {1e3 * specimen['diameter']:g} mm")
+        parts.append(f"{half}disc of {1e3 * specimen['diameter']:.4g} mm")
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)

@@ -6,12 +6,34 @@ Nothing heavy is loaded here: the command writes tables.
 
 from __future__ import annotations
 
-from ..kinds.registry import kind_of
-from ..kinds.words import Drawn, Shown, Words
+from typing import TYPE_CHECKING
 
-__all__ = ["Drawn", "Shown", "Words", "words_of_test"]
+from ..kinds.registry import OWN, kind_of
+from ..kinds.words import Drawn, Shown, Words, strain, stress
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+
+__all__ = ["Drawn", "Shown", "Words", "words_of_result", "words_of_test"]
 
 
 def words_of_test(test: str) -> Words:
     """Words of a test, by its name."""
     return kind_of(test).words
+
+
+def words_of_result(result: Result) -> Words:
+    """Words of a test that has a result: those of a script's own follow from what it drove."""
+    if result.test != OWN.name or result.inputs is None:
+        return words_of_test(result.test)
+    drive = result.inputs.get("drive")
+    if not drive:  # between two ends, or before it is loaded
+        return Words()
+    turns = drive["direction"][2] != 0.0
+    way = ("angle", 1e3, "mrad") if turns else ("displacement", 1e6, "µm")
+    load = ("moment", 1.0, "N m") if turns else ("load", 1.0, "N")
+    # a size of 1 was not given: the strain is the way then, the stress the load
+    return Words(
+        Drawn("axial_strain", *way) if drive["length"] == 1.0 else strain("strain"),
+        Drawn("axial_stress", *load) if drive["area"] == 1.0 else stress("stress"),
+    )

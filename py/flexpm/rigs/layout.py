@@ -84,7 +84,8 @@ class PartLayout:
             strip: Stiffness per area of a soft layer between it and the grains [Pa/m], E / h of one
                 of thickness h; it comes in series with that of the contacts. None: no layer.
             seated: It turns freely about the middle of its face, as on a spherical seat, so that it
-                bears no moment there (deviation D95). Else it does not turn.
+                bears no moment there (deviation D95); it is laid down on what is before it, as far
+                from square to its normal as that is. Else it does not turn.
 
         Raises:
             InputError: for a place that is not on the outline or that another part has, or a length

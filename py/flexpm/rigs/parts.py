@@ -84,7 +84,7 @@ class Part(RigPart):
 
     @property
     def angle(self) -> float:
-        """By which a seated one has turned about its middle, counter-clockwise [rad]."""
+        """Turn of a seated one, counter-clockwise, 0 when square to its normal [rad]."""
         return float(self._now["angle"])
 
     @property

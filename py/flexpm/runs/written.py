@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .._version import __version__
-from ..files import Table
-from ..kinds.registry import kind_of
+from ..files import Table, remove_earlier
+from ..kinds.registry import OWN, kind_of
 from ..kinds.test_kind import Rig
 from ..report.curves import curve_picture, wave_picture
 from ..report.emission import emission_picture
@@ -17,7 +17,7 @@ from ..report.outside import draw_solid
 from ..report.tables import size_text
 from ..results.result import Result
 from ..results.solids.state import SolidSnapshot, drawn_state
-from ..results.vtu import read_vtu, write_vtu
+from ..results.vtu import write_vtu
 from ..specimens.files import given
 
 #: Picture of the outside of a solid.
@@ -32,16 +32,19 @@ FILES = (
 )
 
 
-def write_files(folder: Path, result: Result, notches: Sequence[int] = ()) -> None:
+def write_files(
+    folder: Path, result: Result, notches: Sequence[int] = (), joints: Sequence[int] = ()
+) -> None:
     """Write numbers, record, cracks, final state and pictures of a result into `folder`.
 
     Args:
         folder: It exists.
         result: The result.
         notches: Numbers of the contacts that were cut open before the test.
+        joints: Those of other joints.
     """
     write_numbers(folder, result)
-    draw_pictures(folder, result, notches)
+    draw_pictures(folder, result, notches, joints)
 
 
 def write_numbers(folder: Path, result: Result) -> None:
@@ -51,10 +54,15 @@ def write_numbers(folder: Path, result: Result) -> None:
         write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
 
 
-def draw_pictures(folder: Path, result: Result, notches: Sequence[int] = ()) -> None:
+def draw_pictures(
+    folder: Path, result: Result, notches: Sequence[int] = (), joints: Sequence[int] = ()
+) -> None:
     """Draw the pictures of a result into `folder`; arguments as for `write_files`."""
-    draw = wave_picture if kind_of(result.test).rig is Rig.WAVE else curve_picture
-    draw(folder / "curve.png", result)
+    kind, curve = kind_of(result.test), folder / "curve.png"
+    if kind is OWN and not len(result.curve):  # a script need not drive anything
+        remove_earlier(curve)
+    else:
+        (wave_picture if kind.rig is Rig.WAVE else curve_picture)(curve, result)
     if isinstance(result.snapshot, SolidSnapshot):
         draw_solid(folder / OUTSIDE, result.snapshot, size_text(result))
     if result.snapshot is not None:
@@ -64,7 +72,8 @@ def draw_pictures(folder: Path, result: Result, notches: Sequence[int] = ()) -> 
         caption = size_text(result)
         broken = result.cracks_by_pair
         parts = (result.inputs or {}).get("parts", ())
-        crack_picture(folder / "cracks.png", plane, caption, minerals, notches, broken, parts)
+        picture = folder / "cracks.png"
+        crack_picture(picture, plane, caption, minerals, notches, broken, parts, joints)
         fragment_picture(folder / "fragments.png", plane, caption, result.snapshot.fragments)
         emission_picture(folder / "events.png", result, caption)
 
@@ -76,9 +85,3 @@ def about(inputs: Table | None) -> Table:
     specimen, material = inputs["specimen"], inputs["material"]
     about = {name: inputs[name] for name in ("test", "model", "confinement")}
     return {**about, "material": material["name"], "seed": specimen["seed"], "flexpm": __version__}
-
-
-def notches_of(specimen: Path) -> list[int]:
-    """Numbers of the contacts that are cut open in the file of a specimen before its test."""
-    before = read_vtu(specimen)
-    return [int(number) for number in before.contact[before.cuts]]

@@ -30,7 +30,7 @@ from ..report.pages.page import write as write_page
 from ..report.pages.page_run import OWN_STATUS, STATUS, cite, inputs_table, maps_of, versions
 from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
-from ..report.words import words_of_test
+from ..report.words import words_of_result, words_of_test
 from ..results.result import Result
 from ..runs.asked import told_of, write_report
 from ..runs.output import KINDS, kind_of
@@ -299,7 +299,7 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
     """Stress over strain of all runs in one chart."""
     lines = []
     for number, (name, one) in enumerate([*found.items()][:_MOST_CURVES]):
-        words = words_of_test(one.test)
+        words = words_of_result(one)
         strain, stress = one.curve[words.x.column], one.curve[words.y.column]
         at_peak = one.curve["axial_stress"] == one.peak_stress
         kept = [] if one.peak_stress is None else [int(np.argmax(at_peak))]
@@ -310,7 +310,7 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
         lines.append(Line(name, x, y, colour, dashed=dashed, marks=marks))
     if not lines:
         return []
-    names = words_of_test(next(iter(found.values())).test)
+    names = words_of_result(next(iter(found.values())))
     axes = names.x.label, names.y.label
     return [Chart("stress", names.title(), *axes, lines, shared=False)]
 

@@ -117,10 +117,12 @@ TEST_CASE("A seated plate lies down on a face that is not parallel to it", "[pla
 {
     Row row(false);
     Plate& p = row.a.plates[row.plate];
-    const double tilt = GENERATE(-1e-5, 1e-5);
+    const double tilt = GENERATE(-1e-5, 1e-5, -1e-3, 1e-3);
+    // until both ends bear the steeper ones lie on one alone
+    const double off = std::fabs(tilt) > 1e-4 ? 1e-7 : 0.0;
     for (std::size_t i = 0; i < p.gap.size(); ++i)
-        p.gap[i] += tilt * p.arms[i];
-    row.go(-1e-7);
+        p.gap[i] += tilt * p.arms[i] + off;
+    row.go(-1e-7 - off);
     const double whole = stiffness * columns * size * specimens::thickness / 3.0;
     CHECK(row.top().angle == Approx(tilt).epsilon(1e-6));
     CHECK(row.top().force.y == Approx(-whole * 1e-7).epsilon(1e-6));
@@ -129,6 +131,34 @@ TEST_CASE("A seated plate lies down on a face that is not parallel to it", "[pla
     }
     const Energies e = energies(row.a);
     CHECK(e.boundary_work == Approx(balance::total(e)).epsilon(1e-9));
+}
+
+TEST_CASE("A seated plate with a point on one side of its seat turns away from it", "[plate]")
+{
+    Row row(true);
+    Plate& p = row.a.plates[row.plate];
+    const double tilt = GENERATE(-1.0, 1.0);
+    for (std::size_t i = 0; i < p.gap.size(); ++i)
+        p.gap[i] += tilt * p.arms[i] > 0.0 ? 1e-5 : 0.0;
+    row.go(-1e-7, 50);
+    CHECK(std::fabs(row.top().force.y) < 1e-12 * stiffness);
+    CHECK(row.top().angle * tilt > 0.0);
+}
+
+TEST_CASE("A seated plate is laid down on what is before it", "[plate]")
+{
+    auto o = specimens::options(specimens::strong_contact(stiffness));
+    specimens::Specimen s = specimens::grid(columns, 1, size);
+    const double slope = GENERATE(-0.05, 0.0, 0.05);
+    for (Point& x : s.cells.vertices)
+        x.y *= 1.0 + slope * x.x / size;
+    Assembly a = specimens::assemble(s, o);
+    const Patch patch { { 0.5 * columns * size, size * (1.0 + 0.5 * columns * slope) },
+        columns * size, { 0.0, -1.0 } };
+    const Plate& p = a.plates[add_patch_plate(a, patch, { 0.0, 0.0, false, 0.0, true })];
+    CHECK(p.angle == Approx(slope).margin(1e-12));
+    for (double opening : p.opening)
+        CHECK(std::fabs(opening) < 1e-12 * size);
 }
 
 TEST_CASE("A plate without a seat does not turn", "[plate]")

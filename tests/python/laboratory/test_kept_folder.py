@@ -285,6 +285,18 @@ def test_what_no_call_has_asked_for_cannot_be_made_again(change, why, tmp_path, 
     assert line.endswith("start that script again")
 
 
+def test_steps_by_hand_at_the_end_cannot_be_made_again_either(tmp_path):
+    rig = beam(tmp_path, report=False)
+    rig.strain_to(3e-7, rate=4.0)
+    rig.finish()
+    assert content(tmp_path)["inputs"]["repeatable"]
+    by_hand(rig)
+    rig.finish()
+    inputs = content(tmp_path)["inputs"]
+    assert not inputs["repeatable"]
+    assert inputs["reason"] == "steps were made by hand after strain_to"
+
+
 @pytest.mark.parametrize("model", ["flexible", "rigid", "jcfpm"])
 def test_ends_leave_a_folder_too(model, tmp_path):
     specimen = flexpm.Specimen.rectangle(0.01, 0.014, 0.01, seed=1)

@@ -12,6 +12,8 @@ import pytest
 
 import flexpm
 from flexpm.cli import main as cli
+from flexpm.report.curves import peak_place
+from flexpm.report.words import words_of_result
 from flexpm.results.vtu import read_vtu
 
 # importing flexpm has told Python where YADE is
@@ -72,6 +74,36 @@ def test_the_load_is_no_stress_unless_the_script_gives_an_area(broken, specimen,
     stressed = rig.save(tmp_path)
     assert stressed.youngs_modulus is not None
     assert stressed.peak_load == pytest.approx(1e-4 * stressed.curve["axial_stress"].max())
+
+
+@pytest.mark.parametrize(
+    ("sizes", "labels", "known"),
+    [
+        ({}, ("displacement [µm]", "load [N]"), ()),
+        ({"area": 1e-4}, ("displacement [µm]", "stress [MPa]"), ("peak_stress",)),
+        ({"length": 0.01}, ("strain [%]", "load [N]"), ("peak_strain",)),
+        (
+            {"area": 1e-4, "length": 0.01},
+            ("strain [%]", "stress [MPa]"),
+            ("peak_stress", "peak_strain", "youngs_modulus"),
+        ),
+    ],
+)
+def test_what_has_no_size_is_drawn_as_a_load_over_a_way(specimen, tmp_path, sizes, labels, known):
+    rig = bent(specimen, **sizes)
+    rig.save(tmp_path, report=False)  # before it is loaded
+    assert not (tmp_path / "curve.png").exists()
+    rig.strain_to(2e-6 / sizes.get("length", 1.0), rate=4.0)
+    result = rig.save(tmp_path, report=False)
+    words = words_of_result(result)
+    assert (words.x.label, words.y.label) == labels
+    named = [label.partition(" [")[0] for label in reversed(labels)]
+    assert words.title().lower() == " over ".join(named)
+    measures = ("peak_stress", "peak_strain", "youngs_modulus")
+    assert {name for name in measures if getattr(result, name) is not None} <= {*known}
+    if "area" not in sizes:
+        assert peak_place(result)[1] == pytest.approx(result.curve["load"].max())
+    assert (tmp_path / "curve.png").exists()
 
 
 def test_the_inputs_say_what_the_test_was(broken, specimen):

@@ -90,6 +90,52 @@ def test_a_seated_platen_divides_its_load_evenly():
     assert state.force(low[0])[1] + state.force(low[1])[1] == pytest.approx(state.load, rel=1e-9)
 
 
+WEDGE = 0.02  # slope of the top of a column [-]
+
+
+def wedge(model: str, slope: float, *, seated: bool):
+    """A column that is held at its base, under a plate that is square to it; both."""
+    yade.O.reset()
+    width, height = 0.012, 0.018
+    rise = 0.5 * width * slope
+    corners = [(0.0, 0.0), (width, 0.0), (width, height + rise), (0.0, height - rise)]
+    made = flexpm.Specimen.polygon(corners, THICKNESS, seed=3)
+    never = dict.fromkeys(("tensile_strength", "cohesion"), 1e9)
+    never |= dict.fromkeys(("tensile_fracture_energy", "shear_fracture_energy"), 1e6)
+    rock = flexpm.materials.load("augig-table2-bilinear").with_set(never, model)
+    rig = flexpm.PartRig(flexpm.build(made, rock, model))
+    base = rig.hold(box=((0.0, 0.0), (width, 2e-3)))
+    middle = (0.5 * width, height)
+    return rig, base, rig.support(middle, width, normal=DOWN, seated=seated)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+@pytest.mark.parametrize("slope", [-WEDGE, WEDGE])
+@pytest.mark.parametrize("seated", [True, False])
+def test_a_seat_lies_on_an_inclined_face_and_else_its_corner_takes_all(model, slope, seated):
+    rig, base, top = wedge(model, slope, seated=seated)
+    face = rig.parts[0]["face"]
+    width, middle = top.width, 0.5 * (face[0][0] + face[1][0])
+    assert top.angle == pytest.approx(slope if seated else 0.0, rel=1e-9)
+    state = rig.elastic({top: 2e6})
+    rig.press(top, 2e6)
+    pushed = -top.force[1]
+    assert pushed == pytest.approx(2e6 * width * THICKNESS, rel=1e-3)
+    # moment of the plate about the middle of its face, as what holds the column bears it
+    arm = (base.moment / pushed + base.place[0] - middle) / width
+    if seated:
+        # all of it bears; the grains before it are not alike
+        assert top.angle == pytest.approx(slope, rel=1e-3)
+        assert state.angle(top) == pytest.approx(top.angle, rel=1e-4)
+        assert abs(arm) < 2e-3
+    else:
+        assert top.angle == 0.0
+        assert arm == pytest.approx(np.copysign(0.5, slope), rel=0.1)
+    energies = rig.built.solver.energies()
+    given = energies.pop("boundary_work") + energies.pop("initial_energy")
+    assert np.isclose(sum(energies.values()), given, rtol=1e-6)
+
+
 def test_what_has_no_seat_is_not_read_and_a_folder_tells_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     rig, left, _ = beam(0.012, seated=True, model="rigid", out="first", report=False)

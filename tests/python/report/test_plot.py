@@ -94,6 +94,25 @@ def test_a_notch_is_seen_and_later_touches_are_none(tmp_path):
     assert pixels_like(tmp_path / "cut.png", style.CUT) > 2 * plain + 500
 
 
+def test_joints_are_seen_below_their_cracks(tmp_path):
+    snapshot = wall()
+    joints = snapshot.contact[:6]
+    maps.crack_picture(tmp_path / "whole.png", snapshot)
+    maps.crack_picture(tmp_path / "joints.png", snapshot, joints=joints)
+    assert pixels_like(tmp_path / "whole.png", maps._JOINT) == 0
+    assert pixels_like(tmp_path / "joints.png", maps._JOINT) > 500
+    cracked = np.isin(snapshot.point_contact, [0, 1, 2, 3, 4, 5])
+    broken = dataclasses.replace(
+        snapshot, crack_mode=np.where(cracked, SHEAR, 0), point_damage=1.0 * cracked
+    )
+    maps.crack_picture(tmp_path / "plain.png", broken)
+    maps.crack_picture(tmp_path / "broken.png", broken, joints=joints)
+    colour = style.COLOURS[SHEAR]
+    assert pixels_like(tmp_path / "broken.png", colour) > 0.9 * pixels_like(
+        tmp_path / "plain.png", colour
+    )
+
+
 def test_the_peaks_label_stays_within_the_axes(tmp_path, monkeypatch):
     figures = []
     monkeypatch.setattr(curves, "save", lambda figure, _: figures.append(figure))

@@ -51,7 +51,7 @@ struct Plate {
     // state
     Vector displacement;          ///< [m]
     double machine_give = 0.0;    ///< what that spring is shorter by [m]
-    double angle = 0.0;           ///< by which it has turned, counter-clockwise [rad]
+    double angle = 0.0;           ///< from square to its normal, counter-clockwise [rad]
     std::vector<int> facets;      ///< of the boundary, which may touch it
     std::vector<double> gap;      ///< [facet][point] at the reference [m]
     std::vector<double> area;     ///< [facet][point] [m^2]

@@ -38,61 +38,129 @@ double normal_force(const Plate& plate, const PlatePoint& p, double gap)
     return gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
 }
 
-/// Sums over the points of a plate that bear: of what a give and a turn of it do to their gaps.
-struct SoftSums {
-    double stiffness[3] = { 0.0, 0.0, 0.0 };  ///< of give, of both, of turn
-    double force[2] = { 0.0, 0.0 };           ///< on give and on turn
-
-    void add(double give, double turn, double spring, double gap)
+/// Energy of a plate's springs over two motions of it: a give along its normal, against the spring
+/// of its machine, and a turn on its seat. It is convex, in pieces of second order.
+class SoftPlate {
+public:
+    SoftPlate(const Assembly& a, const Plate& plate, double dt) :
+        machine(plate.loaded ? 0.0 : plate.machine_stiffness),
+        give_before(plate.machine_give)
     {
-        stiffness[0] += spring * give * give;
-        stiffness[1] += spring * give * turn;
-        stiffness[2] += spring * turn * turn;
-        force[0] -= spring * give * gap;
-        force[1] -= spring * turn * gap;
+        for (int i = 0; i < plate_points(plate); ++i) {
+            const PlatePoint p = plate_point(plate, i);
+            const auto nodes = a.facets.nodes(p.facet);
+            const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight)
+                + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
+            const Vector along = point_normal(plate, i);
+            const double arm = point_arm(plate, i);
+            points.push_back({ plate.gap[i] + dot(along, way) - arm * plate.angle, p.stiffness,
+                machine > 0.0 ? dot(plate.normal, along) : 0.0, -arm });
+        }
+        bonded = plate.bonded;
     }
+
+    /// Give and turn of least energy, from none, by Newton's method. A full step ends on its piece;
+    /// one beyond the least energy along it would go to and fro, as points that it has left do not
+    /// bear: it ends there.
+    Point least() const
+    {
+        Point x;
+        std::vector<char> bearing, before;
+        const int most = 2 * static_cast<int>(points.size()) + 30;
+        for (int look = 0; look < most; ++look) {
+            bearing.clear();
+            const Point step = newton_step(x, bearing);
+            if (bearing == before) break;
+            const bool whole = !(slope(x + step, step) > 0.0);
+            x = x + (whole ? 1.0 : least_along(x, step)) * step;
+            if (whole)
+                before = bearing;
+            else
+                before.clear();
+            if (largest_change(step) <= no_change * largest_gap(x)) break;
+        }
+        return x;
+    }
+
+private:
+    struct SoftPoint {
+        double gap, stiffness, give, turn;  ///< [m], [N/m], of the gap over give [-] and turn [m]
+
+        double at(Point x) const { return gap + change(x); }
+        double change(Point x) const { return give * x.x + turn * x.y; }
+    };
+
+    /// Part of the largest gap that a step must change to be one [-].
+    static constexpr double no_change = 1e-14;
+
+    bool bears(const SoftPoint& p, Point x) const { return bonded || p.at(x) < 0.0; }
+
+    Point newton_step(Point x, std::vector<char>& bearing) const
+    {
+        double k = machine, c = 0.0, m = 0.0, force = machine * (give_before + x.x), moment = 0.0;
+        for (const SoftPoint& p : points) {
+            const bool now = bears(p, x);
+            bearing.push_back(now);
+            if (!now) continue;
+            const double spring = p.stiffness * p.at(x);
+            k += p.stiffness * p.give * p.give;
+            c += p.stiffness * p.give * p.turn;
+            m += p.stiffness * p.turn * p.turn;
+            force += spring * p.give;
+            moment += spring * p.turn;
+        }
+        if (k == 0.0) k = 1.0;  // it does not give, or does not turn, and no force asks for it
+        if (m == 0.0) m = 1.0;
+        const double whole = k * m - c * c;
+        return { (c * moment - m * force) / whole, (c * force - k * moment) / whole };
+    }
+
+    /// Growth of the energy along a step.
+    double slope(Point x, Point step) const
+    {
+        double sum = machine * (give_before + x.x) * step.x;
+        for (const SoftPoint& p : points)
+            if (bears(p, x)) sum += p.stiffness * p.at(x) * p.change(step);
+        return sum;
+    }
+
+    /// Part of a step after which the energy grows along it.
+    double least_along(Point x, Point step) const
+    {
+        double low = 0.0, high = 1.0;
+        for (int halving = 0; halving < 60; ++halving) {
+            const double middle = 0.5 * (low + high);
+            (slope(x + middle * step, step) > 0.0 ? high : low) = middle;
+        }
+        return low;
+    }
+
+    double largest_change(Point step) const
+    {
+        double found = 0.0;
+        for (const SoftPoint& p : points)
+            found = std::max(found, std::fabs(p.change(step)));
+        return found;
+    }
+
+    double largest_gap(Point x) const
+    {
+        double found = 0.0;
+        for (const SoftPoint& p : points)
+            found = std::max(found, std::fabs(p.at(x)));
+        return found;
+    }
+
+    double machine, give_before;
+    bool bonded = false;
+    std::vector<SoftPoint> points;
 };
 
 /// Bring a plate to where the spring of its machine bears what its contacts do, and its seat no
 /// moment, at the end of a step that began at the present displacements of the nodes.
-///
-/// The energy of springs and contacts is convex, in pieces of second order: Newton's method ends on
-/// the piece that has the least one, where points bear that bore a look before.
 void give_way(const Assembly& a, Plate& plate, double dt)
 {
-    const int count = plate_points(plate);
-    const bool gives = plate.machine_stiffness > 0.0 && !plate.loaded;
-    std::vector<double> gaps, shares;
-    for (int i = 0; i < count; ++i) {
-        const PlatePoint p = plate_point(plate, i);
-        const auto nodes = a.facets.nodes(p.facet);
-        const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight)
-            + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
-        const Vector along = point_normal(plate, i);
-        gaps.push_back(plate.gap[i] + dot(along, way) - point_arm(plate, i) * plate.angle);
-        shares.push_back(gives ? dot(plate.normal, along) : 0.0);
-    }
-    double give = 0.0, turn = 0.0;
-    std::vector<char> bearing, before;
-    for (int look = 0; look < 2 * count + 2; ++look) {
-        bearing.clear();
-        SoftSums sums;
-        for (int i = 0; i < count; ++i) {
-            const double arm = point_arm(plate, i);
-            const bool bears = plate.bonded || gaps[i] + shares[i] * give - arm * turn < 0.0;
-            bearing.push_back(bears);
-            if (bears) sums.add(shares[i], -arm, plate_point(plate, i).stiffness, gaps[i]);
-        }
-        if (bearing == before) break;
-        before = bearing;
-        sums.stiffness[0] += gives ? plate.machine_stiffness : 1.0;
-        sums.force[0] -= gives ? plate.machine_stiffness * plate.machine_give : 0.0;
-        if (sums.stiffness[2] == 0.0) sums.stiffness[2] = 1.0;
-        const auto [k, c, m] = sums.stiffness;
-        const double whole = k * m - c * c;
-        give = (m * sums.force[0] - c * sums.force[1]) / whole;
-        turn = (k * sums.force[1] - c * sums.force[0]) / whole;
-    }
+    const auto [give, turn] = SoftPlate(a, plate, dt).least();
     plate.machine_give += give;
     plate.displacement = plate.displacement - give * plate.normal;
     plate.angle += turn;

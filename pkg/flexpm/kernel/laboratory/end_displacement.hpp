@@ -35,7 +35,7 @@ struct EndLoading {
     bool tension = false;            ///< the upper end is pulled, plates are bonded
     int pieces = 1;                  ///< plates of the membrane on each side
     std::optional<double> pressure;  ///< on the sides, and on a top that is not driven [Pa]
-    double way = 0.0;                ///< of the upper end along the loading, from now on [m]
+    double way = 0.0;                ///< of the upper end along the loading, under the pressure [m]
     std::optional<double> load;      ///< in the end, in place of a way [N]
 };
 

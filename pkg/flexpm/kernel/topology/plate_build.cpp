@@ -69,6 +69,32 @@ void lay(const Assembly& a, Plate& p)
     p.shear_force.assign(p.gap.size(), 0.0);
 }
 
+/// Lay a seated plate down on what is before it, as it lies before it is loaded: on a point on
+/// either side of its seat. A plate that is bonded lies on all of its points as it is.
+void lay_down(Plate& p)
+{
+    const std::size_t count = p.arms.size();
+    double ahead = std::numeric_limits<double>::infinity();  // way of the seat until it lies
+    for (std::size_t i = 0; i < count; ++i) {
+        if (p.arms[i] == 0.0) ahead = std::min(ahead, p.gap[i]);
+        for (std::size_t j = 0; j < count && p.arms[i] < 0.0; ++j) {
+            if (!(p.arms[j] > 0.0)) continue;
+            const double part = p.arms[j] / (p.arms[j] - p.arms[i]);
+            ahead = std::min(ahead, part * p.gap[i] + (1.0 - part) * p.gap[j]);
+        }
+    }
+    double least = -std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = 0; i < count; ++i) {
+        p.gap[i] -= ahead;
+        if (p.arms[i] < 0.0) least = std::max(least, p.gap[i] / p.arms[i]);
+        if (p.arms[i] > 0.0) most = std::min(most, p.gap[i] / p.arms[i]);
+    }
+    p.angle = std::max(least, std::min(most, 0.0));
+    p.position = p.position + ahead * p.normal;
+    for (std::size_t i = 0; i < count; ++i)
+        p.opening[i] = p.gap[i] - p.arms[i] * p.angle;
+}
+
 /// Let a seated plate turn about the middle of its face, where an even pressure has no moment.
 void seat(const Assembly& a, Plate& p)
 {
@@ -84,6 +110,7 @@ void seat(const Assembly& a, Plate& p)
     }
     if (std::all_of(p.arms.begin(), p.arms.end(), [](double arm) { return arm == 0.0; }))
         refuse("points of a seated plate", plate_points(p), "", "must be at least 2, apart");
+    lay_down(p);
 }
 
 Point unit(Point normal)

@@ -9,7 +9,7 @@ from ...kinds.registry import kind_of
 from ...results import core, measures
 from ...results.result import Result
 from ..style import CYCLE
-from ..words import words_of_test
+from ..words import words_of_result
 from .page import Chart, Line, numbers, rows_to_draw
 
 _POINTS = 700
@@ -34,7 +34,7 @@ def volume_chart(result: Result) -> Chart | None:
     stresses = (result.crack_damage_stress, result.crack_initiation_stress_volumetric)
     found = [None if s is None else int(np.argmin(np.abs(deviator - s))) for s in stresses]
     strains = np.column_stack([total, elastic, total - elastic])[: peak + 1]
-    axis = words_of_test(result.test).x
+    axis = words_of_result(result).x
     along = record[axis.column][: peak + 1]
     kept = [row for row in found if row is not None]
     rows = rows_to_draw(np.column_stack([along, strains]), _POINTS, kept)

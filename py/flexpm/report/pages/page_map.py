@@ -21,7 +21,7 @@ from ...results.result import Result
 from ...results.snapshot import Snapshot
 from ...results.solids.state import SolidSnapshot
 from ..maps import MINERALS
-from ..words import words_of_test
+from ..words import words_of_result
 from .page import Map, rows_to_draw
 
 #: Length of the longer side in a map's own units, of 0.02 mm in the paper's specimen.
@@ -52,7 +52,7 @@ def crack_map(
     """
     drawing = specimen.section if isinstance(specimen, SolidSnapshot) else specimen
     record, cracks = result.curve, result.cracks
-    names = words_of_test(result.test)
+    names = words_of_result(result)
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
     known = np.arange(len(record)) if rows is None else rows
     places = np.column_stack([record[names.x.column], record[names.y.column], _counts(record)])
@@ -85,7 +85,7 @@ def _counts(record: Curve) -> FloatArray:
 
 
 def _text(result: Result, row: int, fragments: int) -> str:
-    record, names = result.curve, words_of_test(result.test)
+    record, names = result.curve, words_of_result(result)
     strain, stress = (
         f"{axis.name} {axis.factor * record[axis.column][row]:.4g} {axis.unit}"
         for axis in (names.x, names.y)

@@ -22,7 +22,7 @@ from ..curves import fits_a_picture
 from ..emission import emission_table
 from ..style import COLOURS, CYCLE, MODE_NAMES
 from ..tables import result_rows, scaled, size_text, test_text
-from ..words import words_of_test
+from ..words import words_of_result
 from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
 from .page_core import volume_chart
 from .page_map import crack_map
@@ -244,7 +244,7 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
     record = result.curve
     if not fits_a_picture(record):
         record = type(record)()
-    names = words_of_test(result.test)
+    names = words_of_result(result)
     strain, stress = record[names.x.column], record[names.y.column]
     cracks = record["tensile_cracks"] + record["shear_cracks"]
     loading = measures.until_regained(record) if kind_of(result.test).regains else record
@@ -366,7 +366,7 @@ def _energy_chart(result: Result) -> Chart:
     columns = {f"{name} energy": record[f"{name}_energy"] for name in _ENERGIES}
     shown = {name: values for name, values in columns.items() if np.any(values != 0.0)}
     work = record["boundary_work"]
-    words = words_of_test(result.test)
+    words = words_of_result(result)
     over = words.x
     rows = rows_to_draw(np.column_stack([record[over.column], work, *shown.values()]), _POINTS)
     x = numbers(record[over.column][rows], over.factor)

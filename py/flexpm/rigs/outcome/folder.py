@@ -39,17 +39,13 @@ from .result import result_of
 
 #: Number of the way in which the inputs of a script's own test are written.
 SCHEMA = 1
-#: What a record without area and length has: its stress is the load, its strain the displacement.
-_STRESSES = (
-    *("youngs_modulus", "poissons_ratio", "elastic_poissons_ratio", "softening_slope"),
-    *("peak_stress", "peak_strain"),
-    *(
-        f"{onset}_{what}"
-        for mode in MODES.values()
-        for onset in (f"first_{mode}_crack", f"{mode}_onset")
-        for what in ("strain", "stress")
-    ),
-)
+_ONSETS = [on for mode in MODES.values() for on in (f"first_{mode}_crack", f"{mode}_onset")]
+#: What a record without an area has no meaning of: its stress is the load.
+_STRESSES = ("peak_stress", *(f"{onset}_stress" for onset in _ONSETS))
+#: What one without a length has none of: its strain is the displacement.
+_STRAINS = ("peak_strain", *(f"{onset}_strain" for onset in _ONSETS))
+#: What needs both.
+_MODULI = ("youngs_modulus", "poissons_ratio", "elastic_poissons_ratio", "softening_slope")
 
 #: What stays in a test, from its first stage to its last.
 _FIXED = ("test", "specimen", "material", "model", "points", "mesh", "ends", "parts", "drive")
@@ -73,7 +69,7 @@ def save(
     result.step_time = step_time
     given.save(place, rig.built.specimen)
     assert result.snapshot is not None
-    write_files(place, result, notches_in(rig, result.snapshot))
+    write_files(place, result, *lines_in(rig, result.snapshot))
     if report:
         write_report(place, result)
     else:
@@ -135,9 +131,13 @@ def result_so_far(rig: RigReadings, inputs: Table) -> Result:
     result = result_of(rig, OWN.name, _largest_unbalanced(rig, waiting), waiting=waiting)
     result.inputs = inputs
     drive = inputs.get("drive", {})
-    if drive and drive["area"] == drive["length"] == 1.0:
-        for name in _STRESSES:
-            setattr(result, name, None)
+    without_area, without_length = (drive.get(size) == 1.0 for size in ("area", "length"))
+    for name in (
+        *(_STRESSES if without_area else ()),
+        *(_STRAINS if without_length else ()),
+        *(_MODULI if without_area or without_length else ()),
+    ):
+        setattr(result, name, None)
     if drive and not drive["direction"][2] and len(result.curve):  # what turns has moments
         result.peak_load = float(result.curve["load"].max())
     return result
@@ -153,21 +153,19 @@ def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
     return math.inf if ratio is None else ratio
 
 
-def notches_in(rig: RigReadings, snapshot: Snapshot | SolidSnapshot) -> list[int]:
-    """Numbers of the contacts of open joints, which no test has opened."""
+def lines_in(rig: RigReadings, snapshot: Snapshot | SolidSnapshot) -> tuple[list[int], list[int]]:
+    """Numbers of the contacts of open joints, which no test has opened, and of other joints."""
     specimen = rig.built.specimen
     if specimen.edge_joints is None:
-        return []
+        return [], []
     open_ones = {joint.name for joint in rig.built.material.joints if joint.open}
     names = specimen.spec.joint_names or ()
-    joints = [name in open_ones for name in names]
-    return [
-        int(number)
-        for number in snapshot.contact
-        if number < len(specimen.edge_joints)
-        and (joint := int(specimen.edge_joints[number])) >= 0
-        and joints[joint]
-    ]
+    found: tuple[list[int], list[int]] = ([], [])
+    for number in snapshot.contact.tolist():
+        joint = specimen.edge_joints[number] if number < len(specimen.edge_joints) else -1
+        if joint >= 0:
+            found[names[joint] not in open_ones].append(number)
+    return found
 
 
 def _refuse_others(folder: Path, inputs: Table) -> None:

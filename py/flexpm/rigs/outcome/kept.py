@@ -39,7 +39,7 @@ from ...specimens.files import given
 from ..frames import COLLECTION, STATE, TABLE, FrameWriter, show_frames
 from ..rig import TestRig
 from .calls import Calls
-from .folder import inputs_before, inputs_of, notches_in, result_so_far
+from .folder import inputs_before, inputs_of, lines_in, result_so_far
 
 #: Status of a test whose script has not come to its end.
 UNFINISHED = "unfinished"
@@ -106,7 +106,7 @@ class KeptTest:
         self.calls = Calls(self._name, self.runner, earlier, passes=found)
         self._resumed_at = yade.O.iter if found else None
         self._result: Result | None = None  # what is written, and not drawn yet
-        self._notches: list[int] = []
+        self._lines: tuple[list[int], list[int]] = ([], [])  # contacts of notches and of joints
         self._ended, self._doing = "", ""
         self._stop: Callable[[], None] = _nothing
         given.save(self._folder, built.specimen)
@@ -204,12 +204,15 @@ class KeptTest:
         """Draw pictures and page of what has been written last."""
         rig = self._rig()
         broken = _broken()
+        if rig is not None and _is_there(rig) and yade.O.iter != self._done[0]:
+            last = self.calls.made[-1]["call"]
+            self._reason = self._reason or f"steps were made by hand after {last}"
         if rig is not None and self._is_behind(rig, broken):
             self._write(rig, broken)
         if self._result is None:
             return
         result, self._result = self._result, None
-        draw_pictures(self._folder, result, self._notches)
+        draw_pictures(self._folder, result, *self._lines)
         if self._frames is not None and rig is not None and _is_there(rig):
             self._frames.finish(rig)
             show_frames(self._folder, self._frames.frames, result, self._output.film)
@@ -252,7 +255,7 @@ class KeptTest:
         if ended:
             result.status = UNFINISHED
         assert result.snapshot is not None
-        self._notches = notches_in(rig, result.snapshot)
+        self._lines = lines_in(rig, result.snapshot)
         write_numbers(self._folder, result)
         self._result, self._ended = result, ended
 

@@ -55,7 +55,7 @@ class ElasticState(Snapshot):
         return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[4]
 
     def angle(self, part: Part) -> float:
-        """Angle by which a seated part has turned, counter-clockwise [rad]."""
+        """Angle of a seated part, see `Part.angle` [rad]."""
         return self._of(require_part("elastic: part", self.rig, part, Part))[4]
 
     def contact_angle(self, jaw: Part) -> float:

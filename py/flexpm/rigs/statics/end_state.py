@@ -7,7 +7,6 @@ from typing import ClassVar
 
 from yade import wrapper
 
-from ...errors import InputError
 from ...require import NOT_NEGATIVE, require_number
 from ..grain_rig import GrainRig, NodeRig, PlateRig
 from .elastic_state import ElasticState, required_loading, solved
@@ -26,21 +25,19 @@ class EndStatics(GrainRig):
 
         It is as that of ``PartRig.elastic``: linear about the present state, points without a bond
         open and close until all agree, and the scene is not changed (deviation D72). The ends are
-        those that the test has, or would have.
+        those that the test has, or would have: nodes of flexible grains, plates for others. What
+        smooth plates leave free to slide is held along them at the middle of the lower end.
 
         Args:
             pressure: On the sides, and on a top that is not driven [Pa]. None: what acts now.
-            way: How far the upper end goes from here, along the loading [m].
+            way: How far the upper end goes along the loading [m], from where the pressure has
+                brought it. A plate's way is more than that of the grains: its contacts give, too.
             load: What it bears in the end, along the loading [N], in place of a way.
 
         Raises:
-            InputError: for rigid grains, a value out of range, a pressure on a disc, and a specimen
-                of which a piece is free to move: it names the motion.
+            InputError: for a value out of range, a pressure on a disc, and a specimen of which a
+                piece is free to move: it names the motion.
         """
-        if self.built.name != "flexible":
-            raise InputError(
-                f"elastic: model = {self.built.name}, must be flexible; use PartRig for others"
-            )
         way, load = required_loading(way, load)
         if pressure is not None:
             pressure = require_number("elastic: pressure", pressure, NOT_NEGATIVE, "Pa")
