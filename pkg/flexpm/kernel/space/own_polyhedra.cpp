@@ -2,7 +2,6 @@
 /// @file  Numbers are checked first, then edges, planes and volumes.
 #include <flexpm/kernel/space/own_polyhedra.hpp>
 
-#include <flexpm/kernel/space/finished_cells.hpp>
 #include <flexpm/kernel/space/sphere_checks.hpp>
 
 #include <algorithm>
@@ -34,7 +33,9 @@ struct Side {
 class Checker {
 public:
     Checker(const OwnCells& o, const Solid& s) :
-        own(o), solid(s), near(out_of_plane * mean_diameter(o.spheres))
+        own(o),
+        solid(s),
+        near(out_of_plane * mean_diameter(o.spheres))
     {
     }
 
@@ -63,7 +64,7 @@ private:
     const Solid& solid;
     double near;
     CellComplex complex;
-    std::vector<Vector> areas;   ///< per face, towards outside its first cell
+    std::vector<Vector> areas;    ///< per face, towards outside its first cell
     std::vector<Vector> middles;  ///< per face, of its corners
 
     void require_numbers() const
@@ -81,8 +82,9 @@ private:
                 || (face.second != -1 && face.second <= face.first)) {
                 refuse(name + ": cells",
                     std::to_string(face.first) + " and " + std::to_string(face.second),
-                    "must be two of " + std::to_string(cells) + ", the lower one first, or one and "
-                    "-1");
+                    "must be two of " + std::to_string(cells)
+                        + ", the lower one first, or one and "
+                          "-1");
             }
             auto sorted = face.corners;
             std::sort(sorted.begin(), sorted.end());
@@ -145,15 +147,14 @@ private:
         std::vector<std::array<int, 3>> pairs;
         for (std::size_t f = 0; f < own.faces.size(); ++f)
             if (own.faces[f].second >= 0)
-                pairs.push_back(
-                    { own.faces[f].first, own.faces[f].second, static_cast<int>(f) });
+                pairs.push_back({ own.faces[f].first, own.faces[f].second, static_cast<int>(f) });
         std::sort(pairs.begin(), pairs.end());
         for (std::size_t k = 1; k < pairs.size(); ++k) {
             const auto &a = pairs[k - 1], &b = pairs[k];
             if (a[0] != b[0] || a[1] != b[1]) continue;
             refuse(named("cell", a[0]) + ", face " + std::to_string(b[2] + 1) + ": cell beyond it",
                 std::to_string(b[1] + 1),
-                "is that of face " + std::to_string(a[2] + 1) + ", must be another; join the faces");
+                "is that of face " + std::to_string(a[2] + 1) + ", must be another; join them");
         }
     }
 
@@ -197,8 +198,7 @@ private:
         if (!(size > 0.0)) return;
         const double sign = own.faces[large].first == edge.cell ? 1.0 : -1.0;
         for (int v : own.faces[small].corners) {
-            const double beyond =
-                sign * dot(areas[large], own.vertices[v] - middles[large]) / size;
+            const double beyond = sign * dot(areas[large], own.vertices[v] - middles[large]) / size;
             if (beyond <= near) continue;
             refuse(named("cell", edge.cell) + ", face " + std::to_string(large + 1)
                     + ": corner of face " + std::to_string(small + 1) + " beyond it by",

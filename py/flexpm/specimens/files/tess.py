@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tessellations of Neper, ``.tess`` in the plane. Lengths in the file's unit.
+"""Tessellations of Neper, ``.tess`` in the plane, and what those in space share with them.
 
-The format is that of Neper's documentation, "Tessellation File".
+Lengths in the file's unit. The format is that of Neper's documentation, "Tessellation File".
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from ...arrays import FloatArray, IntArray
 from ...require import LENGTH, require_number
 from ..outlines import area_of, box_of
-from .neper_text import Words
+from .neper_text import Words, tess_dimension
 
 #: Most cells, and most vertices and edges of them.
 MOST_CELLS, _MOST = 100_000, 1_000_000
@@ -140,7 +140,7 @@ def read(path: Path) -> PlaneTess:
             line.
     """
     words = Words(path, "tess")
-    dimension = head(words)
+    dimension = tess_dimension(words)
     if dimension != 2:
         raise words.refused(
             f"dimension = {dimension}, must be 2; cells in space are read by "
@@ -162,23 +162,6 @@ def read(path: Path) -> PlaneTess:
         return found
     mean = float(found.areas.mean()) / np.pi
     return replace(found, centres=seeds[:, :2].copy(), radii=radii_of(seeds[:, 3], mean))
-
-
-def head(words: Words) -> int:
-    """Dimension of a tessellation, whose beginning is passed.
-
-    Raises:
-        InputError: for a raster, an old format, or what is no tessellation.
-    """
-    if words.section == "***tesr":
-        raise words.refused("section = ***tesr, must be ***tess; flexpm specimen image reads it")
-    words.expect("***tess")
-    words.expect("**format")
-    version = words.word("format")
-    if not version.split(".")[0].isdigit() or version.startswith(("0.", "1.")):
-        raise words.refused(f"format = {version}, must be 2.0 or later; write it by a newer Neper")
-    words.expect("**general")
-    return words.whole("dimension", 1, 3)
 
 
 def radii_of(weights: FloatArray, mean: float) -> tuple[FloatArray, ...]:

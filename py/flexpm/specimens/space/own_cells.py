@@ -57,7 +57,8 @@ class OwnCells:
     @property
     def neighbours(self) -> IntArray:
         """Cells that share a face, rows of two, lower numbers first, in their order."""
-        return np.unique(self.pairs[self.pairs[:, 1] >= 0], axis=0)
+        found: IntArray = np.unique(self.pairs[self.pairs[:, 1] >= 0], axis=0)
+        return found
 
     def measured(self) -> tuple[FloatArray, FloatArray]:
         """Volume [m3] and centroid [m] of each cell."""
@@ -102,7 +103,8 @@ class OwnCells:
     def fields(self) -> Table:
         """As lists, for a file."""
         rings = np.split(self.corners, self.offsets[1:-1])
-        faces = [[*pair, *ring.tolist()] for pair, ring in zip(self.pairs.tolist(), rings)]
+        both = zip(self.pairs.tolist(), rings, strict=True)
+        faces = [[*pair, *ring.tolist()] for pair, ring in both]
         return {"vertices": self.vertices.tolist(), "faces": faces}
 
     @classmethod

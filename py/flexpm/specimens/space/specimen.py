@@ -109,7 +109,9 @@ class SolidSpecimen:
         spheres = given.spheres()
         spec = SolidSpec(
             "box",
-            **sizes,
+            sizes["width"],
+            sizes["depth"],
+            sizes["height"],
             diameters=None,
             porosity=None,
             seed=None,

@@ -18,7 +18,7 @@ from ...errors import InputError
 from ...require import LENGTH, POSITIVE, require_number
 from ..checks import require_short_edge
 from ..files import tess as plane_tess
-from ..files.neper_text import Words
+from ..files.neper_text import Words, tess_dimension
 from ..kernel_input import call
 from .frame import SolidFrame
 from .own_cells import OwnCells
@@ -77,7 +77,7 @@ def read(path: Path) -> SpaceTess:
         InputError: for a file that cannot be read, is none in space, or is broken: with its line.
     """
     words = Words(path, "tess")
-    dimension = plane_tess.head(words)
+    dimension = tess_dimension(words)
     if dimension != 3:
         raise words.refused(f"dimension = {dimension}, must be 3 for a solid; Specimen.from_tess")
     number, seeds = plane_tess.cells_and_seeds(words)
