@@ -15,7 +15,7 @@ import numpy as np
 from ..._flexpm import polyhedra
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
-from ...require import LENGTH, POSITIVE, require_number
+from ...require import LENGTH, POSITIVE, quoted, require_number
 from ..checks import require_short_edge
 from ..files import tess as plane_tess
 from ..files.neper_text import Words, tess_dimension
@@ -129,4 +129,7 @@ def specimen_of(path: Path, scale: float, short_edge: float) -> SolidSpecimen:
                 there = call(polyhedra, spheres, solid, 0.0, False).volumes
                 if np.allclose(there, volumes, rtol=_ALIKE, atol=0.0):
                     return SolidSpecimen.of_spheres(spheres, {**sizes}, short_edge=short_edge)
-    return SolidSpecimen.of_cells(cells, sizes, short_edge)
+    try:
+        return SolidSpecimen.of_cells(cells, sizes, short_edge)
+    except InputError as error:  # of a cell or face, which count as in the file
+        raise InputError(f"tess = {quoted(str(path))}: {error}") from None
