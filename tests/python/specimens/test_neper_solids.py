@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tessellations of Neper in space: volumes, neighbours, centres; what they bear; what is refused."""
+"""Neper in space: volumes, neighbours, centres; what the cells bear; what is refused."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def test_the_law_of_a_running_test_has_that_normal_too(tmp_path):
     how = {"rate": 0.5, "max_strain": 2e-4, "report": False}
     curve = flexpm.run("uniaxial", made, ROCK, **how).curve
     found = curve["axial_stress"][-1] / curve["axial_strain"][-1]
-    # of centre lines, which are upright, it would be 1 % more
+    # normals along the centre lines, which are upright, would give 1 % more
     assert found == pytest.approx(modulus_of_slices(12, 0.08, 1.0 / YOUNG), rel=3e-4)
 
 
@@ -200,7 +200,9 @@ GOOD = tess_text(VERTICES, FACES, CELLS)
 
 def moved(x, y, *vertices):
     """Four bricks with some vertices at other places."""
-    places = [[x, y, z] if k in vertices else [*at] for k, at in enumerate(VERTICES) for z in at[2:]]
+    places = [
+        [x, y, z] if k in vertices else [*at] for k, at in enumerate(VERTICES) for z in at[2:]
+    ]
     return tess_text(places, FACES, CELLS)
 
 
@@ -214,7 +216,10 @@ BROKEN = {
     "old": (GOOD.replace("3.5", "1.9.2"), "line 4: format = 1.9.2, must be 2.0 or later"),
     "cut": (GOOD[: GOOD.index(" **polyhedron")], "section = '', must be **polyhedron"),
     "cut late": (GOOD.replace("***end", ""), "section = end of the file, must be ***end"),
-    "number": (GOOD.replace("0.5 1.0 0.0", "0.5 nan 0.0"), "vertex 11: y = 'nan', must be a number"),
+    "number": (
+        GOOD.replace("0.5 1.0 0.0", "0.5 nan 0.0"),
+        "vertex 11: y = 'nan', must be a number",
+    ),
     "many": (GOOD.replace("**cell\n  4", "**cell\n  200000"), "cells = '200000', must be"),
     "twice": (with_cells([*CELLS[0], CELLS[0][0]]), "polyhedron 1: face = 1, must be one of two"),
     "thrice": (with_cells([*CELLS[0], 3]), "line 156: polyhedron 1: face = 3, must be"),
