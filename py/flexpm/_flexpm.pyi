@@ -260,6 +260,13 @@ def insert_spheres(radii: FloatArray, solid: Solid, shrink: float, seed: int) ->
 def polyhedra(
     spheres: FloatArray, solid: Solid, short_edge: float, allow_hidden: bool
 ) -> Polyhedra: ...
+def own_polyhedra(
+    vertices: FloatArray,
+    faces: tuple[IntArray, IntArray, IntArray],
+    spheres: FloatArray,
+    solid: Solid,
+    short_edge: float,
+) -> Polyhedra: ...
 def fan_meshes(cells: Polyhedra) -> FanMeshes: ...
 def solid_constants(
     cells: Polyhedra,

@@ -17,9 +17,10 @@ from ..files import Table, json_text, write_text
 from ..report import tables
 from ..require import POSITIVE, Bounds
 from ..specimens.checks import SHORT_EDGE
+from ..specimens.space.spec import SHORT_EDGE as SOLID_SHORT_EDGE
 from ..specimens.spec import GRAINS_FILE
 from ..text import words_of
-from . import inputs, terminal
+from . import inputs, solids, terminal
 from . import options as cli_options
 from .options import length_option
 from .parameters import Count, Name, Quantity
@@ -29,7 +30,9 @@ if TYPE_CHECKING:
 
 _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
 
-_thickness = length_option("--thickness", 0.08, "Thickness out of plane", sizes=False)
+#: Out of plane [m].
+_THICKNESS = 0.08
+_thickness = length_option("--thickness", _THICKNESS, "Thickness out of plane", sizes=False)
 _edge = click.option(
     "--edge",
     type=Quantity("m", POSITIVE),
@@ -100,28 +103,47 @@ def image(
     show_default=True,
     help="Length of the file's unit [m].",
 )
-@_thickness
+@length_option("--thickness", _THICKNESS, "Thickness out of plane")
 @click.option(
     "--short-edge",
     type=Quantity("", Bounds(at_least=0.0, below=0.5)),
-    default=SHORT_EDGE,
     metavar="F",
-    help="Edges of Laguerre cells below this share of the mean diameter are collapsed; 0: none "
-    f"[-].  [default: {SHORT_EDGE:.3f}]",
+    help="Edges of Laguerre cells, in space of all, below this share of the mean diameter are "
+    f"collapsed; 0: none [-].  [default: {SHORT_EDGE:.3f}; in space: {SOLID_SHORT_EDGE:.2f}]",
 )
 @cli_options.out_option
 @cli_options.quiet_option
 def tess(
-    file: Path, scale: float, thickness: float, short_edge: float, out: Path, quiet: bool
+    file: Path,
+    scale: float,
+    thickness: float | None,
+    short_edge: float | None,
+    out: Path,
+    quiet: bool,
 ) -> None:
-    """The cells of a tessellation of Neper in the plane, a .tess file."""
+    """The cells of a tessellation of Neper, a .tess file; cells in space make a solid."""
+    from ..specimens.files.neper_text import Words, tess_dimension
+
+    given: Table = {} if short_edge is None else {"short_edge": short_edge}
+    solid = tess_dimension(Words(file, "tess")) == 3
+    if solid and thickness is not None:
+        raise InputError(
+            f"thickness = {thickness} m, must not be given for cells in space; leave it out"
+        )
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet):
         inputs.load_yade()
         from ..specimens.specimen import Specimen
 
-        made = Specimen.from_tess(file, thickness, scale=scale, short_edge=short_edge)
-    _describe(made, folder)
+        if solid:
+            made = Specimen.from_tess_solid(file, scale=scale, **given)
+        else:
+            flat = _THICKNESS if thickness is None else thickness
+            plane = Specimen.from_tess(file, flat, scale=scale, **given)
+    if solid:
+        solids.describe(made, folder)
+    else:
+        _describe(plane, folder)
 
 
 @click.command()

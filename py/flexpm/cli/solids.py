@@ -86,10 +86,10 @@ def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:
         from ..specimens.space.specimen import SolidSpecimen
 
         made = SolidSpecimen.pack(spec, progress)
-    _describe(made, folder)
+    describe(made, folder)
 
 
-def _describe(made: SolidSpecimen, folder: Path) -> None:
+def describe(made: SolidSpecimen, folder: Path) -> None:
     """Print the statistics and write them with the specimen, its mesh and its picture."""
     from ..report.outside import outside_picture
     from ..results.solids.vtu import SolidShape, write_solid_vtu

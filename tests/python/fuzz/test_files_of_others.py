@@ -16,6 +16,8 @@ from fuzz_child import drawing
 from hypothesis import given
 from hypothesis import strategies as st
 from neper_files import tesr_text, tess_text
+from neper_solids import bricks
+from neper_solids import tess_text as solid_text
 from PIL import Image
 
 from flexpm.errors import InputError
@@ -36,6 +38,7 @@ CRS = {"type": "name", "properties": {"name": "EPSG:25832"}}
 MAP = {"type": "FeatureCollection", "crs": CRS, "features": FEATURES}
 GOOD = {
     "a.tess": tess_text(CORNERS, [[0, 4, 5, 3], [4, 1, 2, 5]], [(0.25, 0.5, 0), (0.75, 0.5, 0)]),
+    "b.tess": solid_text(*bricks((2, 1, 2)), [(0.3, 0.5, z, 0.1) for z in (0.3, 0.4, 0.6, 0.7)]),
     "a.tesr": tesr_text(PHASE),
     "a.ctf": ctf_text(PHASE, ANGLES, PHASES),
     "a.ang": ang_text(PHASE, ANGLES, PHASES),
@@ -46,6 +49,7 @@ GOOD = {
 }
 READERS = {
     "a.tess": lambda path: Specimen.from_tess(path, 0.01),
+    "b.tess": lambda path: Specimen.from_tess_solid(path),
     "a.tesr": tesr.read,
     "a.ctf": lambda path: ebsd.grains(ebsd.read(path)),
     "a.ang": lambda path: ebsd.grains(ebsd.read(path)),

@@ -15,8 +15,6 @@
 namespace flexpm {
 namespace {
 
-/// Length over the mean diameter below which vertices are one.
-constexpr double zero_edge = 1e-9;
 /// Volume over that of a mean cube below which a cell has none.
 constexpr double zero_volume = 1e-12;
 /// Distance of a centre from the faces of its cell over the cell's size below which it is moved.
@@ -135,14 +133,28 @@ void add_volumes(Polyhedra& p)
 
 }  // namespace
 
+void require_short_edge(double short_edge)
+{
+    if (std::isfinite(short_edge) && short_edge >= 0.0) return;
+    refuse("polyhedra: short_edge", short_edge, "m",
+        "must be finite and >= 0; use 0 to keep every edge");
+}
+
+void finish_cells(
+    Polyhedra& p, CellComplex& complex, const std::vector<Vector>& centres, double short_edge)
+{
+    p.uncollapsed_contacts = count_contacts(complex);
+    p.short_edges = collapse_short_edges(complex, centres, short_edge);
+    p.contacts = count_contacts(complex);
+    number_cells(p, complex, centres);
+    add_volumes(p);
+}
+
 Polyhedra polyhedra(
     const std::vector<Sphere>& spheres, const Solid& solid, const PolyhedraOptions& options)
 {
     require_spheres_inside(spheres, solid);
-    if (!(std::isfinite(options.short_edge) && options.short_edge >= 0.0)) {
-        refuse("polyhedra: short_edge", options.short_edge, "m",
-            "must be finite and >= 0; use 0 to keep every edge");
-    }
+    require_short_edge(options.short_edge);
     const double diameter = mean_diameter(spheres);
     CellComplex complex = power_cells(spheres, solid);
     cut_by_walls(complex, solid, zero_edge * diameter);
@@ -162,11 +174,7 @@ Polyhedra polyhedra(
         moved[s] = depth[s] < well_inside * std::cbrt(volumes[s]);
         if (!moved[s]) centres[s] = spheres[s].centre;
     }
-    p.uncollapsed_contacts = count_contacts(complex);
-    p.short_edges = collapse_short_edges(complex, centres, options.short_edge);
-    p.contacts = count_contacts(complex);
-    number_cells(p, complex, centres);
-    add_volumes(p);
+    finish_cells(p, complex, centres, options.short_edge);
     for (int c = 0; c < p.cells(); ++c)
         if (moved[p.sphere_of_cell[c]]) p.moved_centres.push_back(c);
     return p;

@@ -2,6 +2,7 @@
 /// @file  Polyhedral cells of a packing of spheres that fill a solid.
 #pragma once
 
+#include <flexpm/kernel/space/cell_complex.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
 #include <vector>
@@ -51,5 +52,22 @@ struct PolyhedraOptions {
 ///                                for a hidden sphere unless allowed; for a cell without volume
 Polyhedra polyhedra(
     const std::vector<Sphere>& spheres, const Solid& solid, const PolyhedraOptions& options);
+
+/// Length over the mean diameter below which vertices are one.
+constexpr double zero_edge = 1e-9;
+
+/// Check a limit of edges.
+/// @throws std::invalid_argument  unless finite and >= 0
+void require_short_edge(double short_edge);
+
+/// The rest of the way of any cells whose faces are known: short edges collapsed, cells numbered
+/// without the hidden ones, vertices in the order in which faces use them, volumes between the
+/// triangles of the faces, which a collapse has bent.
+///
+/// @param p           knows its hidden spheres
+/// @param centres     per cell, hidden ones too, the common corner of its tetrahedra
+/// @param short_edge  edges below this length are collapsed [m]
+void finish_cells(
+    Polyhedra& p, CellComplex& complex, const std::vector<Vector>& centres, double short_edge);
 
 }  // namespace flexpm

@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/space/face_points.hpp>
 #include <flexpm/kernel/space/fan_meshes.hpp>
+#include <flexpm/kernel/space/own_polyhedra.hpp>
 #include <flexpm/kernel/space/sphere_insertion.hpp>
 #include <flexpm/kernel/space/sphere_sizes.hpp>
 #include <flexpm/kernel/statics/solid_constants.hpp>
@@ -74,6 +75,26 @@ namespace {
 	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden)
 	{
 		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, { shortEdge, allowHidden }));
+	}
+
+	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
+	std::shared_ptr<Polyhedra> ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge)
+	{
+		const InputArray<double> places(vertices, 2, "vertices");
+		const InputArray<int>    pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");
+		if (places.size(1) != 3 || pairs.size(1) != 2 || offsets.size(0) != pairs.size(0) + 1)
+			throw std::invalid_argument("vertices, pairs, offsets = of other sizes, must be rows of 3, rows of 2, and one offset more than pairs");
+		flexpm::OwnCells own;
+		own.spheres = spheres(rows);
+		for (std::size_t i = 0; i < places.size(0); ++i)
+			own.vertices.push_back({ places.data()[3 * i], places.data()[3 * i + 1], places.data()[3 * i + 2] });
+		for (std::size_t f = 0; f < pairs.size(0); ++f) {
+			const int first = offsets.data()[f], end = offsets.data()[f + 1];
+			if (first < 0 || end < first || static_cast<std::size_t>(end) > corners.size(0))
+				throw std::invalid_argument("offsets = " + std::to_string(end) + ", must rise from 0 to the number of corners");
+			own.faces.push_back({ pairs.data()[2 * f], pairs.data()[2 * f + 1], { corners.data() + first, corners.data() + end } });
+		}
+		return std::make_shared<Polyhedra>(flexpm::own_polyhedra(own, solid, shortEdge));
 	}
 
 	std::shared_ptr<FanMeshes> fanMeshes(const Polyhedra& cells) { return std::make_shared<FanMeshes>(flexpm::fan_meshes(cells)); }
@@ -177,6 +198,10 @@ void register_space_bindings()
 	        polyhedra,
 	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden")),
 	        "Laguerre cells of rows x, y, z, radius.");
+	py::def("own_polyhedra",
+	        ownPolyhedra,
+	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge")),
+	        "Given convex cells: faces are rows of cells, offsets among the corners, and these; spheres rows x, y, z, radius of cells.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
 	py::def("solid_constants",
 	        solidConstants,

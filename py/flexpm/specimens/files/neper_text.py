@@ -100,6 +100,23 @@ class Words:
         self._line = line or self._line
 
 
+def tess_dimension(words: Words) -> int:
+    """Dimension of a tessellation, whose beginning is passed.
+
+    Raises:
+        InputError: for a raster, an old format, or what is no tessellation.
+    """
+    if words.section == "***tesr":
+        raise words.refused("section = ***tesr, must be ***tess; flexpm specimen image reads it")
+    words.expect("***tess")
+    words.expect("**format")
+    version = words.word("format")
+    if not version.split(".")[0].isdigit() or version.startswith(("0.", "1.")):
+        raise words.refused(f"format = {version}, must be 2.0 or later; write it by a newer Neper")
+    words.expect("**general")
+    return words.whole("dimension", 1, 3)
+
+
 def _words(text: str) -> Iterator[tuple[int, str]]:
     for number, line in enumerate(text.split("\n"), 1):
         for word in line.split():

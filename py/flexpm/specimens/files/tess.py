@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tessellations of Neper, ``.tess`` in the plane. Lengths in the file's unit.
+"""Tessellations of Neper, ``.tess`` in the plane, and what those in space share with them.
 
-The format is that of Neper's documentation, "Tessellation File".
+Lengths in the file's unit. The format is that of Neper's documentation, "Tessellation File".
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from ...arrays import FloatArray, IntArray
 from ...require import LENGTH, require_number
 from ..outlines import area_of, box_of
-from .neper_text import Words
+from .neper_text import Words, tess_dimension
 
 #: Most cells, and most vertices and edges of them.
 MOST_CELLS, _MOST = 100_000, 1_000_000
@@ -140,65 +140,63 @@ def read(path: Path) -> PlaneTess:
             line.
     """
     words = Words(path, "tess")
-    if words.section == "***tesr":
-        raise words.refused("section = ***tesr, must be ***tess; flexpm specimen image reads it")
-    words.expect("***tess")
-    words.expect("**format")
-    version = words.word("format")
-    if not version.split(".")[0].isdigit() or version.startswith(("0.", "1.")):
-        raise words.refused(f"format = {version}, must be 2.0 or later; write it by a newer Neper")
-    words.expect("**general")
-    dimension = words.whole("dimension", 1, 3)
+    dimension = tess_dimension(words)
     if dimension != 2:
         raise words.refused(
-            f"dimension = {dimension}, must be 2: cells in space are not read; cut them by Neper"
+            f"dimension = {dimension}, must be 2; cells in space are read by "
+            "Specimen.from_tess_solid"
         )
-    words.skip_to("**cell")
-    number = words.whole("cells", 2, MOST_CELLS)
-    seeds = None
-    while (mark := words.skip_to("*seed", "**vertex")) == "*seed":
-        seeds = _seeds(words, number)
-    assert mark
-    vertices = _vertices(words)
-    words.expect("**edge")
-    for edge in range(1, words.whole("edges", 3, _MOST) + 1):
-        words.whole(f"edge {edge}: number", edge, edge)
-        for _ in range(2):
-            words.whole(f"edge {edge}: vertex", 1, len(vertices))
-        words.number(f"edge {edge}: state")
+    number, seeds = cells_and_seeds(words)
+    rows = vertex_rows(words)
+    wide = np.ptp(rows, axis=0)
+    if not wide[2] <= _ROUNDED * wide[:2].max():
+        raise words.refused(f"vertices: z differs by {wide[2]:g}, must be one plane; project them")
+    vertices = rows[:, :2].copy()
+    pass_edges(words, len(vertices))
     words.expect("**face")
     words.whole("faces", number, number)
-    cells = [_face(words, face, len(vertices)) for face in range(1, number + 1)]
+    cells = [face_ring(words, face, len(vertices)) for face in range(1, number + 1)]
     words.skip_to("***end")
     found = PlaneTess(vertices, cells)
     if seeds is None:
         return found
-    return replace(found, centres=seeds[:, :2].copy(), radii=_radii(seeds[:, 2], found.areas))
+    mean = float(found.areas.mean()) / np.pi
+    return replace(found, centres=seeds[:, :2].copy(), radii=radii_of(seeds[:, 3], mean))
 
 
-def _radii(weights: FloatArray, areas: FloatArray) -> tuple[FloatArray, ...]:
-    """Radii of discs whose Laguerre cells those of the seeds may be.
+def radii_of(weights: FloatArray, mean: float) -> tuple[FloatArray, ...]:
+    """Radii of discs or spheres whose Laguerre cells those of the seeds may be.
 
     Neper's weights are radii; files of others may hold their squares. Cells stay the same if all
-    squares grow alike, which they do until the discs have the area of the cells.
+    squares grow alike, which they do until the discs have the size of the cells.
+
+    Args:
+        weights: Those of the seeds.
+        mean: Square of the radius of a disc or sphere of the mean cell's size.
     """
-    mean, found = float(areas.mean()) / np.pi, []
+    found = []
     for squares in (weights * np.abs(weights), weights):
         least = 0.05 * mean - float(squares.min())
         found.append(np.sqrt(squares + max(mean - float(squares.mean()), least)))
     return tuple(found[:1] if np.all(weights == weights[0]) else found)
 
 
-def _seeds(words: Words, number: int) -> FloatArray:
-    rows = np.empty((number, 3))
-    for seed in range(1, number + 1):
-        words.whole(f"seed {seed}: number", seed, seed)
-        x, y, _, weight = (words.number(f"seed {seed}: {key}") for key in ("x", "y", "z", "weight"))
-        rows[seed - 1] = x, y, weight
-    return rows
+def cells_and_seeds(words: Words) -> tuple[int, FloatArray | None]:
+    """Number of cells, and rows x, y, z, weight of their seeds, if there are any."""
+    words.skip_to("**cell")
+    number = words.whole("cells", 2, MOST_CELLS)
+    seeds = None
+    while words.skip_to("*seed", "**vertex") == "*seed":
+        seeds = np.empty((number, 4))
+        for seed in range(1, number + 1):
+            words.whole(f"seed {seed}: number", seed, seed)
+            for column, key in enumerate(("x", "y", "z", "weight")):
+                seeds[seed - 1, column] = words.number(f"seed {seed}: {key}")
+    return number, seeds
 
 
-def _vertices(words: Words) -> FloatArray:
+def vertex_rows(words: Words) -> FloatArray:
+    """Rows x, y, z of the vertices, whose mark is passed."""
     number = words.whole("vertices", 3, _MOST)
     rows = np.empty((number, 3))
     for vertex in range(1, number + 1):
@@ -206,13 +204,21 @@ def _vertices(words: Words) -> FloatArray:
         for column, key in enumerate("xyz"):
             rows[vertex - 1, column] = words.number(f"vertex {vertex}: {key}")
         words.number(f"vertex {vertex}: state")
-    wide = np.ptp(rows, axis=0)
-    if not wide[2] <= _ROUNDED * wide[:2].max():
-        raise words.refused(f"vertices: z differs by {wide[2]:g}, must be one plane; project them")
-    return rows[:, :2].copy()
+    return rows
 
 
-def _face(words: Words, face: int, vertices: int) -> list[int]:
+def pass_edges(words: Words, vertices: int) -> None:
+    """Pass the edges, which the faces tell again."""
+    words.expect("**edge")
+    for edge in range(1, words.whole("edges", 3, _MOST) + 1):
+        words.whole(f"edge {edge}: number", edge, edge)
+        for _ in range(2):
+            words.whole(f"edge {edge}: vertex", 1, vertices)
+        words.number(f"edge {edge}: state")
+
+
+def face_ring(words: Words, face: int, vertices: int) -> list[int]:
+    """Vertices of a face, from 0."""
     words.whole(f"face {face}: number", face, face)
     corners = words.whole(f"face {face}: vertices", 3, vertices)
     ring = [words.whole(f"face {face}: vertex", 1, vertices) - 1 for _ in range(corners)]

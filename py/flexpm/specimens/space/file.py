@@ -23,6 +23,11 @@ from ..files.rules import (
 )
 from .spec import SolidSpec
 
+
+def _is_index(value: object) -> bool:
+    return value == -1 or is_count(value)
+
+
 #: First entry of the files.
 FORMAT = "flexpm solid 1"
 #: What each key of a file holds.
@@ -31,12 +36,15 @@ _KEYS: dict[str, Rule] = {
     "removed_spheres": is_count,
     "spheres": list_of(row_of(4), 1),
     "minerals": or_none(list_of(is_count, 1)),
+    "vertices": list_of(row_of(3), 4),
+    "faces": list_of(list_of(_is_index, 5), 4),
 }
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, Rule] = {
     "kind": is_text,
     "diameters": or_none(row_of(2)),
     "spheres": or_none(is_text),
+    "cells": or_none(is_text),
     "minerals": or_none(is_text),
 }
 
@@ -64,7 +72,7 @@ def is_one(path: Path) -> bool:
 
 
 def read(path: Path) -> Table:
-    """Read the content of a file: ``spec``, ``removed_spheres`` and ``spheres``.
+    """Read the content of a file: ``spec``, ``removed_spheres``, ``spheres`` and the like.
 
     A checksum tells that a file is as it was written, not that what was written has a sense.
 
@@ -80,7 +88,7 @@ def read(path: Path) -> Table:
         raise InputError(
             f"{name}, was changed since it was saved; make own spheres by Specimen.from_spheres"
         )
-    require_rules(content, _KEYS, ("minerals",))
+    require_rules(content, _KEYS, ("minerals", "vertices", "faces"))
     known = [field.name for field in dataclasses.fields(SolidSpec)]
     return content | {"spec": SolidSpec(**spec_values(content["spec"], known, _SPEC))}
 

@@ -98,6 +98,32 @@ class SolidShapes:
         )
 
     @staticmethod
+    def from_tess_solid(
+        path: Path | str, *, scale: float = 1.0, short_edge: float = SHORT_EDGE
+    ) -> SolidSpecimen:
+        """Make a box of the cells of a tessellation of Neper in space, a ``.tess`` file.
+
+        Where the cells are the Laguerre cells of the seeds in the file the seeds are the centres
+        (D76); others are given cells about their centroids (D97). The box moves to the origin.
+
+        Args:
+            path: The file, of format 2.0 or later, of convex cells with plane faces in a box along
+                x, y and z.
+            scale: Length of the file's unit [m].
+            short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
+
+        Returns:
+            The specimen, grains in the order of the file.
+
+        Raises:
+            InputError: for a file that is none of cells in space or is broken, with its line; for
+                cells that are not convex, closed or in a box, and bent faces, by their numbers.
+        """
+        from .tess import specimen_of
+
+        return specimen_of(Path(path), scale, short_edge)
+
+    @staticmethod
     def load_solid(path: Path | str) -> SolidSpecimen:
         """Read a solid that its ``save`` has written: the same grains to the bit.
 

@@ -49,6 +49,7 @@ class SolidSpec:
         short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
         spheres: Checksum of given spheres; None for a packing.
         minerals: Checksum of given minerals of the grains; None if there are none.
+        cells: Checksum of cells that were given; None: they are those of the spheres.
     """
 
     kind: str = "box"
@@ -62,6 +63,7 @@ class SolidSpec:
     short_edge: float = SHORT_EDGE
     spheres: str | None = None
     minerals: str | None = None
+    cells: str | None = None
 
     # what specimens of the plane may have, and solids do not
     joints: ClassVar[None] = None
@@ -69,7 +71,6 @@ class SolidSpec:
     joints_with_law: ClassVar[tuple[str, ...]] = ()
     networks: ClassVar[None] = None
     strengths: ClassVar[None] = None
-    cells: ClassVar[None] = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -104,7 +105,12 @@ class SolidSpec:
         """A solid has neither joints nor strengths of its own: any model takes it."""
 
     def require_discs(self, model: str) -> None:
-        """A solid has a sphere for each grain: YADE's own bonded spheres take any."""
+        """Refuse given cells, for a model of spheres: those of a packing are its grains'."""
+        if self.cells is not None:
+            raise InputError(
+                f"model = {model}, must be one of cells for a specimen of given cells; use "
+                "flexible or rigid"
+            )
 
     @property
     def volume(self) -> float:

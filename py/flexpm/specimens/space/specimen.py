@@ -22,6 +22,7 @@ from ...require import require_flag
 from ..kernel_input import call, checksum, mineral_indices
 from . import cells as of_spheres
 from . import file
+from .own_cells import OwnCells
 from .spec import SHORT_EDGE, SolidSpec
 
 
@@ -29,14 +30,17 @@ from .spec import SHORT_EDGE, SolidSpec
 class SolidSpecimen:
     """Bonded polyhedral grains that fill a box, a cylinder or a disc.
 
-    Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``from_spheres`` or ``load_solid``.
+    Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``from_spheres``,
+    ``from_tess_solid`` or ``load_solid``.
 
     Attributes:
-        spheres: Rows x, y, z, radius [m], one per grain.
+        spheres: Rows x, y, z, radius [m], one per grain: its sphere, or the centroid of a cell that
+            was given and the radius of a ball of its volume.
         cells: Cells of the grains; cell i belongs to sphere i.
         spec: What it was made from.
         removed_spheres: Spheres that had no cell and were left out.
         minerals: Index of each grain's mineral in its material; None: drawn by volume fractions.
+        given: Cells that were given, before short edges were collapsed; None: those of spheres.
     """
 
     spheres: FloatArray
@@ -44,6 +48,7 @@ class SolidSpecimen:
     spec: SolidSpec
     removed_spheres: int = 0
     minerals: IntArray | None = None
+    given: OwnCells | None = None
 
     @classmethod
     def pack(cls, spec: SolidSpec, progress: Progress | None = None) -> SolidSpecimen:
@@ -95,6 +100,31 @@ class SolidSpecimen:
         return cls(kept, cells, spec, len(given) - len(kept))
 
     @classmethod
+    def of_cells(
+        cls, given: OwnCells, sizes: dict[str, float], short_edge: float = SHORT_EDGE
+    ) -> SolidSpecimen:
+        """Make a specimen of given cells that fill a box from the origin.
+
+        Raises:
+            InputError: as ``Specimen.from_tess_solid``.
+        """
+        spheres = given.spheres()
+        spec = SolidSpec(
+            "box",
+            sizes["width"],
+            sizes["depth"],
+            sizes["height"],
+            diameters=None,
+            porosity=None,
+            seed=None,
+            short_edge=short_edge,
+            spheres=checksum(spheres),
+            cells=given.checksum(),
+        )
+        spheres.setflags(write=False)
+        return cls(spheres, given.polyhedra(spheres, spec), spec, given=given)
+
+    @classmethod
     def load(cls, path: Path | str) -> SolidSpecimen:
         """Read a specimen that ``save`` has written: the same grains to the bit.
 
@@ -106,17 +136,22 @@ class SolidSpecimen:
         spec: SolidSpec = content["spec"]
         spheres = np.array(content["spheres"], dtype=float)
         of_spheres.require_made_from(spec, spheres, content["removed_spheres"])
-        kept, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False)
+        own = OwnCells.of_file(content)
+        if own is None:
+            spheres, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False)
+        else:
+            spheres.setflags(write=False)
+            cells = own.polyhedra(spheres, spec)
         minerals = content.get("minerals")
-        given = None if minerals is None else mineral_indices(minerals, len(kept))
+        given = None if minerals is None else mineral_indices(minerals, len(spheres))
         if (None if given is None else checksum(given)) != spec.minerals:
             raise InputError(
                 f"specimen = {str(path)!r}, has other minerals than it names; save it again"
             )
-        return cls(kept, cells, spec, content["removed_spheres"], given)
+        return cls(spheres, cells, spec, content["removed_spheres"], given, own)
 
     def save(self, path: Path | str) -> None:
-        """Write the specimen as JSON: what it was made from, and its spheres.
+        """Write the specimen as JSON: what it was made from, its spheres, and given cells.
 
         Args:
             path: The file.
@@ -127,6 +162,7 @@ class SolidSpecimen:
                 "spec": dataclasses.asdict(self.spec),
                 "removed_spheres": self.removed_spheres,
                 **({} if self.minerals is None else {"minerals": self.minerals.tolist()}),
+                **({} if self.given is None else self.given.fields()),
                 "spheres": self.spheres.tolist(),
             },
         )

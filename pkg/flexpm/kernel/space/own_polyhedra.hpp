@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Polyhedral cells that were given, not cut from spheres (deviation D97).
+#pragma once
+
+#include <flexpm/kernel/space/polyhedra.hpp>
+
+#include <vector>
+
+namespace flexpm {
+
+/// Polygon of given cells.
+struct OwnFace {
+    int first;                 ///< its corners are counter-clockwise as seen from outside this cell
+    int second;                ///< larger than `first`, or -1 on the outside
+    std::vector<int> corners;  ///< vertices
+};
+
+/// Given cells over shared vertices.
+struct OwnCells {
+    std::vector<Vector> vertices;  ///< [m]
+    std::vector<OwnFace> faces;
+    std::vector<Sphere> spheres;  ///< per cell its centre, well inside, and the size of the cell
+};
+
+/// Convex cells that fill a solid, short edges collapsed as those of spheres are. Messages count
+/// cells and faces from 1, as files of cells do.
+///
+/// Places are right to 1e-6 mean diameters of the spheres: faces are as plane as that, cells as
+/// convex, and outer faces lie on a wall.
+///
+/// @throws std::invalid_argument  for a number out of range, cells that are not closed, not convex
+///                                or without volume, bent faces, two faces between two cells, an
+///                                outer face on no wall, and cells that do not fill the solid
+Polyhedra own_polyhedra(const OwnCells& own, const Solid& solid, double short_edge);
+
+}  // namespace flexpm

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polyhedral cells that were given, not made from spheres (D97). Lengths in metres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..._flexpm import Polyhedra, own_polyhedra
+from ...arrays import FloatArray, IntArray
+from ...files import Table
+from ..files.rules import refuse
+from ..kernel_input import call, checksum
+from .frame import SolidFrame
+from .spec import SolidSpec
+
+
+@dataclass(frozen=True, eq=False)
+class OwnCells:
+    """Cells as the faces they share.
+
+    Attributes:
+        vertices: Rows x, y, z [m].
+        pairs: Rows of the cells of each face, the lower one first, -1: outside.
+        offsets: Face i has the corners from ``offsets[i]`` to before ``offsets[i + 1]``.
+        corners: Vertices, face after face, counter-clockwise as seen from outside the first cell.
+    """
+
+    vertices: FloatArray
+    pairs: IntArray
+    offsets: IntArray
+    corners: IntArray
+
+    @classmethod
+    def of_rings(cls, vertices: FloatArray, pairs: IntArray, rings: list[list[int]]) -> OwnCells:
+        """The same of faces whose corners go round in any sense."""
+        offsets = np.cumsum([0, *map(len, rings)], dtype=np.int32)
+        corners = np.fromiter((v for ring in rings for v in ring), np.int32, int(offsets[-1]))
+        given = cls(vertices, pairs, offsets, corners)
+        starts = offsets[:-1]
+        inside = given._middles()[pairs[:, 0]]
+        away = vertices[corners[starts]] - inside
+        turned = np.einsum("ij,ij->i", given._areas(), away) < 0.0
+        sizes = np.diff(offsets)
+        face = np.repeat(np.arange(len(rings)), sizes)
+        at = np.arange(len(corners))
+        mirrored = starts[face] + offsets[1:][face] - 1 - at
+        corners = corners[np.where(turned[face], mirrored, at)]
+        return cls(vertices, pairs, offsets, corners)
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return int(self.pairs.max()) + 1
+
+    @property
+    def neighbours(self) -> IntArray:
+        """Cells that share a face, rows of two, lower numbers first, in their order."""
+        found: IntArray = np.unique(self.pairs[self.pairs[:, 1] >= 0], axis=0)
+        return found
+
+    def measured(self) -> tuple[FloatArray, FloatArray]:
+        """Volume [m3] and centroid [m] of each cell."""
+        inside = self._middles()
+        volumes, moments = np.zeros(self.cells), np.zeros((self.cells, 3))
+        faces, first, here, after = self._triangles()
+        for side, sign in ((0, 1.0), (1, -1.0)):
+            cell = self.pairs[faces, side]
+            kept = cell >= 0
+            cell = cell[kept]
+            a, b, c = (self.vertices[v[kept]] - inside[cell] for v in (first, here, after))
+            volume = sign / 6.0 * np.einsum("ij,ij->i", a, np.cross(b, c))
+            volumes += np.bincount(cell, volume, self.cells)
+            for axis in range(3):
+                moment = 0.25 * volume * (a + b + c)[:, axis]
+                moments[:, axis] += np.bincount(cell, moment, self.cells)
+        with np.errstate(divide="ignore", invalid="ignore"):  # the kernel refuses such cells
+            return volumes, inside + moments / volumes[:, None]
+
+    def spheres(self) -> FloatArray:
+        """Rows x, y, z, radius [m]: centroid of each cell, and the ball of its volume."""
+        volumes, centroids = self.measured()
+        return np.column_stack((centroids, np.cbrt(0.75 / np.pi * volumes)))
+
+    def polyhedra(self, spheres: FloatArray, spec: SolidSpec) -> Polyhedra:
+        """The kernel's cells, short edges collapsed.
+
+        Raises:
+            InputError: for cells that are not closed, plane and convex, or do not fill the box;
+                names cell and face, counted from 1.
+        """
+        short = spec.short_edge * 2.0 * float(np.mean(spheres[:, 3]))
+        solid = SolidFrame.of(spec, 1.0).solid()
+        faces = (self.pairs, self.offsets, self.corners)
+        return call(own_polyhedra, self.vertices, faces, spheres, solid, short)
+
+    def checksum(self) -> str:
+        """Short hash of all of it."""
+        parts = (self.vertices.ravel(), self.pairs.ravel(), self.offsets, self.corners)
+        return checksum(np.concatenate([np.asarray(part, dtype=float) for part in parts]))
+
+    def fields(self) -> Table:
+        """As lists, for a file."""
+        rings = np.split(self.corners, self.offsets[1:-1])
+        both = zip(self.pairs.tolist(), rings, strict=True)
+        faces = [[*pair, *ring.tolist()] for pair, ring in both]
+        return {"vertices": self.vertices.tolist(), "faces": faces}
+
+    @classmethod
+    def of_file(cls, content: Table) -> OwnCells | None:
+        """Cells that a file holds; None if its cells are those of spheres.
+
+        Raises:
+            InputError: for cells that are not those the file says it was made from.
+        """
+        spec, vertices, faces = content["spec"], content.get("vertices"), content.get("faces")
+        if (vertices is None, faces is None) != (spec.cells is None, spec.cells is None):
+            raise refuse(f"spec cells = {spec.cells}, with vertices or faces missing or too many")
+        if vertices is None or faces is None:
+            return None
+        offsets = np.cumsum([0, *(len(face) - 2 for face in faces)], dtype=np.int32)
+        corners = np.array([v for face in faces for v in face[2:]], dtype=np.int32)
+        pairs = np.array([face[:2] for face in faces], dtype=np.int32)
+        found = cls(np.array(vertices, dtype=float), pairs, offsets, corners)
+        if found.checksum() != spec.cells:
+            raise refuse(f"cells = others than those of the checksum {spec.cells}")
+        return found
+
+    def _triangles(self) -> tuple[IntArray, IntArray, IntArray, IntArray]:
+        """Face, and three vertices, of the triangles that each face's first corner has."""
+        at = np.arange(len(self.corners))
+        face = np.repeat(np.arange(len(self.pairs)), np.diff(self.offsets))
+        starts, last = self.offsets[:-1][face], self.offsets[1:][face] - 1
+        kept = (at > starts) & (at < last)
+        at, face = at[kept], face[kept]
+        corners = self.corners
+        return face, corners[starts[kept]], corners[at], corners[at + 1]
+
+    def _areas(self) -> FloatArray:
+        """Area vector of each face."""
+        face, first, here, after = self._triangles()
+        origin = self.vertices[first]
+        crossed = np.cross(self.vertices[here] - origin, self.vertices[after] - origin)
+        columns = [np.bincount(face, 0.5 * one, len(self.pairs)) for one in crossed.T]
+        return np.column_stack(columns)
+
+    def _middles(self) -> FloatArray:
+        """A point within each cell, if it is convex: the mean of the corners of its faces."""
+        sums, counts = np.zeros((self.cells, 3)), np.zeros(self.cells)
+        face = np.repeat(np.arange(len(self.pairs)), np.diff(self.offsets))
+        for side in range(2):
+            cell = self.pairs[face, side]
+            kept = cell >= 0
+            cell, places = cell[kept], self.vertices[self.corners[kept]]
+            counts += np.bincount(cell, minlength=self.cells)
+            for axis in range(3):
+                sums[:, axis] += np.bincount(cell, places[:, axis], self.cells)
+        middles: FloatArray = sums / np.maximum(counts, 1.0)[:, None]
+        return middles
