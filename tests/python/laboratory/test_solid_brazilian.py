@@ -13,6 +13,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.report.emission import emission_table
 from flexpm.runs import runner
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
@@ -77,6 +78,10 @@ def test_a_disc_splits_along_the_load(disc, model):
     places = np.array([(one.x, one.z) for one in result.cracks if one.mode == 1])
     assert np.median(np.abs(places[:, 0])) < 0.15 * DIAMETER
     assert np.ptp(places[:, 1]) > 0.8 * DIAMETER
+    told = emission_table(result).rows[0][1]
+    largest = max(result.emission, key=lambda one: one.energy)
+    found = [1e-3 * float(one) for one in told.removesuffix(" mm").split(", ")]
+    assert found == pytest.approx([largest.x, largest.y, largest.z], rel=0.01)
 
 
 @pytest.mark.long
