@@ -141,7 +141,7 @@ def emission_table(result: Result) -> Rows | None:
     rows = [
         (
             scaled(float(places_of(result, one.strain)), 1.0, words.x.unit),
-            f"{scaled(one.x, 1e3, '', 3)}, {scaled(one.y, 1e3, '', 3)} mm",
+            _place(one),
             str(one.points),
             MODES[one.mode],
             scaled(one.energy, 1.0, "J", 3),
@@ -151,6 +151,12 @@ def emission_table(result: Result) -> Rows | None:
     ]
     header = (words.over, "centre", "points", "mode", "energy", "magnitude")
     return Rows("Acoustic emission: the largest events", header, rows, _note(result))
+
+
+def _place(event: AnyEvent) -> str:
+    """Centre of an event: x, y and, in a solid, z."""
+    places = [one for one in (event.x, event.y, event.z) if one is not None]
+    return ", ".join(scaled(one, 1e3, "", 3) for one in places) + " mm"
 
 
 def _note(result: Result) -> str:

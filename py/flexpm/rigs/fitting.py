@@ -66,6 +66,11 @@ def rig(
 
 def _fitting(built: Model | SphereModel, tension: bool, runner: Runner | None) -> TestRig:
     if isinstance(built, SphereModel):
+        if built.specimen.kind == "solid-disc":
+            raise InputError(
+                f"rig: model = {built.name}, must be flexible or rigid for a solid-disc; build one "
+                "of these"
+            )
         return SphereRig(built, tension=tension, runner=runner)
     if is_solid(built.specimen.kind):
         kind = SolidDiscRig if built.specimen.kind == "solid-disc" else EndRig

@@ -177,10 +177,13 @@ def require_shape(kind: TestKind, shape: str) -> None:
     """Refuse a shape that a test does not take.
 
     Raises:
-        InputError: naming that of the plane, which it takes.
+        InputError: naming that of the plane, which it takes, and of solids those of its own.
     """
     if shape not in (kind.shape, *kind.solids):
         hint = kind.other_hint if is_solid(shape) != is_solid(kind.shape) else ""
+        others = [one for one in kind.solids if one != kind.shape]
+        if is_solid(shape) and others:
+            hint = f", or a {' or a '.join(others)}{hint}"
         raise InputError(f"run: specimen = {shape}, must be a {kind.shape} for {kind.name}{hint}")
 
 

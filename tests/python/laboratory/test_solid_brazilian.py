@@ -13,6 +13,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.report.emission import emission_table
 from flexpm.runs import runner
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
@@ -77,6 +78,10 @@ def test_a_disc_splits_along_the_load(disc, model):
     places = np.array([(one.x, one.z) for one in result.cracks if one.mode == 1])
     assert np.median(np.abs(places[:, 0])) < 0.15 * DIAMETER
     assert np.ptp(places[:, 1]) > 0.8 * DIAMETER
+    told = emission_table(result).rows[0][1]
+    largest = max(result.emission, key=lambda one: one.energy)
+    found = [1e-3 * float(one) for one in told.removesuffix(" mm").split(", ")]
+    assert found == pytest.approx([largest.x, largest.y, largest.z], rel=0.01)
 
 
 @pytest.mark.long
@@ -127,7 +132,7 @@ def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monke
             "confinement = 1000000.0 Pa, must be 0",
         ),
         (["--depth", "0.02", "--model", "inner"], "must be one of flexible, rigid"),
-        (["--shape", "cylinder"], "specimen = cylinder, must be a disc for brazilian"),
+        (["--shape", "cylinder"], "must be a disc for brazilian, or a solid-disc"),
     ],
 )
 def test_what_does_not_fit_a_disc_is_refused(asked, told, tmp_path, capsys):
@@ -145,6 +150,26 @@ def test_a_disc_has_neither_sides_to_press_nor_ends_to_pull(small):
         flexpm.rig(built, tension=True)
     with pytest.raises(InputError, match="confine: pressure = 1e\\+06 Pa, must be left out"):
         flexpm.rig(built).confine(1e6)
+
+
+def test_spheres_of_yade_are_not_laid_between_the_plates_of_a_disc(small):
+    yade.O.reset()
+    built = flexpm.build(small, model="jcfpm")
+    with pytest.raises(InputError, match="rig: model = jcfpm, must be flexible or rigid"):
+        flexpm.rig(built)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "missing"),
+    [
+        ({"diameter": 0.014}, "depth = None, must be given for a solid-disc"),
+        ({"width": 0.014, "depth": 0.014}, "height = None, must be given for a box"),
+        ({"height": 0.014}, "width = None, must be given for a box"),
+    ],
+)
+def test_no_default_is_the_size_of_given_spheres(small, sizes, missing):
+    with pytest.raises(InputError, match=missing):
+        Specimen.from_spheres(small.spheres, **sizes)
 
 
 def test_given_spheres_without_a_height_make_a_disc():

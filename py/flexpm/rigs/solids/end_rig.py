@@ -23,8 +23,8 @@ class EndRig(GrainRig):
     Pressures act on the surface triangles of either, and on the top until it is driven.
     """
 
-    #: Friction coefficient of the ends from the loading on [-]; 0: they are smooth. To be set before
-    #: the first stage.
+    #: Friction coefficient of the ends from the loading on [-]; 0: they are smooth. It is to be set
+    #: before the first stage.
     end_friction: float = 0.0
     #: Pressure on front and back of a box [Pa]; None: that on the other sides.
     _second: float | None = None

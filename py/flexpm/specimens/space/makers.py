@@ -89,8 +89,8 @@ class SolidShapes:
             The specimen, grains in the order of the spheres.
 
         Raises:
-            InputError: for a value out of range, a sphere outside, in the place of another or
-                hidden by others, by its number.
+            InputError: for a size that is missing or out of range, a sphere outside, in the place
+                of another or hidden by others, by its number.
         """
         sizes = {"height": height, "width": width, "depth": depth, "diameter": diameter}
         return SolidSpecimen.of_spheres(

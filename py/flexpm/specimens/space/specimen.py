@@ -23,7 +23,7 @@ from ..kernel_input import call, checksum, mineral_indices
 from . import cells as of_spheres
 from . import file
 from .own_cells import OwnCells
-from .spec import SHORT_EDGE, SolidSpec
+from .spec import SHORT_EDGE, SIZES, SolidSpec
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +82,12 @@ class SolidSpecimen:
         kind = "box"
         if sizes.get("diameter") is not None:
             kind = "solid-disc" if sizes.get("height") is None else "cylinder"
+        for name in SIZES[kind]:
+            if sizes.get(name) is None:
+                raise InputError(
+                    f"Specimen.from_spheres: {name} = None, must be given for a {kind}; a default "
+                    "is no size of given spheres"
+                )
         given = of_spheres.sphere_rows(spheres)
         spec = SolidSpec(
             kind,
