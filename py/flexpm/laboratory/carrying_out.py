@@ -154,7 +154,7 @@ def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRi
     rig = rig_of(built, tension=spec.kind.pulls, runner=runner)
     friction = spec.own.get(END_FRICTION.name)
     if isinstance(rig, EndRig) and isinstance(friction, float):
-        rig.end_friction = friction
+        rig.roughen(friction)
     return rig
 
 

@@ -208,6 +208,34 @@ def test_friction_of_ends_is_refused_where_there_is_none(core):
         flexpm.run("uniaxial", core, model="jcfpm", end_friction=0.2)
     with pytest.raises(InputError, match="run: end_friction = 11.0, must be <= 10"):
         flexpm.run("uniaxial", core, end_friction=11.0)
+    yade.O.reset()
+    with pytest.raises(InputError, match="roughen: friction = 0.1, must be 0 for ends that pull"):
+        flexpm.rig(flexpm.build(core), tension=True).roughen(0.1)
+    yade.O.reset()
+    late = flexpm.rig(flexpm.build(core))
+    late.confine(1e5)
+    late.roughen(0.1)
+    with pytest.raises((InputError, ValueError), match="roughen the ends before a pressure acts"):
+        late.load(flexpm.Loading(max_strain=1e-4))
+
+
+@pytest.mark.long
+def test_a_script_roughens_ends_and_its_folder_repeats_them(core, tmp_path):
+    peaks = []
+    for friction in (0.0, 0.3):
+        yade.O.reset()
+        rig = flexpm.rig(flexpm.build(core), out=tmp_path / str(friction), report=False)
+        rig.roughen(friction)
+        rig.confine(1e6)
+        rig.load(flexpm.Loading(max_strain=8e-4))
+        rig.finish()
+        peaks.append(rig.record["axial_stress"][-1])
+    assert peaks[0] < peaks[1] < 1.2 * peaks[0]
+    yade.O.reset()
+    asked = ["rerun", str(tmp_path / "0.3"), "--quiet", "--out", str(tmp_path / "again")]
+    assert cli.main([*asked, "--no-report"]) in (0, 3)
+    again = Result.read(tmp_path / "again")
+    assert again.curve["axial_stress"][-1] == peaks[1]
 
 
 def test_what_does_not_fit_is_refused_in_one_line(core, box):

@@ -199,8 +199,9 @@ void add_disc_plates(SolidState& s)
 void roughen_plates(SolidState& s, double friction)
 {
     check_not_negative("friction of plates", friction, "");
-    if (s.plates.empty() || s.plates.front().bonded) {
-        refuse("friction of plates", friction, "", "must be of plates that press; lay them first");
+    if (s.plates.size() != 2 || s.plates.front().bonded) {
+        refuse("plates with friction", static_cast<double>(s.plates.size()), "",
+            "must be 2 that press; roughen the ends before a pressure acts");
     }
     for (Plate& plate : s.plates) {
         plate.friction = friction;

@@ -24,7 +24,7 @@ void add_disc_plates(SolidState& s);
 
 /// Let grains stick to the plates from their present places on, as far as friction bears it.
 /// @param friction  coefficient [-]
-/// @throws std::invalid_argument  if it is below 0, or there are no plates, or bonded ones
+/// @throws std::invalid_argument  if it is below 0, or there are no two plates that press
 void roughen_plates(SolidState& s, double friction);
 
 /// Number of the plate on a side; -1 if there is none.

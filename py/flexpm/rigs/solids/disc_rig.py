@@ -27,6 +27,14 @@ class SolidDiscRig(EndRig):
             raise InputError("rig: tension = True, must be False for a disc; plates press it")
         super().__init__(built, tension=tension, runner=runner)
 
+    def roughen(self, friction: float) -> None:
+        """Refuse friction: what the plates touch at first does not slide.
+
+        Raises:
+            InputError: always.
+        """
+        raise InputError(f"roughen: friction = {friction:g}, must be left out for a disc")
+
     def confine(self, pressure: float, second: float | None = None) -> None:
         """Refuse a pressure.
 

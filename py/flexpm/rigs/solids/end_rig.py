@@ -9,6 +9,7 @@ from yade import wrapper
 
 from ...errors import InputError
 from ...files import Table
+from ...kinds.option import END_FRICTION
 from ...require import NOT_NEGATIVE, require_number
 from ...results import doubts
 from ..grain_rig import GrainRig
@@ -23,11 +24,26 @@ class EndRig(GrainRig):
     Pressures act on the surface triangles of either, and on the top until it is driven.
     """
 
-    #: Friction coefficient of the ends from the loading on [-]; 0: they are smooth. It is to be set
-    #: before the first stage.
-    end_friction: float = 0.0
+    #: Friction coefficient of the ends from the loading on [-]; 0: they are smooth.
+    _friction: float = 0.0
     #: Pressure on front and back of a box [Pa]; None: that on the other sides.
     _second: float | None = None
+
+    def roughen(self, friction: float) -> None:
+        """Let the ends stick to plates as far as friction bears it, from the loading on.
+
+        It comes before the first stage. Deviation D80.
+
+        Args:
+            friction: Coefficient [-]; 0: smooth.
+
+        Raises:
+            InputError: for one out of range, or ends that pull.
+        """
+        friction = require_number("roughen: friction", friction, END_FRICTION.bounds)
+        if friction > 0.0 and self.tension:
+            raise InputError(f"roughen: friction = {friction:g}, must be 0 for ends that pull")
+        self._friction = friction
 
     def confine(self, pressure: float, second: float | None = None) -> None:
         """Press on the sides and the top, the bottom held, until the forces balance.
@@ -83,7 +99,7 @@ class EndRig(GrainRig):
             )
         there = {tuple(one.sides): one for one in self._presses()}
         if not there:
-            self._solid.holdBottom(plate=self.end_friction > 0.0)
+            self._solid.holdBottom(plate=self._friction > 0.0)
             self.built.set_masses()
         for sides, value in asked.items():
             if one := there.get(sides):
@@ -114,7 +130,7 @@ class EndRig(GrainRig):
             if TOP in one.sides:  # what is driven takes over there
                 self.built.remove_engines(one)
                 self._solid.clearPressure(TOP)
-        self._solid.holdEnds(self.tension, self.end_friction)
+        self._solid.holdEnds(self.tension, self._friction)
         self.built.set_masses()
         ends = wrapper.SolidEndsController()
         self.built.add_engines(before=(ends,))
