@@ -6,16 +6,28 @@ from __future__ import annotations
 import itertools
 
 
-def tess_text(vertices, cells, seeds=None, version="3.5"):
-    """A ``.tess`` file of cells in the plane: rows x, y, rings of vertices, rows x, y, weight."""
+def ring_lines(rings):
+    """Lines of the edges and the faces of a file, from rings of vertices."""
     edges, rows = {}, []
-    for ring in cells:
+    for ring in rings:
         around = []
         for a, b in itertools.pairwise([*ring, ring[0]]):
             known = (min(a, b), max(a, b))
             number = edges.setdefault(known, len(edges) + 1)
             around.append(number if (a, b) == known else -number)
         rows.append(around)
+    lines = [" **edge", f" {len(edges)}"]
+    lines += [f"   {n} {a + 1} {b + 1} 0" for (a, b), n in edges.items()]
+    lines += [" **face", f" {len(rings)}"]
+    for number, (ring, around) in enumerate(zip(rings, rows, strict=True), 1):
+        lines.append(f"   {number} {len(ring)} {' '.join(str(one + 1) for one in ring)}")
+        lines.append(f"     {len(around)} {' '.join(map(str, around))}")
+        lines += ["    0.0 0.0 0.0 1.0", "     0 -1 0.0 0.0 0.0"]
+    return lines
+
+
+def tess_text(vertices, cells, seeds=None, version="3.5"):
+    """A ``.tess`` file of cells in the plane: rows x, y, rings of vertices, rows x, y, weight."""
     lines = ["***tess", " **format", f"   {version}", " **general", "   2 standard"]
     lines += [" **cell", f"  {len(cells)}", "  *crysym", "   triclinic"]
     if seeds is not None:
@@ -24,13 +36,7 @@ def tess_text(vertices, cells, seeds=None, version="3.5"):
     lines += ["  *ori", "   rodrigues:active", *["  0.1 0.2 0.3"] * len(cells)]
     lines += [" **vertex", f" {len(vertices)}"]
     lines += [f"   {n} {x!r} {y!r} 0.0 0" for n, (x, y) in enumerate(vertices, 1)]
-    lines += [" **edge", f" {len(edges)}"]
-    lines += [f"   {n} {a + 1} {b + 1} 0" for (a, b), n in edges.items()]
-    lines += [" **face", f" {len(cells)}"]
-    for number, (ring, around) in enumerate(zip(cells, rows, strict=True), 1):
-        lines.append(f"   {number} {len(ring)} {' '.join(str(one + 1) for one in ring)}")
-        lines.append(f"     {len(around)} {' '.join(map(str, around))}")
-        lines += ["    0.0 0.0 0.0 1.0", "     0 -1 0.0 0.0 0.0"]
+    lines += ring_lines(cells)
     return "\n".join([*lines, " **domain", "  *general", "   square", "***end", ""])
 
 

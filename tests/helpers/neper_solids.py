@@ -6,18 +6,11 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
+from neper_files import ring_lines
 
 
 def tess_text(vertices, faces, cells, seeds=None, version="3.5", domain="cube"):
     """A ``.tess`` file: rows x, y, z; rings of vertices; signed faces of cells from 1; seeds."""
-    edges, rows = {}, []
-    for ring in faces:
-        around = []
-        for a, b in itertools.pairwise([*ring, ring[0]]):
-            known = (min(a, b), max(a, b))
-            number = edges.setdefault(known, len(edges) + 1)
-            around.append(number if (a, b) == known else -number)
-        rows.append(around)
     lines = ["***tess", " **format", f"   {version}", " **general", "   3 standard"]
     lines += [" **cell", f"  {len(cells)}", "  *crysym", "   triclinic"]
     if seeds is not None:
@@ -26,13 +19,7 @@ def tess_text(vertices, faces, cells, seeds=None, version="3.5", domain="cube"):
     lines += ["  *ori", "   rodrigues:active", *["  0.1 0.2 0.3"] * len(cells)]
     lines += [" **vertex", f" {len(vertices)}"]
     lines += [f"   {n} {x!r} {y!r} {z!r} 0" for n, (x, y, z) in enumerate(vertices, 1)]
-    lines += [" **edge", f" {len(edges)}"]
-    lines += [f"   {n} {a + 1} {b + 1} 0" for (a, b), n in edges.items()]
-    lines += [" **face", f" {len(faces)}"]
-    for number, (ring, around) in enumerate(zip(faces, rows, strict=True), 1):
-        lines.append(f"   {number} {len(ring)} {' '.join(str(one + 1) for one in ring)}")
-        lines.append(f"     {len(around)} {' '.join(map(str, around))}")
-        lines += ["    0.0 0.0 0.0 1.0", "     0 -1 0.0 0.0 0.0"]
+    lines += ring_lines(faces)
     lines += [" **polyhedron", f" {len(cells)}"]
     lines += [f"   {n} {len(one)} {' '.join(map(str, one))}" for n, one in enumerate(cells, 1)]
     return "\n".join([*lines, " **domain", "  *general", f"   {domain}", "***end", ""])

@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Brazilian tests of solid discs: elastic stresses, a whole test, same bits, what is refused."""
 
-import itertools
 import json
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stopped_runs import same, taken_up
 
 import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.report.emission import emission_table
-from flexpm.runs import runner
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
 
@@ -87,26 +85,9 @@ def test_a_disc_splits_along_the_load(disc, model):
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_threads_and_a_stop_change_no_bit(small, model, tmp_path, monkeypatch):
-    seconds = itertools.count(step=runner._LOOK_UP / 10)  # a look at each tenth step
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
-
-    class StopError(Exception):
-        pass
-
-    def stop(done, expected, text):
-        if done > 60:
-            raise StopError
-
     asked = {"model": model, "max_strain": 2e-3}
     whole = flexpm.run("brazilian", small, threads=2, **asked)
-    with pytest.raises(StopError):
-        flexpm.run(
-            "brazilian", small, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked
-        )
-    again = flexpm.run("brazilian", small, out=tmp_path, **asked)
-    assert again.resumed_at > 0
-    for name in whole.curve.columns:
-        assert np.array_equal(whole.curve[name], again.curve[name], equal_nan=True)
+    assert same(taken_up(monkeypatch, tmp_path, 60, "brazilian", small, **asked), whole)
 
 
 @pytest.mark.long

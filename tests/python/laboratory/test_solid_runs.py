@@ -2,12 +2,11 @@
 """Tests of solids, from the packing to the files: numbers, same bits, restart, repetition."""
 
 import csv
-import itertools
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stopped_runs import same, taken_up
 
 import flexpm
 from flexpm import Specimen
@@ -15,7 +14,6 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
-from flexpm.runs import runner
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
 
@@ -35,17 +33,6 @@ def core():
 def broken(core, tmp_path_factory):
     folder = tmp_path_factory.mktemp("core")
     return flexpm.run("uniaxial", core, out=folder, frames=4, **FAST), folder
-
-
-def rows_of(result):
-    return {name: result.curve[name] for name in result.curve.columns}
-
-
-def same(one, other):
-    mine, others = rows_of(one), rows_of(other)
-    return mine.keys() == others.keys() and all(
-        np.array_equal(mine[name], others[name], equal_nan=True) for name in mine
-    )
 
 
 @pytest.mark.long
@@ -148,22 +135,9 @@ def test_threads_change_no_bit(core, model):
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, model, tmp_path, monkeypatch):
-    seconds = itertools.count(step=runner._LOOK_UP / 10)  # a look at each tenth step
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
-
-    class StopError(Exception):
-        pass
-
-    def stop(done, expected, text):
-        if done > 60:
-            raise StopError
-
     asked = {"model": model, "max_strain": 8e-4, "rate": 0.1}
     whole = flexpm.run("uniaxial", core, **asked)
-    with pytest.raises(StopError):
-        flexpm.run("uniaxial", core, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **asked)
-    again = flexpm.run("uniaxial", core, out=tmp_path, **asked)
-    assert again.resumed_at > 0
+    again = taken_up(monkeypatch, tmp_path, 60, "uniaxial", core, **asked)
     assert same(again, whole)
 
 

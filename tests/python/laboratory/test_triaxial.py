@@ -1,18 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compression of solids under pressures: their start, strength, same bits, and what is refused."""
 
-import itertools
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
+from stopped_runs import same, taken_up
 
 import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.results.result import Result
-from flexpm.runs import runner
 
 yade = pytest.importorskip("yade")  # found once flexpm is imported
 
@@ -30,13 +27,6 @@ def core():
 @pytest.fixture(scope="module")
 def box():
     return Specimen.box(**BOX, seed=2)
-
-
-def same(one, other):
-    rows, others = ({name: of.curve[name] for name in of.curve.columns} for of in (one, other))
-    return rows.keys() == others.keys() and all(
-        np.array_equal(rows[name], others[name], equal_nan=True) for name in rows
-    )
 
 
 def confined(specimen, model, *pressures):
@@ -123,8 +113,6 @@ def test_the_elastic_constants_are_those_without_a_pressure(core):
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_run_that_is_stopped_goes_on_to_the_same_bits(box, model, tmp_path, monkeypatch):
-    seconds = itertools.count(step=runner._LOOK_UP / 10)  # a look at each tenth step
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
     asked = {
         "model": model,
         "max_strain": 8e-4,
@@ -135,20 +123,9 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_bits(box, model, tmp_path, mo
     whole = flexpm.run("triaxial", box, threads=2, **asked)
     settled = int(whole.curve["step"][0])
 
-    class StopError(Exception):
-        pass
-
     for number, last in enumerate((settled // 2, settled + 30)):
-        out = tmp_path / str(number)
-
-        def stop(done, expected, text, last=last):
-            if done > last:
-                raise StopError
-
-        with pytest.raises(StopError):
-            flexpm.run("triaxial", box, out=out, progress=stop, checkpoint_interval=1e-3, **asked)
-        again = flexpm.run("triaxial", box, out=out, **asked)
-        assert 0 < again.resumed_at <= last + 1000
+        again = taken_up(monkeypatch, tmp_path / str(number), last, "triaxial", box, **asked)
+        assert again.resumed_at <= last + 1000
         assert same(again, whole)
 
 
@@ -182,21 +159,8 @@ def test_ends_with_friction_hold_a_core_across(core, model, tmp_path, monkeypatc
     assert rough.curve["lateral_strain"][-1] < smooth.curve["lateral_strain"][-1]
     assert same(flexpm.run("triaxial", core, threads=2, end_friction=0.3, **asked), rough)
 
-    seconds = itertools.count(step=runner._LOOK_UP / 10)
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
-
-    class StopError(Exception):
-        pass
-
-    def stop(done, expected, text):
-        if yade.O.iter > rough.steps - 40:
-            raise StopError
-
-    asked |= {"end_friction": 0.3, "out": tmp_path}
-    with pytest.raises(StopError):
-        flexpm.run("triaxial", core, progress=stop, checkpoint_interval=1e-3, **asked)
-    again = flexpm.run("triaxial", core, **asked)
-    assert again.resumed_at > 0
+    asked["end_friction"] = 0.3
+    again = taken_up(monkeypatch, tmp_path, rough.steps - 40, "triaxial", core, **asked)
     assert same(again, rough)
 
 

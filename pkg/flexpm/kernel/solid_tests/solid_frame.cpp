@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
@@ -20,15 +21,6 @@ constexpr int axial = 2;
 bool is_end(int side)
 {
     return side == static_cast<int>(SolidSide::bottom) || side == static_cast<int>(SolidSide::top);
-}
-
-/// Vector of the area of a surface triangle at the reference, outwards [m^2].
-Vector area_vector(const SolidState& s, int triangle)
-{
-    std::array<Vector, 3> r;
-    for (int k = 0; k < 3; ++k)
-        r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
-    return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
 }
 
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }

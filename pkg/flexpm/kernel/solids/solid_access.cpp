@@ -52,6 +52,14 @@ Vector contact_middle(const SolidState& s, int contact)
     return (1.0 / contact_area(s.contacts, contact)) * sum;
 }
 
+Vector area_vector(const SolidState& s, int triangle)
+{
+    std::array<Vector, 3> r;
+    for (int k = 0; k < 3; ++k)
+        r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
+    return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
+}
+
 double contact_area(const FaceContacts& contacts, int contact)
 {
     double area = 0.0;

@@ -32,6 +32,9 @@ Vector point_place(
 /// Mean place of its points, by their areas [m].
 Vector contact_middle(const SolidState& s, int contact);
 
+/// Area of a surface triangle at the reference along its normal, outwards [m^2].
+Vector area_vector(const SolidState& s, int triangle);
+
 /// Area of a contact when bonded [m^2].
 double contact_area(const FaceContacts& contacts, int contact);
 

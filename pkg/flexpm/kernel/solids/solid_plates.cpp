@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 
@@ -21,15 +22,6 @@ double mean_stiffness(const SolidState& s, double LawParameters::*stiffness)
     for (int g = 0; g < s.grains.count; ++g)
         sum += s.contacts.laws[s.grains.law_index(g, g)].*stiffness;
     return sum / s.grains.count;
-}
-
-/// Area of a triangle along its normal, outwards [m^2].
-Vector area_vector(const SolidState& s, int triangle)
-{
-    std::array<Vector, 3> r;
-    for (int k = 0; k < 3; ++k)
-        r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
-    return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
 }
 
 /// Mean of a vector over a triangle.

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs that are stopped under way and taken up again, and whether two runs have the same record."""
+
+from __future__ import annotations
+
+import itertools
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import flexpm
+from flexpm.runs import runner
+
+
+class StopError(Exception):
+    """The run is stopped here."""
+
+
+def taken_up(monkeypatch, out, last, test, specimen, **asked):
+    """Result of a run that was stopped at a look after step `last` and then started again."""
+    seconds = itertools.count(step=runner._LOOK_UP / 10)  # a look at each tenth step
+    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+
+    def stop(done, expected, text):
+        if done > last:
+            raise StopError
+
+    with pytest.raises(StopError):
+        flexpm.run(test, specimen, out=out, progress=stop, checkpoint_interval=1e-3, **asked)
+    again = flexpm.run(test, specimen, out=out, **asked)
+    assert again.resumed_at > 0
+    return again
+
+
+def same(one, other):
+    """Whether two results have the same record, to the bit."""
+    rows, others = ({name: of.curve[name] for name in of.curve.columns} for of in (one, other))
+    return rows.keys() == others.keys() and all(
+        np.array_equal(rows[name], others[name], equal_nan=True) for name in rows
+    )
