@@ -13,6 +13,7 @@
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
+#include <flexpm/kernel/topology/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 

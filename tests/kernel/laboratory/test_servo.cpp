@@ -12,7 +12,7 @@
 #include <flexpm/kernel/laboratory/servo.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
-#include <flexpm/kernel/topology/plate_build.hpp>
+#include <flexpm/kernel/topology/part_plates.hpp>
 
 #include "support/specimens.hpp"
 
