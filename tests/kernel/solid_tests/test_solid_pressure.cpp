@@ -299,7 +299,7 @@ TEST_CASE("A pressure leaves alone what has come loose", "[solids]")
         for (int contact = 0; contact < c.count; ++contact) {
             if (c.pairs[contact][0] != grain && c.pairs[contact][1] != grain) continue;
             for (int point = 0; point < c.points_of(contact); ++point) {
-                c.cracks[c.point_index(contact, point)].mode = tensile_crack;
+                c.set_crack(contact, point, { 0, tensile_crack, {}, 0.0 });
                 c.states[c.state_index(contact, point, FaceRow::opening)] = 1e-5;
             }
         }

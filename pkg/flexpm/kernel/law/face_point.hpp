@@ -58,6 +58,16 @@ inline double elastic_energy(const LawParameters& p, const FacePlace& at, const 
 
 }  // namespace law
 
+/// Tractions of a point by its state.
+FLEXPM_INLINE FaceTraction traction_at(
+    const LawParameters& p, const FacePlace& at, const FacePointState& s)
+{
+    const double damage = law::damage(p, s.max_opening, s.shear_damage);
+    const double opening = law::gap(p, at.opening, s);
+    return { law::normal_traction(p, opening, s.max_opening, damage),
+        p.shear_stiffness * (at.slip - s.plastic_slip), damage, damage };
+}
+
 /// Advance a point of a face to the place `at`. The shear traction returns along its radius.
 ///
 /// @tparam Dilating  false: the law does not dilate

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/simd.hpp>
+#include <flexpm/kernel/measure/lane_sum.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -14,19 +15,6 @@
 namespace flexpm {
 
 namespace {
-
-/// One sum a lane.
-struct LaneSum {
-    alignas(64) double lane[lanes] = {};
-
-    double total() const
-    {
-        double sum = 0.0;
-        for (double part : lane)
-            sum += part;
-        return sum;
-    }
-};
 
 FLEXPM_INLINE void add_strain(const TriangleRows& b, LaneSum& energy)
 {

@@ -14,14 +14,6 @@ namespace {
 /// Points of a face: the corners and one inside, or as many.
 constexpr int most_points = most_corners + 1;
 
-FLEXPM_INLINE FacePointState load_state(const double* rows, int l)
-{
-    return { rows[FaceRow::max_opening * lanes + l],
-        { rows[FaceRow::plastic_x * lanes + l], rows[FaceRow::plastic_y * lanes + l] },
-        rows[FaceRow::shear_damage * lanes + l], rows[FaceRow::damage_energy * lanes + l],
-        rows[FaceRow::friction_energy * lanes + l] };
-}
-
 FLEXPM_INLINE void store_state(const FacePointState& s, double* rows, int l)
 {
     rows[FaceRow::max_opening * lanes + l] = s.max_opening;
@@ -152,25 +144,6 @@ FLEXPM_INLINE FaceUpdate update_block(const FaceLanes& b, std::uint8_t* cracked)
     return { cracks, count_turned(m) };
 }
 
-/// Laws of a block of contacts in rows.
-struct FaceLaws {
-    alignas(64) double rows[row_count<LawParameters> * lanes];
-    bool dilating = false;
-
-    void fill(const FaceContacts& contacts, int block)
-    {
-        dilating = false;
-        for (int l = 0; l < lanes; ++l) {
-            const int contact = contacts.in_slot[block * lanes + l];
-            // padded lanes follow the first one
-            const LawParameters& law =
-                contacts.law_of(contact >= 0 ? contact : contacts.in_slot[block * lanes]);
-            store_rows(law, rows, l);
-            dilating = dilating || law.dilation_compliance > 0.0;
-        }
-    }
-};
-
 FaceLanes face_lanes(SolidState& s, int block, const FaceLaws& laws)
 {
     FaceContacts& c = s.contacts;
@@ -224,8 +197,9 @@ void record_cracks(SolidState& s, int block, const std::uint8_t* cracked)
             const FacePointState state = c.point_state(contact, p);
             const bool opens =
                 law::gap(c.law_of(contact), c.place_of(contact, p).opening, state) > 0.0;
-            c.cracks[c.point_index(contact, p)] = { s.step + 1, opens ? tensile_crack : shear_crack,
-                point_position(s, contact, p), c.area(contact, p) * state.damage_energy };
+            c.set_crack(contact, p,
+                { s.step + 1, opens ? tensile_crack : shear_crack, point_position(s, contact, p),
+                    c.area(contact, p) * state.damage_energy });
         }
     }
 }

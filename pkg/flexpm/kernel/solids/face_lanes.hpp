@@ -11,6 +11,39 @@
 
 namespace flexpm {
 
+FLEXPM_INLINE FacePlace load_place(const double* rows, int l)
+{
+    return { rows[FaceRow::opening * lanes + l],
+        { rows[FaceRow::slip_x * lanes + l], rows[FaceRow::slip_y * lanes + l] } };
+}
+
+FLEXPM_INLINE FacePointState load_state(const double* rows, int l)
+{
+    return { rows[FaceRow::max_opening * lanes + l],
+        { rows[FaceRow::plastic_x * lanes + l], rows[FaceRow::plastic_y * lanes + l] },
+        rows[FaceRow::shear_damage * lanes + l], rows[FaceRow::damage_energy * lanes + l],
+        rows[FaceRow::friction_energy * lanes + l] };
+}
+
+/// Laws of a block of contacts in rows.
+struct FaceLaws {
+    alignas(64) double rows[row_count<LawParameters> * lanes];
+    bool dilating = false;
+
+    void fill(const FaceContacts& contacts, int block)
+    {
+        dilating = false;
+        for (int l = 0; l < lanes; ++l) {
+            const int contact = contacts.in_slot[block * lanes + l];
+            // padded lanes follow the first one
+            const LawParameters& law =
+                contacts.law_of(contact >= 0 ? contact : contacts.in_slot[block * lanes]);
+            store_rows(law, rows, l);
+            dilating = dilating || law.dilation_compliance > 0.0;
+        }
+    }
+};
+
 /// The rows of one block of contacts.
 struct FaceLanes {
     FaceGroup group;

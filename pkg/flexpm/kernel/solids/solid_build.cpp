@@ -306,7 +306,7 @@ void add_blocks(FaceContacts& c, const FaceGroup& group, int contacts)
     c.places.resize(nodes / 2 * 3, 0.0);
     c.areas.resize(points, 0.0);
     c.states.resize(points * FaceRow::count, 0.0);
-    c.cracks.resize(points);
+    c.cracks.resize(c.blocks());
     c.shares.resize(c.block_shares.back(), 0.0);
 }
 
@@ -379,7 +379,6 @@ void fit(Tetrahedra& t, FaceContacts& c)
     for (auto* values : { &c.places, &c.areas, &c.shares, &c.states })
         values->shrink_to_fit();
     c.nodes.shrink_to_fit();
-    c.cracks.shrink_to_fit();
 }
 
 }  // namespace

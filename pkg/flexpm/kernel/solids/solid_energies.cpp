@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solids/solid_energies.hpp>
 
+#include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/measure/lane_sum.hpp>
+#include <flexpm/kernel/solids/face_lanes.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
@@ -13,35 +17,113 @@ namespace flexpm {
 
 namespace {
 
-double strain_energy(const SolidState& s)
+/// Stored in the points of a block.
+FLEXPM_INLINE void add_stored(
+    const double* areas, const double* states, const double* law, int points, LaneSum& energy)
 {
-    double sum = 0.0;
-    for (int block = 0; block < s.grains.blocks(); ++block) {
-        if (s.grains.group(block).rigid) continue;
-        const auto c = load_rows<PlaneStiffness>(
-            &s.grains.stiffness[block * row_count<PlaneStiffness> * lanes], 0);
-        for_each_tetrahedron(s, block, [&](const TetrahedronShape& t, std::array<int, 4> n) {
-            const auto way = [&](int k) { return space_vector(s.grains.displacement, n[k]); };
-            sum += tetrahedron_energy(t, c, way(0), way(1), way(2), way(3));
-        });
-    }
-    return sum;
-}
-
-void add_points(const SolidState& s, Energies& e)
-{
-    const FaceContacts& c = s.contacts;
-    for (int contact = 0; contact < c.count; ++contact) {
-        const LawParameters& law = c.law_of(contact);
-        for (int p = 0; p < c.points_of(contact); ++p) {
-            const double area = c.area(contact, p);
-            const FacePointState state = c.point_state(contact, p);
-            e.elastic += area * law::elastic_energy(law, c.place_of(contact, p), state);
-            e.damage += area * state.damage_energy;
-            if (c.crack(contact, p).mode == intact) e.softened += area * state.damage_energy;
-            e.friction += area * state.friction_energy;
+    LaneSum sum = energy;  // a local, which no row aliases
+    for (int p = 0; p < points; ++p) {
+        const double *area = areas + p * lanes, *state = states + p * FaceRow::count * lanes;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            sum.lane[l] += area[l]
+                * law::elastic_energy(
+                    load_rows<LawParameters>(law, l), load_place(state, l), load_state(state, l));
         }
     }
+    energy = sum;
+}
+
+/// Dissipated in the points of a block.
+FLEXPM_INLINE void add_lost(
+    const double* areas, const double* states, int points, LaneSum& damage, LaneSum& friction)
+{
+    LaneSum of_damage = damage, of_friction = friction;
+    for (int p = 0; p < points; ++p) {
+        const double *area = areas + p * lanes, *state = states + p * FaceRow::count * lanes;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            of_damage.lane[l] += area[l] * state[FaceRow::damage_energy * lanes + l];
+            of_friction.lane[l] += area[l] * state[FaceRow::friction_energy * lanes + l];
+        }
+    }
+    damage = of_damage;
+    friction = of_friction;
+}
+
+/// Forces that the contacts of a block bear, along normal and tangents, three rows.
+FLEXPM_INLINE void sum_forces(
+    const double* areas, const double* states, const double* law, int points, double* forces)
+{
+    alignas(64) double sum[vector_rows] = {};
+    for (int p = 0; p < points; ++p) {
+        const double *area = areas + p * lanes, *state = states + p * FaceRow::count * lanes;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            const FaceTraction t = traction_at(
+                load_rows<LawParameters>(law, l), load_place(state, l), load_state(state, l));
+            store_vector(
+                load_vector(sum, l) + area[l] * Vector { t.normal, t.shear.x, t.shear.y }, sum, l);
+        }
+    }
+    for (int i = 0; i < vector_rows; ++i)
+        forces[i] = sum[i];
+}
+
+/// Call visit(block, areas, states, laws, points) for the rows of each block of contacts.
+template <class Visit> void for_each_block(const FaceContacts& c, Visit visit)
+{
+    FaceLaws laws;
+    for (int block = 0; block < c.blocks(); ++block) {
+        if (block == 0 || c.laws.size() > 1) laws.fill(c, block);
+        const int first = c.block_points[block];
+        visit(block, c.areas.data() + first, c.states.data() + first * FaceRow::count, laws.rows,
+            c.group_in(block).points);
+    }
+}
+
+double stored_in_points(const FaceContacts& c)
+{
+    LaneSum sum;
+    const auto add = variant_of<add_stored>();
+    for_each_block(
+        c, [&](int, const double* areas, const double* states, const double* laws, int points) {
+            add(areas, states, laws, points, sum);
+        });
+    return sum.total();
+}
+
+ContactLoss lost_in_points(const FaceContacts& c)
+{
+    LaneSum damage, friction;
+    const auto add = variant_of<add_lost>();
+    for_each_block(
+        c, [&](int, const double* areas, const double* states, const double*, int points) {
+            add(areas, states, points, damage, friction);
+        });
+    return { damage.total(), friction.total() };
+}
+
+/// Call visit(crack, index of its point in `areas`) for each cracked point.
+template <class Visit> void for_each_crack(const FaceContacts& c, Visit visit)
+{
+    for (int block = 0; block < c.blocks(); ++block) {
+        const auto& cracks = c.cracks[block];
+        for (std::size_t i = 0; i < cracks.size(); ++i)
+            if (cracks[i].mode != intact) visit(cracks[i], c.block_points[block] + i);
+    }
+}
+
+/// Dissipated by damage in points that have cracked [J].
+double damage_of_cracks(const FaceContacts& c)
+{
+    double sum = 0.0;
+    for_each_crack(c, [&](const FaceCrack&, std::size_t point) {
+        const std::size_t first = point / lanes * lanes;
+        sum += c.areas[point]
+            * c.states[first * FaceRow::count + FaceRow::damage_energy * lanes + point % lanes];
+    });
+    return sum;
 }
 
 /// First of each pair: what has been done up to the present places.
@@ -59,8 +141,11 @@ Energies energies(const SolidState& s)
 {
     Energies e;
     e.kinetic = std::accumulate(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
-    e.elastic = strain_energy(s);
-    add_points(s, e);
+    e.elastic = strain_energy(s) + stored_in_points(s.contacts);
+    const ContactLoss lost = lost_in_points(s.contacts);
+    e.damage = lost.damage;
+    e.friction = lost.friction;
+    e.softened = lost.damage - damage_of_cracks(s.contacts);
     e.drag = sum_of_first(s.ledger.drag_work);
     e.damping = sum_of_first(s.ledger.damping_work) - e.drag;
     e.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
@@ -75,13 +160,8 @@ Energies energies(const SolidState& s)
 
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point)
 {
-    const LawParameters& law = contacts.law_of(contact);
-    const FacePlace at = contacts.place_of(contact, point);
-    const FacePointState state = contacts.point_state(contact, point);
-    const double damage = law::damage(law, state.max_opening, state.shear_damage);
-    const double opening = law::gap(law, at.opening, state);
-    return { law::normal_traction(law, opening, state.max_opening, damage),
-        law.shear_stiffness * (at.slip - state.plastic_slip), damage, damage };
+    return traction_at(contacts.law_of(contact), contacts.place_of(contact, point),
+        contacts.point_state(contact, point));
 }
 
 double kinetic_of_velocities(const SolidState& s)
@@ -94,15 +174,10 @@ double kinetic_of_velocities(const SolidState& s)
 
 Dissipation dissipation(const SolidState& s)
 {
-    const FaceContacts& c = s.contacts;
+    const ContactLoss lost = lost_in_points(s.contacts);
     Dissipation d;
-    for (int contact = 0; contact < c.count; ++contact) {
-        for (int p = 0; p < c.points_of(contact); ++p) {
-            const double area = c.area(contact, p);
-            d.damage += area * c.state(contact, p, FaceRow::damage_energy);
-            d.friction += area * c.state(contact, p, FaceRow::friction_energy);
-        }
-    }
+    d.damage = lost.damage;
+    d.friction = lost.friction;
     d.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
     for (const Plate& plate : s.plates)
         d.boundary_work += plate.boundary_work;
@@ -153,9 +228,14 @@ double unbalanced_ratio(const SolidState& s)
     const double largest = *std::max_element(forces.begin(), forces.end());
     const FaceContacts& c = s.contacts;
     double sum = 0.0;
-    for (int contact = 0; contact < c.count; ++contact) {
-        sum += norm(force_in(c, contact));
-    }
+    const auto add = variant_of<sum_forces>();
+    for_each_block(
+        c, [&](int, const double* areas, const double* states, const double* laws, int points) {
+            alignas(64) double forces[vector_rows];
+            add(areas, states, laws, points, forces);
+            for (int l = 0; l < lanes; ++l)
+                sum += norm(load_vector(forces, l));  // 0 of a padded lane
+        });
     if (sum > 0.0) return largest * c.count / sum;
     // a specimen that flies apart is not in balance
     return c.count > 0 && largest > 0.0 ? 1.0 : 0.0;
@@ -180,12 +260,10 @@ std::string find_bad_number(const SolidState& s)
 CrackCount count_cracks(const SolidState& s)
 {
     CrackCount count;
-    for (int c = 0; c < s.contacts.count; ++c) {
-        for (int p = 0; p < s.contacts.points_of(c); ++p) {
-            count.tensile += s.contacts.crack(c, p).mode == tensile_crack;
-            count.shear += s.contacts.crack(c, p).mode == shear_crack;
-        }
-    }
+    for_each_crack(s.contacts, [&](const FaceCrack& crack, std::size_t) {
+        count.tensile += crack.mode == tensile_crack;
+        count.shear += crack.mode == shear_crack;
+    });
     return count;
 }
 

@@ -130,7 +130,8 @@ struct FaceContacts {
     Array<double> areas;            ///< [block][point][lane] [m^2], 0 where padded
     Array<double> shares;  ///< [block][point that is no corner][corner][lane], with sum 1 [-]
     Array<double> states;  ///< [block][point][FaceRow][lane]
-    std::vector<FaceCrack> cracks;  ///< as `areas`
+    /// [block][point][lane]; empty of a block without any, which most are.
+    std::vector<std::vector<FaceCrack>> cracks;
 
     int blocks() const { return static_cast<int>(block_group.size()); }
     int block_of(int contact) const { return slot[contact] / lanes; }
@@ -151,7 +152,7 @@ struct FaceContacts {
         return nodes[node_index(contact, side, corner)];
     }
 
-    /// Index of a point in `areas` and `cracks`.
+    /// Index of a point in `areas`.
     int point_index(int contact, int point) const
     {
         return block_points[block_of(contact)] + point * lanes + lane_of(contact);
@@ -195,7 +196,15 @@ struct FaceContacts {
     }
     const FaceCrack& crack(int contact, int point) const
     {
-        return cracks[point_index(contact, point)];
+        static const FaceCrack none;
+        const auto& own = cracks[block_of(contact)];
+        return own.empty() ? none : own[point * lanes + lane_of(contact)];
+    }
+    void set_crack(int contact, int point, const FaceCrack& crack)
+    {
+        auto& own = cracks[block_of(contact)];
+        if (own.empty()) own.resize(points_of(contact) * lanes);
+        own[point * lanes + lane_of(contact)] = crack;
     }
 
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/prefetch_rows.hpp>
 #include <flexpm/kernel/core/rows_of_four.hpp>
+#include <flexpm/kernel/measure/lane_sum.hpp>
 
 namespace flexpm {
 
@@ -84,18 +85,52 @@ template <bool Wide> FLEXPM_INLINE void add_forces(const TetrahedronRows& b)
     row_of_four(b.force + b.centre) -= sum;
 }
 
+template <bool Wide> FLEXPM_INLINE void add_strain(const TetrahedronRows& b, LaneSum& energy)
+{
+    LaneSum sum = energy;
+    alignas(64) double way[Tetrahedra::corners * vector_rows];
+    const double* at = b.displacement + b.centre;
+    const Vector centre { at[0], at[1], at[2] };
+    for (int t = 0; t < b.batches; ++t) {
+        const double* shape = b.shape + t * Tetrahedra::rows * lanes;
+        gather_corners<Wide>(b, b.nodes + t * Tetrahedra::corners * lanes, way);
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            sum.lane[l] += tetrahedron_energy(load_tetrahedron(shape, l),
+                load_rows<PlaneStiffness>(b.stiffness, l), centre, load_vector(way, l),
+                load_vector(way + vector_rows, l), load_vector(way + 2 * vector_rows, l));
+        }
+    }
+    energy = sum;
+}
+
+TetrahedronRows tetrahedron_rows(const SolidState& s, int block, double* force)
+{
+    const Grains& grains = s.grains;
+    const int first = grains.block_nodes[block], batch = s.tetrahedra.first[block];
+    return { s.tetrahedra.first[block + 1] - batch,
+        grains.layout.node_stride * grains.group(block).vertices,
+        s.tetrahedra.nodes.data() + batch * Tetrahedra::corners * lanes,
+        s.tetrahedra.shape.data() + batch * Tetrahedra::rows * lanes,
+        grains.stiffness.data() + block * row_count<PlaneStiffness> * lanes,
+        grains.displacement.data() + first, force };
+}
+
 }  // namespace
+
+double strain_energy(const SolidState& s)
+{
+    LaneSum sum;
+    const auto add = variant_of<add_strain<false>, add_strain<true>>();
+    for (int block = 0; block < s.grains.blocks(); ++block)
+        if (!s.grains.group(block).rigid) add(tetrahedron_rows(s, block, nullptr), sum);
+    return sum.total();
+}
 
 void add_tetrahedron_forces(SolidState& s, int block)
 {
-    Grains& grains = s.grains;
-    const int first = grains.block_nodes[block], batch = s.tetrahedra.first[block];
-    const int centre = grains.layout.node_stride * grains.group(block).vertices;
-    variant_of<add_forces<false>, add_forces<true>>()({ s.tetrahedra.first[block + 1] - batch,
-        centre, s.tetrahedra.nodes.data() + batch * Tetrahedra::corners * lanes,
-        s.tetrahedra.shape.data() + batch * Tetrahedra::rows * lanes,
-        grains.stiffness.data() + block * row_count<PlaneStiffness> * lanes,
-        grains.displacement.data() + first, grains.force.data() + first });
+    variant_of<add_forces<false>, add_forces<true>>()(
+        tetrahedron_rows(s, block, s.grains.force.data() + s.grains.block_nodes[block]));
 }
 
 TetrahedronShape tetrahedron_of(const SolidState& s, int batch, int lane)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Forces of the tetrahedra of a grain, `lanes` of them at a time.
+/// @file  Forces and energy of the tetrahedra of a grain, `lanes` of them at a time.
 #pragma once
 
 #include <flexpm/kernel/fem/tetrahedron.hpp>
@@ -9,6 +9,9 @@ namespace flexpm {
 
 /// Add the forces of all tetrahedra of a block of grains to those on its nodes.
 void add_tetrahedron_forces(SolidState& s, int block);
+
+/// Stored in the tetrahedra of all grains [J].
+double strain_energy(const SolidState& s);
 
 /// One tetrahedron, for sums. Those of a grain are `lanes` times its batches; padded ones have no
 /// volume.
