@@ -24,7 +24,7 @@ from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
 from .parameters import Pressures
-from .solids import cylinder_diameter, shape_options
+from .solids import cylinder_diameter, shape_options, solve_shape_options
 
 if TYPE_CHECKING:
     from ..specimens.files.source import AnySpecimen
@@ -130,7 +130,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 
 @click.command(short_help="Elastic constants by one static solve.")
 @cli_options.model_options
-@shape_options
+@solve_shape_options
 @cli_options.rectangle_options
 @cylinder_diameter
 @cli_options.packing_options

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..files import json_text, write_text
-from ..kinds.registry import names
+from ..kinds.registry import ELASTIC, KINDS, names
 from ..report import tables
 from ..specimens.space.any_spec import SOLIDS
 from ..specimens.space.spec import SIZES, SolidSpec
@@ -27,18 +28,31 @@ box_options = combined(
     length_option("--depth", _BOX["depth"], "Depth, along y"),
     length_option("--height", _BOX["height"], "Height, along z"),
 )
+
+
+def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
+    """Options that make a specimen a solid of one of the shapes."""
+    sizes = "; ".join(
+        f"{shape}: " + ", ".join(f"{name} {SIZES[shape][name]:g}" for name in SIZES[shape])
+        for shape in shapes
+    )
+    return combined(
+        click.option(
+            "--shape",
+            type=Name(*shapes),
+            metavar="|".join(shapes),
+            help=f"Take a solid{of}. Sizes of a solid that are not given [m]: {sizes}.  [default: "
+            "that of the test in the plane; a solid-disc for a disc with --depth; a cylinder for "
+            "tests of solids alone]",
+        ),
+        length_option("--depth", _BOX["depth"], "Depth of a box or a disc, along y"),
+    )
+
+
 #: What makes the specimen of a test a solid.
-shape_options = combined(
-    click.option(
-        "--shape",
-        type=Name(*SOLIDS),
-        metavar="|".join(SOLIDS),
-        help=f"Take a solid, in {', '.join(names(lambda kind: bool(kind.solids)))}.  [default: "
-        "that of the test in the plane; a solid-disc for a disc with --depth; a cylinder for tests "
-        "of solids alone]",
-    ),
-    length_option("--depth", _BOX["depth"], "Depth of a box or a disc, along y"),
-)
+shape_options = _shape_options(SOLIDS, f", in {', '.join(names(lambda kind: bool(kind.solids)))}")
+#: The same of the static solve alone.
+solve_shape_options = _shape_options(KINDS[ELASTIC].solids, "")
 #: The same of a benchmark.
 bench_options = combined(
     click.option(
