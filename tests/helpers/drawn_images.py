@@ -6,7 +6,7 @@ Start it from a checkout that scripts/setup has built, best by ``scripts/night i
 
     FLEXPM_SOURCES=COMMIT PYTHONPATH=build/python /usr/bin/python3 tests/helpers/drawn_images.py
 
-writes 33 rows of images of 512 x 512 pixels (noise: 128) to scripts/checks/images.csv. Rows of
+writes 100 rows of images of 512 x 512 pixels (noise: 128) to scripts/checks/images.csv. Rows of
 that commit are not measured again. Areas as parts of themselves, lengths in pixels.
 """
 
@@ -29,7 +29,7 @@ from flexpm.specimens.specimen import Specimen
 TABLE = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "images.csv"
 PIXEL, THICKNESS = 5e-5, 0.01
 KINDS = ("grains", "islands", "patches", "checkerboard", "noise", "single pixels")
-IMAGES, SIZE = 33, 512
+IMAGES, SIZE = 100, 512
 #: Grains below have no limit of their own in the issue of a map [pixels].
 LARGE = 100
 
