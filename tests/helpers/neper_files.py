@@ -26,16 +26,28 @@ def ring_lines(rings):
     return lines
 
 
-def tess_text(vertices, cells, seeds=None, version="3.5"):
-    """A ``.tess`` file of cells in the plane: rows x, y, rings of vertices, rows x, y, weight."""
+def level(x, y, away):
+    """Place in space of one of the plane z = 0, and so far off it."""
+    return x, y, away
+
+
+def tess_text(vertices, cells, seeds=None, version="3.5", place=level):
+    """A ``.tess`` file of cells in a plane.
+
+    Rows x, y; rings of vertices; rows x, y, weight and perhaps how far a seed is off the plane;
+    where that is in space.
+    """
     lines = ["***tess", " **format", f"   {version}", " **general", "   2 standard"]
     lines += [" **cell", f"  {len(cells)}", "  *crysym", "   triclinic"]
     if seeds is not None:
         lines.append("  *seed")
-        lines += [f"   {n} {x!r} {y!r} 0.0 {w!r}" for n, (x, y, w) in enumerate(seeds, 1)]
+        for number, (x, y, weight, *away) in enumerate(seeds, 1):
+            at = " ".join(map(repr, place(x, y, *(away or [0.0]))))
+            lines.append(f"   {number} {at} {weight!r}")
     lines += ["  *ori", "   rodrigues:active", *["  0.1 0.2 0.3"] * len(cells)]
     lines += [" **vertex", f" {len(vertices)}"]
-    lines += [f"   {n} {x!r} {y!r} 0.0 0" for n, (x, y) in enumerate(vertices, 1)]
+    for number, (x, y) in enumerate(vertices, 1):
+        lines.append(f"   {number} {' '.join(map(repr, place(x, y, 0.0)))} 0")
     lines += ring_lines(cells)
     return "\n".join([*lines, " **domain", "  *general", "   square", "***end", ""])
 
@@ -46,6 +58,14 @@ def tess_of(specimen, seeds=None, **options):
     starts = cells.cell_offsets.tolist()
     rings = [cells.cell_vertices[a:b].tolist() for a, b in itertools.pairwise(starts)]
     return tess_text(cells.vertices.tolist(), rings, seeds, **options)
+
+
+def tesr_bytes(labels, kind, form):
+    """A ``.tesr`` file of labels in a binary format."""
+    head, _, end = tesr_text(labels).partition("   ascii\n")
+    data = labels[::-1].astype(form).tobytes()
+    after = end[end.index("***end") :].encode()
+    return head.encode() + f"   {kind}\n".encode() + data + b"\n" + after
 
 
 def tesr_text(labels, pixel=0.01):

@@ -25,8 +25,8 @@ def tess_text(vertices, faces, cells, seeds=None, version="3.5", domain="cube"):
     return "\n".join([*lines, " **domain", "  *general", f"   {domain}", "***end", ""])
 
 
-def tess_of(solid, seeds=None, **options):
-    """The cells of a solid as such a file."""
+def tess_of(solid, seeds=None, vertices=None, **options):
+    """The cells of a solid as such a file, perhaps with vertices at other places."""
     found = solid.cells
     faces = [ring.tolist() for ring in np.split(found.face_vertices, found.face_offsets[1:-1])]
     cells = [[] for _ in range(found.cells)]
@@ -34,7 +34,7 @@ def tess_of(solid, seeds=None, **options):
         cells[first].append(number)
         if second >= 0:
             cells[second].append(-number)
-    return tess_text(found.vertices.tolist(), faces, cells, seeds, **options)
+    return tess_text(vertices or found.vertices.tolist(), faces, cells, seeds, **options)
 
 
 def bricks(shape, shift=0.0):

@@ -201,6 +201,21 @@ def test_steps_of_the_points_count_where_those_of_the_head_do_not_fit(tmp_path, 
     assert of(wrong).counts["steps"] == told
 
 
+@pytest.mark.parametrize("hexagonal", [False, True])
+def test_a_head_may_leave_the_steps_to_the_points(tmp_path, hexagonal):
+    steps = (0.4, 0.3464 if hexagonal else 0.35)
+    _, phase, angles = map_of(20, 30, 9, 3, steps, hexagonal)
+    text = ang_text(phase, angles, PHASES, steps, hexagonal)
+    (tmp_path / "a.ang").write_text(text)
+    lines = [row for row in text.splitlines() if "STEP" not in row]
+    short = "\n".join(lines).replace("Grid\n", "Grid#\n")
+    (tmp_path / "short.ang").write_text(short)
+    one, other = ebsd.read(tmp_path / "a.ang"), ebsd.read(tmp_path / "short.ang")
+    assert np.array_equal(one.raster, other.raster)
+    told = f"0.4 x {steps[1]} um by the points, none in the head"
+    assert of(tmp_path / "short.ang").counts["steps"] == told
+
+
 def test_heads_as_other_programs_write_them(tmp_path):
     """Tabulators, groups in full, and phases that have no number; ``.ang`` files."""
     _, phase, angles = map_of(12, 12, 6, 2)
@@ -248,6 +263,7 @@ def broken():
     return [
         ("a.ctf", "", "line 1: must begin with Channel Text File"),
         ("a.ctf", ctf.replace("XStep\t1.0\n", ""), "XStep is missing"),
+        ("a.ctf", ctf.replace("Mode\tGrid", "Mode\tInteractive"), "line 4: JobMode = Interactive"),
         ("a.ctf", ctf.replace("XStep\t1.0", "XStep\tx"), "line 7: XStep = 'x', must be a number"),
         ("a.ctf", ctf.replace("1\t2.0000", "1\t2.3000"), "must be on the grid of steps 1 and 1"),
         ("a.ctf", ctf.replace("Biotite\t2", "Biotite\t12"), "Laue group = 12, must be 1 to 11"),

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import json
+import math
+import os
 import time
 
 import numpy as np
 import pytest
-from neper_files import tesr_text, tess_of, tess_text
+from neper_files import tesr_bytes, tesr_text, tess_of, tess_text
 
 import flexpm
 from flexpm.cli import main as cli
@@ -90,6 +92,31 @@ def test_other_cells_keep_their_shape_and_take_centroids(tmp_path):
     assert made.centres[7] == pytest.approx(centroid, rel=1e-9)
 
 
+@pytest.mark.parametrize("normal", [(1.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.2, -0.9, 0.4)])
+def test_a_slice_is_its_plane_and_its_seeds_those_in_space(tmp_path, normal):
+    """A seed off the plane by d has there a disc of r^2 = w^2 - d^2."""
+    source, seeds = laguerre(60, 7, "radii")
+    away = np.random.default_rng(1).uniform(0.0, 0.1, 60)
+    lifted = [[x, y, math.hypot(w, d), d] for (x, y, w), d in zip(seeds, away, strict=True)]
+    upwards = np.array(normal) / np.linalg.norm(normal)
+    along = np.cross(upwards, [0.3, 0.5, 0.7] if normal[1] else [0.0, 1.0, 0.0])
+    along /= np.linalg.norm(along)
+    across = np.cross(upwards, along)
+
+    def place(x, y, off):
+        return (x * along + y * across + off * upwards + [3.0, 4.0, 5.0]).tolist()
+
+    (tmp_path / "a.tess").write_text(tess_of(source, lifted, place=place))
+    made = require_as_the_file(tmp_path / "a.tess", 0.05)
+    assert made.spec.cells is None  # the seeds in space are Laguerre's in the plane, too
+    areas = 0.05**2 * source.tessellation.cell_areas
+    assert made.tessellation.cell_areas == pytest.approx(areas, rel=1e-9)
+    ways = [one.centres[:, None] - one.centres for one in (made, source)]
+    found, expected = (np.hypot(way[..., 0], way[..., 1]) for way in ways)
+    assert found == pytest.approx(0.05 * expected, abs=1e-9)
+    assert made.kind == ("polygon" if normal[1] else "rectangle")
+
+
 def test_short_edges_are_collapsed_and_the_specimen_runs(tmp_path):
     source, seeds = laguerre(60, 5)
     (tmp_path / "a.tess").write_text(tess_of(source, seeds))
@@ -124,7 +151,8 @@ BROKEN = {
     "number": (GOOD.replace("0.5 1.0 0.0", "0.5 nan 0.0"), "vertex 6: y = 'nan', must be a number"),
     "vertex": (GOOD.replace(" 1 4 1 5 6 4", " 1 4 1 5 9 4"), "face 1: vertex = '9', must be"),
     "twice": (GOOD.replace(" 1 4 1 5 6 4", " 1 4 1 5 5 4"), "face 1: a vertex is there twice"),
-    "bent": (GOOD.replace("0.5 1.0 0.0 0", "0.5 1.0 0.1 0"), "must be one plane"),
+    "empty": (GOOD.replace(" 1 4 1 5 6 4", " 1 0"), "face 1: vertices = 0, is an empty cell"),
+    "bent": (GOOD.replace("0.5 1.0 0.0 0", "0.5 1.0 0.1 0"), "must be in one plane; cut a slice"),
     "many": (GOOD.replace("**cell\n  2", "**cell\n  200000"), "cells = '200000', must be"),
     "over": (GOOD.replace("0.5 1.0 0.0", "0.5 -1.0 0.0"), "polygon"),
     "size": (GOOD.replace("   3 1.0 1.0", "   3 1.0 1e9"), "size = 1000000000.0 m"),
@@ -146,13 +174,61 @@ def test_a_raster_is_labels_from_below(tmp_path):
     assert np.array_equal(tesr.read(tmp_path / "a.tesr"), labels)
 
 
+LABELS = np.array([[1, 1, 200], [1, 2, 200], [3, 3, 2], [3, 3, 3]])
+FORMS = {
+    **{"binary8": "u1", "binary16": "<i2", "binary16_big": ">i2"},
+    **{"binary32": "<i4", "binary32_big": ">i4"},
+}
+
+
+@pytest.mark.parametrize("kind", [*FORMS, "ascii"])
+def test_cells_of_a_raster_are_bytes_or_in_a_file_of_their_own(tmp_path, kind):
+    text, path = tesr_text(LABELS), tmp_path / "a.tesr"
+    data = text[text.index("ascii\n") + 6 : text.index("***end")].encode()
+    if kind in FORMS:
+        path.write_bytes(tesr_bytes(LABELS, kind, FORMS[kind]))
+        assert np.array_equal(tesr.read(path), LABELS)
+        data = LABELS[::-1].astype(FORMS[kind]).tobytes()
+    (tmp_path / "cells.raw").write_bytes(data)
+    path.write_text(text[: text.index("ascii")] + f"{kind}\n *file cells.raw\n***end\n")
+    assert np.array_equal(tesr.read(path), LABELS)
+    (tmp_path / "cells.raw").write_bytes(data[: len(data) // 2])
+    with pytest.raises(InputError, match="data = 6 pixels, must be 12|cell of a pixel = ''"):
+        tesr.read(path)
+    (tmp_path / "cells.raw").unlink()
+    os.mkfifo(tmp_path / "cells.raw")  # nobody writes into it
+    with pytest.raises(InputError, match="must be a file; put it there"):
+        tesr.read(path)
+
+
+def test_bytes_of_orientations_follow_the_cells_of_a_raster(tmp_path):
+    orientations = b" **oridata\n   rodrigues:active\n   binary16\n\xcf\x36\xff"
+    text = tesr_text(LABELS).encode().replace(b"***end", orientations)
+    (tmp_path / "a.tesr").write_bytes(text)
+    assert np.array_equal(tesr.read(tmp_path / "a.tesr"), LABELS)
+    old = (
+        tesr_text(LABELS)
+        .replace("   2.2\n", "   2.0\n   ascii\n")
+        .replace(" **data\n   ascii", " **data")
+    )
+    (tmp_path / "a.tesr").write_text(old)
+    assert np.array_equal(tesr.read(tmp_path / "a.tesr"), LABELS)
+    (tmp_path / "a.tesr").write_bytes(
+        text.replace(text[text.index(b" **data") : text.index(b" **ori")], b"")
+    )
+    with pytest.raises(InputError, match="data is missing|section = end of the file"):
+        tesr.read(tmp_path / "a.tesr")
+
+
 def test_rasters_that_are_none_in_the_plane_are_refused(tmp_path, capsys):
     good = tesr_text(np.full((8, 8), 1))
     for text, words in (
         (good.replace("   2\n", "   3\n"), "dimension = 3, must be 2: stacks are not read"),
         (good.replace("0.01 0.01", "0.01 0.02"), "pixel = 0.01 x 0.02, must be square"),
-        (good.replace("ascii", "binary16"), "data format = binary16, must be ascii"),
-        (good.replace("ascii", "*file a.raw"), "data = in a file of their own"),
+        (good.replace("ascii", "binary32"), "pixels, must be 64; complete it"),
+        (good.replace("ascii", "binary7"), "data format = 'binary7', must be ascii or one of"),
+        (good.replace("ascii", "ascii *file a.raw"), "a.raw', must be a file; put it there"),
+        (good.replace("**data", "**dada"), "**data is missing, must tell the cell of each pixel"),
         (good.replace("8 8", "80 80"), "cell of a pixel = '***end', must be a whole number"),
         (good.replace("8 8", "99999 99999"), "size = 99999 x 99999 pixels, must be <="),
         (good.replace("1 1 1", "1 0 1"), "image label = 0, is void"),

@@ -113,6 +113,38 @@ def test_faces_may_go_round_either_way_and_the_box_be_anywhere(tmp_path):
     assert (made.cells.contacts, len(made.cells.faces)) == (20, 52)
 
 
+def cylinder(stretch=1.0):
+    """Cells in a cylinder of diameter and height 1 that was turned, moved and perhaps stretched."""
+    draw = np.random.default_rng(8)
+    rows = np.column_stack((draw.uniform(-0.35, 0.35, (40, 2)), draw.random(40), np.full(40, 0.15)))
+    source = Specimen.from_spheres(rows, diameter=1.0, height=1.0, short_edge=0.0)
+    cosine, sine = math.cos(0.3), math.sin(0.3)
+    x, y, z = source.cells.vertices.T
+    moved = np.column_stack((cosine * x - sine * y + 3.0, stretch * (sine * x + cosine * y), z - 1))
+    return source, tess_of(source, vertices=moved.tolist())
+
+
+def test_cells_in_an_upright_cylinder_make_one(tmp_path):
+    source, text = cylinder()
+    (tmp_path / "a.tess").write_text(text)
+    made = require_as_the_file(tmp_path / "a.tess", 0.05)
+    assert made.kind == "cylinder" and made.spec.cells is not None
+    assert made.dimensions == pytest.approx({"diameter": 0.05, "height": 0.05}, rel=1e-9)
+    assert made.cells.volumes == pytest.approx(0.05**3 * source.cells.volumes, rel=1e-9)
+    assert made.outline().walls == pytest.approx(source.outline().walls * [1, 1, 1, 0.05], abs=1e-9)
+    made.save(tmp_path / "a.json")
+    again = Specimen.load_solid(tmp_path / "a.json")
+    assert np.array_equal(again.cells.vertices, made.cells.vertices)
+    same = Specimen.from_spheres(source.spheres * 0.05, diameter=0.05, height=0.05, short_edge=0.0)
+    found, expected = (flexpm.elastic(one, ROCK)["youngs_modulus"] for one in (made, same))
+    assert found == pytest.approx(expected, rel=2e-3)  # tetrahedra meet at other centres
+    (tmp_path / "a.tess").write_text(cylinder(stretch=1.01)[1])
+    with pytest.raises(
+        InputError, match="must lie on a side; take cells of a box along x, y, z or"
+    ):
+        Specimen.from_tess_solid(tmp_path / "a.tess")
+
+
 def test_bricks_are_springs_in_series(tmp_path):
     """Uniform stress along z, stacks of n bricks: 1 / E' = 1 / E + (n - 1) / (K_n L)."""
     (tmp_path / "a.tess").write_text(tess_text(*bricks((2, 3, 5))))
@@ -223,11 +255,12 @@ BROKEN = {
     "many": (GOOD.replace("**cell\n  4", "**cell\n  200000"), "cells = '200000', must be"),
     "twice": (with_cells([*CELLS[0], CELLS[0][0]]), "polyhedron 1: face = 1, must be one of two"),
     "thrice": (with_cells([*CELLS[0], 3]), "line 156: polyhedron 1: face = 3, must be"),
+    "empty": (with_cells([]), "polyhedron 1: faces = 0, is an empty cell; leave out its seed"),
     "open": (with_cells(CELLS[0][1:]), "polyhedra = 0, must be 1 or 2"),
     "hole": (with_cells(CELLS[0][:-1]), "face 14: polyhedra = 0, must be 1 or 2"),
     "bent": (moved(0.5, 0.4, 8), "cell 1, face 8: corners off its plane by = 0.0"),
     "hollow": (moved(0.2, 0.2, 8, 9), "must be convex, to"),
-    "outside": (moved(1.2, 0.0, 12, 13), "must lie on a side of the box"),
+    "outside": (moved(1.2, 0.0, 12, 13), "must lie on a side; take cells"),
     "size": (moved(1e9, 0.0, 12), "width = 1000000000.0 m"),
 }
 

@@ -117,7 +117,8 @@ private:
                 refuse(named("cell", face.first) + ", face " + std::to_string(f + 1)
                         + ": corners off its plane by",
                     bent, "m",
-                    "must be <= " + number(near) + " m; take cells that are not regularised");
+                    "must be <= " + number(near)
+                        + " m; take cells that are neither regularised nor cut by curves");
             }
             if (face.second < 0) face.wall = wall_of(static_cast<int>(f), (1.0 / size) * area);
         }
@@ -138,7 +139,9 @@ private:
         }
         refuse(named("cell", complex.faces[f].first) + ", face " + std::to_string(f + 1)
                 + ": middle of this outer face",
-            place(middles[f]), "must lie on a side of the box; take cells of a box along x, y, z");
+            place(middles[f]),
+            "must lie on a side; take cells of a box along x, y, z or of an upright cylinder of 16 "
+            "facets or more, not periodic");
     }
 
     /// Cells that touch do so in one face.
@@ -218,8 +221,8 @@ private:
         }
         if (std::abs(sum - solid.volume) <= unfilled * solid.volume) return;
         refuse("own_polyhedra: volume of all cells", sum, "m^3",
-            "must be that of the box around them, " + number(solid.volume)
-                + " m^3; take cells of a box along x, y, z");
+            "must be that of the solid around them, " + number(solid.volume)
+                + " m^3; take cells of a box along x, y, z or of a cylinder");
     }
 };
 
@@ -256,7 +259,7 @@ void require_sizes(const std::vector<Sphere>& spheres, const Solid& solid)
         check_positive(name + ": radius", spheres[c].radius, "m");
         // a size of its own sense: tolerances follow it
         if (spheres[c].radius > norm(solid.high - solid.low))
-            refuse(name + ": radius", spheres[c].radius, "m", "must be below the box's size");
+            refuse(name + ": radius", spheres[c].radius, "m", "must be below the solid's size");
     }
 }
 

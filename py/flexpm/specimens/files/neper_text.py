@@ -4,12 +4,18 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 from ...errors import InputError
-from ...files import read_text
+from ...files import read_bytes
 from ...require import quoted
+
+#: Largest file [byte].
+_LARGEST = 64 * 10**6
+#: Behind it are bytes of a raster, its cells or its orientations, if these are in no other file.
+_BINARY = re.compile(rb"\*\*(?:data|oridata\s+\S+|oridef)\s+binary\w*[ \t]*\r?\n(?!\s*\*file\s)")
 
 
 class Words:
@@ -19,6 +25,9 @@ class Words:
         path: The file, at most 64 MB.
         what: What it is, for messages.
 
+    Attributes:
+        binary: What follows the first section of bytes; the words end before it.
+
     Raises:
         InputError: if it cannot be read.
     """
@@ -26,7 +35,10 @@ class Words:
     def __init__(self, path: Path, what: str) -> None:
         self._name = f"{what} = {quoted(str(path))}"
         try:
-            text = read_text(path)
+            content = read_bytes(path, _LARGEST)
+            begin = _BINARY.search(content)
+            end = begin.end() if begin else len(content)
+            text, self.binary = content[:end].decode(), content[end:]
         except OSError as error:
             raise InputError(
                 f"{self._name}, cannot be read ({error.strerror}); give a file of Neper"
@@ -45,6 +57,11 @@ class Words:
     def section(self) -> str:
         """The mark that comes next, such as ``**cell``; empty for another word."""
         return self._next if self._next.startswith("*") else ""
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether a 0 comes next."""
+        return self._next == "0"
 
     def word(self, what: str) -> str:
         """The next word, which is none of a mark."""

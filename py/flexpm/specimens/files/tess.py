@@ -148,10 +148,10 @@ def read(path: Path) -> PlaneTess:
         )
     number, seeds = cells_and_seeds(words)
     rows = vertex_rows(words)
-    wide = np.ptp(rows, axis=0)
-    if not wide[2] <= _ROUNDED * wide[:2].max():
-        raise words.refused(f"vertices: z differs by {wide[2]:g}, must be one plane; project them")
-    vertices = rows[:, :2].copy()
+    axes, off = plane_of(rows)
+    if not off <= _ROUNDED * float(np.ptp(rows, axis=0).max()):
+        raise words.refused(f"vertices: off a plane by {off:g}, must be in one plane; cut a slice")
+    vertices = rows @ axes[:2].T
     pass_edges(words, len(vertices))
     words.expect("**face")
     words.whole("faces", number, number)
@@ -161,10 +161,42 @@ def read(path: Path) -> PlaneTess:
     if seeds is None:
         return found
     mean = float(found.areas.mean()) / np.pi
-    return replace(found, centres=seeds[:, :2].copy(), radii=radii_of(seeds[:, 3], mean))
+    away = (seeds[:, :3] - rows.mean(axis=0)) @ axes[2]  # seeds of a slice are those in space
+    radii = radii_of(seeds[:, 3], mean, away**2)
+    return replace(found, centres=seeds[:, :3] @ axes[:2].T, radii=radii)
 
 
-def radii_of(weights: FloatArray, mean: float) -> tuple[FloatArray, ...]:
+def plane_of(rows: FloatArray) -> tuple[FloatArray, float]:
+    """Axes of the plane that places lie in, and of its normal, and how far they lie off it.
+
+    Axes are those of the frame that are left without the one nearest to the normal: x and y, in
+    their order, of a plane that is level; the more level one is turned into the plane, the other is
+    across.
+
+    Args:
+        rows: Places x, y, z.
+
+    Returns:
+        Rows of unit vectors, and the largest distance.
+    """
+    normal = np.array([0.0, 0.0, 1.0])
+    if np.ptp(rows[:, 2]) > 0.0:
+        unit = rows / np.abs(rows).max()  # none overflows
+        normal = np.linalg.svd(unit - unit.mean(axis=0), full_matrices=False)[2][2]
+    least, most = np.argsort(np.abs(normal), kind="stable")[[0, 2]].tolist()
+    along = np.eye(3)[least] - normal[least] * normal
+    along /= np.linalg.norm(along)
+    other = 3 - least - most
+    across = np.cross(normal, along)
+    across *= np.copysign(1.0, across[other])
+    pair = (along, across) if least < other else (across, along)
+    off = float(np.ptp(rows @ normal))
+    return np.stack((*pair, normal)), off
+
+
+def radii_of(
+    weights: FloatArray, mean: float, away: FloatArray | float = 0.0
+) -> tuple[FloatArray, ...]:
     """Radii of discs or spheres whose Laguerre cells those of the seeds may be.
 
     Neper's weights are radii; files of others may hold their squares. Cells stay the same if all
@@ -173,9 +205,10 @@ def radii_of(weights: FloatArray, mean: float) -> tuple[FloatArray, ...]:
     Args:
         weights: Those of the seeds.
         mean: Square of the radius of a disc or sphere of the mean cell's size.
+        away: Squares of how far the seeds lie from the plane of the cells.
     """
     found = []
-    for squares in (weights * np.abs(weights), weights):
+    for squares in (weights * np.abs(weights) - away, weights - away):
         least = 0.05 * mean - float(squares.min())
         found.append(np.sqrt(squares + max(mean - float(squares.mean()), least)))
     return tuple(found[:1] if np.all(weights == weights[0]) else found)
@@ -220,6 +253,8 @@ def pass_edges(words: Words, vertices: int) -> None:
 def face_ring(words: Words, face: int, vertices: int) -> list[int]:
     """Vertices of a face, from 0."""
     words.whole(f"face {face}: number", face, face)
+    if words.is_zero:
+        raise words.refused(f"face {face}: vertices = 0, is an empty cell; leave out its seed")
     corners = words.whole(f"face {face}: vertices", 3, vertices)
     ring = [words.whole(f"face {face}: vertex", 1, vertices) - 1 for _ in range(corners)]
     if len({*ring}) < corners:

@@ -59,16 +59,19 @@ def read(path: Path) -> OrientationMap:
                 number = len(phases) + 1
             phases[number] = Phase(name, laue.rotations(*group))
         elif key in ("GRID", "XSTEP", "YSTEP"):
-            head.setdefault(key, (value, first))
-    for key in ("GRID", "XSTEP", "YSTEP"):
-        if key not in head:
-            raise text.refused(f"{key} is missing, must be in the head; complete it")
+            head.setdefault(key, (value.rstrip("#"), first))
     if not phases:
         raise text.refused("Symmetry is missing, must be there for each phase; complete the head")
+    if "GRID" not in head:
+        raise text.refused("GRID is missing, must be in the head; complete it")
     kind, line = head["GRID"]
     if kind not in ("SqrGrid", "HexGrid"):
         raise text.refused(f"GRID = {kind}, must be SqrGrid or HexGrid", line)
-    steps = (text.step("XSTEP", *head["XSTEP"]), text.step("YSTEP", *head["YSTEP"]))
+    # heads of other programs may leave the steps to the points
+    both = "XSTEP" in head and "YSTEP" in head
+    steps = (
+        (text.step("XSTEP", *head["XSTEP"]), text.step("YSTEP", *head["YSTEP"])) if both else None
+    )
     values = text.table(first, _COLUMNS)
     indexed = (values[:, 5] >= 0.0) & (np.abs(values[:, :3]) < _NO_ANGLE).all(axis=1)
     phase = _indices(text, values[:, 6], indexed, list(phases))

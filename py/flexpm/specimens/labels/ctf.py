@@ -33,6 +33,11 @@ def read(path: Path) -> OrientationMap:
             found.setdefault(cells[0].strip(), (cells[1].strip(), line))
         if cells[0].strip() == "Phases":
             break
+    if found.get("JobMode", ("",))[0] == "Interactive":
+        raise text.refused(
+            "JobMode = Interactive, must be Grid: points lie anywhere; give a map",
+            found["JobMode"][1],
+        )
     for key in ("XStep", "YStep", "Phases"):
         if key not in found:
             raise text.refused(f"{key} is missing, must be in the head; complete it")

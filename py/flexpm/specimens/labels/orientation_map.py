@@ -218,20 +218,22 @@ class MapText:
         return columns, rows
 
     def grid(
-        self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
+        self, x: FloatArray, y: FloatArray, steps: tuple[float, float] | None, hexagonal: bool
     ) -> Grid:
         """Where points lie, by the steps of the head or, if these do not fit, by their own.
 
         Args:
             x: To the right [um].
             y: Downwards [um].
-            steps: Between columns and between rows, by the head [m].
+            steps: Between columns and between rows, by the head [m]; None: it does not say.
             hexagonal: Whether each second row begins half a step aside, by the head.
 
         Raises:
             InputError: for points that are on no grid, or twice at one place.
         """
         try:
+            if steps is None:
+                raise self.refused("steps are missing, must be in the head; complete it")
             return self._raster(x, y, steps, hexagonal)
         except InputError as error:
             own = _steps_of(x, y)
@@ -242,9 +244,9 @@ class MapText:
                 found = self._raster(x, y, metres, is_hexagonal(x, metres[0]))
             except InputError:
                 raise error from None
-        head = " x ".join(f"{1e6 * step:g}" for step in steps)
-        told = f"{own[0]:g} x {own[1]:g} um by the points, not {head} um as in the head"
-        return replace(found, steps=told)
+        head = " x ".join(f"{1e6 * step:g}" for step in steps or ())
+        other = f"not {head} um as in the head" if head else "none in the head"
+        return replace(found, steps=f"{own[0]:g} x {own[1]:g} um by the points, {other}")
 
     def _raster(
         self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool

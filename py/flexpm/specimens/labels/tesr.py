@@ -11,12 +11,19 @@ from pathlib import Path
 import numpy as np
 
 from ...arrays import IntArray
+from ...files import read_bytes
+from ...require import quoted
 from ..files.neper_text import Words
 from .given import MOST_PIXELS
 
 #: Sides of a pixel differ by less [-].
 _SQUARE = 1e-6
 _LARGEST_LABEL = 2**31 - 1
+#: Numbers of cells by the word for their format.
+_BINARY = {
+    **{"binary8": "u1", "binary16": "<i2", "binary16_big": ">i2"},
+    **{"binary32": "<i4", "binary32_big": ">i4"},
+}
 
 
 def read(path: Path) -> IntArray:
@@ -24,10 +31,13 @@ def read(path: Path) -> IntArray:
 
     Raises:
         InputError: for a file that cannot be read, has three dimensions, pixels that are not
-            square or data that are no text, and one that is broken: with its line.
+            square or orientations alone, and one that is broken: with its line.
     """
     words = Words(path, "tesr")
     words.expect("***tesr")
+    words.expect("**format")
+    # the oldest files have the format of all data here
+    kind = words.word("format of the data") if words.word("format") == "2.0" else ""
     words.skip_to("**general")
     dimension = words.whole("dimension", 1, 3)
     if dimension != 2:
@@ -40,13 +50,40 @@ def read(path: Path) -> IntArray:
     width, height = (words.number(f"size of a pixel {key}") for key in "xy")
     if not abs(width - height) <= _SQUARE * abs(width):
         raise words.refused(f"pixel = {width:g} x {height:g}, must be square; resample it by Neper")
-    words.skip_to("**data")
-    if words.section == "*file":
-        raise words.refused("data = in a file of their own, must be ascii here; write them so")
-    kind = words.word("data format")
-    if kind != "ascii" or words.section:
-        raise words.refused(f"data format = {kind}, must be ascii; write it as ascii")
-    labels = np.array(
-        [words.whole("cell of a pixel", 0, _LARGEST_LABEL) for _ in range(columns * rows)]
-    )
+    if words.skip_to("**data", "***end") == "***end":
+        raise words.refused("**data is missing, must tell the cell of each pixel; find cells first")
+    labels = _cells(words, kind or words.word("data format"), columns * rows, path.parent)
     return labels.reshape(rows, columns)[::-1].copy()
+
+
+def _cells(words: Words, kind: str, number: int, folder: Path) -> IntArray:
+    """Cell of each pixel."""
+    if kind != "ascii" and kind not in _BINARY:
+        raise words.refused(
+            f"data format = {quoted(kind)}, must be ascii or one of {', '.join(_BINARY)}"
+        )
+    binary = words.binary
+    if words.section == "*file":
+        words.expect("*file")
+        path = folder / words.word("file of the data")
+        try:
+            is_there = path.is_file()  # no pipe, which might never end
+            binary = read_bytes(path, 4 * MOST_PIXELS) if is_there else b""
+        except (OSError, ValueError) as error:
+            why = f"cannot be read: {error}"
+            raise words.refused(f"data = {quoted(str(path))}, {why}") from None
+        if not is_there:
+            raise words.refused(f"data = {quoted(str(path))}, must be a file; put it there")
+        if kind == "ascii":
+            words = Words(path, "data of a tesr")
+    if kind == "ascii":
+        whole = [words.whole("cell of a pixel", 0, _LARGEST_LABEL) for _ in range(number)]
+        return np.array(whole)
+    form = np.dtype(_BINARY[kind])
+    there = len(binary) // form.itemsize
+    if there < number:
+        raise words.refused(f"data = {there} pixels, must be {number}; complete it")
+    labels = np.frombuffer(binary, form, number).astype(int)
+    if labels.min() < 0:
+        raise words.refused(f"cell of a pixel = {labels.min()}, must be >= 0; correct it")
+    return labels

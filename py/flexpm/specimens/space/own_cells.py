@@ -3,17 +3,23 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..._flexpm import Polyhedra, own_polyhedra
+from ..._flexpm import Polyhedra, Solid, own_polyhedra
 from ...arrays import FloatArray, IntArray
 from ...files import Table
 from ..files.rules import refuse
 from ..kernel_input import call, checksum
 from .frame import SolidFrame
 from .spec import SolidSpec
+
+#: Faces smaller than this share of the mean one have normals of few digits [-].
+_SMALL = 1e-4
+#: Angle between facets of a mantle above it [rad].
+_TURN = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,13 +93,37 @@ class OwnCells:
         """The kernel's cells, short edges collapsed.
 
         Raises:
-            InputError: for cells that are not closed, plane and convex, or do not fill the box;
-                names cell and face, counted from 1.
+            InputError: for cells that are not closed, plane and convex, or do not fill the box or
+                cylinder; names cell and face, counted from 1.
         """
         short = spec.short_edge * 2.0 * float(np.mean(spheres[:, 3]))
-        solid = SolidFrame.of(spec, 1.0).solid()
         faces = (self.pairs, self.offsets, self.corners)
-        return call(own_polyhedra, self.vertices, faces, spheres, solid, short)
+        return call(own_polyhedra, self.vertices, faces, spheres, self.outline(spec), short)
+
+    def outline(self, spec: SolidSpec) -> Solid:
+        """What the cells of a specimen fill: the mantle has the facets that they have."""
+        grain = 1.0
+        if spec.diameter is not None:
+            grain = math.pi * spec.diameter / max(1, len(self.mantle()))
+        return SolidFrame.of(spec, grain).solid()
+
+    def mantle(self) -> FloatArray:
+        """Facets of upright outer faces, rows of their angle about z [rad] and offset [m]."""
+        outer = np.flatnonzero(self.pairs[:, 1] < 0)
+        areas = self._areas()[outer]
+        sizes = np.linalg.norm(areas, axis=1)
+        kept = (np.abs(areas[:, 2]) < _TURN * sizes) & (sizes > _SMALL * sizes.mean())
+        outer, areas = outer[kept], areas[kept]
+        angles = np.arctan2(areas[:, 1], areas[:, 0])
+        order = np.argsort(angles)
+        first = np.diff(angles[order], prepend=angles[order[-1:]] - 2.0 * math.pi) > _TURN
+        facet = np.empty(len(order), dtype=int)
+        facet[order] = (np.cumsum(first) - 1) % max(1, int(first.sum()))
+        x, y = (np.bincount(facet, one) for one in areas[:, :2].T)
+        turned = np.arctan2(y, x)
+        at = self.vertices[self.corners[self.offsets[outer]]]
+        offsets = at[:, 0] * np.cos(turned[facet]) + at[:, 1] * np.sin(turned[facet])
+        return np.column_stack((turned, np.bincount(facet, offsets) / np.bincount(facet)))
 
     def checksum(self) -> str:
         """Short hash of all of it."""

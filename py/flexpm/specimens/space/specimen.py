@@ -109,17 +109,18 @@ class SolidSpecimen:
     def of_cells(
         cls, given: OwnCells, sizes: dict[str, float], short_edge: float = SHORT_EDGE
     ) -> SolidSpecimen:
-        """Make a specimen of given cells that fill a box from the origin.
+        """Make a specimen of given cells that fill a box from the origin, or a cylinder about z.
 
         Raises:
             InputError: as ``Specimen.from_tess_solid``.
         """
         spheres = given.spheres()
         spec = SolidSpec(
-            "box",
-            sizes["width"],
-            sizes["depth"],
-            sizes["height"],
+            "cylinder" if "diameter" in sizes else "box",
+            sizes.get("width"),
+            sizes.get("depth"),
+            sizes.get("height"),
+            sizes.get("diameter"),
             diameters=None,
             porosity=None,
             seed=None,
@@ -248,6 +249,8 @@ class SolidSpecimen:
 
     def outline(self) -> Solid:
         """What the cells fill, with the walls that their outer faces lie on."""
+        if self.given is not None:
+            return self.given.outline(self.spec)
         return of_spheres.outline_of(self.spheres, self.spec)
 
     def meshes(self) -> FanMeshes:

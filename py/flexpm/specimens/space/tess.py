@@ -7,7 +7,8 @@ The format is that of Neper's documentation, "Tessellation File".
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +32,8 @@ _MOST = 1_000_000
 _ON_A_SIDE = 1e-9
 #: Relative difference of volumes up to which cells are the Laguerre cells of seeds [-].
 _ALIKE = 1e-7
+#: Fewest facets of the kernel's cylinders, and what they may be off a regular prism [-].
+_FEWEST_FACETS, _REGULAR = 16, 1e-6
 
 
 @dataclass(frozen=True)
@@ -45,8 +48,8 @@ class SpaceTess:
     cells: OwnCells
     seeds: FloatArray | None = None
 
-    def in_box(self, scale: float) -> tuple[OwnCells, FloatArray | None, dict[str, float]]:
-        """Cells and seeds in the box around them, which has a corner at the origin, and its sizes.
+    def in_box(self, scale: float) -> tuple[OwnCells, dict[str, float], FloatArray | None]:
+        """Cells in the box around them, which has a corner at the origin, its sizes, and seeds.
 
         Coordinates that are those of a side but for their digits become so.
 
@@ -56,18 +59,54 @@ class SpaceTess:
         low, high = (end(self.cells.vertices, axis=0) for end in (np.min, np.max))
         size = scale * (high - low)
         names = ("width", "depth", "height")
-        for name, one in zip(names, size.tolist(), strict=True):
-            require_number(f"{_WHERE}: {name}", one, LENGTH, "m")
+        _require_sizes(dict(zip(names, size.tolist(), strict=True)))
         near = _ON_A_SIDE * size.max()
         places = scale * (self.cells.vertices - low)
         places = np.where(np.abs(places) <= near, 0.0, places)
         places = np.where(np.abs(places - size) <= near, size, places)
-        moved = OwnCells(places, self.cells.pairs, self.cells.offsets, self.cells.corners)
+        moved = replace(self.cells, vertices=places)
         sizes = dict(zip(names, size.tolist(), strict=True))
         if self.seeds is None:
-            return moved, None, sizes
+            return moved, sizes, None
         seeds = np.column_stack((scale * (self.seeds[:, :3] - low), self.seeds[:, 3]))
-        return moved, seeds, sizes
+        return moved, sizes, seeds
+
+    def in_cylinder(self, scale: float) -> tuple[OwnCells, dict[str, float]] | None:
+        """Cells in an upright cylinder about z from z = 0, and its sizes; None: they fill none.
+
+        It is a regular prism, whose diameter is that of its area; its facets are turned to where
+        the kernel has them.
+
+        Raises:
+            InputError: for a size that no specimen has [m].
+        """
+        angles, offsets = self.cells.mantle().T
+        count = len(angles)
+        if count < _FEWEST_FACETS:
+            return None
+        half = math.pi / count
+        # offset of each facet: apothem, and the way of the axis along its normal
+        rows = np.column_stack((np.ones(count), np.cos(angles), np.sin(angles)))
+        found = np.linalg.lstsq(rows, offsets, rcond=None)[0]
+        apothem, middle = float(found[0]), found[1:]
+        off = np.abs(rows @ found - offsets).max() / apothem
+        steps = np.diff(np.sort(angles), append=angles.min() + 2.0 * math.pi)
+        if not max(off, np.abs(steps - 2.0 * half).max()) < _REGULAR:
+            return None
+        turn = half - float(angles[0])
+        x, y = (self.cells.vertices[:, :2] - middle).T
+        z = self.cells.vertices[:, 2] - self.cells.vertices[:, 2].min()
+        cosine, sine = math.cos(turn), math.sin(turn)
+        places = scale * np.column_stack((cosine * x - sine * y, sine * x + cosine * y, z))
+        diameter = 2.0 * apothem * math.sqrt(count * math.tan(half) / math.pi)
+        sizes = {"diameter": scale * diameter, "height": float(places[:, 2].max())}
+        _require_sizes(sizes)
+        return replace(self.cells, vertices=places), sizes
+
+
+def _require_sizes(sizes: dict[str, float]) -> None:
+    for name, size in sizes.items():
+        require_number(f"{_WHERE}: {name}", size, LENGTH, "m")
 
 
 def read(path: Path) -> SpaceTess:
@@ -98,6 +137,10 @@ def _pairs(words: Words, cells: int, faces: int) -> IntArray:
     pairs = np.full((faces, 2), -1, dtype=np.int32)
     for cell in range(1, cells + 1):
         words.whole(f"polyhedron {cell}: number", cell, cell)
+        if words.is_zero:
+            raise words.refused(
+                f"polyhedron {cell}: faces = 0, is an empty cell; leave out its seed"
+            )
         for _ in range(words.whole(f"polyhedron {cell}: faces", 4, faces)):
             face = abs(words.whole(f"polyhedron {cell}: face", -faces, faces))
             first, second = pairs[face - 1]
@@ -117,7 +160,9 @@ def specimen_of(path: Path, scale: float, short_edge: float) -> SolidSpecimen:
     """A solid of the cells of a tessellation, see `Specimen.from_tess_solid`."""
     require_short_edge(short_edge)
     given = read(path)
-    cells, seeds, sizes = given.in_box(require_number(f"{_WHERE}: scale", scale, POSITIVE, "m"))
+    scale = require_number(f"{_WHERE}: scale", scale, POSITIVE, "m")
+    cylinder = given.in_cylinder(scale)
+    cells, sizes, seeds = given.in_box(scale) if cylinder is None else (*cylinder, None)
     if seeds is not None:
         volumes, _ = cells.measured()
         mean = (0.75 / np.pi * float(volumes.mean())) ** (2.0 / 3.0) / scale**2
