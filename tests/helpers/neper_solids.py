@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 
 import numpy as np
 from neper_files import ring_lines
@@ -63,4 +64,23 @@ def bricks(shape, shift=0.0):
                 if 0 <= cell[axis] < shape[axis]:
                     number = (cell[0] * ny + cell[1]) * nz + cell[2]
                     cells[number].append(sign * len(faces))
+    return vertices, faces, cells
+
+
+def prism(facets, layers):
+    """Vertices, faces and cells of an upright regular prism about z that is cut into layers."""
+    turns = 2.0 * math.pi * np.arange(facets) / facets
+    vertices = [
+        [math.cos(turn), math.sin(turn), float(level)]
+        for level in range(layers + 1)
+        for turn in turns.tolist()
+    ]
+    faces = [[level * facets + k for k in range(facets)] for level in range(layers + 1)]
+    cells = []
+    for level in range(layers):
+        sides = range(len(faces) + 1, len(faces) + facets + 1)
+        cells.append([-(level + 1), level + 2, *sides])
+        for k in range(facets):
+            a, b = (level * facets + one for one in (k, (k + 1) % facets))
+            faces.append([a, b, b + facets, a + facets])
     return vertices, faces, cells

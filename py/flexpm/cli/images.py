@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
 
+#: From which on it is told how much more way contacts give than grains [-].
+_SOFT = 1.0
 #: Out of plane [m].
 _THICKNESS = 0.08
 _thickness = length_option("--thickness", _THICKNESS, "Thickness out of plane", sizes=False)
@@ -189,7 +191,7 @@ def _describe(made: Specimen, folder: Path) -> None:
     """Print the figures of the grains and write them with the specimen and its picture."""
     import numpy as np
 
-    from ..laboratory.forecast import forecast
+    from ..laboratory.forecast import forecast, softness
     from ..report import maps
     from ..specimens.labels.measures import named, of_grains
 
@@ -222,6 +224,12 @@ def _describe(made: Specimen, folder: Path) -> None:
         test = "compression" if made.kind == "rectangle" else "splitting"
         told = f"about {steps} steps, {times}"
         terminal.say(f"  its {test} with the default material, if it passes a peak: {told}")
+    soft = softness(made)
+    if soft > _SOFT:
+        terminal.say(
+            f"  contacts of the default material give way {soft:.2g} times as much as grains so "
+            "small: give normal_stiffness and fracture energies for their size"
+        )
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")
     files = (drawn, folder / "specimen.json", folder / GRAINS_FILE)

@@ -227,7 +227,7 @@ class PlaneShapes(ABC):
         (D76); others are given cells, as in ``from_polygons``.
 
         Args:
-            path: The file, of format 2.0 or later.
+            path: The file, of format 2.0 or later; a slice of cells in space is laid flat.
             thickness: Out of plane [m].
             scale: Length of the file's unit [m].
             short_edge: Edges of Laguerre cells below this share of the mean diameter are

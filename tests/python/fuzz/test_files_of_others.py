@@ -15,8 +15,8 @@ from ebsd_files import ang_text, ctf_text
 from fuzz_child import drawing
 from hypothesis import given
 from hypothesis import strategies as st
-from neper_files import tesr_text, tess_text
-from neper_solids import bricks
+from neper_files import tesr_bytes, tesr_text, tess_text
+from neper_solids import bricks, prism
 from neper_solids import tess_text as solid_text
 from PIL import Image
 
@@ -39,7 +39,15 @@ MAP = {"type": "FeatureCollection", "crs": CRS, "features": FEATURES}
 GOOD = {
     "a.tess": tess_text(CORNERS, [[0, 4, 5, 3], [4, 1, 2, 5]], [(0.25, 0.5, 0), (0.75, 0.5, 0)]),
     "b.tess": solid_text(*bricks((2, 1, 2)), [(0.3, 0.5, z, 0.1) for z in (0.3, 0.4, 0.6, 0.7)]),
+    "c.tess": solid_text(*prism(17, 2)),
+    "s.tess": tess_text(
+        CORNERS,
+        [[0, 4, 5, 3], [4, 1, 2, 5]],
+        [(0.25, 0.5, 0, 0.1), (0.75, 0.5, 0, 0.1)],
+        place=lambda x, y, away: (x + 0.6 * away, 0.8 * y - 0.6 * away, 0.6 * y + 0.8 * away),
+    ),
     "a.tesr": tesr_text(PHASE),
+    "b.tesr": tesr_bytes(PHASE, "binary8", "u1").decode(),
     "a.ctf": ctf_text(PHASE, ANGLES, PHASES),
     "a.ang": ang_text(PHASE, ANGLES, PHASES),
     "h.ang": ang_text(PHASE, ANGLES, PHASES, (1.0, 0.866), hexagonal=True),
@@ -50,7 +58,10 @@ GOOD = {
 READERS = {
     "a.tess": lambda path: Specimen.from_tess(path, 0.01),
     "b.tess": lambda path: Specimen.from_tess_solid(path),
+    "c.tess": lambda path: Specimen.from_tess_solid(path),
+    "s.tess": lambda path: Specimen.from_tess(path, 0.01),
     "a.tesr": tesr.read,
+    "b.tesr": tesr.read,
     "a.ctf": lambda path: ebsd.grains(ebsd.read(path)),
     "a.ang": lambda path: ebsd.grains(ebsd.read(path)),
     "h.ang": lambda path: ebsd.grains(ebsd.read(path), unindexed="hole"),
@@ -59,7 +70,22 @@ READERS = {
 WORDS = st.sampled_from(
     [
         *("0", "-1", "1e300", "-1e300", "nan", "inf", "1e-300", "99999999999999999999", "0.5", "2"),
-        *("", "a", "**vertex", "*seed", "***end", "#", "\x00", "\u00e9", "[]", "{}", '"', "null"),
+        *(
+            "",
+            "a",
+            "**vertex",
+            "*seed",
+            "*file",
+            "binary16",
+            "***end",
+            "#",
+            "\x00",
+            "\u00e9",
+            "[]",
+            "{}",
+            '"',
+            "null",
+        ),
     ]
 )
 

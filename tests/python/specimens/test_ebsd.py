@@ -246,6 +246,10 @@ def test_the_command_names_minerals_in_the_order_of_the_file(tmp_path, capsys):
     assert cli.main(["specimen", "ebsd", str(tmp_path / "a.ctf"), *out]) == 0
     told = capsys.readouterr().out
     assert "in this order: Quartz-new, Biotite" in told
+    # 25.8 GPa / (1.8e14 Pa/m x 10 um)
+    soft = float(told.partition("give way ")[2].split()[0])
+    mean = Specimen.load(tmp_path / "out/grains.json").mean_diameter
+    assert soft == pytest.approx(25.8e9 / (1.8e14 * mean), rel=0.05)
     found = json.loads((tmp_path / "out/specimen.json").read_text())
     assert found["image"]["points"] == 1600
     given = [str(tmp_path / "a.ctf"), "--phases", str(tmp_path / "phases.toml"), *out]

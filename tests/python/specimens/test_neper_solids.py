@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from neper_solids import bricks, tess_of, tess_text
+from neper_solids import bricks, prism, tess_of, tess_text
 
 import flexpm
 from flexpm import Specimen
@@ -138,7 +138,17 @@ def test_cells_in_an_upright_cylinder_make_one(tmp_path):
     same = Specimen.from_spheres(source.spheres * 0.05, diameter=0.05, height=0.05, short_edge=0.0)
     found, expected = (flexpm.elastic(one, ROCK)["youngs_modulus"] for one in (made, same))
     assert found == pytest.approx(expected, rel=2e-3)  # tetrahedra meet at other centres
-    (tmp_path / "a.tess").write_text(cylinder(stretch=1.01)[1])
+    text = tess_text(*prism(16, 2))
+    (tmp_path / "a.tess").write_text(text)
+    area = 8.0 * math.sin(math.pi / 8.0)
+    found = Specimen.from_tess_solid(tmp_path / "a.tess").dimensions
+    assert found == pytest.approx({"diameter": 2.0 * math.sqrt(area / math.pi), "height": 2.0})
+
+
+@pytest.mark.parametrize("kind", ["oval", "few facets"])
+def test_other_prisms_are_refused(tmp_path, kind):
+    text = cylinder(stretch=1.01)[1] if kind == "oval" else tess_text(*prism(15, 2))
+    (tmp_path / "a.tess").write_text(text)
     with pytest.raises(
         InputError, match="must lie on a side; take cells of a box along x, y, z or"
     ):

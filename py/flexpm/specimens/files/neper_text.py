@@ -14,6 +14,8 @@ from ...require import quoted
 
 #: Largest file [byte].
 _LARGEST = 64 * 10**6
+#: Largest number, far beyond any length in any unit.
+_MOST = 1e30
 #: Behind it are bytes of a raster, its cells or its orientations, if these are in no other file.
 _BINARY = re.compile(rb"\*\*(?:data|oridata\s+\S+|oridef)\s+binary\w*[ \t]*\r?\n(?!\s*\*file\s)")
 
@@ -73,13 +75,15 @@ class Words:
         return found
 
     def number(self, what: str) -> float:
-        """The next word as a finite number."""
+        """The next word as a number, whose square is one, too."""
         try:
             value = float(self._next)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value):
-            raise self.refused(f"{what} = {quoted(self._next)}, must be a number; correct it")
+        if not abs(value) <= _MOST:
+            raise self.refused(
+                f"{what} = {quoted(self._next)}, must be a number up to {_MOST:g}; correct it"
+            )
         self._go_on()
         return value
 

@@ -101,14 +101,15 @@ class SolidShapes:
     def from_tess_solid(
         path: Path | str, *, scale: float = 1.0, short_edge: float = SHORT_EDGE
     ) -> SolidSpecimen:
-        """Make a box of the cells of a tessellation of Neper in space, a ``.tess`` file.
+        """Make a solid of the cells of a tessellation of Neper in space, a ``.tess`` file.
 
         Where the cells are the Laguerre cells of the seeds in the file the seeds are the centres
-        (D76); others are given cells about their centroids (D97). The box moves to the origin.
+        (D76); others are given cells about their centroids (D97). A box moves to the origin, and so
+        does a cylinder, which has the diameter of its area and is turned about z.
 
         Args:
             path: The file, of format 2.0 or later, of convex cells with plane faces in a box along
-                x, y and z.
+                x, y and z or in an upright cylinder of 16 facets or more.
             scale: Length of the file's unit [m].
             short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
 
@@ -117,7 +118,7 @@ class SolidShapes:
 
         Raises:
             InputError: for a file that is none of cells in space or is broken, with its line; for
-                cells that are not convex, closed or in a box, and bent faces, by their numbers.
+                cells that are not convex, closed or in such a solid and bent faces, by number.
         """
         from .tess import specimen_of
 
