@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from .. import _plugin, _vendor
-from ..report.pages.page import CHARTS
+from ..report.pages.page import CHARTS, TURNING
 
 Check = tuple[str, bool, str]
 
@@ -41,7 +41,7 @@ def checks() -> Iterator[Check]:
     """
     yield _python()
     yield from _packages()
-    yield _charts()
+    yield from _libraries_of_pages()
     yade, found = _yade()
     yield found
     if yade is None:
@@ -75,11 +75,15 @@ def _packages() -> Iterator[Check]:
             yield name, True, f"{_version(name)} ({purpose})"
 
 
-def _charts() -> Check:
-    name = "libjs-chart.js"
-    if CHARTS.is_file():
-        return name, True, f"{CHARTS} (curves in pages of results)"
-    return name, False, f"missing, needed for curves in pages; install the package {name}"
+def _libraries_of_pages() -> Iterator[Check]:
+    for name, files, purpose in (
+        ("libjs-chart.js", (CHARTS,), "curves in pages of results"),
+        ("libjs-three", TURNING, "solids that turn in pages of results"),
+    ):
+        if all(file.is_file() for file in files):
+            yield name, True, f"{files[0]} ({purpose})"
+        else:
+            yield name, False, f"missing, needed for {purpose}; install the package {name}"
 
 
 def _version(name: str) -> str:

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from browser import opened, shown, slide
 
 import flexpm
 from flexpm.cli import inputs, runs
@@ -369,37 +370,7 @@ def test_a_page_of_the_papers_size_has_at_most_two_megabytes(tmp_path):
 @pytest.fixture(scope="module")
 def browser() -> Iterator[object]:
     """A browser without a window, whose messages and requests are kept."""
-    webdriver = pytest.importorskip("selenium.webdriver", reason="needs python3-selenium")
-    if not Path("/usr/bin/chromedriver").exists():
-        pytest.skip("needs chromium-driver")
-    options = webdriver.ChromeOptions()
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1000,900"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = webdriver.Chrome(
-        options=options, service=webdriver.chrome.service.Service("/usr/bin/chromedriver")
-    )
-    yield driver
-    driver.quit()
-
-
-def shown(browser: object, file: Path) -> list[str]:
-    """Open a page; return the addresses that it asked for."""
-    browser.get_log("performance")
-    browser.get_log("browser")
-    browser.get(file.as_uri())
-    events = [json.loads(line["message"])["message"] for line in browser.get_log("performance")]
-    sent = [event for event in events if event["method"] == "Network.requestWillBeSent"]
-    return [event["params"]["request"]["url"] for event in sent]
-
-
-def slide(browser: object, name: str, position: int) -> None:
-    browser.execute_script(
-        "const s = document.getElementById(arguments[0]); s.value = arguments[1];"
-        "s.dispatchEvent(new Event('input'));",
-        f"{name}-slider",
-        position,
-    )
+    yield from opened("--disable-gpu")
 
 
 def count(browser: object, selector: str) -> int:
@@ -427,11 +398,11 @@ def test_the_slider_moves_the_maps_and_the_mark_on_the_curve(browser, ended):
     mark = "return charts.stress.data.datasets[0].now"
     place = browser.execute_script(mark)
     assert min(at_end) > 0
-    slide(browser, "map", 0)
+    slide(browser, "map-slider", 0)
     assert (count(browser, cracks), count(browser, loose)) == (0, 0)
     assert browser.find_element("id", "map-text").text != said
     assert browser.execute_script(mark) < place
-    slide(browser, "map", page_map._POSITIONS)
+    slide(browser, "map-slider", page_map._POSITIONS)
     assert (count(browser, cracks), count(browser, loose)) == at_end
 
 

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pages that open in a browser without a network: one file with tables, curves, maps, pictures.
 
-The template lays a page out, Chart.js of Debian's libjs-chart.js draws the curves; both are copied
-into the file. Nothing is fetched: the page forbids it to the browser.
+The template lays a page out, Chart.js of Debian's libjs-chart.js draws the curves, three.js of
+libjs-three turns solids; they are copied into the file. Nothing is fetched: the page forbids it to
+the browser.
 """
 
 from __future__ import annotations
 
 import base64
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,6 +22,11 @@ from ...text import printable
 
 #: Where Debian has the library of the curves.
 CHARTS = Path("/usr/share/javascript/chart.js/chart.min.js")
+#: Where it has the library of solids that turn, and how the pointer turns them.
+TURNING = (
+    Path("/usr/share/javascript/three/three.min.js"),
+    Path("/usr/share/javascript/three/examples/js/controls/OrbitControls.js"),
+)
 #: Name of the file in the folder of the results.
 FILE = "report.html"
 _TEMPLATES = Path(__file__).with_name("templates")
@@ -103,6 +109,31 @@ class Map:
     chart: str = ""  #: chart on which the position is marked
 
 
+@dataclass(frozen=True)
+class View:
+    """A solid that turns, at the positions of a map.
+
+    Attributes:
+        name: Name of the element, a word.
+        title: Heading.
+        map: Name of the map whose slider tells the position.
+        counts: Numbers of vertices, faces, grains and positions.
+        size: Sides of the box about the solid [mm].
+        stress: Least and largest stress along the load that has a colour [MPa].
+        data: The arrays, see page_solid.py, deflated, in base64.
+        note: What is left out.
+    """
+
+    name: str
+    title: str
+    map: str
+    counts: dict[str, int]
+    size: Sequence[float]
+    stress: Sequence[float]
+    data: str
+    note: str
+
+
 @dataclass
 class Page:
     """What a page shows; empty parts are left out."""
@@ -115,6 +146,7 @@ class Page:
     warnings: Sequence[str] = ()
     charts: Sequence[Chart] = ()
     maps: Sequence[Map] = ()
+    views: Sequence[View] = ()  #: solids that turn
     tables: Sequence[Rows] = ()
     pictures: Sequence[Picture] = ()
     texts: Sequence[tuple[str, str]] = ()  #: title and text as it stands
@@ -136,16 +168,23 @@ def write(path: Path, page: Page) -> None:
             }
             for one in page.maps
         ],
+        "views": [asdict(view) for view in page.views],
     }
+    there = page.views and all(file.exists() for file in TURNING)
     text = rendered(
         "page.html",
         page=page,
         drawn=drawn,
         library=CHARTS.read_text(encoding="utf-8") if page.charts and CHARTS.exists() else "",
         style=(_TEMPLATES / "page.css").read_text(encoding="utf-8"),
-        script=(_TEMPLATES / "page.js").read_text(encoding="utf-8"),
+        turning=_joined(_TEMPLATES / "three_licence.js", *TURNING) if there else "",
+        script=_joined(_TEMPLATES / "page.js", *([_TEMPLATES / "solid.js"] if page.views else [])),
     )
     write_text(path, text)
+
+
+def _joined(*scripts: Path) -> str:
+    return "\n".join(file.read_text(encoding="utf-8") for file in scripts)
 
 
 def rendered(name: str, **content: object) -> str:

@@ -51,18 +51,14 @@ def crack_map(
         chart: Name of that chart.
     """
     drawing = specimen.section if isinstance(specimen, SolidSnapshot) else specimen
-    record, cracks = result.curve, result.cracks
-    names = words_of_result(result)
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
-    known = np.arange(len(record)) if rows is None else rows
-    places = np.column_stack([record[names.x.column], record[names.y.column], _counts(record)])
-    chosen = rows_to_draw(places[known], _POSITIONS)
+    known = np.arange(len(result.curve)) if rows is None else rows
+    chosen, at = positions_of(result, known)
     positions = known[chosen]
     scale, corner = _frame(drawing.positions)
     outlines = _outlines(drawing, scale, corner)
-    at = np.searchsorted(record["step"][positions], [crack.step for crack in cracks])
-    at = np.minimum(at, len(positions) - 1)
-    found = _fragments(specimen, cracks, at, len(positions))
+    found = fragments_at(specimen, result.cracks, at, len(positions))
+    seen = [grain for grain, path in enumerate(outlines) if path]  # of a solid those in its section
     width, height = np.ptp(drawing.positions, axis=0) * scale
     return Map(
         name=name,
@@ -70,14 +66,24 @@ def crack_map(
         size=(math.ceil(width), math.ceil(height)),
         bar=_bar(scale, float(width)),
         rock=_rock(drawing, outlines, minerals),
-        grains=outlines,
+        grains=[outlines[grain] for grain in seen],
         notches=_ways(_units(drawing.contact_ends[drawing.cuts], scale, corner)),
-        cracks=_crack_paths(drawing, cracks, at, scale, corner),
-        fragments=[_letters(one) for one in found],
+        cracks=_crack_paths(drawing, result.cracks, at, scale, corner),
+        fragments=["".join(map(letters_of(one).__getitem__, seen)) for one in found],
         texts=[_text(result, row, len(one)) for row, one in zip(positions, found, strict=True)],
         rows=[int(row) for row in chosen],
         chart=chart,
     )
+
+
+def positions_of(result: Result, known: IntArray) -> tuple[IntArray, IntArray]:
+    """Positions of a slider among rows of the record, and from which on each crack is there."""
+    record, names = result.curve, words_of_result(result)
+    places = np.column_stack([record[names.x.column], record[names.y.column], _counts(record)])
+    chosen = rows_to_draw(places[known], _POSITIONS)
+    steps = record["step"][known[chosen]]
+    at = np.searchsorted(steps, [crack.step for crack in result.cracks])
+    return chosen, np.minimum(at, len(chosen) - 1)
 
 
 def _counts(record: Curve) -> FloatArray:
@@ -226,7 +232,7 @@ def _first_points(drawing: Snapshot | SolidSnapshot) -> dict[int, int]:
     )
 
 
-def _fragments(
+def fragments_at(
     drawing: Snapshot | SolidSnapshot, cracks: Sequence[AnyCrack], at: IntArray, positions: int
 ) -> list[Fragments]:
     """Fragments at each position: grains hang together while a point of their contact holds."""
@@ -245,7 +251,7 @@ def _fragments(
     return found
 
 
-def _letters(found: Fragments) -> str:
+def letters_of(found: Fragments) -> str:
     """Colour of each grain: of the largest fragment, of a loose grain, or by the first grain."""
     first = np.full(len(found), len(found.labels))
     np.minimum.at(first, found.labels[found.labels >= 0], np.flatnonzero(found.labels >= 0))

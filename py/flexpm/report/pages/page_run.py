@@ -16,6 +16,7 @@ from ...kinds.registry import kind_of
 from ...results import measures
 from ...results.cracks import MODES, SHEAR, TENSILE
 from ...results.result import Result
+from ...results.solids.state import SolidSnapshot
 from ...results.vtu import read_state
 from ...text import words_of
 from ..curves import fits_a_picture
@@ -23,9 +24,23 @@ from ..emission import emission_table
 from ..style import COLOURS, CYCLE, MODE_NAMES
 from ..tables import result_rows, scaled, size_text, test_text
 from ..words import words_of_result
-from .page import FILE, Chart, Line, Map, Page, Picture, Rows, Status, numbers, rows_to_draw, write
+from .page import (
+    FILE,
+    Chart,
+    Line,
+    Map,
+    Page,
+    Picture,
+    Rows,
+    Status,
+    View,
+    numbers,
+    rows_to_draw,
+    write,
+)
 from .page_core import volume_chart
 from .page_map import crack_map
+from .page_solid import solid_view
 
 #: Points of a curve.
 _POINTS = 700
@@ -132,6 +147,7 @@ def write_page(
         warnings=[*result.warnings, *missing],
         charts=[chart, *_volume(result), _energy_chart(result)] if len(rows) else [],
         maps=maps,
+        views=_views(folder, result, rows) if maps else [],
         tables=_tables(result, inputs, _rates_table(result), _networks_table(result)),
         pictures=_pictures(folder, _PICTURES),
         commands=commands,
@@ -184,6 +200,19 @@ def _pictures(folder: Path, titles: Mapping[str, str]) -> list[Picture]:
     """Pictures of a page: those that its folder has."""
     there = {folder / name: title for name, title in titles.items()}
     return [Picture(title, file) for file, title in there.items() if file.is_file()]
+
+
+def _views(folder: Path, result: Result, rows: IntArray) -> list[View]:
+    """A solid that turns, at the positions of its map; the plane has none."""
+    specimen = read_state(folder / "specimen.vtu")
+    if not isinstance(specimen, SolidSnapshot):
+        return []
+    try:
+        final = read_state(folder / "final.vtu")
+    except InputError:
+        final = specimen
+    assert isinstance(final, SolidSnapshot)
+    return [solid_view("map", specimen, final, result, rows)]
 
 
 def _volume(result: Result) -> list[Chart]:

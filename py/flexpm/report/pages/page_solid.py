@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A solid that turns on a page: its faces, when they cracked, and what its grains bear.
+
+Faces are those of the undeformed grains. Their arrays are whole numbers, deflated; the page's
+script has the same order. Cracks come from cracks.csv, stresses from final.vtu.
+"""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ...arrays import FloatArray, IntArray
+from ...results.cracks import AnyCrack
+from ...results.result import Result
+from ...results.solids.state import SolidSnapshot
+from .page import View
+from .page_map import fragments_at, letters_of, positions_of
+
+#: Steps of a coordinate over the longest side: 0.01 mm of a core of 100 mm.
+_STEPS = 10_000
+#: A face that has not cracked, among its positions.
+_NEVER = 255
+#: Grains from which on only faces that crack and the outside are written.
+LARGEST_WHOLE = 20_000
+#: Two places are one, over the longest side.
+_SAME = 1e-7
+#: Part of the stresses that colours leave out at each end [%].
+_BEYOND = 2.0
+
+
+class _Faces(NamedTuple):
+    """Polygons between grains, and triangles on the outside."""
+
+    vertices: FloatArray  #: (n, 3) [m]
+    sizes: IntArray  #: corners of each face
+    corners: IntArray  #: vertices, face after face
+    grains: IntArray  #: first and second grain, -1 outside (F, 2)
+
+
+def solid_view(
+    name: str, specimen: SolidSnapshot, final: SolidSnapshot, result: Result, known: IntArray
+) -> View:
+    """Make the view of a test.
+
+    Args:
+        name: Name of the map with the slider.
+        specimen: The solid before the test.
+        final: It afterwards, for stresses.
+        result: The test, with at least one row in its record.
+        known: Rows of the record among which the slider's positions are.
+    """
+    chosen, at = positions_of(result, known)
+    cracks = result.cracks
+    letters = [letters_of(one) for one in fragments_at(specimen, cracks, at, len(chosen))]
+    faces = _faces(specimen)
+    contacts = len(specimen.contact_grains)
+    time, mode = _crack_times(specimen, cracks, at)
+    note = ""
+    kept = np.ones(len(faces.sizes), dtype=bool)
+    if len(specimen.volumes) > LARGEST_WHOLE:
+        kept[:contacts] = time < _NEVER
+        note = "Faces within that did not crack are left out: a cut shows cracks alone."
+    stress, limits = _stresses(final)
+    low, span = faces.vertices.min(axis=0), np.ptp(faces.vertices, axis=0)
+    scale = _STEPS / float(span.max())
+    owner = np.repeat(np.arange(len(faces.sizes)), faces.sizes)
+    corners = faces.corners[kept[owner]]
+    used, corners = np.unique(corners, return_inverse=True)
+    places = np.rint((faces.vertices[used] - low) * scale).astype(int)
+    codes = np.array([[ord(one) for one in row] for row in letters], dtype=np.uint8)
+    arrays = (
+        *(_varints(np.diff(places[:, axis], prepend=0)) for axis in range(3)),
+        _bytes(faces.sizes[kept]),
+        _varints(np.diff(corners, prepend=0)),
+        _varints(np.diff(faces.grains[kept, 0], prepend=0)),
+        _varints(faces.grains[kept, 1] - faces.grains[kept, 0]),
+        _bytes(np.concatenate([time, np.full(len(faces.sizes) - contacts, _NEVER)])[kept]),
+        _bytes(np.concatenate([mode, np.zeros(len(faces.sizes) - contacts, dtype=int)])[kept]),
+        _bytes(stress),
+        np.concatenate([codes[:1], codes[1:] ^ codes[:-1]]).tobytes(),
+    )
+    return View(
+        name=f"{name}-solid",
+        title="The solid",
+        map=name,
+        counts={
+            "vertices": len(used),
+            "faces": int(kept.sum()),
+            "grains": len(specimen.volumes),
+            "positions": len(letters),
+            "steps": _STEPS,
+        },
+        size=[float(f"{1e3 * side:.6g}") for side in span],
+        stress=[float(f"{1e-6 * one:.4g}") for one in limits],
+        data=base64.b64encode(zlib.compress(b"".join(arrays), 9)).decode(),
+        note=note,
+    )
+
+
+def _faces(solid: SolidSnapshot) -> _Faces:
+    """Contacts first, in their order, then the triangles that no two grains share."""
+    places = np.concatenate([solid.corner_reference, solid.reference])
+    step = _SAME * float(np.ptp(places, axis=0).max())
+    _, first, one = np.unique(
+        np.rint(places / step).astype(np.int64), axis=0, return_index=True, return_inverse=True
+    )
+    one = one.ravel()
+    corner, node = one[: len(solid.corner_reference)], one[len(solid.corner_reference) :]
+    outer = node[solid.tetrahedra[:, 1:]]
+    flat = np.sort(outer, axis=1)
+    _, which, count = np.unique(flat, axis=0, return_inverse=True, return_counts=True)
+    alone = count[which.ravel()] == 1
+    sizes = np.diff(solid.corner_offsets)
+    owners = solid.tetrahedron_grain[alone]
+    return _Faces(
+        vertices=places[first],
+        sizes=np.concatenate([sizes, np.full(int(alone.sum()), 3)]),
+        corners=np.concatenate([corner, outer[alone].ravel()]),
+        grains=np.concatenate(
+            [solid.contact_grains, np.column_stack([owners, np.full(len(owners), -1)])]
+        ),
+    )
+
+
+def _crack_times(
+    solid: SolidSnapshot, cracks: Sequence[AnyCrack], at: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Position at which half of the points of each contact have cracked, and the mode of most."""
+    contacts = len(solid.contact_grains)
+    half = (np.diff(solid.point_offsets) + 1) // 2
+    time, mode = np.full(contacts, _NEVER), np.zeros(contacts, dtype=int)
+    count = np.zeros(contacts, dtype=int)
+    modes = np.zeros((contacts, 3), dtype=int)
+    for number in np.argsort(at, kind="stable").tolist():
+        crack = cracks[number]
+        if not 0 <= crack.contact < contacts:
+            continue
+        count[crack.contact] += 1
+        modes[crack.contact, min(crack.mode, 2)] += 1
+        if count[crack.contact] == half[crack.contact]:
+            time[crack.contact] = min(int(at[number]), _NEVER - 1)
+    cracked = time < _NEVER
+    mode[cracked] = np.argmax(modes[cracked], axis=1)
+    return time, mode
+
+
+def _stresses(solid: SolidSnapshot) -> tuple[IntArray, FloatArray]:
+    """Mean stress of each grain along the load in 256 steps, and the limits of these [Pa]."""
+    along = solid.grain_stress[:, 2]
+    known = along[np.isfinite(along)]
+    limits: FloatArray = (
+        np.percentile(known, (_BEYOND, 100.0 - _BEYOND)) if len(known) else np.zeros(2)
+    )
+    span = max(float(limits[1] - limits[0]), 1e-9)
+    parts = np.nan_to_num((along - limits[0]) / span)
+    return np.rint(255.0 * np.clip(parts, 0.0, 1.0)).astype(int), limits
+
+
+def _bytes(values: IntArray) -> bytes:
+    return np.asarray(values).astype(np.uint8).tobytes()
+
+
+def _varints(values: IntArray) -> bytes:
+    """Whole numbers of either sign in as few bytes as they need, seven bits in each."""
+    left = np.where(values < 0, -2 * values - 1, 2 * values).astype(np.int64)
+    length = np.ones(len(left), dtype=int)
+    for bits in (7, 14, 21, 28):
+        length += left >= 1 << bits
+    ends = np.cumsum(length)
+    found = np.zeros(int(ends[-1]) if len(ends) else 0, dtype=np.uint8)
+    for k in range(5):
+        there = length > k
+        more = length[there] > k + 1
+        found[(ends - length)[there] + k] = ((left[there] >> (7 * k)) & 127) | (more * 128)
+    return found.tobytes()
