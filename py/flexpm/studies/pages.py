@@ -27,7 +27,8 @@ from ..report.pages.page import (
     rows_to_draw,
 )
 from ..report.pages.page import write as write_page
-from ..report.pages.page_run import OWN_STATUS, STATUS, cite, inputs_table, maps_of, versions
+from ..report.pages.page_run import cite, inputs_table, maps_of, versions
+from ..report.pages.statuses import OWN_STATUS, STATUS
 from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_result, words_of_test

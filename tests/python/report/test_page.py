@@ -22,7 +22,7 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.material import load
 from flexpm.report.emission import emission_picture
-from flexpm.report.pages import page, page_map, page_run
+from flexpm.report.pages import page, page_map, page_run, statuses
 from flexpm.results.emission import EventRule, find_events
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu
@@ -85,7 +85,7 @@ def test_a_page_says_what_was_asked_and_what_came_out(ended):
     parsed(ended / page.FILE)
     result = Result.read(ended)
     assert f"<h2>{result.status}</h2>" in text
-    assert page_run.STATUS[result.status].advice in text
+    assert statuses.STATUS[result.status].advice in text
     assert f"{1e-6 * result.peak_stress:.1f} MPa" in text
     assert "<td>cohesion</td><td>29 MPa</td><td>given</td>" in text
     assert "<td>friction</td><td>0.4</td><td>preset augig-table7</td>" in text
@@ -122,7 +122,7 @@ def test_no_report_writes_none(tmp_path):
     assert not (tmp_path / page.FILE).exists()
     assert cli.main(["report", str(tmp_path)]) == 0
     text = (tmp_path / page.FILE).read_text(encoding="utf-8")
-    assert page_run.STATUS[Result.read(tmp_path).status].advice in text
+    assert statuses.STATUS[Result.read(tmp_path).status].advice in text
 
 
 def test_runs_of_a_comparison_have_no_page_of_their_own(compared):
@@ -176,7 +176,7 @@ def test_a_page_of_a_run_that_diverged_is_the_same_when_made_again(tmp_path):
 
 @pytest.mark.parametrize("status", ["ok", "no_peak", "not_quasistatic", "diverged"])
 def test_each_status_has_its_meaning_and_advice(status):
-    found = page_run.STATUS[status]
+    found = statuses.STATUS[status]
     assert found.name == status
     assert found.good == (status == "ok")
     assert len(found.meaning) > 40 < len(found.advice)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the status of a run means and what to do then, in words."""
+
+from __future__ import annotations
+
+from .page import Status
+
+#: What each status means and what to do then; the FAQ of the documentation says more.
+STATUS = {
+    "ok": Status(
+        "ok",
+        True,
+        "The stress has passed its peak and the loading was slow enough: the strength can be used.",
+        "One packing says little about scatter: --seeds 1-5 tests five of them.",
+    ),
+    "no_peak": Status(
+        "no_peak",
+        False,
+        "The stress has not fallen by 10 % from its largest value, so there is no strength.",
+        "If the curve still rises at its end, raise --max-strain. If it has bent over and creeps "
+        "on, parts go on bearing: take more grains. Elastic constants can be used.",
+    ),
+    "not_quasistatic": Status(
+        "not_quasistatic",
+        False,
+        "The loading was too fast: forces were not balanced up to the peak, or the energies do "
+        "not balance. Strengths come out too high.",
+        "Run it again with --rate auto: at half the rate, until the status is ok and the peak "
+        "stands still; if it did so, with more --halvings. With few grains a single crack "
+        "unbalances the whole specimen: take more of them.",
+    ),
+    "diverged": Status(
+        "diverged",
+        False,
+        "A number has become infinite; what came before is in the curve.",
+        "Lower the --rate if it was raised. Look for inputs in other units (Pa, m) and for "
+        "stiffnesses that differ by many orders.",
+    ),
+}
+#: The same of a script's own test, of which nobody knows when it is over, or how slow is slow.
+OWN_STATUS = {
+    "ok": Status(
+        "ok",
+        True,
+        "Energies balance, and the load did not grow fast as its peak came.",
+        "Run the script again at half the rate: what changes is not of the rock.",
+    ),
+    "not_quasistatic": Status(
+        "not_quasistatic",
+        False,
+        "The loading was too fast: the energies do not balance, or the load grew fast as its peak "
+        "came. Strengths come out too high.",
+        "Run the script again at half the rate until the peak stands still.",
+    ),
+    "diverged": STATUS["diverged"],
+    "unfinished": Status(
+        "unfinished",
+        False,
+        "The script has not come to its end; a warning says how it stopped.",
+        "Start the same script again: it goes on from here, to the same bits.",
+    ),
+}
