@@ -154,11 +154,13 @@ void add_lag(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>&
 }
 
 /// Springs of a plate's points to where the plate, or its crosshead, is.
-void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
+void add_plate(const Assembly& a, const Plate& plate, const PointSprings* springs,
+    std::vector<StiffnessEntry>& entries)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const StiffnessBlock k = plate_springs(plate, i);
+        const StiffnessBlock k =
+            springs ? plate_springs(plate, i, (*springs)[i]) : plate_springs(plate, i);
         const auto n = a.facets.nodes(p.facet);
         const auto part = facet_parts(p.weight);
         for (int r = 0; r < facet_nodes; ++r) {
@@ -176,7 +178,12 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
 StiffnessBlock plate_springs(const Plate& plate, int point)
 {
     const PlatePoint p = plate_point(plate, point);
-    return spring_block(in_plane(point_normal(plate, point)), p.stiffness, p.shear_stiffness);
+    return plate_springs(plate, point, { p.stiffness, p.shear_stiffness });
+}
+
+StiffnessBlock plate_springs(const Plate& plate, int point, const PointSpring& k)
+{
+    return spring_block(in_plane(point_normal(plate, point)), k.normal, k.shear);
 }
 
 PlateLag plate_lag(
@@ -201,15 +208,15 @@ Vector point_way(const Plate& plate, int point, Vector displacement, const Plate
         + lag.turn * point_arm(plate, point) * point_normal(plate, point);
 }
 
-std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs)
+std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const GivenSprings& springs)
 {
     std::vector<StiffnessEntry> entries;
     for (int g = 0; g < a.grains.count; ++g)
         add_grain(a.grains, g, entries);
     for (int c = 0; c < a.contacts.count; ++c)
-        add_contact(a, c, springs, entries);
-    for (const Plate& p : a.plates)
-        add_plate(a, p, entries);
+        add_contact(a, c, springs.contacts, entries);
+    for (std::size_t i = 0; i < a.plates.size(); ++i)
+        add_plate(a, a.plates[i], springs.plates.empty() ? nullptr : &springs.plates[i], entries);
     return entries;
 }
 
