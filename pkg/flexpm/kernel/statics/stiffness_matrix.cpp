@@ -120,13 +120,16 @@ LagAnswer lag_answer(const Assembly& a, const Plate& plate)
         const double share = gives ? dot(plate.normal, n) : 0.0, arm = point_arm(plate, i);
         const auto nodes = a.facets.nodes(p.facet);
         const auto parts = facet_parts(p.weight);
-        k += share * share * p.stiffness;
+        const Point t = tangent_of(n);  // friction of a jaw has a part along the plate's normal
+        const double rubs = gives ? dot(in_plane(plate.normal), t) : 0.0;
+        k += share * share * p.stiffness + rubs * rubs * p.shear_stiffness;
         c -= share * arm * p.stiffness;
         m += arm * arm * p.stiffness;
         for (int f = 0; f < facet_nodes; ++f) {
             const double part = parts[f] * p.stiffness;
+            const Point shear = (parts[f] * p.shear_stiffness * rubs) * t;
             if (part != 0.0)
-                found.shares.push_back({ nodes[f], part * share * n, -part * arm * n });
+                found.shares.push_back({ nodes[f], part * share * n + shear, -part * arm * n });
         }
     }
     if (m == 0.0) m = 1.0;
