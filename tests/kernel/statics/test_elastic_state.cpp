@@ -34,7 +34,8 @@ TEST_CASE("Several cases of one factorisation are those of each alone", "[elasti
         Catch::Contains("must be the same in all cases"));
     CHECK_THROWS_WITH(solve_static_cases(a, { { hold_sides(a, 1e-6), { {} }, {} } }, {}),
         Catch::Contains("plates = 1 values, must be 0"));
-    CHECK_THROWS_WITH(solve_static_cases(a, { { hold_sides(a, 1e-6), {}, {} } }, PointSprings(3)),
+    CHECK_THROWS_WITH(
+        solve_static_cases(a, { { hold_sides(a, 1e-6), {}, {} } }, { PointSprings(3), {} }),
         Catch::Contains("springs = 3 values"));
 }
 
@@ -57,12 +58,12 @@ TEST_CASE("Springs of the law's stiffness are its own, and half of them bear hal
     for (const auto& e : stiffness_entries(a))
         largest = std::max(largest, std::fabs(e.value));
     const Array<double> whole = rows(stiffness_entries(a)),
-                        given = rows(stiffness_entries(a, springs));
+                        given = rows(stiffness_entries(a, { springs, {} }));
     for (PointSpring& k : springs)
         k = { 0.5 * k.normal, 0.5 * k.shear };
-    const Array<double> half = rows(stiffness_entries(a, springs));
+    const Array<double> half = rows(stiffness_entries(a, { springs, {} }));
     springs.assign(springs.size(), {});
-    const Array<double> none = rows(stiffness_entries(a, springs));
+    const Array<double> none = rows(stiffness_entries(a, { springs, {} }));
     double borne = 0.0;  // by contacts
     for (std::size_t i = 0; i < whole.size(); ++i) {
         CHECK(std::fabs(whole[i] - given[i]) < 1e-9 * largest);

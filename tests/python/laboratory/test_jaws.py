@@ -29,10 +29,13 @@ def made(model: str = "rigid", **leaves: object) -> flexpm.PartRig:
     return flexpm.PartRig(flexpm.build(disc, rock.with_set(strong, model), model), **leaves)
 
 
-def between(rig: flexpm.PartRig, radius: float, **jaws: object):
+def between(rig: flexpm.PartRig, radius: float, machine: float | None = None, **jaws: object):
     top, low = (rig.jaw((0.0, y), radius, **jaws) for y in (RADIUS, -RADIUS))
     rig.contact_of("angle", top)
-    rig.drive(top, DOWN, against=low, length=DIAMETER, area=DIAMETER * THICKNESS, strength=STRENGTH)
+    area = DIAMETER * THICKNESS
+    rig.drive(
+        top, DOWN, against=low, length=DIAMETER, area=area, strength=STRENGTH, machine=machine
+    )
     return top, low
 
 
@@ -143,6 +146,34 @@ def test_the_static_solution_has_the_force_of_the_steps():
     assert top.force[1] == pytest.approx(state.force(top)[1] * way / 1e-8, rel=0.02)
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_jaw_with_friction_in_a_soft_machine_bears_in_series_with_it(model):
+    """What rubs at its slopes is a part of the load, and of the energies, which close."""
+    jaws = {"angle": 0.9, "friction": 0.3}
+    rig = made(model)
+    between(rig, RADIUS, **jaws)
+    stiff = rig.elastic(way=1e-8)
+    machine = 0.5 * stiff.load / 1e-8
+    rig = made(model)
+    top, low = between(rig, RADIUS, machine=machine, **jaws)
+    soft = rig.elastic(load=stiff.load)
+    assert soft.way == pytest.approx(3e-8, rel=1e-6)
+    assert soft.displacement(top)[1] == pytest.approx(-1e-8, rel=1e-6)
+    rig.strain_to(1e-3, rate=4.0)
+    rig.dwell(60.0, by="way")
+    record = rig.record
+    assert record["machine_energy"][-1] == pytest.approx(
+        0.5 * top.force[1] ** 2 / machine, rel=1e-9
+    )
+    crosshead = record["displacement"][-1] - top.force[1] / machine
+    assert record["crosshead"][-1] == pytest.approx(crosshead, rel=1e-9)
+    assert top.force[1] == pytest.approx(-low.force[1], rel=1e-3)
+    energies = rig.built.solver.energies()
+    assert energies["friction_energy"] > 1e-4 * energies["boundary_work"]
+    given = energies.pop("boundary_work") + energies.pop("initial_energy")
+    assert np.isclose(sum(energies.values()), given, rtol=1e-6)
+
+
 def test_strips_soften_what_a_disc_lies_on():
     stiffness = []
     for strip in (None, 1e14, 1e11):
@@ -170,9 +201,7 @@ def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
             call()
         assert str(error.value).startswith(message), str(error.value)
         assert "\n" not in str(error.value)
-    jaw = rig.jaw(top, 1.5 * RADIUS, friction=0.2)
-    with pytest.raises(InputError, match="friction of a jaw in a soft machine"):
-        rig.drive(jaw, DOWN, machine=1e8)
+    rig.jaw(top, 1.5 * RADIUS, friction=0.2)
     with pytest.raises(InputError, match="jaw: .* lies on plate 0"):
         rig.jaw(top, 1.5 * RADIUS)
     yade.O.reset()

@@ -3,6 +3,7 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/soft_plate.hpp>
 #include <flexpm/kernel/motion/central_difference.hpp>
 
 #include <algorithm>
@@ -27,147 +28,15 @@ void add_force(Facets& facets, const PlatePoint& p, Vector force)
 double shear_force(Plate& plate, const PlatePoint& p, int index, double normal_force, double slip)
 {
     const double old = plate.shear_force[index], trial = old - p.shear_stiffness * slip;
-    const double limit = plate.friction * std::max(normal_force, 0.0);
-    const double next = std::min(std::max(trial, -limit), limit);
+    const double next = within_friction(plate, normal_force, trial);
     plate.friction_energy += 0.5 * (old + next) * (trial - next) / p.shear_stiffness;
     return next;
 }
 
-double normal_force(const Plate& plate, const PlatePoint& p, double gap)
-{
-    return gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
-}
-
-/// Energy of a plate's springs over two motions of it: a give along its normal, against the spring
-/// of its machine, and a turn on its seat. It is convex, in pieces of second order.
-class SoftPlate {
-public:
-    SoftPlate(const Assembly& a, const Plate& plate, double dt) :
-        machine(plate.loaded ? 0.0 : plate.machine_stiffness),
-        give_before(plate.machine_give)
-    {
-        for (int i = 0; i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
-            const auto nodes = a.facets.nodes(p.facet);
-            const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight)
-                + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
-            const Vector along = point_normal(plate, i);
-            const double arm = point_arm(plate, i);
-            points.push_back({ plate.gap[i] + dot(along, way) - arm * plate.angle, p.stiffness,
-                machine > 0.0 ? dot(plate.normal, along) : 0.0, -arm });
-        }
-        bonded = plate.bonded;
-    }
-
-    /// Give and turn of least energy, from none, by Newton's method. A full step ends on its piece;
-    /// one beyond the least energy along it would go to and fro, as points that it has left do not
-    /// bear: it ends there.
-    Point least() const
-    {
-        Point x;
-        std::vector<char> bearing, before;
-        const int most = 2 * static_cast<int>(points.size()) + 30;
-        for (int look = 0; look < most; ++look) {
-            bearing.clear();
-            const Point step = newton_step(x, bearing);
-            if (bearing == before) break;
-            const bool whole = !(slope(x + step, step) > 0.0);
-            x = x + (whole ? 1.0 : least_along(x, step)) * step;
-            if (whole)
-                before = bearing;
-            else
-                before.clear();
-            if (largest_change(step) <= no_change * largest_gap(x)) break;
-        }
-        return x;
-    }
-
-private:
-    struct SoftPoint {
-        double gap, stiffness, give, turn;  ///< [m], [N/m], of the gap over give [-] and turn [m]
-
-        double at(Point x) const { return gap + change(x); }
-        double change(Point x) const { return give * x.x + turn * x.y; }
-    };
-
-    /// Part of the largest gap that a step must change to be one [-].
-    static constexpr double no_change = 1e-14;
-
-    bool bears(const SoftPoint& p, Point x) const { return bonded || p.at(x) < 0.0; }
-
-    Point newton_step(Point x, std::vector<char>& bearing) const
-    {
-        double k = machine, c = 0.0, m = 0.0, force = machine * (give_before + x.x), moment = 0.0;
-        for (const SoftPoint& p : points) {
-            const bool now = bears(p, x);
-            bearing.push_back(now);
-            if (!now) continue;
-            const double spring = p.stiffness * p.at(x);
-            k += p.stiffness * p.give * p.give;
-            c += p.stiffness * p.give * p.turn;
-            m += p.stiffness * p.turn * p.turn;
-            force += spring * p.give;
-            moment += spring * p.turn;
-        }
-        if (k == 0.0) k = 1.0;  // it does not give, or does not turn, and no force asks for it
-        if (m == 0.0) m = 1.0;
-        const double whole = k * m - c * c;
-        return { (c * moment - m * force) / whole, (c * force - k * moment) / whole };
-    }
-
-    /// Growth of the energy along a step.
-    double slope(Point x, Point step) const
-    {
-        double sum = machine * (give_before + x.x) * step.x;
-        for (const SoftPoint& p : points)
-            if (bears(p, x)) sum += p.stiffness * p.at(x) * p.change(step);
-        return sum;
-    }
-
-    /// Part of a step after which the energy grows along it.
-    double least_along(Point x, Point step) const
-    {
-        double low = 0.0, high = 1.0;
-        for (int halving = 0; halving < 60; ++halving) {
-            const double middle = 0.5 * (low + high);
-            (slope(x + middle * step, step) > 0.0 ? high : low) = middle;
-        }
-        return low;
-    }
-
-    double largest_change(Point step) const
-    {
-        double found = 0.0;
-        for (const SoftPoint& p : points)
-            found = std::max(found, std::fabs(p.change(step)));
-        return found;
-    }
-
-    double largest_gap(Point x) const
-    {
-        double found = 0.0;
-        for (const SoftPoint& p : points)
-            found = std::max(found, std::fabs(p.at(x)));
-        return found;
-    }
-
-    double machine, give_before;
-    bool bonded = false;
-    std::vector<SoftPoint> points;
-};
-
-/// Bring a plate to where the spring of its machine bears what its contacts do, and its seat no
-/// moment, at the end of a step that began at the present displacements of the nodes.
-void give_way(const Assembly& a, Plate& plate, double dt)
-{
-    const auto [give, turn] = SoftPlate(a, plate, dt).least();
-    plate.machine_give += give;
-    plate.displacement = plate.displacement - give * plate.normal;
-    plate.angle += turn;
-}
-
 /// Contact forces at the end of a step that began at the present displacements of the nodes.
-Vector touch(Assembly& a, Plate& plate, double dt)
+///
+/// @param give  of the plate, beside its velocity, against its normal [m]
+Vector touch(Assembly& a, Plate& plate, double give, double dt)
 {
     Vector total;
     for (int i = 0; i < plate_points(plate); ++i) {
@@ -182,8 +51,10 @@ Vector touch(Assembly& a, Plate& plate, double dt)
         plate.opening[i] = gap;
         const double normal = normal_force(plate, p, gap);
         if (plate.friction > 0.0) {
-            const Vector slip = dt * (v - plate.velocity);
-            plate.shear_force[i] = shear_force(plate, p, i, normal, dot(tangent, slip));
+            double slip = dot(tangent, dt * (v - plate.velocity));
+            // a straight plate gives square to its face
+            if (!plate.normals.empty()) slip += give * dot(tangent, plate.normal);
+            plate.shear_force[i] = shear_force(plate, p, i, normal, slip);
         }
         const double shear = plate.shear_force[i];
         const Vector force = normal * along + shear * tangent;
@@ -229,8 +100,8 @@ void update_plate(Assembly& a, std::size_t number, double dt, double damping)
     const Vector before = plate.force, from = plate.displacement;
     const bool machine = plate.machine_stiffness > 0.0;
     plate.displacement = plate.displacement + dt * plate.velocity;
-    if (plate.seated || (machine && !plate.loaded)) give_way(a, plate, dt);
-    plate.force = touch(a, plate, dt);
+    const double give = plate.seated || (machine && !plate.loaded) ? give_way(a, plate, dt) : 0.0;
+    plate.force = touch(a, plate, give, dt);
     if (machine && plate.loaded)
         plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
     if (plate.loaded) {
@@ -287,9 +158,6 @@ void set_machine(Assembly& a, int plate, double stiffness)
     if (p.machine_stiffness > 0.0) {
         refuse("stiffness of a machine", stiffness, "N/m",
             "must be given once, was " + number(p.machine_stiffness) + " N/m");
-    }
-    if (!p.normals.empty() && p.friction > 0.0) {
-        refuse("friction of a jaw in a soft machine", p.friction, "", "must be 0");
     }
     p.machine_stiffness = stiffness;
     p.machine_give = dot(p.normal, p.force) / stiffness;

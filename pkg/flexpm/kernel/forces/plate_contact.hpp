@@ -26,8 +26,8 @@ void set_velocity(Assembly& a, int plate, Vector velocity);
 /// The spring and the plate have no mass: the plate is where the spring and its contacts balance,
 /// at each step. It gives way along its normal alone. A plate under a load has no use of it.
 /// Deviation D95.
-/// @throws std::invalid_argument  if there is no such plate, the stiffness is not above 0, the
-///         plate has another spring, or is a jaw with friction
+/// @throws std::invalid_argument  if there is no such plate, the stiffness is not above 0, or the
+///         plate has another spring
 void set_machine(Assembly& a, int plate, double stiffness);
 
 /// Displacement of the crosshead behind a plate, or its own without a machine [m].

@@ -7,13 +7,11 @@
 #include <flexpm/kernel/forces/element_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/nodal_forces.hpp>
-#include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/motion/centre_motion.hpp>
+#include <flexpm/kernel/statics/elastic_solution.hpp>
 #include <flexpm/kernel/statics/one_sided_points.hpp>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +25,17 @@ namespace {
 /// touches yet in its place. The last solution is without.
 constexpr double loose = 1e-6;
 
-/// Solutions after which points must have settled.
-constexpr int most_solutions = 60;
+/// Solutions that all points take over at once, which nearly always suffice.
+constexpr int most_plain_solutions = 20;
 
-/// Stiffness of a plate over that of its springs which is none [-].
-constexpr double no_stiffness = 1e-9;
+/// Part of a way less for which a point sticks that is none [-].
+constexpr double no_change = 1e-4;
+
+/// Solutions after which points must have settled.
+constexpr int most_solutions = 300;
+
+/// Halvings of a step, to where the energy is least along it.
+constexpr int most_halvings = 40;
 
 /// Forces of all kinds at the present displacements, of a state that stands still.
 void refresh_forces(Assembly& a)
@@ -78,285 +82,106 @@ void apply(Assembly& a, const ElasticLoading& loading)
     }
 }
 
-/// Components that are held or driven, at a way of what is driven.
-std::vector<Prescribed> prescribed_at(const Assembly& a, const ElasticLoading& loading, double way)
-{
-    const Grains& grains = a.grains;
-    Array<double> value(grains.displacement.size(), 0.0);
-    std::vector<std::uint8_t> given(grains.prescribed.begin(), grains.prescribed.end());
-    const auto drive = [&](int number, double sense) {
-        const NodeSet& set = a.node_sets.at(number);
-        for (int node : set.nodes) {
-            const Vector arm = grains.position(node) - set.pivot;
-            const Vector v =
-                way * loading.direction + sense * loading.turn * way * Vector { -arm.y, arm.x };
-            set_vector(value, node, in_plane(v));
-        }
-    };
-    for (int s : loading.sets)
-        drive(s, 1.0);
-    for (int s : loading.back_sets)
-        drive(s, -1.0);
-    for (const NodeSet& set : a.node_sets) {
-        for (int node : set.nodes) {
-            for (int axis = 0; axis < grains.layout.dimension; ++axis)
-                if (set.floats && set.holds(axis)) given[grains.component(node, axis)] = 0;
-        }
-    }
-    std::vector<Prescribed> found;
-    for_each_component(grains, [&](int i) {
-        if (given[i]) found.push_back({ i, value[i] });
-    });
-    return found;
-}
-
-StaticCase case_at(const Assembly& a, const ElasticLoading& loading, double way)
-{
-    StaticCase found;
-    found.prescribed = prescribed_at(a, loading, way);
-    found.plates.resize(a.plates.size());
-    found.turns.assign(a.plates.size(), 0.0);
-    for (int p : loading.plates)
-        found.plates[p] = way * loading.direction;
-    found.angles.assign(a.node_sets.size(), 0.0);
-    for (int s : loading.sets)
-        found.angles[s] = loading.turn * way;
-    for (int s : loading.back_sets)
-        found.angles[s] = -loading.turn * way;
-    return found;
-}
-
-/// Displacements from the present state, and the forces of its nodes there.
-struct Motion {
-    Array<double> displacement, force;
-    std::vector<PlateWay> plates;
-    std::vector<double> gives;  ///< of the springs of machines, what they are longer by
-    std::vector<double> angles;
-    double way = 0.0;
-
-    void add(const StaticSolution& s, const StaticCase& of, double factor)
-    {
-        for (std::size_t i = 0; i < displacement.size(); ++i) {
-            displacement[i] += factor * s.displacement[i];
-            force[i] += factor * s.force[i];
-        }
-        for (std::size_t i = 0; i < plates.size(); ++i) {
-            plates[i].displacement = plates[i].displacement + factor * of.plates[i];
-            plates[i].turn += factor * of.turns[i];
-        }
-        for (std::size_t i = 0; i < angles.size(); ++i)
-            angles[i] += factor * of.angles[i];
-    }
-};
-
-/// @throws std::runtime_error  if a displacement is not finite
-double largest(const Array<double>& displacements)
-{
-    double found = 0.0;
-    for (double v : displacements) {
-        if (!std::isfinite(v))
-            fail("find_elastic_state: displacement", number(v) + " m",
-                "must be a finite number; give a smaller way, load or pressure");
-        found = std::max(found, std::fabs(v));
-    }
-    return found;
-}
-
-/// Forces after a motion, at the places from which it is linear.
-void set_forces(const OneSidedPoints& points, const Closed& closed, const Assembly& trial,
-    const Motion& m, Assembly& s)
-{
-    s.grains.force = m.force;
-    for (std::size_t i = 0; i < s.plates.size(); ++i)
-        s.plates[i].force = points.plate_push(closed, trial, i, m.displacement, m.plates[i]).force;
-    update_node_sets(s, 1.0, 0.0);  // their velocities are zero: forces alone
-}
-
-/// State after a motion.
-Assembly state_after(const Assembly& a, const OneSidedPoints& points, const Closed& closed,
-    const Assembly& trial, const Motion& m)
-{
-    Assembly s = a;
-    set_forces(points, closed, trial, m, s);
-    points.for_each_point([&](int c, int p) {
-        const Point n = bonded_normal(a, c),
-                    way = relative_velocity(a.contacts, c, p, m.displacement);
-        PointState state = a.contacts.point_state(c, p);
-        state.opening += dot(n, way);
-        state.slip += dot(tangent_of(n), way);
-        state.shear_traction = points.traction(closed, c, p, way).shear;
-        s.contacts.set_point_state(c, p, state);
-    });
-    for (std::size_t i = 0; i < s.grains.displacement.size(); ++i)
-        s.grains.displacement[i] += m.displacement[i];
-    for (std::size_t i = 0; i < s.plates.size(); ++i) {
-        for (int k = 0; k < plate_points(s.plates[i]); ++k)
-            s.plates[i].opening[k] = points.gap(i, k, m.displacement, m.plates[i]);
-        s.plates[i].displacement = s.plates[i].displacement + m.plates[i].displacement;
-        s.plates[i].angle += m.plates[i].turn;
-        s.plates[i].machine_give -= m.gives[i];
-    }
-    for (std::size_t i = 0; i < s.node_sets.size(); ++i)
-        s.node_sets[i].angle.z += m.angles[i];
-    return s;
-}
-
-double load_of(const Assembly& a, const ElasticLoading& loading)
-{
-    double sum = 0.0;
-    for (int p : loading.plates)
-        sum += dot(a.plates[p].force, loading.direction);
-    for (int s : loading.sets)
-        sum +=
-            dot(a.node_sets[s].force, loading.direction) + loading.turn * a.node_sets[s].moment.z;
-    for (int s : loading.back_sets)
-        sum -= loading.turn * a.node_sets[s].moment.z;
-    return sum;
-}
-
-/// A plate whose way along its normal, or whose turn, is to be found.
-struct FreeWay {
-    int plate;
-    bool turns;
-};
-
-/// Turn of a plate that moves the ends of its face by 1 m [rad].
-double unit_turn(const Plate& plate) { return 2.0 / plate.width; }
-
-/// One solution with points open and closed as they are: the plates under a load, in a soft machine
-/// or on a seat, and what is driven by a load, find their way.
-class Solution {
+/// The search for points that are open or closed as their solution has them, and stick while
+/// closed.
+///
+/// At first all points take over what a solution says. With what sticks given, the energy is convex
+/// and in pieces of second order, so that Newton's steps, each to where the energy is least along
+/// it, end. A point that sticks, and opens by what it then bears, leaves those that stick, once and
+/// for all, and slides while it is closed: that ends, too.
+class Search {
 public:
-    Solution(const Assembly& a, const ElasticLoading& loading, const OneSidedPoints& points,
-        const Closed& closed, double kept) :
-        a(a),
-        loading(loading),
-        points(points),
-        closed(closed),
-        trial(a)
+    Search(const Assembly& a, const ElasticLoading& loading) : a(a), loading(loading), points(a) { }
+
+    ElasticState state()
     {
-        points.loosen_plates(closed, kept, trial);
-        const Array<double> forces = points.forces(closed, trial);
-        cases.push_back(case_at(a, loading, loading.load ? 0.0 : loading.way));
-        cases.front().loads = &forces;
-        for (std::size_t i = 0; i < a.plates.size(); ++i) {
-            trial.plates[i].machine_stiffness = 0.0;  // their springs find their way here
-            trial.plates[i].seated = false;           // likewise
-            const Plate& plate = a.plates[i];
-            if (is_idle(plate)) continue;
-            if (plate.loaded || plate.machine_stiffness > 0.0) {
-                let_go({ static_cast<int>(i), false });
-                cases.back().plates[i] = plate.normal;
-            }
-            if (plate.seated) {
-                let_go({ static_cast<int>(i), true });
-                cases.back().turns[i] = unit_turn(plate);
-            }
+        const std::vector<PlateWay> still(a.plates.size());
+        const Array<double> none(a.grains.displacement.size(), 0.0);
+        now.closed = points.closed(none, still, a.grains.radius.front());
+        now.sticks = points.sticking(now.closed, none, still);
+        now.kept = loose;
+        for (int solutions = 1; solutions < most_solutions; ++solutions) {
+            if (goes_on(solutions <= most_plain_solutions)) continue;
+            now.kept = 0.0;
+            const Motion last = solve_motion(a, loading, points, now);
+            largest(last.displacement);
+            return { state_after(a, points, now, last), last.way, 0.0, solutions + 1, 0 };
         }
-        if (loading.load) cases.push_back(case_at(a, loading, 1.0));
-        found = solve_static_cases(trial, cases, points.springs(closed, kept));
-        motion.displacement.assign(forces.size(), 0.0);
-        motion.force = forces;
-        motion.plates.resize(a.plates.size());
-        motion.gives.assign(a.plates.size(), 0.0);
-        motion.angles.assign(a.node_sets.size(), 0.0);
-        motion.add(found.front(), cases.front(), 1.0);
-        motion.way = loading.load ? 0.0 : loading.way;
-        if (cases.size() > 1) find_ways();
+        fail("find_elastic_state: solutions", number(most_solutions),
+            "must be fewer until contacts stay open or closed; give a smaller way or load");
     }
 
-    Assembly state() const { return state_after(a, points, closed, trial, motion); }
-
-    const Motion& moved() const { return motion; }
+    int count_beyond_friction(const Assembly& s) const
+    {
+        int count = 0;
+        points.for_each_point([&](int c, int p) {
+            const int at = points.index_of(c, p);
+            if (!now.closed[at] || !points.rubs(c, p)) return;
+            const PointTraction t = traction_of(s.contacts, c, p);
+            const double limit =
+                (1.0 + no_gap) * s.contacts.law_of(c).friction * std::max(-t.normal, 0.0);
+            count += now.sticks[at] == 0.0 || std::fabs(t.shear) > limit;
+        });
+        return count;
+    }
 
 private:
-    void let_go(FreeWay way)
+    /// One solution more; returns whether it has changed what bears.
+    bool goes_on(bool plain)
     {
-        free.push_back(way);
-        cases.push_back(case_at(a, loading, 0.0));
-    }
-
-    /// What each way must bring about, less what a motion does.
-    Eigen::VectorXd missing(const Motion& m) const
-    {
-        Eigen::VectorXd out(static_cast<Eigen::Index>(cases.size() - 1));
-        Eigen::Index row = 0;
-        for (const auto& [i, turns] : free) {
-            const Plate& p = a.plates[i];
-            const PlatePush push = points.plate_push(closed, trial, i, m.displacement, m.plates[i]);
-            if (turns) {
-                out[row++] = -unit_turn(p) * push.moment;
-                continue;
-            }
-            const double load =
-                p.loaded ? p.load : p.machine_stiffness * (p.machine_give - m.gives[i]);
-            out[row++] = load - dot(p.normal, push.force);
+        Motion next = solve_motion(a, loading, points, now);
+        bool there = false;
+        if (!plain) {
+            Motion step = next;
+            step.add(at, -1.0);
+            there = largest(step.displacement) <= no_gap * largest(next.displacement);
+            if (energy_growth(a, loading, points, now, next, step) > 0.0)
+                next = between(at, next, least_along(next, step));
         }
-        if (loading.load) {
-            Assembly loaded = a;
-            set_forces(points, closed, trial, m, loaded);
-            out[row] = *loading.load - load_of(loaded, loading);
+        at = std::move(next);
+        PointMarks closed = points.closed(at.displacement, at.plates, largest(at.displacement));
+        const bool changed = !(closed == now.closed);
+        now.closed = std::move(closed);
+        if (!plain && changed && !there) return true;
+        return let_stick(!plain) || changed;
+    }
+
+    /// Part of a step after which the energy grows along it.
+    double least_along(const Motion& end, const Motion& step) const
+    {
+        double low = 0.0, high = 1.0;
+        for (int halving = 0; halving < most_halvings; ++halving) {
+            const double middle = 0.5 * (low + high);
+            const Motion m = between(at, end, middle);
+            (energy_growth(a, loading, points, now, m, step) > 0.0 ? high : low) = middle;
         }
-        return out;
+        return high;
     }
 
-    /// Add a part of a case that lets one of them go its way.
-    void add_way(Motion& m, Eigen::Index which, double factor) const
+    /// Let points stick as they are closed; returns whether that is new.
+    ///
+    /// @param for_good  those that open although they stick will not stick again
+    bool let_stick(bool for_good)
     {
-        m.add(found[which + 1], cases[which + 1], factor);
-        if (which < static_cast<Eigen::Index>(free.size()) && !free[which].turns)
-            m.gives[free[which].plate] += factor;
-    }
-
-    void find_ways()
-    {
-        const Eigen::VectorXd base = missing(motion);
-        Eigen::MatrixXd stiffness(base.size(), base.size());
-        for (Eigen::Index j = 0; j < base.size(); ++j) {
-            Motion one = motion;
-            add_way(one, j, 1.0);
-            stiffness.col(j) = base - missing(one);
+        std::vector<double> sticks = points.sticking(now.closed, at.displacement, at.plates);
+        left.resize(sticks.size(), 0);
+        bool changed = false;
+        for (std::size_t i = 0; i < sticks.size(); ++i) {
+            if (for_good && now.sticks[i] > 0.0 && !now.closed[i]) left[i] = 1;
+            if (left[i]) sticks[i] = 0.0;
+            changed = changed || std::fabs(sticks[i] - now.sticks[i]) > no_change;
         }
-        require_resistance(stiffness);
-        const Eigen::VectorXd ways = stiffness.fullPivLu().solve(base);
-        for (Eigen::Index j = 0; j < ways.size(); ++j)
-            add_way(motion, j, ways[j]);
-        if (loading.load) motion.way = ways[ways.size() - 1];
-    }
-
-    void require_resistance(const Eigen::MatrixXd& stiffness) const
-    {
-        const double whole = stiffness.cwiseAbs().maxCoeff();
-        const auto lu = stiffness.fullPivLu();
-        const double least = lu.matrixLU().diagonal().cwiseAbs().minCoeff();
-        if (least > no_stiffness * whole) return;
-        fail("find_elastic_state: resistance to pressed or driven parts", number(least) + " N/m",
-            "must be above " + number(no_stiffness * whole)
-                + "; hold the specimen against what presses on it");
+        now.sticks = std::move(sticks);
+        return changed;
     }
 
     const Assembly& a;
     const ElasticLoading& loading;
-    const OneSidedPoints& points;
-    const Closed& closed;
-    Assembly trial;
-    std::vector<StaticCase> cases;
-    std::vector<FreeWay> free;
-    std::vector<StaticSolution> found;
-    Motion motion;
+    const OneSidedPoints points;
+    Bearing now;
+    Motion at;        ///< so far
+    PointMarks left;  ///< points that opened although they stuck
 };
-
-int count_beyond_friction(const Assembly& s, const OneSidedPoints& points)
-{
-    int count = 0;
-    points.for_each_point([&](int c, int p) {
-        const LawParameters& law = s.contacts.law_of(c);
-        if (damage_of(s.contacts, c, p) < 1.0) return;
-        const PointTraction t = traction_of(s.contacts, c, p);
-        count += std::fabs(t.shear) > (1.0 + no_gap) * law.friction * std::max(-t.normal, 0.0);
-    });
-    return count;
-}
 
 }  // namespace
 
@@ -370,31 +195,15 @@ ElasticState find_elastic_state(const Assembly& a, const ElasticLoading& loading
     Assembly now = a;
     apply(now, loading);
     refresh_forces(now);
-    const OneSidedPoints points(now);
-    const std::vector<PlateWay> still(now.plates.size());
-    const Array<double> none(now.grains.displacement.size(), 0.0);
-    Closed closed = points.closed(none, still, now.grains.radius.front());
-    for (int solutions = 1; solutions < most_solutions; ++solutions) {
-        const Solution tried(now, loading, points, closed, loose);
-        const Motion& m = tried.moved();
-        Closed next = points.closed(m.displacement, m.plates, largest(m.displacement));
-        if (!(next == closed)) {
-            closed = std::move(next);
-            continue;
-        }
-        const Solution last(now, loading, points, closed, 0.0);
-        largest(last.moved().displacement);
-        ElasticState found { last.state(), last.moved().way, 0.0, solutions + 1, 0 };
-        found.load = load_of(found.state, loading);
-        for (int set : loading.sets) {
-            Vector& moved = found.state.node_sets[set].displacement;
-            moved = moved + found.way * loading.direction;
-        }
-        found.beyond_friction = count_beyond_friction(found.state, points);
-        return found;
+    Search search(now, loading);
+    ElasticState found = search.state();
+    found.load = load_of(found.state, loading);
+    for (int set : loading.sets) {
+        Vector& moved = found.state.node_sets[set].displacement;
+        moved = moved + found.way * loading.direction;
     }
-    fail("find_elastic_state: solutions", number(most_solutions),
-        "must be fewer until contacts stay open or closed; give a smaller way or load");
+    found.beyond_friction = search.count_beyond_friction(found.state);
+    return found;
 }
 
 }  // namespace flexpm

@@ -4,7 +4,7 @@
 /// tension positive.
 /// Deviation D72: the solution is linear about the present state, and points without a bond, or of
 /// plates that are not bonded, open or close until all agree with it. Damage stays as it is; what
-/// is pressed together without a bond sticks, unless it has no friction.
+/// is pressed together without a bond sticks, from where it closes on, unless it has no friction.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -32,7 +32,7 @@ struct ElasticState {
     double way = 0.0;         ///< of what is driven, from now on [m, or rad]
     double load = 0.0;        ///< of what is driven [N, or N m]
     int solutions = 0;        ///< until points were open or closed as the solution has them
-    int beyond_friction = 0;  ///< contact points that stick and would slide
+    int beyond_friction = 0;  ///< contact points that stick and would slide, or open if they stuck
 };
 
 /// @throws std::invalid_argument  if a value is out of range

@@ -7,12 +7,6 @@ namespace flexpm {
 
 namespace {
 
-/// The way [m] of a plate's point, of displacements.
-Point way_of(const Assembly& a, const PlatePoint& p, const Array<double>& moved)
-{
-    return vector_on_edge(moved, a.facets.nodes(p.facet), p.weight);
-}
-
 void add(Array<double>& to, int node, Point force)
 {
     set_vector(to, node, vector_at(to, node) + force);
@@ -20,59 +14,96 @@ void add(Array<double>& to, int node, Point force)
 
 }  // namespace
 
-Closed OneSidedPoints::closed(
+OneSidedPoints::OneSidedPoints(const Assembly& a) :
+    a(a),
+    points(a.contacts.group.points),
+    first_of_plate { a.contacts.count * points }
+{
+    for (const Plate& plate : a.plates)
+        first_of_plate.push_back(first_of_plate.back() + plate_points(plate));
+}
+
+PointMarks OneSidedPoints::closed(
     const Array<double>& moved, const std::vector<PlateWay>& plates, double size) const
 {
-    Closed found;
+    PointMarks found(first_of_plate.back(), 0);
     const double none = no_gap * size;
-    found.contacts.assign(static_cast<std::size_t>(a.contacts.count) * points, 0);
     for_each_point([&](int c, int p) {
         const double gap = gap_of(a.contacts, c, p)
             + dot(bonded_normal(a, c), relative_velocity(a.contacts, c, p, moved));
-        found.contacts[c * points + p] = gap <= none || damage_of(a.contacts, c, p) <= 0.0;
+        found[index_of(c, p)] = gap <= none || damage_of(a.contacts, c, p) <= 0.0;
     });
     for (std::size_t i = 0; i < a.plates.size(); ++i) {
         const Plate& plate = a.plates[i];
-        found.plates.emplace_back();
         for (int k = 0; k < plate_points(plate); ++k) {
             const bool shut = gap(i, k, moved, plates[i]) <= none;
-            found.plates.back().push_back(plate.bonded || (shut && !is_idle(plate)));
+            found[index_of_plate(i, k)] = plate.bonded || (shut && !is_idle(plate));
         }
     }
     return found;
+}
+
+std::vector<double> OneSidedPoints::sticking(
+    const PointMarks& closed, const Array<double>& moved, const std::vector<PlateWay>& plates) const
+{
+    std::vector<double> found(closed.size(), 0.0);
+    const double none = no_gap * a.grains.radius.front();
+    const auto part = [&](double now, double then) {
+        return now <= none ? 1.0 : then < 0.0 ? then / (then - now) : 0.0;
+    };
+    for_each_point([&](int c, int p) {
+        if (!closed[index_of(c, p)] || !rubs(c, p)) return;
+        const double now = gap_of(a.contacts, c, p);
+        const Point way = relative_velocity(a.contacts, c, p, moved);
+        found[index_of(c, p)] = part(now, now + dot(bonded_normal(a, c), way));
+    });
+    for (std::size_t i = 0; i < a.plates.size(); ++i) {
+        const Plate& plate = a.plates[i];
+        for (int k = 0; k < plate_points(plate); ++k) {
+            if (!closed[index_of_plate(i, k)] || plate.friction <= 0.0) continue;
+            const double now = plate.bonded ? 0.0 : plate.opening[k];
+            found[index_of_plate(i, k)] = part(now, gap(i, k, moved, plates[i]));
+        }
+    }
+    return found;
+}
+
+Vector OneSidedPoints::point_way(
+    std::size_t i, int k, const Array<double>& moved, const PlateWay& own) const
+{
+    const Plate& plate = a.plates[i];
+    const PlatePoint p = plate_point(plate, k);
+    return vector_on_edge(moved, a.facets.nodes(p.facet), p.weight) - own.at(plate, k);
 }
 
 double OneSidedPoints::gap(
     std::size_t i, int k, const Array<double>& moved, const PlateWay& own) const
 {
     const Plate& plate = a.plates[i];
-    const Vector way = way_of(a, plate_point(plate, k), moved) - own.at(plate, k);
-    return plate.opening[k] + dot(point_normal(plate, k), way);
+    return plate.opening[k] + dot(point_normal(plate, k), point_way(i, k, moved, own));
 }
 
-PointSprings OneSidedPoints::springs(const Closed& now, double kept) const
+GivenSprings OneSidedPoints::springs(const Bearing& now) const
 {
-    PointSprings found(now.contacts.size());
-    for_each_point([&](int c, int p) { found[c * points + p] = spring(now, c, p, kept); });
+    GivenSprings found;
+    found.contacts.resize(first_of_plate.front());
+    for_each_point([&](int c, int p) { found.contacts[index_of(c, p)] = spring(now, c, p); });
+    for (std::size_t i = 0; i < a.plates.size(); ++i) {
+        found.plates.emplace_back();
+        for (int k = 0; k < plate_points(a.plates[i]); ++k)
+            found.plates.back().push_back(plate_spring(now, i, k));
+    }
     return found;
 }
 
-void OneSidedPoints::loosen_plates(const Closed& now, double kept, Assembly& trial) const
+Array<double> OneSidedPoints::more_force(
+    const Bearing& now, const Array<double>& moved, const std::vector<PlateWay>& plates) const
 {
-    for (std::size_t i = 0; i < a.plates.size(); ++i) {
-        for (std::size_t k = 0; k < now.plates[i].size(); ++k) {
-            trial.plates[i].area[k] = (now.plates[i][k] ? 1.0 : kept) * a.plates[i].area[k];
-        }
-    }
-}
-
-Array<double> OneSidedPoints::forces(const Closed& now, const Assembly& trial) const
-{
-    Array<double> found = a.grains.force;
+    Array<double> found(moved.size(), 0.0);
     for_each_point([&](int c, int p) {
         const PointTraction before = traction_of(a.contacts, c, p);
         const Point n = bonded_normal(a, c);
-        const PointTraction after = traction(now, c, p, {});
+        const PointTraction after = traction(now, c, p, relative_velocity(a.contacts, c, p, moved));
         const Point more =
             (after.normal - before.normal) * n + (after.shear - before.shear) * tangent_of(n);
         for (int side = 0; side < 2; ++side) {
@@ -85,8 +116,8 @@ Array<double> OneSidedPoints::forces(const Closed& now, const Assembly& trial) c
     for (std::size_t i = 0; i < a.plates.size(); ++i) {
         for (int k = 0; k < plate_points(a.plates[i]); ++k) {
             const PlatePoint p = plate_point(a.plates[i], k);
-            const Point more =
-                in_plane(point_force(now, trial, i, k, {}) - flexpm::point_force(a.plates[i], k));
+            const Vector after = point_force(now, i, k, point_way(i, k, moved, plates[i]));
+            const Point more = in_plane(after - flexpm::point_force(a.plates[i], k));
             const auto n = a.facets.nodes(p.facet);
             add(found, n[0], (1.0 - p.weight) * more);
             add(found, n[1], p.weight * more);
@@ -95,50 +126,63 @@ Array<double> OneSidedPoints::forces(const Closed& now, const Assembly& trial) c
     return found;
 }
 
-PointTraction OneSidedPoints::traction(const Closed& now, int c, int p, Point way) const
+PointTraction OneSidedPoints::traction(const Bearing& now, int c, int p, Point way) const
 {
-    const PointSpring k = spring(now, c, p, 0.0);
+    const PointSpring k = spring(now, c, p);
     const Point n = bonded_normal(a, c);
-    const double shear = a.contacts.point_state(c, p).shear_traction;
-    return { k.normal * (gap_of(a.contacts, c, p) + dot(n, way)),
-        (k.shear == 0.0 ? 0.0 : shear) + k.shear * dot(tangent_of(n), way) };
+    const double along = dot(n, way), across = dot(tangent_of(n), way);
+    const double gap = gap_of(a.contacts, c, p),
+                 shear = a.contacts.point_state(c, p).shear_traction;
+    if (damage_of(a.contacts, c, p) < 1.0)
+        return { k.normal * (gap + along), shear + k.shear * across };
+    // what a point keeps holds what would float; it must not pull across a wide gap
+    const int at = index_of(c, p);
+    const double normal = a.contacts.law_of(c).normal_stiffness;
+    return { (now.closed[at] ? normal * gap : 0.0) + k.normal * along,
+        (now.sticks[at] > 0.0 ? shear : 0.0) + k.shear * across };
 }
 
-PointSpring OneSidedPoints::spring(const Closed& now, int c, int p, double kept) const
+PointSpring OneSidedPoints::spring(const Bearing& now, int c, int p) const
 {
     const LawParameters& law = a.contacts.law_of(c);
     const double damage = damage_of(a.contacts, c, p);
-    const bool shut = now.contacts[c * points + p];
+    const int at = index_of(c, p);
+    const bool shut = now.closed[at];
     if (damage <= 0.0) return { law.normal_stiffness, law.shear_stiffness };
     if (damage < 1.0) {
         const double open = law::secant(law, a.contacts.point_state(c, p).max_opening, damage);
         return { shut ? law.normal_stiffness : open, law.shear_stiffness };
     }
-    if (!shut) return { kept * law.normal_stiffness, kept * law.shear_stiffness };
-    return { law.normal_stiffness, (law.friction > 0.0 ? 1.0 : kept) * law.shear_stiffness };
+    return { ((shut ? 1.0 : 0.0) + now.kept) * law.normal_stiffness,
+        (now.sticks[at] + now.kept) * law.shear_stiffness };
 }
 
-Vector OneSidedPoints::point_force(
-    const Closed& now, const Assembly& trial, std::size_t i, int k, Vector way) const
+PointSpring OneSidedPoints::plate_spring(const Bearing& now, std::size_t i, int k) const
+{
+    const PlatePoint p = plate_point(a.plates[i], k);
+    return { ((now.closed[index_of_plate(i, k)] ? 1.0 : 0.0) + now.kept) * p.stiffness,
+        (now.sticks[index_of_plate(i, k)] + now.kept) * p.shear_stiffness };
+}
+
+Vector OneSidedPoints::point_force(const Bearing& now, std::size_t i, int k, Vector way) const
 {
     const Plate& plate = a.plates[i];
-    const PlatePoint p = plate_point(trial.plates[i], k);
+    const PointSpring spring = plate_spring(now, i, k);
     const Vector normal = point_normal(plate, k), t = tangent_of(in_plane(normal));
-    // the little that an open one keeps holds what would float; it must not pull across a wide gap
-    const double gap = now.plates[i][k] ? plate.opening[k] : 0.0;
-    const double shear = now.plates[i][k] ? plate.shear_force[k] : 0.0;
-    return -p.stiffness * (gap + dot(normal, way)) * normal
-        + (shear - p.shear_stiffness * dot(t, way)) * t;
+    const double stiffness = plate_point(plate, k).stiffness;
+    const double pressed = now.closed[index_of_plate(i, k)] ? stiffness * plate.opening[k] : 0.0;
+    const double shear = now.sticks[index_of_plate(i, k)] > 0.0 ? plate.shear_force[k] : 0.0;
+    return -(pressed + spring.normal * dot(normal, way)) * normal
+        + (shear - spring.shear * dot(t, way)) * t;
 }
 
-PlatePush OneSidedPoints::plate_push(const Closed& now, const Assembly& trial, std::size_t i,
-    const Array<double>& moved, const PlateWay& own) const
+PlatePush OneSidedPoints::plate_push(
+    const Bearing& now, std::size_t i, const Array<double>& moved, const PlateWay& own) const
 {
     const Plate& plate = a.plates[i];
     PlatePush sum;
     for (int k = 0; k < plate_points(plate); ++k) {
-        const Vector way = way_of(a, plate_point(plate, k), moved) - own.at(plate, k);
-        const Vector force = point_force(now, trial, i, k, way);
+        const Vector force = point_force(now, i, k, point_way(i, k, moved, own));
         sum.force = sum.force + force;
         sum.moment += point_arm(plate, k) * dot(force, point_normal(plate, k));
     }

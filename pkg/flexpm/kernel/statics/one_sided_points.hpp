@@ -37,45 +37,61 @@ struct PlatePush {
     double moment = 0.0;
 };
 
-/// Whether each point that can be open is closed.
-struct Closed {
-    std::vector<char> contacts;             ///< [contact * points + point]
-    std::vector<std::vector<char>> plates;  ///< [plate][point]
+/// A mark of each point of contacts and plates, see OneSidedPoints::index_of().
+using PointMarks = std::vector<char>;
 
-    bool operator==(const Closed& other) const
-    {
-        return contacts == other.contacts && plates == other.plates;
-    }
+/// How points bear: pressure, if they are closed; shear, if they stick.
+struct Bearing {
+    PointMarks closed;
+    /// Parts of their ways along that those without a bond stick for, see sticking() [-].
+    std::vector<double> sticks;
+    /// Part of its stiffness that each point without a bond has besides, from where it is now: it
+    /// holds what nothing touches, and makes the energy strictly convex [-].
+    double kept = 0.0;
 };
 
 /// What the points of contacts and plates bear, if they are open and closed as they are told to be.
 class OneSidedPoints {
 public:
     /// @param a  the present state, which must outlive this
-    explicit OneSidedPoints(const Assembly& a) : a(a), points(a.contacts.group.points) { }
+    explicit OneSidedPoints(const Assembly& a);
+
+    /// Index into PointMarks.
+    int index_of(int contact, int point) const { return contact * points + point; }
+    int index_of_plate(std::size_t plate, int point) const { return first_of_plate[plate] + point; }
 
     /// Which are closed after displacements [m] from the present state; `size` is that of these.
-    Closed closed(
+    PointMarks closed(
         const Array<double>& moved, const std::vector<PlateWay>& plates, double size) const;
 
-    /// Stiffnesses of the contacts' points; one that is open keeps a part of its own.
-    PointSprings springs(const Closed& now, double kept) const;
+    /// Parts of their ways that closed ones with friction and without a bond stick for: those that
+    /// are open now do from where they close on, if all ways grow alike.
+    std::vector<double> sticking(const PointMarks& closed, const Array<double>& moved,
+        const std::vector<PlateWay>& plates) const;
 
-    /// Take all but that part from open points of plates, in a copy of the state.
-    void loosen_plates(const Closed& now, double kept, Assembly& trial) const;
+    /// Whether a contact's point has friction and no bond.
+    bool rubs(int contact, int point) const
+    {
+        return damage_of(a.contacts, contact, point) >= 1.0
+            && a.contacts.law_of(contact).friction > 0.0;
+    }
 
-    /// Forces on the nodes at the present displacements [N].
-    Array<double> forces(const Closed& now, const Assembly& trial) const;
+    /// Stiffnesses of all.
+    GivenSprings springs(const Bearing& now) const;
+
+    /// Forces on the nodes after displacements, less those now [N].
+    Array<double> more_force(
+        const Bearing& now, const Array<double>& moved, const std::vector<PlateWay>& plates) const;
 
     /// Traction of a contact's point after a way [m] from the present state [Pa].
-    PointTraction traction(const Closed& now, int contact, int point, Point way) const;
+    PointTraction traction(const Bearing& now, int contact, int point, Point way) const;
 
     /// Gap of a plate's point then [m].
     double gap(std::size_t plate, int point, const Array<double>& moved, const PlateWay& way) const;
 
     /// What a plate does to the specimen after displacements [m] from the present state.
-    PlatePush plate_push(const Closed& now, const Assembly& trial, std::size_t plate,
-        const Array<double>& moved, const PlateWay& way) const;
+    PlatePush plate_push(const Bearing& now, std::size_t plate, const Array<double>& moved,
+        const PlateWay& way) const;
 
     /// Calls visit(contact, point) for all that bear.
     template <class Visit> void for_each_point(const Visit& visit) const
@@ -87,12 +103,15 @@ public:
     }
 
 private:
-    PointSpring spring(const Closed& now, int contact, int point, double kept) const;
-    Vector point_force(
-        const Closed& now, const Assembly& trial, std::size_t plate, int point, Vector way) const;
+    PointSpring spring(const Bearing& now, int contact, int point) const;
+    PointSpring plate_spring(const Bearing& now, std::size_t plate, int point) const;
+    Vector point_way(
+        std::size_t plate, int point, const Array<double>& moved, const PlateWay& own) const;
+    Vector point_force(const Bearing& now, std::size_t plate, int point, Vector way) const;
 
     const Assembly& a;
     const int points;
+    std::vector<int> first_of_plate;  ///< and the end behind the last one
 };
 
 }  // namespace flexpm

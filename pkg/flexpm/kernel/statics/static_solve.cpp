@@ -26,7 +26,8 @@ using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
 constexpr double smallest_pivot = 1e-10;
 
 /// Forces on the nodes when the plates are displaced and turned and the grains are not.
-void add_plate_loads(const Assembly& a, const StaticCase& of, Array<double>& loads)
+void add_plate_loads(
+    const Assembly& a, const StaticCase& of, const GivenSprings& springs, Array<double>& loads)
 {
     for (std::size_t number = 0; number < a.plates.size(); ++number) {
         const Plate& plate = a.plates[number];
@@ -34,7 +35,9 @@ void add_plate_loads(const Assembly& a, const StaticCase& of, Array<double>& loa
         const double turn = of.turns.empty() ? 0.0 : of.turns[number];
         for (int i = 0; i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
-            const StiffnessBlock k = plate_springs(plate, i);
+            const StiffnessBlock k = springs.plates.empty()
+                ? plate_springs(plate, i)
+                : plate_springs(plate, i, springs.plates[number][i]);
             Vector u = point_way(plate, i, of.plates[number], lag);
             if (turn != 0.0) u = u + turn * plate.arms[i] * point_normal(plate, i);
             const auto n = a.facets.nodes(p.facet);
@@ -274,11 +277,13 @@ void require_size(const char* what, std::size_t size, std::size_t wanted)
 }  // namespace
 
 std::vector<StaticSolution> solve_static_cases(
-    const Assembly& a, const std::vector<StaticCase>& cases, const PointSprings& springs)
+    const Assembly& a, const std::vector<StaticCase>& cases, const GivenSprings& springs)
 {
     const std::size_t size = a.grains.displacement.size();
     const std::size_t points = static_cast<std::size_t>(a.contacts.count) * a.contacts.group.points;
-    if (!springs.empty()) require_size("springs", springs.size(), points);
+    if (!springs.contacts.empty()) require_size("springs", springs.contacts.size(), points);
+    if (!springs.plates.empty())
+        require_size("springs of plates", springs.plates.size(), a.plates.size());
     const std::vector<StiffnessEntry> entries = stiffness_entries(a, springs);
     std::vector<StaticSolution> found;
     std::vector<int> factorised;
@@ -302,7 +307,7 @@ std::vector<StaticSolution> solve_static_cases(
         StaticSolution& s = found.back();
         s.displacement.assign(size, 0.0);
         s.force.assign(size, 0.0);
-        add_plate_loads(a, one, s.force);
+        add_plate_loads(a, one, springs, s.force);
         const Eigen::VectorXd rhs = right_side(entries, n, given, s.force, one.loads);
         const bool any = !n.index.empty();
         if (any && found.size() == 1) {

@@ -31,13 +31,13 @@ struct StaticCase {
     std::vector<double> turns = {};        ///< of each plate about its seat [rad]; none: 0
 };
 
-/// solve_static() for several cases by one factorisation, with the springs of contacts as given.
+/// solve_static() for several cases by one factorisation, with the springs as given.
 ///
 /// @throws std::invalid_argument  as solve_static(), or if the components, plates or angles of a
 ///         case are others than those of the assembly and the first case
 /// @throws std::runtime_error     as solve_static()
 std::vector<StaticSolution> solve_static_cases(
-    const Assembly& a, const std::vector<StaticCase>& cases, const PointSprings& springs);
+    const Assembly& a, const std::vector<StaticCase>& cases, const GivenSprings& springs);
 
 /// Displacements at which the nodal forces balance `loads` wherever nothing is prescribed. Node
 /// sets that float turn by their angle, as plates have their displacement.

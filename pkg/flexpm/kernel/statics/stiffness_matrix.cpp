@@ -120,13 +120,16 @@ LagAnswer lag_answer(const Assembly& a, const Plate& plate)
         const double share = gives ? dot(plate.normal, n) : 0.0, arm = point_arm(plate, i);
         const auto nodes = a.facets.nodes(p.facet);
         const auto parts = facet_parts(p.weight);
-        k += share * share * p.stiffness;
+        const Point t = tangent_of(n);  // friction of a jaw has a part along the plate's normal
+        const double rubs = gives ? dot(in_plane(plate.normal), t) : 0.0;
+        k += share * share * p.stiffness + rubs * rubs * p.shear_stiffness;
         c -= share * arm * p.stiffness;
         m += arm * arm * p.stiffness;
         for (int f = 0; f < facet_nodes; ++f) {
             const double part = parts[f] * p.stiffness;
+            const Point shear = (parts[f] * p.shear_stiffness * rubs) * t;
             if (part != 0.0)
-                found.shares.push_back({ nodes[f], part * share * n, -part * arm * n });
+                found.shares.push_back({ nodes[f], part * share * n + shear, -part * arm * n });
         }
     }
     if (m == 0.0) m = 1.0;
@@ -154,11 +157,13 @@ void add_lag(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>&
 }
 
 /// Springs of a plate's points to where the plate, or its crosshead, is.
-void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry>& entries)
+void add_plate(const Assembly& a, const Plate& plate, const PointSprings* springs,
+    std::vector<StiffnessEntry>& entries)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
-        const StiffnessBlock k = plate_springs(plate, i);
+        const StiffnessBlock k =
+            springs ? plate_springs(plate, i, (*springs)[i]) : plate_springs(plate, i);
         const auto n = a.facets.nodes(p.facet);
         const auto part = facet_parts(p.weight);
         for (int r = 0; r < facet_nodes; ++r) {
@@ -176,7 +181,12 @@ void add_plate(const Assembly& a, const Plate& plate, std::vector<StiffnessEntry
 StiffnessBlock plate_springs(const Plate& plate, int point)
 {
     const PlatePoint p = plate_point(plate, point);
-    return spring_block(in_plane(point_normal(plate, point)), p.stiffness, p.shear_stiffness);
+    return plate_springs(plate, point, { p.stiffness, p.shear_stiffness });
+}
+
+StiffnessBlock plate_springs(const Plate& plate, int point, const PointSpring& k)
+{
+    return spring_block(in_plane(point_normal(plate, point)), k.normal, k.shear);
 }
 
 PlateLag plate_lag(
@@ -201,15 +211,15 @@ Vector point_way(const Plate& plate, int point, Vector displacement, const Plate
         + lag.turn * point_arm(plate, point) * point_normal(plate, point);
 }
 
-std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs)
+std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const GivenSprings& springs)
 {
     std::vector<StiffnessEntry> entries;
     for (int g = 0; g < a.grains.count; ++g)
         add_grain(a.grains, g, entries);
     for (int c = 0; c < a.contacts.count; ++c)
-        add_contact(a, c, springs, entries);
-    for (const Plate& p : a.plates)
-        add_plate(a, p, entries);
+        add_contact(a, c, springs.contacts, entries);
+    for (std::size_t i = 0; i < a.plates.size(); ++i)
+        add_plate(a, a.plates[i], springs.plates.empty() ? nullptr : &springs.plates[i], entries);
     return entries;
 }
 

@@ -17,21 +17,29 @@ struct StiffnessEntry {
     double value;
 };
 
-/// Springs of a point of contact per area [Pa/m].
+/// Springs of a point of contact per area [Pa/m], or of a plate's point [N/m].
 struct PointSpring {
     double normal = 0.0;
     double shear = 0.0;
 };
 
-/// [contact * ContactGroup::points + point]; none: all points have their full stiffness.
 using PointSprings = std::vector<PointSpring>;
+
+/// Those of all points; none: they have their full stiffness.
+struct GivenSprings {
+    PointSprings contacts;             ///< [contact * ContactGroup::points + point]
+    std::vector<PointSprings> plates;  ///< [plate][point]; of plates that are not soft
+};
 
 /// Terms of the symmetric stiffness at the reference state, of triangles and contact points; terms
 /// of equal row and column are to be summed. Rows of padded lanes do not occur.
-std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const PointSprings& springs = {});
+std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const GivenSprings& springs = {});
 
 /// Springs at one point of a plate: stiffness between the plate and the point [N/m].
 StiffnessBlock plate_springs(const Plate& plate, int point);
+
+/// Given springs along a point's normal and along the plate.
+StiffnessBlock plate_springs(const Plate& plate, int point, const PointSpring& k);
 
 /// How a soft plate answers to a motion.
 struct PlateLag {

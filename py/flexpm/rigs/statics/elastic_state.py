@@ -108,8 +108,9 @@ class PartStatics(PartLoads):
 
         The solution is linear about the present state, so that displacements must be small beside
         the grains. Cracks, notches, and plates that are not bonded bear pressure alone: their
-        points open and close until all agree. What is pressed together without a bond sticks;
-        ``beyond_friction`` counts points that would slide (deviation D72). Damage stays as it is.
+        points open and close until all agree. What is pressed together without a bond sticks, from
+        where it closes on; ``beyond_friction`` counts points that would slide, and the few that
+        would open if they stuck and bear no shear (deviation D72). Damage stays as it is.
         Gravity acts, and so do the pressures that act now. The scene is not changed.
 
         Args:
