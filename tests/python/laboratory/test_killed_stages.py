@@ -60,6 +60,14 @@ def test_it_is_made_again_to_the_same_bits(whole, tmp_path):
     require_same(again, whole)
 
 
+@pytest.mark.long
+def test_other_threads_give_the_same_bits(whole, tmp_path):
+    assert SCRIPT.count('model="rigid"') == 1
+    script = SCRIPT.replace('model="rigid"', 'model="rigid", threads=2')
+    assert ended(started(tmp_path, script)) == (0, "")
+    require_same(tmp_path / "out", whole)
+
+
 @pytest.mark.slow
 def test_kills_over_all_stages_and_parts(whole, tmp_path):
     """A hundred."""
