@@ -18,7 +18,7 @@ from ..files import remove_earlier
 from ..results.solids.state import SolidSnapshot
 from ..text import label_of
 from .maps import MINERALS, crack_segments, draw_scale_bar
-from .style import COLOURS, STYLE, can_be_drawn, save
+from .style import COLOURS, STYLE, can_be_drawn, colour_limits, save
 
 #: Where the eye is, far away, in space.
 _EYE = np.array([0.42, -0.80, 0.43])
@@ -39,9 +39,6 @@ _GRAINS = np.array(
     ]
 )
 _EDGE = (0.25, 0.23, 0.22)
-
-#: Part of the stresses that the colours leave out at each end: singular ones [%].
-_BEYOND = 2.0
 
 
 def outside_picture(
@@ -163,7 +160,7 @@ def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> 
 def _draw_section(figure: Figure, axes: Axes, snapshot: SolidSnapshot) -> None:
     section = snapshot.section
     stress = 1e-6 * section.triangle_stress[:, 1]
-    low, high = np.percentile(stress, (_BEYOND, 100.0 - _BEYOND)) if len(stress) else (0.0, 1.0)
+    low, high = colour_limits(stress)
     corners: FloatArray = 1e3 * section.positions[section.triangles]
     triangles = PolyCollection(list(corners), array=stress, cmap="viridis", edgecolors="face")
     triangles.set(clim=(low, max(high, low + 1e-9)), linewidth=0.2)

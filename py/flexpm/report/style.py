@@ -28,6 +28,8 @@ MODE_NAMES: dict[int, str] = {
 }
 #: Colour of notches.
 CUT = "#1c1c1c"
+#: Part of the values that colours leave out at each end [%].
+_BEYOND = 2.0
 #: Settings of all pictures.
 STYLE = {
     "font.size": 9.0,
@@ -65,6 +67,15 @@ def save(figure: Figure, path: Path | str) -> None:
         # a name may have characters that the font lacks; they are drawn as boxes
         warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
         figure.savefig(temporary)
+
+
+def colour_limits(values: FloatArray) -> tuple[float, float]:
+    """Values between which colours go, without the singular ones; any if there is none."""
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return 0.0, 1.0
+    low, high = np.percentile(known, (_BEYOND, 100.0 - _BEYOND)).tolist()
+    return low, high
 
 
 def can_be_drawn(places: FloatArray) -> bool:

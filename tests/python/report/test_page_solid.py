@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 from browser import opened, shown, slide
 
+import flexpm
 from flexpm.cli import main as cli
-from flexpm.report.pages import page, page_solid
+from flexpm.report.pages import page, page_run, page_solid
 from flexpm.results.result import Result
-from flexpm.results.vtu import read_state
+from flexpm.results.vtu import read_state, write_vtu
 
 SIZES = (0.008, 0.008, 0.016)
 
@@ -43,9 +44,16 @@ def without_webgl() -> Iterator[object]:
 
 
 def view_of(folder: Path):
-    result = Result.read(folder)
-    states = [read_state(folder / name) for name in ("specimen.vtu", "final.vtu")]
-    return page_solid.solid_view("map", *states, result, np.arange(len(result.curve)))
+    return page_run.run_map(folder, Result.read(folder), "map", "", None, turns=True).view
+
+
+def copied(folder: Path, to: Path) -> Path:
+    """Folder with what a page is made of."""
+    to.mkdir()
+    for file in folder.iterdir():
+        if file.suffix in (".json", ".csv", ".vtu", ".png"):
+            (to / file.name).write_bytes(file.read_bytes())
+    return to
 
 
 def numbers(data: bytes, count: int) -> tuple[np.ndarray, bytes]:
@@ -122,6 +130,23 @@ def test_a_large_solid_leaves_out_what_no_cut_needs_to_show(ended, monkeypatch):
     assert whole.note == ""
 
 
+@pytest.mark.parametrize("kind", ["gone", "torn", "of the plane"])
+def test_without_its_last_state_a_solid_has_no_stress(browser, ended, tmp_path, kind):
+    folder = copied(ended, tmp_path / "copy")
+    final = folder / "final.vtu"
+    if kind == "gone":
+        final.unlink()
+    elif kind == "torn":
+        final.write_bytes(final.read_bytes()[:3000])
+    else:
+        write_vtu(final, flexpm.build(flexpm.Specimen.rectangle(0.012, 0.012, 0.01)).snapshot())
+    assert cli.main(["report", str(folder)]) == 0
+    drawn(browser, folder / page.FILE)
+    assert "No stress: final.vtu is missing" in browser.find_element("id", "map-solid-shown").text
+    assert not browser.find_elements("css selector", "#map-solid-colour [value=stress]")
+    assert len(view_of(ended).stress) == 2
+
+
 def pixels(browser: object) -> str:
     return browser.execute_script("return document.getElementById('map-solid-canvas').toDataURL()")
 
@@ -167,11 +192,7 @@ def test_a_browser_without_webgl_says_so(without_webgl, ended):
 def test_a_page_without_the_library_says_so(browser, ended, tmp_path, monkeypatch):
     assert "Permission is hereby granted" in (ended / page.FILE).read_text(encoding="utf-8")
     monkeypatch.setattr(page, "TURNING", (tmp_path / "none.js",))
-    folder = tmp_path / "copy"
-    folder.mkdir()
-    for file in ended.iterdir():
-        if file.suffix in (".json", ".csv", ".vtu", ".png"):
-            (folder / file.name).write_bytes(file.read_bytes())
+    folder = copied(ended, tmp_path / "copy")
     assert cli.main(["report", str(folder)]) == 0
     shown(browser, folder / page.FILE)
     assert "libjs-three was not installed" in browser.find_element("id", "map-solid-missing").text

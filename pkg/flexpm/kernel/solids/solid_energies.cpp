@@ -104,26 +104,23 @@ ContactLoss lost_in_points(const FaceContacts& c)
     return { damage.total(), friction.total() };
 }
 
-/// Call visit(crack, index of its point in `areas`) for each cracked point.
-template <class Visit> void for_each_crack(const FaceContacts& c, Visit visit)
+/// Dissipated by damage in points that have softened and not cracked [J].
+double softened_in_points(const FaceContacts& c)
 {
-    for (int block = 0; block < c.blocks(); ++block) {
-        const auto& cracks = c.cracks[block];
-        for (std::size_t i = 0; i < cracks.size(); ++i)
-            if (cracks[i].mode != intact) visit(cracks[i], c.block_points[block] + i);
-    }
-}
-
-/// Dissipated by damage in points that have cracked [J].
-double damage_of_cracks(const FaceContacts& c)
-{
-    double sum = 0.0;
-    for_each_crack(c, [&](const FaceCrack&, std::size_t point) {
-        const std::size_t first = point / lanes * lanes;
-        sum += c.areas[point]
-            * c.states[first * FaceRow::count + FaceRow::damage_energy * lanes + point % lanes];
-    });
-    return sum;
+    LaneSum whole, friction;
+    double rest = 0.0;
+    const auto add = variant_of<add_lost>();
+    for_each_block(
+        c, [&](int block, const double* areas, const double* states, const double*, int points) {
+            const auto& cracks = c.cracks[block];
+            if (cracks.empty()) add(areas, states, points, whole, friction);
+            for (std::size_t i = 0; i < cracks.size(); ++i) {
+                const double* state = states + i / lanes * FaceRow::count * lanes;
+                if (cracks[i].mode != intact) continue;
+                rest += areas[i] * state[FaceRow::damage_energy * lanes + i % lanes];
+            }
+        });
+    return whole.total() + rest;
 }
 
 /// First of each pair: what has been done up to the present places.
@@ -145,7 +142,7 @@ Energies energies(const SolidState& s)
     const ContactLoss lost = lost_in_points(s.contacts);
     e.damage = lost.damage;
     e.friction = lost.friction;
-    e.softened = lost.damage - damage_of_cracks(s.contacts);
+    e.softened = softened_in_points(s.contacts);
     e.drag = sum_of_first(s.ledger.drag_work);
     e.damping = sum_of_first(s.ledger.damping_work) - e.drag;
     e.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
@@ -260,10 +257,12 @@ std::string find_bad_number(const SolidState& s)
 CrackCount count_cracks(const SolidState& s)
 {
     CrackCount count;
-    for_each_crack(s.contacts, [&](const FaceCrack& crack, std::size_t) {
-        count.tensile += crack.mode == tensile_crack;
-        count.shear += crack.mode == shear_crack;
-    });
+    for (const auto& block : s.contacts.cracks) {
+        for (const FaceCrack& crack : block) {
+            count.tensile += crack.mode == tensile_crack;
+            count.shear += crack.mode == shear_crack;
+        }
+    }
     return count;
 }
 

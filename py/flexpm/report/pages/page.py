@@ -88,6 +88,29 @@ class Picture(NamedTuple):
         return base64.b64encode(self.file.read_bytes()).decode()
 
 
+@dataclass(frozen=True)
+class View:
+    """A solid that turns, at the positions of its map.
+
+    Attributes:
+        name: Name of the element, a word.
+        map: Name of the map whose slider tells the position.
+        counts: Numbers of vertices, faces, grains and positions.
+        size: Sides of the box about the solid [mm].
+        stress: Least and largest stress along the load that has a colour [MPa]; empty: not known.
+        data: The arrays, see page_solid.py, deflated, in base64.
+        note: What is left out.
+    """
+
+    name: str
+    map: str
+    counts: dict[str, int]
+    size: Sequence[float]
+    stress: Sequence[float]
+    data: str
+    note: str
+
+
 @dataclass
 class Map:
     """Cracks and fragments on the undeformed grains, at several positions of a test.
@@ -107,31 +130,7 @@ class Map:
     texts: Sequence[str]  #: what is said of each position
     rows: Sequence[int] = ()  #: point of the chart at each position
     chart: str = ""  #: chart on which the position is marked
-
-
-@dataclass(frozen=True)
-class View:
-    """A solid that turns, at the positions of a map.
-
-    Attributes:
-        name: Name of the element, a word.
-        title: Heading.
-        map: Name of the map whose slider tells the position.
-        counts: Numbers of vertices, faces, grains and positions.
-        size: Sides of the box about the solid [mm].
-        stress: Least and largest stress along the load that has a colour [MPa].
-        data: The arrays, see page_solid.py, deflated, in base64.
-        note: What is left out.
-    """
-
-    name: str
-    title: str
-    map: str
-    counts: dict[str, int]
-    size: Sequence[float]
-    stress: Sequence[float]
-    data: str
-    note: str
+    view: View | None = None  #: of a solid
 
 
 @dataclass
@@ -146,7 +145,6 @@ class Page:
     warnings: Sequence[str] = ()
     charts: Sequence[Chart] = ()
     maps: Sequence[Map] = ()
-    views: Sequence[View] = ()  #: solids that turn
     tables: Sequence[Rows] = ()
     pictures: Sequence[Picture] = ()
     texts: Sequence[tuple[str, str]] = ()  #: title and text as it stands
@@ -156,6 +154,7 @@ class Page:
 
 def write(path: Path, page: Page) -> None:
     """Write a page as one file, whole or not at all."""
+    views = [one.view for one in page.maps if one.view]
     drawn = {
         "charts": [_plain(chart) for chart in page.charts],
         "maps": [
@@ -168,9 +167,9 @@ def write(path: Path, page: Page) -> None:
             }
             for one in page.maps
         ],
-        "views": [asdict(view) for view in page.views],
+        "views": [asdict(view) for view in views],
     }
-    there = page.views and all(file.exists() for file in TURNING)
+    there = views and all(file.exists() for file in TURNING)
     text = rendered(
         "page.html",
         page=page,
@@ -178,7 +177,7 @@ def write(path: Path, page: Page) -> None:
         library=CHARTS.read_text(encoding="utf-8") if page.charts and CHARTS.exists() else "",
         style=(_TEMPLATES / "page.css").read_text(encoding="utf-8"),
         turning=_joined(_TEMPLATES / "three_licence.js", *TURNING) if there else "",
-        script=_joined(_TEMPLATES / "page.js", *([_TEMPLATES / "solid.js"] if page.views else [])),
+        script=_joined(_TEMPLATES / "page.js", *([_TEMPLATES / "solid.js"] if views else [])),
     )
     write_text(path, text)
 

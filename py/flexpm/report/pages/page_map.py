@@ -23,6 +23,7 @@ from ...results.solids.state import SolidSnapshot
 from ..maps import MINERALS
 from ..words import words_of_result
 from .page import Map, rows_to_draw
+from .page_solid import solid_view
 
 #: Length of the longer side in a map's own units, of 0.02 mm in the paper's specimen.
 _LENGTH = 8000
@@ -39,6 +40,9 @@ def crack_map(
     result: Result,
     rows: IntArray | None = None,
     chart: str = "",
+    after: SolidSnapshot | None = None,
+    *,
+    turns: bool = False,
 ) -> Map:
     """Make the map of a test.
 
@@ -49,15 +53,18 @@ def crack_map(
         result: The test, with at least one row in its record.
         rows: Rows of the record that a chart shows; positions are some of these. None: of all.
         chart: Name of that chart.
+        after: A solid after the test, for its stresses.
+        turns: A solid has a view that turns, too.
     """
     drawing = specimen.section if isinstance(specimen, SolidSnapshot) else specimen
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
     known = np.arange(len(result.curve)) if rows is None else rows
-    chosen, at = positions_of(result, known)
+    chosen, at = _positions(result, known)
     positions = known[chosen]
     scale, corner = _frame(drawing.positions)
     outlines = _outlines(drawing, scale, corner)
-    found = fragments_at(specimen, result.cracks, at, len(positions))
+    found = _fragments(specimen, result.cracks, at, len(positions))
+    letters = [_letters(one) for one in found]
     seen = [grain for grain, path in enumerate(outlines) if path]  # of a solid those in its section
     width, height = np.ptp(drawing.positions, axis=0) * scale
     return Map(
@@ -69,14 +76,17 @@ def crack_map(
         grains=[outlines[grain] for grain in seen],
         notches=_ways(_units(drawing.contact_ends[drawing.cuts], scale, corner)),
         cracks=_crack_paths(drawing, result.cracks, at, scale, corner),
-        fragments=["".join(map(letters_of(one).__getitem__, seen)) for one in found],
+        fragments=["".join(map(one.__getitem__, seen)) for one in letters],
         texts=[_text(result, row, len(one)) for row, one in zip(positions, found, strict=True)],
         rows=[int(row) for row in chosen],
         chart=chart,
+        view=solid_view(name, specimen, after, result.cracks, at, letters)
+        if turns and isinstance(specimen, SolidSnapshot)
+        else None,
     )
 
 
-def positions_of(result: Result, known: IntArray) -> tuple[IntArray, IntArray]:
+def _positions(result: Result, known: IntArray) -> tuple[IntArray, IntArray]:
     """Positions of a slider among rows of the record, and from which on each crack is there."""
     record, names = result.curve, words_of_result(result)
     places = np.column_stack([record[names.x.column], record[names.y.column], _counts(record)])
@@ -232,7 +242,7 @@ def _first_points(drawing: Snapshot | SolidSnapshot) -> dict[int, int]:
     )
 
 
-def fragments_at(
+def _fragments(
     drawing: Snapshot | SolidSnapshot, cracks: Sequence[AnyCrack], at: IntArray, positions: int
 ) -> list[Fragments]:
     """Fragments at each position: grains hang together while a point of their contact holds."""
@@ -251,7 +261,7 @@ def fragments_at(
     return found
 
 
-def letters_of(found: Fragments) -> str:
+def _letters(found: Fragments) -> str:
     """Colour of each grain: of the largest fragment, of a loose grain, or by the first grain."""
     first = np.full(len(found), len(found.labels))
     np.minimum.at(first, found.labels[found.labels >= 0], np.flatnonzero(found.labels >= 0))

@@ -16,6 +16,7 @@ from ...kinds.registry import kind_of
 from ...results import measures
 from ...results.cracks import MODES, SHEAR, TENSILE
 from ...results.result import Result
+from ...results.snapshot import Snapshot
 from ...results.solids.state import SolidSnapshot
 from ...results.vtu import read_state
 from ...text import words_of
@@ -32,14 +33,12 @@ from .page import (
     Page,
     Picture,
     Rows,
-    View,
     numbers,
     rows_to_draw,
     write,
 )
 from .page_core import volume_chart
 from .page_map import crack_map
-from .page_solid import solid_view
 from .statuses import OWN_STATUS, STATUS
 
 #: Points of a curve.
@@ -82,7 +81,9 @@ def write_page(
         The file.
     """
     chart, rows = stress_chart(result)
-    maps, missing = maps_of(folder, result, "map", "Cracks and fragments", rows, chart.name)
+    maps, missing = maps_of(
+        folder, result, "map", "Cracks and fragments", rows, chart.name, turns=True
+    )
     page = Page(
         title=test_text(result),
         about=size_text(result),
@@ -92,7 +93,6 @@ def write_page(
         warnings=[*result.warnings, *missing],
         charts=[chart, *_volume(result), _energy_chart(result)] if len(rows) else [],
         maps=maps,
-        views=_views(folder, result, rows) if maps else [],
         tables=_tables(result, inputs, _rates_table(result), _networks_table(result)),
         pictures=_pictures(folder, _PICTURES),
         commands=commands,
@@ -145,19 +145,6 @@ def _pictures(folder: Path, titles: Mapping[str, str]) -> list[Picture]:
     """Pictures of a page: those that its folder has."""
     there = {folder / name: title for name, title in titles.items()}
     return [Picture(title, file) for file, title in there.items() if file.is_file()]
-
-
-def _views(folder: Path, result: Result, rows: IntArray) -> list[View]:
-    """A solid that turns, at the positions of its map; the plane has none."""
-    specimen = read_state(folder / "specimen.vtu")
-    if not isinstance(specimen, SolidSnapshot):
-        return []
-    try:
-        final = read_state(folder / "final.vtu")
-    except InputError:
-        final = specimen
-    assert isinstance(final, SolidSnapshot)
-    return [solid_view("map", specimen, final, result, rows)]
 
 
 def _volume(result: Result) -> list[Chart]:
@@ -244,9 +231,16 @@ def stress_chart(result: Result) -> tuple[Chart, IntArray]:
 
 
 def run_map(
-    folder: Path, result: Result, name: str, title: str, rows: IntArray | None, chart: str = ""
+    folder: Path,
+    result: Result,
+    name: str,
+    title: str,
+    rows: IntArray | None,
+    chart: str = "",
+    *,
+    turns: bool = False,
 ) -> Map | None:
-    """Map of a run; None if its record has no row.
+    """Map of a run, with ``turns`` that of a solid with a view; None if its record has no row.
 
     Raises:
         InputError: if specimen.vtu cannot be read, or is that of another run.
@@ -255,18 +249,39 @@ def run_map(
         return None
     drawing = read_state(folder / "specimen.vtu")
     shown = rows if rows is not None and len(rows) else None
+    after = _state_after(folder, drawing) if turns else None
     try:
-        return crack_map(name, title, drawing, result, shown, chart)
+        return crack_map(name, title, drawing, result, shown, chart, after, turns=turns)
     except (LookupError, ValueError):
         raise InputError("specimen.vtu = another one, must be that of cracks.csv") from None
 
 
+def _state_after(folder: Path, before: Snapshot | SolidSnapshot) -> SolidSnapshot | None:
+    """Last state of a solid; None if its file is gone, damaged or another solid's."""
+    if not isinstance(before, SolidSnapshot):
+        return None
+    try:
+        after = read_state(folder / "final.vtu")
+    except InputError:
+        return None
+    if isinstance(after, SolidSnapshot) and len(after.volumes) == len(before.volumes):
+        return after
+    return None
+
+
 def maps_of(
-    folder: Path, result: Result, name: str, title: str, rows: IntArray | None, chart: str = ""
+    folder: Path,
+    result: Result,
+    name: str,
+    title: str,
+    rows: IntArray | None,
+    chart: str = "",
+    *,
+    turns: bool = False,
 ) -> tuple[list[Map], list[str]]:
     """Map of a run, or in one line why it is missing; arguments as for ``run_map``."""
     try:
-        found = run_map(folder, result, name, title, rows, chart)
+        found = run_map(folder, result, name, title, rows, chart, turns=turns)
     except InputError as error:
         return [], [f"no map: {error}; repeat the run for it"]
     return [] if found is None else [found], []

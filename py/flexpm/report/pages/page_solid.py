@@ -16,10 +16,9 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 from ...results.cracks import AnyCrack
-from ...results.result import Result
 from ...results.solids.state import SolidSnapshot
+from ..style import colour_limits
 from .page import View
-from .page_map import fragments_at, letters_of, positions_of
 
 #: Steps of a coordinate over the longest side: 0.01 mm of a core of 100 mm.
 _STEPS = 10_000
@@ -29,8 +28,6 @@ _NEVER = 255
 LARGEST_WHOLE = 20_000
 #: Two places are one, over the longest side.
 _SAME = 1e-7
-#: Part of the stresses that colours leave out at each end [%].
-_BEYOND = 2.0
 
 
 class _Faces(NamedTuple):
@@ -43,20 +40,23 @@ class _Faces(NamedTuple):
 
 
 def solid_view(
-    name: str, specimen: SolidSnapshot, final: SolidSnapshot, result: Result, known: IntArray
+    name: str,
+    specimen: SolidSnapshot,
+    final: SolidSnapshot | None,
+    cracks: Sequence[AnyCrack],
+    at: IntArray,
+    letters: Sequence[str],
 ) -> View:
     """Make the view of a test.
 
     Args:
         name: Name of the map with the slider.
         specimen: The solid before the test.
-        final: It afterwards, for stresses.
-        result: The test, with at least one row in its record.
-        known: Rows of the record among which the slider's positions are.
+        final: It afterwards, for stresses; None: not known.
+        cracks: Cracks of the test.
+        at: Position of the slider from which on each is there.
+        letters: Colours of the fragments of all grains at each position, a letter a grain.
     """
-    chosen, at = positions_of(result, known)
-    cracks = result.cracks
-    letters = [letters_of(one) for one in fragments_at(specimen, cracks, at, len(chosen))]
     faces = _faces(specimen)
     contacts = len(specimen.contact_grains)
     time, mode = _crack_times(specimen, cracks, at)
@@ -65,7 +65,7 @@ def solid_view(
     if len(specimen.volumes) > LARGEST_WHOLE:
         kept[:contacts] = time < _NEVER
         note = "Faces within that did not crack are left out: a cut shows cracks alone."
-    stress, limits = _stresses(final)
+    stress, limits = (None, ()) if final is None else _stresses(final)
     low, span = faces.vertices.min(axis=0), np.ptp(faces.vertices, axis=0)
     scale = _STEPS / float(span.max())
     owner = np.repeat(np.arange(len(faces.sizes)), faces.sizes)
@@ -81,12 +81,11 @@ def solid_view(
         _varints(faces.grains[kept, 1] - faces.grains[kept, 0]),
         _bytes(np.concatenate([time, np.full(len(faces.sizes) - contacts, _NEVER)])[kept]),
         _bytes(np.concatenate([mode, np.zeros(len(faces.sizes) - contacts, dtype=int)])[kept]),
-        _bytes(stress),
+        _bytes(np.zeros(len(specimen.volumes), dtype=int) if stress is None else stress),
         np.concatenate([codes[:1], codes[1:] ^ codes[:-1]]).tobytes(),
     )
     return View(
         name=f"{name}-solid",
-        title="The solid",
         map=name,
         counts={
             "vertices": len(used),
@@ -149,16 +148,12 @@ def _crack_times(
     return time, mode
 
 
-def _stresses(solid: SolidSnapshot) -> tuple[IntArray, FloatArray]:
+def _stresses(solid: SolidSnapshot) -> tuple[IntArray, tuple[float, float]]:
     """Mean stress of each grain along the load in 256 steps, and the limits of these [Pa]."""
     along = solid.grain_stress[:, 2]
-    known = along[np.isfinite(along)]
-    limits: FloatArray = (
-        np.percentile(known, (_BEYOND, 100.0 - _BEYOND)) if len(known) else np.zeros(2)
-    )
-    span = max(float(limits[1] - limits[0]), 1e-9)
-    parts = np.nan_to_num((along - limits[0]) / span)
-    return np.rint(255.0 * np.clip(parts, 0.0, 1.0)).astype(int), limits
+    low, high = colour_limits(along)
+    parts = np.nan_to_num((along - low) / max(high - low, 1e-9))
+    return np.rint(255.0 * np.clip(parts, 0.0, 1.0)).astype(int), (low, high)
 
 
 def _bytes(values: IntArray) -> bytes:

@@ -90,7 +90,7 @@ function meshesOf(view, arrays) {
 
 class SolidView {
     constructor(view, arrays) {
-        Object.assign(this, { view, arrays, now: view.counts.positions - 1 });
+        Object.assign(this, { view, arrays });
         this.mesh = meshesOf(view, arrays);
         this.element = document.getElementById(`${view.name}-canvas`);
         this.renderer = new THREE.WebGLRenderer({ canvas: this.element, antialias: true, preserveDrawingBuffer: true });
