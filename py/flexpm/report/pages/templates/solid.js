@@ -1,6 +1,6 @@
 "use strict";
 // A solid that turns, by three.js: arrays of report/pages/page_solid.py, and what is shown of them.
-const crackColours = [null, [0.12, 0.36, 0.72], [0.90, 0.45, 0.05]]; // by mode: tension, shear
+const crackColours = [null, [0.0, 0.447, 0.698], [0.835, 0.369, 0.0]]; // by mode: tension, shear, as in page.css
 const fragmentColours = {
     "0": [0.87, 0.84, 0.78], "x": [0.25, 0.25, 0.27], "-": [0.95, 0.95, 0.95],
     "1": [0.55, 0.75, 0.86], "2": [0.93, 0.70, 0.62], "3": [0.70, 0.84, 0.60], "4": [0.80, 0.70, 0.88],
