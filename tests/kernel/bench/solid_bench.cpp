@@ -29,7 +29,7 @@ void solid_faces(benchmark::State& state)
 {
     flexpm::SolidState s = strained(static_cast<int>(state.range(0)), slow);
     for (auto _ : state)
-        flexpm::update_face_blocks(s, 0, s.contacts.blocks());
+        flexpm::update_face_blocks(s, 0, s.contacts.blocks(), 0.0);
     count(state, s);
 }
 BENCHMARK(solid_faces)->Arg(6)->Arg(12)->ArgName("along");

@@ -2,6 +2,7 @@
 /// @file  Specimens in space for the tests of their step, and the same as plain ones.
 #pragma once
 
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>

@@ -46,6 +46,12 @@ bool same(const Array<double>& a, const Array<double>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
+bool same(const std::vector<Array<double>>& a, const std::vector<Array<double>>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+        [](const Array<double>& x, const Array<double>& y) { return same(x, y); });
+}
+
 bool same(const SolidState& a, const SolidState& b)
 {
     for (std::size_t g = 0; g < a.bodies.size(); ++g)

@@ -66,9 +66,7 @@ TEST_CASE("A pair that has slid keeps force and slip as it turns, in lanes", "[s
             CHECK(before.force.z == Approx(pressure * d * d));
             CHECK(std::hypot(before.force.x, before.force.y)
                 == Approx(contact.friction * pressure * d * d).epsilon(1e-6));
-            std::vector<FacePlace> slips;
-            for (int p = 0; p < s.contacts.points_of(0); ++p)
-                slips.push_back(s.contacts.place_of(0, p));
+            const std::vector<FacePlace> slips = places_of(s, 0);
             CHECK(norm(slips[0].slip) == Approx(slid));
             const Vector angle { axis == 0 ? 0.1 : 0.0, axis == 1 ? 0.1 : 0.0,
                 axis == 2 ? 0.1 : 0.0 };
@@ -78,7 +76,7 @@ TEST_CASE("A pair that has slid keeps force and slip as it turns, in lanes", "[s
             const Vector expected = turned(rotation_by(angle), before.force);
             CHECK(norm(after.force - expected) < 1e-6 * norm(expected));
             for (std::size_t p = 0; p < slips.size(); ++p) {
-                const Point now = s.contacts.place_of(0, static_cast<int>(p)).slip;
+                const Point now = places_of(s, 0)[p].slip;
                 CHECK(norm(now - slips[p].slip) < 1e-6 * slid);
             }
             CHECK(norm(after.force + below.force) < 1e-9 * norm(expected));

@@ -51,7 +51,8 @@ void hold_ends(plain_solid::Specimen& plain, double top)
     }
 }
 
-/// Largest difference of the states of all points, each relative to a scale of its kind.
+/// Largest difference of the states of all points, each relative to a scale of its kind. Openings
+/// within the elastic branch are not kept.
 double difference_of_points(const SolidState& s, const plain_solid::Specimen& plain)
 {
     double worst = 0.0;
@@ -61,8 +62,9 @@ double difference_of_points(const SolidState& s, const plain_solid::Specimen& pl
         // the corners may begin at another one, and their points with them
         for (const auto& p : plain.contacts[i].points) {
             double least = 1e300;
+            const std::vector<FacePlace> places = places_of(s, contact);
             for (int q = 0; q < s.contacts.points_of(contact); ++q) {
-                const FacePlace at = s.contacts.place_of(contact, q);
+                const FacePlace at = places[q];
                 const FacePointState state = s.contacts.point_state(contact, q);
                 const double energy =
                     law.tensile_strength * law.critical_opening + law.cohesion * law.critical_slip;
@@ -70,7 +72,9 @@ double difference_of_points(const SolidState& s, const plain_solid::Specimen& pl
                     std::max({ std::fabs(at.opening - p.at.opening) / law.critical_opening,
                         norm(at.slip - p.at.slip) / law.critical_slip,
                         norm(state.plastic_slip - p.state.plastic_slip) / law.critical_slip,
-                        std::fabs(state.max_opening - p.state.max_opening) / law.critical_opening,
+                        std::fabs(std::max(state.max_opening, law.elastic_opening)
+                            - std::max(p.state.max_opening, law.elastic_opening))
+                            / law.critical_opening,
                         std::fabs(state.shear_damage - p.state.shear_damage),
                         std::fabs(state.damage_energy - p.state.damage_energy) / energy,
                         std::fabs(state.friction_energy - p.state.friction_energy) / energy,

@@ -13,7 +13,7 @@
 namespace flexpm {
 
 /// State of a point of a face, which is all that it needs to continue. All zero means bonded and
-/// never loaded beyond its strength; an intact point changes nothing but the largest opening.
+/// never loaded beyond its strength.
 struct FacePointState {
     double max_opening = 0.0;      ///< largest opening less dilation so far [m], >= 0
     Point plastic_slip;            ///< along the tangents [m]
@@ -111,6 +111,16 @@ FLEXPM_INLINE bool hold_face_point(const LawParameters& p, const FacePlace& at,
     max_opening = on.max_opening;
     traction = { on.normal, tried, on.damage, on.damage };
     return on.same_secant & (dot(tried, tried) <= on.limit * on.limit);
+}
+
+/// Whether a point that has been elastic so far stays so.
+///
+/// @param slip_squared  of the slip's size [m^2]
+FLEXPM_INLINE bool holds_intact(const LawParameters& p, double opening, double slip_squared)
+{
+    const law::Branch on = law::branch_at<true>(p, opening, 0.0, 0.0);
+    return on.same_secant
+        & (p.shear_stiffness * p.shear_stiffness * slip_squared <= on.limit * on.limit);
 }
 
 }  // namespace flexpm

@@ -80,14 +80,16 @@ void add_contacts(const SolidState& s, Virial& total)
 {
     const FaceContacts& c = s.contacts;
     for (int contact = 0; contact < c.count; ++contact) {
+        const std::vector<FacePlace> places = places_of(s, contact);
+        const std::vector<Vector> forces = point_forces(s, contact);
         for (int p = 0; p < c.points_of(contact); ++p) {
             if (!(c.area(contact, p) > 0.0)) continue;
-            const Vector force = point_force(s, contact, p);
+            const Vector force = forces[p];
             for (int k = 0; k < c.corners_of(contact); ++k)
                 total.add(c.share(contact, p, k) * force,
                     drawn_place(s.grains, c.node(contact, 0, k))
                         - drawn_place(s.grains, c.node(contact, 1, k)));
-            total.volume += c.area(contact, p) * std::min(c.place_of(contact, p).opening, 0.0);
+            total.volume += c.area(contact, p) * std::min(places[p].opening, 0.0);
         }
     }
 }

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 
 #include <flexpm/kernel/core/groups.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 
 #include <algorithm>
@@ -12,12 +13,15 @@ namespace flexpm {
 namespace {
 
 /// Whether any point of a contact has its bond, or bears pressure.
-bool joins(const FaceContacts& c, int contact)
+bool joins(const SolidState& s, int contact)
 {
-    for (int p = 0; p < c.points_of(contact); ++p) {
-        if (!(c.area(contact, p) > 0.0)) continue;
-        if (c.crack(contact, p).mode == intact || c.place_of(contact, p).opening < 0.0) return true;
-    }
+    const FaceContacts& c = s.contacts;
+    const auto counts = [&](int p) { return c.area(contact, p) > 0.0; };
+    for (int p = 0; p < c.points_of(contact); ++p)
+        if (counts(p) && c.crack(contact, p).mode == intact) return true;
+    const std::vector<FacePlace> places = places_of(s, contact);
+    for (int p = 0; p < c.points_of(contact); ++p)
+        if (counts(p) && places[p].opening < 0.0) return true;
     return false;
 }
 
@@ -45,7 +49,7 @@ void find_loose(SolidState& s)
     if (!is_pressed(s)) return;
     Groups groups(s.grains.count);
     for (int c = 0; c < s.contacts.count; ++c)
-        if (joins(s.contacts, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
+        if (joins(s, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
     const std::vector<std::uint8_t> held = held_grains(s);
     std::vector<std::uint8_t> stands(s.grains.count, 0);  // by group
     for (int g = 0; g < s.grains.count; ++g)

@@ -54,12 +54,10 @@ void add_grain(const SolidState& s, int grain, SolidSnapshot& to)
     if (grains.is_rigid(grain)) push(to.spins, s.bodies[grain].spin);
 }
 
-void add_point(
-    const SolidState& s, int contact, int p, const std::vector<Vector>& middle, SolidSnapshot& to)
+void add_point(const FaceContacts& c, int contact, int p, const FacePlace& place,
+    const std::vector<Vector>& middle, SolidSnapshot& to)
 {
-    const FaceContacts& c = s.contacts;
-    const FacePlace place = c.place_of(contact, p);
-    const FaceTraction t = traction_of(c, contact, p);
+    const FaceTraction t = traction_of(c, contact, p, place);
     const FaceCrack& crack = c.crack(contact, p);
     to.point_area.push_back(c.area(contact, p));
     push(to.point_position, point_place(c, contact, p, middle));
@@ -86,8 +84,9 @@ void add_contact(const SolidState& s, int contact, SolidSnapshot& to)
     }
     to.corner_offsets.push_back(size_of(to.corners, 3));
     push(to.normals, normal_of(middle));
+    const std::vector<FacePlace> places = places_of(s, contact);
     for (int p = 0; p < c.points_of(contact); ++p)
-        add_point(s, contact, p, middle, to);
+        add_point(c, contact, p, places[p], middle, to);
     to.areas.push_back(contact_area(c, contact));
     to.point_offsets.push_back(size_of(to.point_area, 1));
 }

@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/loading_scales.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/kernel/statics/unilateral_solve.hpp>
 
@@ -140,7 +140,7 @@ double factor_before_softening(const SolidState& s, double dt, const SofteningRu
     std::vector<SofteningBound> bounds;
     for_each_point(s, velocity, [&](int contact, int p, const FaceFrame& frame, Vector jump) {
         const LawParameters& law = c.law_of(contact);
-        const FaceTraction on = traction_of(c, contact, p);
+        const FaceTraction on = traction_of(s, contact, p);
         const Tractions now { on.normal, on.shear };
         const bool cracked = on.damage >= 1.0;
         const bool slides = !(norm(now.shear) < -sliding_share * law.friction * now.normal);

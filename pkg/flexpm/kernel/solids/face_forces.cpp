@@ -4,6 +4,8 @@
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/prefetch_rows.hpp>
 #include <flexpm/kernel/solids/face_lanes.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/solids/solid_bodies.hpp>
 
 #include <algorithm>
 
@@ -30,16 +32,10 @@ constexpr int held_rows = FaceRow::max_opening + 1;
 /// Rows of a state that a point without damage reads or writes.
 constexpr int undamaged_rows = FaceRow::shear_damage + 1;
 
-/// Opening and slip of a point, three rows, from its way between the sides.
-FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* places)
+FLEXPM_INLINE void store_slip(Point slip, double* rows, int l)
 {
-    FLEXPM_INDEPENDENT
-    for (int l = 0; l < lanes; ++l) {
-        const Vector way = load_vector(jump, l);
-        store_vector({ dot(way, load_vector(m.normal, l)), dot(way, load_vector(m.first, l)),
-                         dot(way, load_vector(m.second, l)) },
-            places, l);
-    }
+    rows[FaceRow::slip_x * lanes + l] = slip.x;
+    rows[FaceRow::slip_y * lanes + l] = slip.y;
 }
 
 /// Whether any lane of a row is set.
@@ -61,11 +57,11 @@ FLEXPM_INLINE bool hold_lanes(
     alignas(64) std::int64_t leaves[lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const Vector at = load_vector(places, l);
+        const FacePlace at = load_place(places, l);
         const LawParameters law = load_rows<LawParameters>(b.law, l);
         FaceTraction t;
         double max_opening = 0.0;
-        const bool holds = hold_face_point<Intact, Dilating>(law, { at.x, { at.y, at.z } },
+        const bool holds = hold_face_point<Intact, Dilating>(law, at,
             Intact ? FacePointState { state[FaceRow::max_opening * lanes + l], {}, 0.0, 0.0, 0.0 }
                    : load_state(state, l),
             max_opening, t);
@@ -73,7 +69,7 @@ FLEXPM_INLINE bool hold_lanes(
             && ((state[FaceRow::max_opening * lanes + l] > law.elastic_opening)
                 | (state[FaceRow::shear_damage * lanes + l] > 0.0));
         store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
-        store_vector(at, next, l);
+        store_slip(at.slip, next, l);
         next[FaceRow::max_opening * lanes + l] = max_opening;
         leaves[l] = (holds & !damaged) ? 0 : 1;
     }
@@ -91,12 +87,14 @@ FLEXPM_INLINE int advance_lanes(const FaceLanes& b, const double* places, double
     alignas(64) double fresh[lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const Vector at = load_vector(places, l), before = load_vector(state, l);
+        const FacePlace at = load_place(places, l);
+        const Point before { state[FaceRow::slip_x * lanes + l],
+            state[FaceRow::slip_y * lanes + l] };
         FacePointState s = load_state(state, l);
-        const FaceTraction t = advance_face_point<Dilating>(load_rows<LawParameters>(b.law, l),
-            { at.x, { at.y, at.z } }, { before.y, before.z }, s);
+        const FaceTraction t =
+            advance_face_point<Dilating>(load_rows<LawParameters>(b.law, l), at, before, s);
         store_state(s, state, l);
-        store_vector(at, state, l);
+        store_slip(at.slip, state, l);
         store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
         fresh[l] = ((t.damage_before < 1.0) & (t.damage >= 1.0)) ? 1.0 : 0.0;
     }
@@ -108,6 +106,17 @@ FLEXPM_INLINE int advance_lanes(const FaceLanes& b, const double* places, double
     return cracks;
 }
 
+/// Add the couples of forces on points whose places on both sides are `jump` apart.
+FLEXPM_INLINE void add_couples(const double* force, const double* jump, FaceMotion& m)
+{
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        store_vector(
+            load_vector(m.couple, l) + cross(load_vector(force, l), load_vector(jump, l)), m.couple,
+            l);
+    }
+}
+
 /// What a block comes to.
 struct FaceUpdate {
     int cracks;  ///< lanes, summed over points, that cracked in this step
@@ -116,44 +125,114 @@ struct FaceUpdate {
 
 /// Advances all points. Returns the lanes, summed over points, that cracked.
 template <bool Dilating>
-FLEXPM_INLINE int advance_points(const FaceLanes& b, FaceMotion& m, std::uint8_t* cracked)
+FLEXPM_INLINE int advance_points(
+    const FaceLanes& b, FaceMotion& m, double* states, std::uint8_t* cracked)
 {
     int cracks = 0;
-    alignas(64) double jump[vector_rows], places[vector_rows], traction[vector_rows];
+    alignas(64) double jump[vector_rows], places[vector_rows], traction[vector_rows],
+        force[vector_rows];
     for (int p = 0; p < b.group.points; ++p) {
-        double* state = b.states + p * FaceRow::count * lanes;
+        double* state = states + p * FaceRow::count * lanes;
         find_jump(b, m, p, jump);
         find_places(m, jump, places);
         if (!(!Dilating && hold_lanes<true, false>(b, places, state, traction))
             && !hold_lanes<false, Dilating>(b, places, state, traction))
             cracks += advance_lanes<Dilating>(b, places, state, traction, cracked + p * lanes);
-        spread_point(b, p, jump, traction, m);
+        find_force(m, b.areas + p * lanes, traction, force);
+        add_couples(force, jump, m);
+        spread_point(b, p, force, m);
     }
     return cracks;
 }
 
+/// Forces of a block that has states.
 template <bool Wide>
-FLEXPM_INLINE FaceUpdate update_block(const FaceLanes& b, std::uint8_t* cracked)
+FLEXPM_INLINE FaceUpdate update_block(
+    const FaceLanes& b, double* states, const FaceForces& to, std::uint8_t* cracked)
 {
     FaceMotion m;
     move_corners<Wide>(b, m);
     find_frames(b, m);
-    const int cracks =
-        b.dilating ? advance_points<true>(b, m, cracked) : advance_points<false>(b, m, cracked);
-    write_forces(b, m);
+    const int cracks = b.dilating ? advance_points<true>(b, m, states, cracked)
+                                  : advance_points<false>(b, m, states, cracked);
+    write_forces<false>(b, m, to);
     return { cracks, count_turned(m) };
 }
 
-FaceLanes face_lanes(SolidState& s, int block, const FaceLaws& laws)
+/// Forces of a block without states, if all of its points stay on their elastic branches. Else
+/// returns false, and nothing is written.
+template <bool Wide> FLEXPM_INLINE bool hold_block(const FaceLanes& b, const FaceForces& to)
 {
-    FaceContacts& c = s.contacts;
-    const int nodes = c.block_nodes[block], points = c.block_points[block];
+    FaceMotion m;
+    move_corners<Wide>(b, m);
+    find_normals(b, m);
+    alignas(64) double jump[vector_rows];
+    alignas(64) std::int64_t leaves[lanes];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l)
+        leaves[l] = m.area[l] > 0.0 ? 0 : 1;
+    IntactRows at;
+    for (int p = 0; p < b.group.points; ++p) {
+        find_jump(b, m, p, jump);
+        find_intact(b, m, p, jump, at);
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l) {
+            const bool holds = holds_intact(
+                load_rows<LawParameters>(b.law, l), at.opening[l], at.slip_squared[l]);
+            leaves[l] |= holds ? 0 : 1;
+        }
+        add_couples(at.force, jump, m);
+        spread_point(b, p, at.force, m);
+    }
+    if (any_of(leaves)) return false;
+    write_forces<true>(b, m, to);
+    return true;
+}
+
+/// Slips of all points, into the rows of their states.
+template <bool Wide> FLEXPM_INLINE void find_slips(const FaceLanes& b, double* states)
+{
+    FaceMotion m;
+    move_corners<Wide>(b, m);
+    find_frames(b, m);
+    alignas(64) double jump[vector_rows], places[vector_rows];
+    for (int p = 0; p < b.group.points; ++p) {
+        find_jump(b, m, p, jump);
+        find_places(m, jump, places);
+        for (int l = 0; l < lanes; ++l)
+            store_slip(load_place(places, l).slip, states + p * FaceRow::count * lanes, l);
+    }
+}
+
+/// States of a block whose points have been elastic until the step: intact, with the slips before
+/// it, which follow from where the nodes were.
+Array<double> first_states(const SolidState& s, int block, const FaceLaws& laws, double dt)
+{
+    const FaceContacts& c = s.contacts;
+    const int nodes = 2 * c.group_in(block).corners * lanes, first = c.block_nodes[block];
+    constexpr int stride = space_layout.node_stride;
+    Array<double> before(static_cast<std::size_t>(nodes) * stride, 0.0);
+    std::vector<int> own(nodes);
+    for (int i = 0; i < nodes; ++i) {
+        const int side = i / lanes % 2, in_slot = c.in_slot[block * lanes + i % lanes];
+        // padded lanes follow the first one
+        const int contact = in_slot >= 0 ? in_slot : c.in_slot[block * lanes];
+        own[i] = i * stride;
+        set_space_vector(before, own[i],
+            displacement_before(s, c.pairs[contact][side], c.nodes[first + i], dt));
+    }
+    FaceLanes b = face_lanes(s, block, laws);
+    b.displacement = before.data();
+    b.nodes = own.data();
+    Array<double> states(c.state_count(block), 0.0);
+    variant_of<find_slips<false>, find_slips<true>>()(b, states.data());
+    return states;
+}
+
+FaceForces face_forces(SolidState& s, int block)
+{
     const int parcels = s.plan.first_parcel[block];
-    return { c.group_in(block), s.grains.displacement.data(), c.nodes.data() + nodes,
-        c.line.data() + block * lanes, c.places.data() + nodes / 2 * 3, c.areas.data() + points,
-        c.shares.data() + c.block_shares[block], c.states.data() + points * FaceRow::count,
-        s.grains.force.data(), parcels < 0 ? nullptr : s.plan.parcels.data() + parcels, laws.rows,
-        laws.dilating };
+    return { s.grains.force.data(), parcels < 0 ? nullptr : s.plan.parcels.data() + parcels };
 }
 
 /// Ask for the rows of a block of contacts that a step reads, some time before it does. Nodes are
@@ -161,15 +240,17 @@ FaceLanes face_lanes(SolidState& s, int block, const FaceLaws& laws)
 void prefetch_block(const FaceContacts& c, int block)
 {
     const FaceGroup& group = c.group_in(block);
-    const int nodes = c.block_nodes[block], points = c.block_points[block];
+    const int nodes = c.block_nodes[block];
     prefetch_rows(c.nodes.data() + nodes, 2 * group.corners);
-    prefetch_rows(c.line.data() + block * lanes, 1);
     prefetch_rows(c.places.data() + nodes / 2 * 3, 3 * group.corners);
-    prefetch_rows(c.areas.data() + points, group.points);
+    prefetch_rows(c.areas.data() + c.block_points[block], group.points);
     prefetch_rows(
         c.shares.data() + c.block_shares[block], (group.points - group.at_corners) * group.corners);
+    const Array<double>& states = c.states[block];
+    if (states.empty()) return;
+    prefetch_rows(c.line.data() + block * lanes, 1);
     for (int p = 0; p < group.points; ++p)
-        prefetch_rows(c.states.data() + (points + p * lanes) * FaceRow::count, undamaged_rows);
+        prefetch_rows(states.data() + p * FaceRow::count * lanes, undamaged_rows);
 }
 
 /// Where a point is now: the middle of its places on both sides.
@@ -195,8 +276,8 @@ void record_cracks(SolidState& s, int block, const std::uint8_t* cracked)
             const int contact = c.in_slot[block * lanes + l];
             if (!cracked[p * lanes + l] || contact < 0) continue;
             const FacePointState state = c.point_state(contact, p);
-            const bool opens =
-                law::gap(c.law_of(contact), c.place_of(contact, p).opening, state) > 0.0;
+            const FacePlace place = places_of(s, contact)[p];
+            const bool opens = law::gap(c.law_of(contact), place.opening, state) > 0.0;
             c.set_crack(contact, p,
                 { s.step + 1, opens ? tensile_crack : shear_crack, point_position(s, contact, p),
                     c.area(contact, p) * state.damage_energy });
@@ -206,16 +287,24 @@ void record_cracks(SolidState& s, int block, const std::uint8_t* cracked)
 
 }  // namespace
 
-int update_face_blocks(SolidState& s, int first, int end)
+int update_face_blocks(SolidState& s, int first, int end, double dt)
 {
+    const auto hold = variant_of<hold_block<false>, hold_block<true>>();
     const auto update = variant_of<update_block<false>, update_block<true>>();
+    FaceContacts& c = s.contacts;
     FaceLaws laws;
     int turned = 0;
     for (int block = first; block < end; ++block) {
-        if (block == first || s.contacts.laws.size() > 1) laws.fill(s.contacts, block);
-        if (block + 1 < end) prefetch_block(s.contacts, block + 1);
+        if (block == first || c.laws.size() > 1) laws.fill(c, block);
+        if (block + 1 < end) prefetch_block(c, block + 1);
+        const FaceLanes lanes_of = face_lanes(s, block, laws);
+        const FaceForces forces = face_forces(s, block);
+        if (c.states[block].empty()) {
+            if (hold(lanes_of, forces)) continue;
+            c.states[block] = first_states(s, block, laws, dt);
+        }
         std::uint8_t cracked[most_points * lanes] = {};
-        const FaceUpdate done = update(face_lanes(s, block, laws), cracked);
+        const FaceUpdate done = update(lanes_of, c.states[block].data(), forces, cracked);
         turned += done.turned;
         if (done.cracks > 0) record_cracks(s, block, cracked);
     }

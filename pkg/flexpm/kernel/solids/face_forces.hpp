@@ -7,7 +7,9 @@
 namespace flexpm {
 
 /// Update points and forces of blocks of contacts at the present places, and record what cracks.
-/// @return  number of contacts whose middle face has no area
-int update_face_blocks(SolidState& s, int first, int end);
+///
+/// @param dt  of the move that has led there with the present velocities; 0: none has
+/// @return    number of contacts whose middle face has no area
+int update_face_blocks(SolidState& s, int first, int end, double dt);
 
 }  // namespace flexpm

@@ -11,10 +11,11 @@
 
 namespace flexpm {
 
-FLEXPM_INLINE FacePlace load_place(const double* rows, int l)
+/// Of places as find_places() writes them.
+FLEXPM_INLINE FacePlace load_place(const double* places, int l)
 {
-    return { rows[FaceRow::opening * lanes + l],
-        { rows[FaceRow::slip_x * lanes + l], rows[FaceRow::slip_y * lanes + l] } };
+    const Vector at = load_vector(places, l);
+    return { at.x, { at.y, at.z } };
 }
 
 FLEXPM_INLINE FacePointState load_state(const double* rows, int l)
@@ -44,7 +45,7 @@ struct FaceLaws {
     }
 };
 
-/// The rows of one block of contacts.
+/// What is read of one block of contacts.
 struct FaceLanes {
     FaceGroup group;
     const double* displacement;  ///< of nodes
@@ -53,11 +54,24 @@ struct FaceLanes {
     const double* places;
     const double* areas;
     const double* shares;
-    double* states;
-    double* force;      ///< of nodes
-    double* parcels;    ///< of the block, where they wait; null: added to `force` at once
     const double* law;  ///< [row of LawParameters][lane]
     bool dilating;      ///< whether any of these laws dilates
+};
+
+inline FaceLanes face_lanes(const SolidState& s, int block, const FaceLaws& laws)
+{
+    const FaceContacts& c = s.contacts;
+    const int nodes = c.block_nodes[block];
+    return { c.group_in(block), s.grains.displacement.data(), c.nodes.data() + nodes,
+        c.line.data() + block * lanes, c.places.data() + nodes / 2 * 3,
+        c.areas.data() + c.block_points[block], c.shares.data() + c.block_shares[block], laws.rows,
+        laws.dilating };
+}
+
+/// Where the forces of a block go.
+struct FaceForces {
+    double* force;    ///< of nodes
+    double* parcels;  ///< of the block, where they wait; null: added to `force` at once
 };
 
 /// What a block works out on the way.
@@ -117,27 +131,43 @@ FLEXPM_INLINE void add_area_vectors(const FaceLanes& b, const FaceMotion& m, dou
     }
 }
 
-/// Frames of the middle faces.
-FLEXPM_INLINE void find_frames(const FaceLanes& b, FaceMotion& m)
+/// Areas and normals of the middle faces, of their frames what intact points need.
+FLEXPM_INLINE void find_normals(const FaceLanes& b, FaceMotion& m)
 {
-    alignas(64) double twice[vector_rows], end[vector_rows];
+    alignas(64) double twice[vector_rows];
     add_area_vectors(b, m, twice);
-    for (int l = 0; l < lanes; ++l)
-        store_vector(load_vector(m.middle + b.line[l] * vector_rows, l), end, l);
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector area = load_vector(twice, l);
         const double size = 0.5 * norm(area);
-        const Vector normal = (0.5 / size) * area;
+        store_vector((0.5 / size) * area, m.normal, l);
+        m.area[l] = size;
+    }
+}
+
+/// Frames of the middle faces.
+FLEXPM_INLINE void find_frames(const FaceLanes& b, FaceMotion& m)
+{
+    find_normals(b, m);
+    alignas(64) double end[vector_rows];
+    for (int i = 0; i < vector_rows; ++i)
+        end[i] = m.middle[i];
+    for (int k = 1; k < b.group.corners; ++k) {
+        const double* corner = m.middle + k * vector_rows;
+        FLEXPM_INDEPENDENT
+        for (int l = 0; l < lanes; ++l)
+            store_vector(b.line[l] == k ? load_vector(corner, l) : load_vector(end, l), end, l);
+    }
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector normal = load_vector(m.normal, l);
         const Vector along = load_vector(end, l) - load_vector(m.middle, l);
         const double lean = dot(along, normal);
         const Vector flat = along - lean * normal;
         const double span = norm(flat);
         const Vector first = (1.0 / span) * flat;
-        store_vector(normal, m.normal, l);
         store_vector(first, m.first, l);
         store_vector(cross(normal, first), m.second, l);
-        m.area[l] = size;
         m.span[l] = span;
         m.lean[l] = lean;
     }
@@ -174,20 +204,61 @@ FLEXPM_INLINE void find_jump(const FaceLanes& b, const FaceMotion& m, int p, dou
     }
 }
 
-/// Forces of point `p`, for tractions along normal and tangents, and their couple.
-FLEXPM_INLINE void spread_point(
-    const FaceLanes& b, int p, const double* jump, const double* traction, FaceMotion& m)
+/// Opening and slip of a point, three rows, from its way between the sides.
+FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* places)
 {
-    alignas(64) double force[vector_rows];
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector way = load_vector(jump, l);
+        store_vector({ dot(way, load_vector(m.normal, l)), dot(way, load_vector(m.first, l)),
+                         dot(way, load_vector(m.second, l)) },
+            places, l);
+    }
+}
+
+/// Forces of a point of each contact, for tractions along normal and tangents.
+FLEXPM_INLINE void find_force(
+    const FaceMotion& m, const double* area, const double* traction, double* force)
+{
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector t = load_vector(traction, l);
-        const Vector f = b.areas[p * lanes + l]
-            * (t.x * load_vector(m.normal, l) + t.y * load_vector(m.first, l)
-                + t.z * load_vector(m.second, l));
-        store_vector(f, force, l);
-        store_vector(load_vector(m.couple, l) + cross(f, load_vector(jump, l)), m.couple, l);
+        store_vector(area[l]
+                * (t.x * load_vector(m.normal, l) + t.y * load_vector(m.first, l)
+                    + t.z * load_vector(m.second, l)),
+            force, l);
     }
+}
+
+/// What points of intact contacts come to: their forces, and openings and sizes of slip squared.
+struct IntactRows {
+    alignas(64) double force[vector_rows];
+    alignas(64) double opening[lanes];
+    alignas(64) double slip_squared[lanes];
+};
+
+/// Point `p` of each contact while it is intact. Its tractions need no tangents: they are k_s times
+/// its way between the sides, and (k_n - k_s) times the opening along the normal.
+FLEXPM_INLINE void find_intact(
+    const FaceLanes& b, const FaceMotion& m, int p, const double* jump, IntactRows& to)
+{
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const auto law = load_rows<LawParameters>(b.law, l);
+        const Vector way = load_vector(jump, l), normal = load_vector(m.normal, l);
+        const double opening = dot(way, normal);
+        const double shear = law.shear_stiffness * b.areas[p * lanes + l];
+        const double beyond = law.normal_stiffness * b.areas[p * lanes + l] * opening
+            - shear * opening;
+        store_vector(beyond * normal + shear * way, to.force, l);
+        to.opening[l] = opening;
+        to.slip_squared[l] = dot(way, way) - opening * opening;
+    }
+}
+
+/// Add the forces of point `p` to those on the corners of side a.
+FLEXPM_INLINE void spread_point(const FaceLanes& b, int p, const double* force, FaceMotion& m)
+{
     if (p < b.group.at_corners) {
         for (int i = 0; i < vector_rows; ++i)
             m.on_a[p * vector_rows + i] += force[i];
@@ -205,19 +276,26 @@ FLEXPM_INLINE void spread_point(
     }
 }
 
-/// Forces on all corners, with those that take the couples: couple_forces() in lanes.
-FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m)
+/// Forces on all corners, with those that take the couples: couple_forces() in lanes, half of them
+/// on either side.
+///
+/// @tparam Intact  true: the couples have no part along the normals
+template <bool Intact>
+FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m, const FaceForces& to)
 {
     alignas(64) double tilting[vector_rows], about[vector_rows], of_a[vector_rows],
         of_b[vector_rows];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        const Vector couple = load_vector(m.couple, l), normal = load_vector(m.normal, l);
-        const Vector second = load_vector(m.second, l);
-        const double turn = dot(couple, normal) / m.span[l];
-        store_vector(
-            (1.0 / m.area[l]) * (cross(couple, normal) - (turn * m.lean[l]) * second), tilting, l);
-        store_vector(turn * second, about, l);
+        const Vector normal = load_vector(m.normal, l);
+        Vector tilt = cross(load_vector(m.couple, l), normal);
+        if constexpr (!Intact) {
+            const Vector second = load_vector(m.second, l);
+            const double turn = dot(load_vector(m.couple, l), normal) / m.span[l];
+            tilt = tilt - (turn * m.lean[l]) * second;
+            store_vector((0.5 * turn) * second, about, l);
+        }
+        store_vector((-0.25 / m.area[l]) * tilt, tilting, l);
     }
     const int n = b.group.corners;
     for (int k = 0; k < n; ++k) {
@@ -225,24 +303,26 @@ FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m)
         const double* last = m.middle + (k > 0 ? k - 1 : n - 1) * vector_rows;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
-            const double ends = (k == 0 ? 1.0 : 0.0) - (k == b.line[l] ? 1.0 : 0.0);
-            const Vector turning =
-                -0.5 * cross(load_vector(next, l) - load_vector(last, l), load_vector(tilting, l))
-                + ends * load_vector(about, l);
+            Vector turning =
+                cross(load_vector(next, l) - load_vector(last, l), load_vector(tilting, l));
+            if constexpr (!Intact) {
+                const double ends = (k == 0 ? 1.0 : 0.0) - (k == b.line[l] ? 1.0 : 0.0);
+                turning = turning + ends * load_vector(about, l);
+            }
             const Vector force = load_vector(m.on_a + k * vector_rows, l);
-            store_vector(force + 0.5 * turning, of_a, l);
-            store_vector(0.5 * turning - force, of_b, l);
+            store_vector(turning + force, of_a, l);
+            store_vector(turning - force, of_b, l);
         }
         const double* sides[] = { of_a, of_b };
         for (int side = 0; side < 2; ++side) {
             const int first = (2 * k + side) * lanes;
-            if (b.parcels) {
+            if (to.parcels) {
                 from_lanes(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
-                    row_of_four(b.parcels + 4 * (first + l)) = f;
+                    row_of_four(to.parcels + 4 * (first + l)) = f;
                 });
             } else {
                 from_lanes(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
-                    row_of_four(b.force + b.nodes[first + l]) += f;
+                    row_of_four(to.force + b.nodes[first + l]) += f;
                 });
             }
         }

@@ -68,12 +68,43 @@ double contact_area(const FaceContacts& contacts, int contact)
     return area;
 }
 
-double mean_opening(const FaceContacts& contacts, int contact)
+std::vector<FacePlace> places_of(const SolidState& s, int contact)
 {
+    const FaceContacts& c = s.contacts;
+    std::vector<FacePlace> places(c.points_of(contact));
+    const std::vector<Vector> middle = middle_face(s, contact);
+    if (!(norm(normal_of(middle)) > 0.0)) return places;
+    const FaceFrame frame = face_frame(middle, { 0, c.line[c.slot[contact]] });
+    std::vector<Vector> apart;
+    for (int k = 0; k < c.corners_of(contact); ++k)
+        apart.push_back(space_vector(s.grains.displacement, c.node(contact, 1, k))
+            - space_vector(s.grains.displacement, c.node(contact, 0, k)));
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const Vector jump = point_place(c, contact, static_cast<int>(p), apart);
+        places[p] = { dot(jump, frame.normal),
+            { dot(jump, frame.first), dot(jump, frame.second) } };
+    }
+    return places;
+}
+
+FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place)
+{
+    return traction_at(
+        contacts.law_of(contact), place, contacts.point_state(contact, point));
+}
+
+FaceTraction traction_of(const SolidState& s, int contact, int point)
+{
+    return traction_of(s.contacts, contact, point, places_of(s, contact)[point]);
+}
+
+double mean_opening(const SolidState& s, int contact)
+{
+    const std::vector<FacePlace> places = places_of(s, contact);
     double sum = 0.0;
-    for (int p = 0; p < contacts.points_of(contact); ++p)
-        sum += contacts.area(contact, p) * contacts.state(contact, p, FaceRow::opening);
-    return sum / contact_area(contacts, contact);
+    for (std::size_t p = 0; p < places.size(); ++p)
+        sum += s.contacts.area(contact, static_cast<int>(p)) * places[p].opening;
+    return sum / contact_area(s.contacts, contact);
 }
 
 BondStiffness bond_stiffness(const FaceContacts& contacts, int contact)
@@ -83,20 +114,25 @@ BondStiffness bond_stiffness(const FaceContacts& contacts, int contact)
     return { law.normal_stiffness * area, law.shear_stiffness * area };
 }
 
-Vector point_force(const SolidState& s, int contact, int point)
+std::vector<Vector> point_forces(const SolidState& s, int contact)
 {
     const FaceFrame frame = contact_frame(s, contact);
-    const FaceTraction t = traction_of(s.contacts, contact, point);
-    // in tension the second grain is pulled back to the first
-    return -s.contacts.area(contact, point)
-        * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second);
+    const std::vector<FacePlace> places = places_of(s, contact);
+    std::vector<Vector> forces;
+    for (int p = 0; p < s.contacts.points_of(contact); ++p) {
+        const FaceTraction t = traction_of(s.contacts, contact, p, places[p]);
+        // in tension the second grain is pulled back to the first
+        forces.push_back(-s.contacts.area(contact, p)
+            * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second));
+    }
+    return forces;
 }
 
 Vector contact_force(const SolidState& s, int contact)
 {
     Vector sum;
-    for (int p = 0; p < s.contacts.points_of(contact); ++p)
-        sum = sum + point_force(s, contact, p);
+    for (const Vector& force : point_forces(s, contact))
+        sum = sum + force;
     return sum;
 }
 

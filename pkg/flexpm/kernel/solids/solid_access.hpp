@@ -38,14 +38,21 @@ Vector area_vector(const SolidState& s, int triangle);
 /// Area of a contact when bonded [m^2].
 double contact_area(const FaceContacts& contacts, int contact);
 
+/// Where the points of a contact are, along its frame; of a face without area 0.
+std::vector<FacePlace> places_of(const SolidState& s, int contact);
+
+/// What a point bears at a place, by its state, or where it is.
+FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place);
+FaceTraction traction_of(const SolidState& s, int contact, int point);
+
 /// Mean opening of its points, by their areas [m].
-double mean_opening(const FaceContacts& contacts, int contact);
+double mean_opening(const SolidState& s, int contact);
 
 /// Stiffnesses of a bond as a whole while it is intact [N/m].
 BondStiffness bond_stiffness(const FaceContacts& contacts, int contact);
 
-/// Force of a point on the second grain: its area times its traction [N].
-Vector point_force(const SolidState& s, int contact, int point);
+/// Forces of the points of a contact on its second grain: areas times tractions [N].
+std::vector<Vector> point_forces(const SolidState& s, int contact);
 
 /// Force of a contact on its second grain; that on the first is the opposite [N].
 Vector contact_force(const SolidState& s, int contact);

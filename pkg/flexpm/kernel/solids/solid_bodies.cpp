@@ -183,6 +183,21 @@ void place_body(SolidState& s, int grain, Vector way)
     variant_of<place_nodes>()(body_nodes(s, grain), way, columns, displacement);
 }
 
+Vector displacement_before(const SolidState& s, int grain, int node, double dt)
+{
+    const Grains& grains = s.grains;
+    const auto moved_back = [&](int n) {
+        return space_vector(grains.displacement, n) - dt * space_vector(grains.velocity, n);
+    };
+    if (!grains.is_rigid(grain)) return moved_back(node);
+    const int centre = grains.centre(grain);
+    const RigidBody& body = s.bodies[grain];
+    const Quaternion turn = inverse(rotation_by(dt * body.spin)) * body.turn;
+    const Vector arm =
+        space_vector(grains.reference, node) - space_vector(grains.reference, centre);
+    return moved_back(centre) + turned_by(turn, arm);
+}
+
 void set_spin(SolidState& s, int grain, Vector spin, bool held)
 {
     RigidBody& body = s.bodies.at(grain);

@@ -29,6 +29,10 @@ Wrench wrench_on(const SolidState& s, int grain);
 /// @param way  of its centre since the reference [m]
 void place_body(SolidState& s, int grain, Vector way);
 
+/// Displacement of a node, of rigid grains and of others, before their last move by `dt` with the
+/// present velocities [m].
+Vector displacement_before(const SolidState& s, int grain, int node, double dt);
+
 /// Give a rigid grain a spin from now on [rad/s].
 /// @param held  it stays; else it is integrated
 void set_spin(SolidState& s, int grain, Vector spin, bool held);

@@ -305,7 +305,7 @@ void add_blocks(FaceContacts& c, const FaceGroup& group, int contacts)
     c.nodes.resize(nodes, 0);
     c.places.resize(nodes / 2 * 3, 0.0);
     c.areas.resize(points, 0.0);
-    c.states.resize(points * FaceRow::count, 0.0);
+    c.states.resize(c.blocks());
     c.cracks.resize(c.blocks());
     c.shares.resize(c.block_shares.back(), 0.0);
 }
@@ -376,7 +376,7 @@ void fit(Tetrahedra& t, FaceContacts& c)
 {
     t.nodes.shrink_to_fit();
     t.shape.shrink_to_fit();
-    for (auto* values : { &c.places, &c.areas, &c.shares, &c.states })
+    for (auto* values : { &c.places, &c.areas, &c.shares })
         values->shrink_to_fit();
     c.nodes.shrink_to_fit();
 }

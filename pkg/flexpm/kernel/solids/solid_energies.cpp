@@ -17,24 +17,38 @@ namespace flexpm {
 
 namespace {
 
-/// Stored in the points of a block.
-FLEXPM_INLINE void add_stored(
-    const double* areas, const double* states, const double* law, int points, LaneSum& energy)
+/// Stored in the points of a block. `states` is null of a block without any.
+template <bool Wide>
+FLEXPM_INLINE void add_stored(const FaceLanes& b, const double* states, LaneSum& energy)
 {
     LaneSum sum = energy;  // a local, which no row aliases
-    for (int p = 0; p < points; ++p) {
-        const double *area = areas + p * lanes, *state = states + p * FaceRow::count * lanes;
+    FaceMotion m;
+    move_corners<Wide>(b, m);
+    alignas(64) double jump[vector_rows], places[vector_rows];
+    IntactRows at;
+    states ? find_frames(b, m) : find_normals(b, m);
+    for (int p = 0; p < b.group.points; ++p) {
+        find_jump(b, m, p, jump);
+        if (!states) {
+            find_intact(b, m, p, jump, at);
+            FLEXPM_INDEPENDENT
+            for (int l = 0; l < lanes; ++l)
+                sum.lane[l] += 0.5 * dot(load_vector(at.force, l), load_vector(jump, l));
+            continue;
+        }
+        const double *area = b.areas + p * lanes, *state = states + p * FaceRow::count * lanes;
+        find_places(m, jump, places);
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
             sum.lane[l] += area[l]
-                * law::elastic_energy(
-                    load_rows<LawParameters>(law, l), load_place(state, l), load_state(state, l));
+                * law::elastic_energy(load_rows<LawParameters>(b.law, l), load_place(places, l),
+                    load_state(state, l));
         }
     }
     energy = sum;
 }
 
-/// Dissipated in the points of a block.
+/// Dissipated in the points of a block that has states.
 FLEXPM_INLINE void add_lost(
     const double* areas, const double* states, int points, LaneSum& damage, LaneSum& friction)
 {
@@ -51,45 +65,55 @@ FLEXPM_INLINE void add_lost(
     friction = of_friction;
 }
 
-/// Forces that the contacts of a block bear, along normal and tangents, three rows.
-FLEXPM_INLINE void sum_forces(
-    const double* areas, const double* states, const double* law, int points, double* forces)
+/// Forces that the contacts of a block bear, three rows. `states` is null of a block without any.
+template <bool Wide>
+FLEXPM_INLINE void sum_forces(const FaceLanes& b, const double* states, double* forces)
 {
     alignas(64) double sum[vector_rows] = {};
-    for (int p = 0; p < points; ++p) {
-        const double *area = areas + p * lanes, *state = states + p * FaceRow::count * lanes;
-        FLEXPM_INDEPENDENT
-        for (int l = 0; l < lanes; ++l) {
-            const FaceTraction t = traction_at(
-                load_rows<LawParameters>(law, l), load_place(state, l), load_state(state, l));
-            store_vector(
-                load_vector(sum, l) + area[l] * Vector { t.normal, t.shear.x, t.shear.y }, sum, l);
+    alignas(64) double jump[vector_rows], places[vector_rows], traction[vector_rows];
+    FaceMotion m;
+    move_corners<Wide>(b, m);
+    IntactRows at;
+    states ? find_frames(b, m) : find_normals(b, m);
+    for (int p = 0; p < b.group.points; ++p) {
+        find_jump(b, m, p, jump);
+        if (states) {
+            find_places(m, jump, places);
+            FLEXPM_INDEPENDENT
+            for (int l = 0; l < lanes; ++l) {
+                const FaceTraction t = traction_at(load_rows<LawParameters>(b.law, l),
+                    load_place(places, l), load_state(states + p * FaceRow::count * lanes, l));
+                store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
+            }
+            find_force(m, b.areas + p * lanes, traction, at.force);
+        } else {
+            find_intact(b, m, p, jump, at);
         }
+        for (int i = 0; i < vector_rows; ++i)
+            sum[i] += at.force[i];
     }
     for (int i = 0; i < vector_rows; ++i)
         forces[i] = sum[i];
 }
 
-/// Call visit(block, areas, states, laws, points) for the rows of each block of contacts.
-template <class Visit> void for_each_block(const FaceContacts& c, Visit visit)
+/// Call visit(lanes, states) for each block of contacts; `states` is null of one without any.
+template <class Visit> void for_each_block(const SolidState& s, Visit visit)
 {
+    const FaceContacts& c = s.contacts;
     FaceLaws laws;
     for (int block = 0; block < c.blocks(); ++block) {
         if (block == 0 || c.laws.size() > 1) laws.fill(c, block);
-        const int first = c.block_points[block];
-        visit(block, c.areas.data() + first, c.states.data() + first * FaceRow::count, laws.rows,
-            c.group_in(block).points);
+        const Array<double>& states = c.states[block];
+        visit(face_lanes(s, block, laws), states.empty() ? nullptr : states.data());
     }
 }
 
-double stored_in_points(const FaceContacts& c)
+double stored_in_points(const SolidState& s)
 {
     LaneSum sum;
-    const auto add = variant_of<add_stored>();
+    const auto add = variant_of<add_stored<false>, add_stored<true>>();
     for_each_block(
-        c, [&](int, const double* areas, const double* states, const double* laws, int points) {
-            add(areas, states, laws, points, sum);
-        });
+        s, [&](const FaceLanes& b, const double* states) { add(b, states, sum); });
     return sum.total();
 }
 
@@ -97,10 +121,11 @@ ContactLoss lost_in_points(const FaceContacts& c)
 {
     LaneSum damage, friction;
     const auto add = variant_of<add_lost>();
-    for_each_block(
-        c, [&](int, const double* areas, const double* states, const double*, int points) {
-            add(areas, states, points, damage, friction);
-        });
+    for (int block = 0; block < c.blocks(); ++block) {
+        if (c.states[block].empty()) continue;
+        add(c.areas.data() + c.block_points[block], c.states[block].data(),
+            c.group_in(block).points, damage, friction);
+    }
     return { damage.total(), friction.total() };
 }
 
@@ -110,16 +135,18 @@ double softened_in_points(const FaceContacts& c)
     LaneSum whole, friction;
     double rest = 0.0;
     const auto add = variant_of<add_lost>();
-    for_each_block(
-        c, [&](int block, const double* areas, const double* states, const double*, int points) {
-            const auto& cracks = c.cracks[block];
-            if (cracks.empty()) add(areas, states, points, whole, friction);
-            for (std::size_t i = 0; i < cracks.size(); ++i) {
-                const double* state = states + i / lanes * FaceRow::count * lanes;
-                if (cracks[i].mode != intact) continue;
-                rest += areas[i] * state[FaceRow::damage_energy * lanes + i % lanes];
-            }
-        });
+    for (int block = 0; block < c.blocks(); ++block) {
+        if (c.states[block].empty()) continue;
+        const double* areas = c.areas.data() + c.block_points[block];
+        const Array<double>& states = c.states[block];
+        const auto& cracks = c.cracks[block];
+        if (cracks.empty()) add(areas, states.data(), c.group_in(block).points, whole, friction);
+        for (std::size_t i = 0; i < cracks.size(); ++i) {
+            const double* state = states.data() + i / lanes * FaceRow::count * lanes;
+            if (cracks[i].mode != intact) continue;
+            rest += areas[i] * state[FaceRow::damage_energy * lanes + i % lanes];
+        }
+    }
     return whole.total() + rest;
 }
 
@@ -138,7 +165,7 @@ Energies energies(const SolidState& s)
 {
     Energies e;
     e.kinetic = std::accumulate(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
-    e.elastic = strain_energy(s) + stored_in_points(s.contacts);
+    e.elastic = strain_energy(s) + stored_in_points(s);
     const ContactLoss lost = lost_in_points(s.contacts);
     e.damage = lost.damage;
     e.friction = lost.friction;
@@ -153,12 +180,6 @@ Energies energies(const SolidState& s)
     }
     e.initial = s.ledger.initial;
     return e;
-}
-
-FaceTraction traction_of(const FaceContacts& contacts, int contact, int point)
-{
-    return traction_at(contacts.law_of(contact), contacts.place_of(contact, point),
-        contacts.point_state(contact, point));
 }
 
 double kinetic_of_velocities(const SolidState& s)
@@ -209,33 +230,22 @@ double damping_power(const SolidState& s, double damping)
     return damping * total;
 }
 
-Vector force_in(const FaceContacts& contacts, int contact)
-{
-    Vector sum;
-    for (int p = 0; p < contacts.points_of(contact); ++p) {
-        const FaceTraction t = traction_of(contacts, contact, p);
-        sum = sum + contacts.area(contact, p) * Vector { t.normal, t.shear.x, t.shear.y };
-    }
-    return sum;
-}
-
 double unbalanced_ratio(const SolidState& s)
 {
     const auto& forces = s.ledger.largest_force;
     const double largest = *std::max_element(forces.begin(), forces.end());
-    const FaceContacts& c = s.contacts;
+    const int count = s.contacts.count;
     double sum = 0.0;
-    const auto add = variant_of<sum_forces>();
-    for_each_block(
-        c, [&](int, const double* areas, const double* states, const double* laws, int points) {
-            alignas(64) double forces[vector_rows];
-            add(areas, states, laws, points, forces);
-            for (int l = 0; l < lanes; ++l)
-                sum += norm(load_vector(forces, l));  // 0 of a padded lane
-        });
-    if (sum > 0.0) return largest * c.count / sum;
+    const auto add = variant_of<sum_forces<false>, sum_forces<true>>();
+    for_each_block(s, [&](const FaceLanes& b, const double* states) {
+        alignas(64) double forces[vector_rows];
+        add(b, states, forces);
+        for (int l = 0; l < lanes; ++l)
+            sum += norm(load_vector(forces, l));  // 0 of a padded lane
+    });
+    if (sum > 0.0) return largest * count / sum;
     // a specimen that flies apart is not in balance
-    return c.count > 0 && largest > 0.0 ? 1.0 : 0.0;
+    return count > 0 && largest > 0.0 ? 1.0 : 0.0;
 }
 
 std::string find_bad_number(const SolidState& s)

@@ -9,12 +9,6 @@
 
 namespace flexpm {
 
-/// Where a point is and what it bears, by its state.
-FaceTraction traction_of(const FaceContacts& contacts, int contact, int point);
-
-/// Force that a contact bears, along its normal and its two tangents [N].
-Vector force_in(const FaceContacts& contacts, int contact);
-
 /// Kinetic energy as if no force acted on the present velocities and spins, of what is free [J].
 double kinetic_of_velocities(const SolidState& s);
 

@@ -45,11 +45,11 @@ struct Tetrahedra {
     }
 };
 
-/// Rows of a point of a face: where it was at the last forces, and its FacePointState. A point
-/// without damage reads and writes the first ones alone.
+/// Rows of a point of a face that is or was beyond its elastic branch, or shares a block with one:
+/// its slip at the last forces, and its FacePointState. A point without damage reads and writes the
+/// first ones alone.
 struct FaceRow {
     enum : int {
-        opening,
         slip_x,
         slip_y,
         max_opening,
@@ -129,7 +129,9 @@ struct FaceContacts {
     Array<double> places;           ///< [block][corner][component][lane] when bonded [m]
     Array<double> areas;            ///< [block][point][lane] [m^2], 0 where padded
     Array<double> shares;  ///< [block][point that is no corner][corner][lane], with sum 1 [-]
-    Array<double> states;  ///< [block][point][FaceRow][lane]
+    /// [block][point][FaceRow][lane]; empty of a block whose points have never left their elastic
+    /// branch: what they bear follows from the places of their nodes alone.
+    std::vector<Array<double>> states;
     /// [block][point][lane]; empty of a block without any, which most are.
     std::vector<std::vector<FaceCrack>> cracks;
 
@@ -171,20 +173,22 @@ struct FaceContacts {
     /// A value of a point, by its FaceRow.
     double state(int contact, int point, int row) const
     {
-        return states[state_index(contact, point, row)];
+        const Array<double>& own = states[block_of(contact)];
+        return own.empty() ? 0.0 : own[state_index(contact, point, row)];
     }
+    void set_state(int contact, int point, int row, double value)
+    {
+        Array<double>& own = states[block_of(contact)];
+        if (own.empty()) own.resize(state_count(block_of(contact)), 0.0);
+        own[state_index(contact, point, row)] = value;
+    }
+    /// Index of a value in the states of its block, and number of them.
     int state_index(int contact, int point, int row) const
     {
-        const int first = block_points[block_of(contact)] + point * lanes;
-        return first * FaceRow::count + row * lanes + lane_of(contact);
+        return (point * FaceRow::count + row) * lanes + lane_of(contact);
     }
+    int state_count(int block) const { return group_in(block).points * FaceRow::count * lanes; }
 
-    /// Place and state of a point.
-    FacePlace place_of(int contact, int point) const
-    {
-        return { state(contact, point, FaceRow::opening),
-            { state(contact, point, FaceRow::slip_x), state(contact, point, FaceRow::slip_y) } };
-    }
     FacePointState point_state(int contact, int point) const
     {
         return { state(contact, point, FaceRow::max_opening),

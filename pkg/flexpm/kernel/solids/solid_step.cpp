@@ -68,11 +68,11 @@ void move_grains_of(SolidState& s, int tile, TileRange own, double dt)
 
 /// Contacts of a tile, with the forces that are added at once. Returns the number of contacts
 /// without a middle face.
-int update_contacts_of(SolidState& s, int tile)
+int update_contacts_of(SolidState& s, int tile, double dt)
 {
     const int first = tile * tile_grains;
     clear_forces(s, first, std::min(first + tile_grains, s.grains.blocks()));
-    return update_face_blocks(s, s.plan.tile_contacts[tile], s.plan.tile_contacts[tile + 1]);
+    return update_face_blocks(s, s.plan.tile_contacts[tile], s.plan.tile_contacts[tile + 1], dt);
 }
 
 /// Add parcels to the nodes of a block, in their order.
@@ -117,7 +117,7 @@ int update_own_tiles(SolidState& s, TileRange own, const StepOptions& o)
     int turned = 0;
     for (int tile = own.first; tile < own.end; ++tile) {
         move_grains_of(s, tile, own, o.dt);
-        turned += update_contacts_of(s, tile);
+        turned += update_contacts_of(s, tile, o.dt);
         for_each_block(s, tile, [&](int block) {
             if (s.plan.first_tile[block] >= own.first) update_grains(s, block, o);
         });
@@ -148,7 +148,7 @@ void find_forces(SolidState& s)
 {
     int turned = 0;
     for (int tile = 0; tile < s.plan.tiles(); ++tile)
-        turned += update_contacts_of(s, tile);
+        turned += update_contacts_of(s, tile, 0.0);
     if (turned > 0) {
         refuse("contacts without a middle face", turned, "",
             "must be 0; the sides of each contact must lie opposite to each other");

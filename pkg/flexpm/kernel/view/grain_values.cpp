@@ -110,7 +110,8 @@ bool is_bond(const FaceContacts&, int) { return true; }
 
 double damage_of(const FaceContacts& contacts, int contact, int point)
 {
-    return traction_of(contacts, contact, point).damage;
+    const FacePointState state = contacts.point_state(contact, point);
+    return law::damage(contacts.law_of(contact), state.max_opening, state.shear_damage);
 }
 
 Point displacement_of(const Assembly& a, int node) { return a.grains.displacement_at(node); }

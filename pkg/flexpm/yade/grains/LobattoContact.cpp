@@ -79,27 +79,30 @@ namespace {
 
 	template <class State> Vector3r shearForceOf(const State& state, int place) { return forceOf(state, place) - normalForceOf(state, place); }
 
-	void addOpening(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::opening_of(c, place, p)); }
-	void addOpening(const FaceContacts& c, int place, int p, Numbers& all) { all.push_back(c.place_of(place, p).opening); }
+	Real meanOpening(const Assembly& a, int place) { return flexpm::mean_opening(a.contacts, place); }
+	Real meanOpening(const SolidState& s, int place) { return flexpm::mean_opening(s, place); }
 
-	void addSlip(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::slip_of(c, place, p)); }
-	void addSlip(const FaceContacts& c, int place, int p, Numbers& all)
+	void addOpening(const Assembly& a, int place, int p, Numbers& all) { all.push_back(flexpm::opening_of(a.contacts, place, p)); }
+	void addOpening(const SolidState& s, int place, int p, Numbers& all) { all.push_back(flexpm::places_of(s, place)[p].opening); }
+
+	void addSlip(const Assembly& a, int place, int p, Numbers& all) { all.push_back(flexpm::slip_of(a.contacts, place, p)); }
+	void addSlip(const SolidState& s, int place, int p, Numbers& all)
 	{
-		const auto slip = c.place_of(place, p).slip;
+		const auto slip = flexpm::places_of(s, place)[p].slip;
 		all.insert(all.end(), { slip.x, slip.y });
 	}
 
-	void addDamage(const Contacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::damage_of(c, place, p)); }
-	void addDamage(const FaceContacts& c, int place, int p, Numbers& all) { all.push_back(flexpm::traction_of(c, place, p).damage); }
+	void addDamage(const Assembly& a, int place, int p, Numbers& all) { all.push_back(flexpm::damage_of(a.contacts, place, p)); }
+	void addDamage(const SolidState& s, int place, int p, Numbers& all) { all.push_back(flexpm::traction_of(s, place, p).damage); }
 
-	void addTraction(const Contacts& c, int place, int p, Numbers& all)
+	void addTraction(const Assembly& a, int place, int p, Numbers& all)
 	{
-		const auto t = flexpm::traction_of(c, place, p);
+		const auto t = flexpm::traction_of(a.contacts, place, p);
 		all.insert(all.end(), { t.normal, t.shear });
 	}
-	void addTraction(const FaceContacts& c, int place, int p, Numbers& all)
+	void addTraction(const SolidState& s, int place, int p, Numbers& all)
 	{
-		const auto t = flexpm::traction_of(c, place, p);
+		const auto t = flexpm::traction_of(s, place, p);
 		all.insert(all.end(), { t.normal, t.shear.x, t.shear.y });
 	}
 
@@ -132,7 +135,7 @@ Vector3r LobattoGeom::presentContactPoint() const
 Real LobattoGeom::presentPenetrationDepth() const
 {
 	const auto owned = ownedContact(contact);
-	return owned.with([&](const auto& state) { return -flexpm::mean_opening(state.contacts, owned.place); });
+	return owned.with([&](const auto& state) { return -meanOpening(state, owned.place); });
 }
 
 py::object LobattoGeom::ends() const
@@ -193,7 +196,7 @@ void mirrorBond(const OwnedAssembly& owned, int place, LobattoGeom& geom, Lobatt
 	owned.with([&](const auto& state) {
 		geom.normal           = normalOf(state, place);
 		geom.contactPoint     = middleOf(state, place);
-		geom.penetrationDepth = -flexpm::mean_opening(state.contacts, place);
+		geom.penetrationDepth = -meanOpening(state, place);
 		const auto stiffness  = flexpm::bond_stiffness(state.contacts, place);
 		phys.kn               = stiffness.normal;
 		phys.ks               = stiffness.shear;
@@ -211,12 +214,12 @@ void hideBond(LobattoGeom& geom, LobattoPhys& phys)
 
 py::object LobattoPhys::opening() const
 {
-	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { addOpening(s.contacts, place, p, all); });
+	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { addOpening(s, place, p, all); });
 }
 
 py::object LobattoPhys::slip() const
 {
-	return pointCopy<double>(contact, columnsOf(contact, 0, 2), [](const auto& s, int place, int p, auto& all) { addSlip(s.contacts, place, p, all); });
+	return pointCopy<double>(contact, columnsOf(contact, 0, 2), [](const auto& s, int place, int p, auto& all) { addSlip(s, place, p, all); });
 }
 
 py::object LobattoPhys::area() const
@@ -232,12 +235,12 @@ py::object LobattoPhys::cracked() const
 
 py::object LobattoPhys::damage() const
 {
-	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { addDamage(s.contacts, place, p, all); });
+	return pointCopy<double>(contact, 0, [](const auto& s, int place, int p, auto& all) { addDamage(s, place, p, all); });
 }
 
 py::object LobattoPhys::traction() const
 {
-	return pointCopy<double>(contact, columnsOf(contact, 2, 3), [](const auto& s, int place, int p, auto& all) { addTraction(s.contacts, place, p, all); });
+	return pointCopy<double>(contact, columnsOf(contact, 2, 3), [](const auto& s, int place, int p, auto& all) { addTraction(s, place, p, all); });
 }
 
 py::object LobattoPhys::forces() const
