@@ -63,8 +63,8 @@ double drawn_volume(const SolidState& s, const CutPlane& plane)
 void crack(SolidState& s, int contact)
 {
     for (int p = 0; p < s.contacts.points_of(contact); ++p)
-        s.contacts.set_state(contact, p, FaceRow::max_opening,
-            2.0 * s.contacts.law_of(contact).critical_opening);
+        s.contacts.set_state(
+            contact, p, FaceRow::max_opening, 2.0 * s.contacts.law_of(contact).critical_opening);
 }
 
 }  // namespace

@@ -111,9 +111,8 @@ FLEXPM_INLINE void add_couples(const double* force, const double* jump, FaceMoti
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
-        store_vector(
-            load_vector(m.couple, l) + cross(load_vector(force, l), load_vector(jump, l)), m.couple,
-            l);
+        store_vector(load_vector(m.couple, l) + cross(load_vector(force, l), load_vector(jump, l)),
+            m.couple, l);
     }
 }
 
@@ -177,8 +176,8 @@ template <bool Wide> FLEXPM_INLINE bool hold_block(const FaceLanes& b, const Fac
         find_intact(b, m, p, jump, at);
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l) {
-            const bool holds = holds_intact(
-                load_rows<LawParameters>(b.law, l), at.opening[l], at.slip_squared[l]);
+            const bool holds =
+                holds_intact(load_rows<LawParameters>(b.law, l), at.opening[l], at.slip_squared[l]);
             leaves[l] |= holds ? 0 : 1;
         }
         add_couples(at.force, jump, m);
@@ -218,8 +217,8 @@ Array<double> first_states(const SolidState& s, int block, const FaceLaws& laws,
         // padded lanes follow the first one
         const int contact = in_slot >= 0 ? in_slot : c.in_slot[block * lanes];
         own[i] = i * stride;
-        set_space_vector(before, own[i],
-            displacement_before(s, c.pairs[contact][side], c.nodes[first + i], dt));
+        set_space_vector(
+            before, own[i], displacement_before(s, c.pairs[contact][side], c.nodes[first + i], dt));
     }
     FaceLanes b = face_lanes(s, block, laws);
     b.displacement = before.data();

@@ -11,7 +11,7 @@
 
 namespace flexpm {
 
-/// Of places as find_places() writes them.
+/// Place of a lane, as find_places() writes them.
 FLEXPM_INLINE FacePlace load_place(const double* places, int l)
 {
     const Vector at = load_vector(places, l);
@@ -248,8 +248,8 @@ FLEXPM_INLINE void find_intact(
         const Vector way = load_vector(jump, l), normal = load_vector(m.normal, l);
         const double opening = dot(way, normal);
         const double shear = law.shear_stiffness * b.areas[p * lanes + l];
-        const double beyond = law.normal_stiffness * b.areas[p * lanes + l] * opening
-            - shear * opening;
+        const double beyond =
+            law.normal_stiffness * b.areas[p * lanes + l] * opening - shear * opening;
         store_vector(beyond * normal + shear * way, to.force, l);
         to.opening[l] = opening;
         to.slip_squared[l] = dot(way, way) - opening * opening;

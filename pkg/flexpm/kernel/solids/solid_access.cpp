@@ -89,8 +89,7 @@ std::vector<FacePlace> places_of(const SolidState& s, int contact)
 
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place)
 {
-    return traction_at(
-        contacts.law_of(contact), place, contacts.point_state(contact, point));
+    return traction_at(contacts.law_of(contact), place, contacts.point_state(contact, point));
 }
 
 FaceTraction traction_of(const SolidState& s, int contact, int point)

@@ -112,8 +112,7 @@ double stored_in_points(const SolidState& s)
 {
     LaneSum sum;
     const auto add = variant_of<add_stored<false>, add_stored<true>>();
-    for_each_block(
-        s, [&](const FaceLanes& b, const double* states) { add(b, states, sum); });
+    for_each_block(s, [&](const FaceLanes& b, const double* states) { add(b, states, sum); });
     return sum.total();
 }
 

@@ -245,11 +245,8 @@ py::object LobattoPhys::traction() const
 
 py::object LobattoPhys::forces() const
 {
-	const auto                  owned = requireSpace(contact, "forces");
-	std::vector<flexpm::Vector> all;
-	for (int p = 0; p < owned.space->contacts.points_of(owned.place); ++p)
-		all.push_back(flexpm::point_force(*owned.space, owned.place, p));
-	return vectorsOf(all);
+	const auto owned = requireSpace(contact, "forces");
+	return vectorsOf(flexpm::point_forces(*owned.space, owned.place));
 }
 
 } // namespace yade
