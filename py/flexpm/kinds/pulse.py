@@ -7,6 +7,9 @@ from ..errors import InputError
 
 #: Waves: along the height, and across it.
 WAVES = ("p", "s")
+#: What is done with the sides: across the motion of the wave they are held, or they are free, as of
+#: a thin bar. The name of the option, and its words.
+SIDES, HELD, FREE = "sides", "held", "free"
 #: Length of a pulse over the height that it goes through [-], deviation D48.
 PULSE = 0.4
 #: Least length of a pulse in mean diameters of the grains [-].

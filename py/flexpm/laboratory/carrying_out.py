@@ -10,6 +10,7 @@ from pathlib import Path
 import yade
 
 from ..kinds.option import END_FRICTION
+from ..kinds.pulse import FREE, SIDES
 from ..kinds.test_kind import Rig, Stage
 from ..models.grains import Model, build
 from ..models.spheres import SphereModel
@@ -21,6 +22,7 @@ from ..rigs.frames import FrameWriter, show_frames
 from ..rigs.outcome.folder import lines_in
 from ..rigs.rig import TestRig
 from ..rigs.solids.end_rig import EndRig
+from ..rigs.solids.wave_rig import SolidWaveRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
 from ..runs.loading_rate import Loading
@@ -150,7 +152,8 @@ def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRi
     if spec.kind.rig is Rig.PARTS and isinstance(built, Model):
         return part_rig(built, spec, runner)
     if spec.kind.rig is Rig.WAVE and isinstance(built, Model):
-        return WaveRig(built, spec.wave or "", runner=runner)
+        kind = SolidWaveRig if spec.is_solid else WaveRig
+        return kind(built, spec.wave or "", free=spec.own.get(SIDES) == FREE, runner=runner)
     rig = rig_of(built, tension=spec.kind.pulls, runner=runner)
     friction = spec.own.get(END_FRICTION.name)
     if isinstance(rig, EndRig) and isinstance(friction, float):

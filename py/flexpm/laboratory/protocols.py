@@ -69,13 +69,13 @@ def run(
             force, D the diameter, t the thickness; ``bending``: a beam on two supports, pressed in
             the middle; ``scb``: half a disc with a notch on two supports, pressed on top;
             ``shear``: the lower half of a rectangle is pushed along below the upper;
-            ``sonic``: a plane pulse through a rectangle, with real masses and without damping, for
+            ``sonic``: a plane pulse through a specimen, with real masses and without damping, for
             the speed of its `wave`. ``flexpm run --help`` tells all of them.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc, of the plane or
-            of space; for ``uniaxial`` and ``tension`` also, for ``triaxial`` only a box or a
-            cylinder, z is the axial direction.
+            of space; for ``uniaxial``, ``tension`` and ``sonic`` also, for ``triaxial`` only a box
+            or a cylinder, z is the axial direction.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.

@@ -193,9 +193,12 @@ class SolidModel(Model):
     """A solid in YADE's scene. What rigs ask of a specimen a solid has, too."""
 
     def set_masses(self) -> None:
-        """Scale the masses, before the first step and after the ends have been held."""
-        yade.O.dt = 1.0
-        self.solver.scaleMasses()
+        """Scale the masses, or set real ones, before the first step and after ends are held."""
+        if self.dynamic:
+            yade.O.dt = self.solver.useRealMasses()
+        else:
+            yade.O.dt = 1.0
+            self.solver.scaleMasses()
 
     def snapshot(self) -> Snapshot | SolidSnapshot:
         """The present state as plain arrays."""
@@ -214,14 +217,15 @@ class SolidModel(Model):
 
 
 def _build_solid(
-    specimen: SolidSpecimen, chosen: Material, model: str, damping: float, threads: int
+    specimen: SolidSpecimen, chosen: Material, model: str, damping: float, *, dynamic: bool
 ) -> Model:
     solver = solver_of(specimen, chosen, model)
     solver.damping = damping
     engines = _in_scene(solver, specimen.mean_diameter)
     kinds = mineral_map.minerals_of(specimen, chosen)
-    built = SolidModel(cast(Specimen, specimen), chosen, model, solver, engines, minerals=kinds)
-    built.set_threads(threads)
+    built = SolidModel(
+        *(cast(Specimen, specimen), chosen, model, solver, engines, dynamic), minerals=kinds
+    )
     built.set_masses()
     return built
 
@@ -281,7 +285,11 @@ def build(
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
     if isinstance(specimen, SolidSpecimen):
-        _refuse_plane(points, mesh, dynamic=dynamic)
+        _refuse_plane(points, mesh, gravity)
+        if dynamic and model in SPHERE_MODELS:
+            raise InputError(
+                f"build: dynamic = True, must be False for {model} of a solid; leave it out"
+            )
     else:
         require_specimen("build", specimen)
     if model in SPHERE_MODELS:
@@ -297,7 +305,10 @@ def build(
         )
     _refuse_second()
     if isinstance(specimen, SolidSpecimen):
-        return _build_solid(specimen, load_material(material, model), model, damping, threads)
+        chosen = load_material(material, model)
+        built = _build_solid(specimen, chosen, model, damping, dynamic=dynamic)
+        built.set_threads(threads)
+        return built
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)
@@ -368,13 +379,13 @@ def _refuse_second() -> None:
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
 
 
-def _refuse_plane(points: int, mesh: str, *, dynamic: bool) -> None:
+def _refuse_plane(points: int, mesh: str, gravity: float) -> None:
     """Refuse options of the plane beside a solid."""
-    if (points, mesh, dynamic) != (POINTS[-1], MESHES[0], False):
+    if (points, mesh, gravity) != (POINTS[-1], MESHES[0], 0.0):
         raise InputError(
-            f"build: points, mesh, dynamic = {points}, {mesh}, {dynamic}, must be left out for a "
-            "solid, whose contacts have their corners and an inner point, whose meshes are fans "
-            "and whose masses are scaled"
+            f"build: points, mesh, gravity = {points}, {mesh}, {gravity:g}, must be left out for a "
+            "solid, whose contacts have their corners and an inner point, whose meshes are fans, "
+            "and which has no weight"
         )
 
 

@@ -29,6 +29,19 @@ def modulus(wave: str, young: float, poisson: float) -> float:
     return young / (2.0 * (1.0 + poisson))
 
 
+def solid_modulus(wave: str, young: float, poisson: float) -> float:
+    """The same of a solid [Pa].
+
+    Args:
+        wave: ``p`` or ``s``.
+        young: Young's modulus [Pa].
+        poisson: Poisson's ratio [-].
+    """
+    if wave == "p":
+        return young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
+    return young / (2.0 * (1.0 + poisson))
+
+
 def velocities(curve: Curve) -> tuple[FloatArray, FloatArray]:
     """Mean velocities of the lower and of the upper section [m/s]."""
     time = curve[TIME]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A plane pulse through a rectangle of grains, and how fast it goes: the test ``sonic``. SI units.
+"""A plane pulse through a specimen of grains, and how fast it goes: the test ``sonic``. SI units.
 
 Deviations D48 and D49.
 """
@@ -35,30 +35,35 @@ _BAND = 2.0
 _STRAIN = 1e-7
 #: Rows of the record, about.
 _ROWS = 500
-#: Components of the motion.
-_ACROSS, _ALONG = 0, 1
+#: Component of the motion across the height.
+ACROSS = 0
 
 
 class WaveRig(GrainRig):
-    """A rectangle between sides that are held across the motion of a wave; its ends are free."""
+    """A specimen whose sides are held across the motion of a wave, or free; its ends are free."""
 
-    def __init__(self, built: Model, wave: str, *, runner: Runner | None = None) -> None:
+    #: Component of the motion along the height.
+    _along = 1
+
+    def __init__(
+        self, built: Model, wave: str, *, free: bool = False, runner: Runner | None = None
+    ) -> None:
         """Take grains that have just been built, or whose scene has been loaded.
 
         Args:
-            built: A rectangle with real masses and without damping.
+            built: A specimen with real masses and without damping.
             wave: ``p``: grains move along the height; ``s``: across it.
+            free: Sides are free, as of a thin bar.
             runner: Steps, shows progress and saves checkpoints; None for one that only steps.
         """
         super().__init__(built, runner=runner)
-        self._moved = _ALONG if wave == "p" else _ACROSS
-        box = built.specimen.dimensions
-        self._height = box["height"]
-        low = np.asarray(built.specimen.outline).min(axis=0)
-        self._bottom = float(low[1])
+        self._wave, self._free = wave, free
+        self._moved = self._along if wave == "p" else ACROSS
+        self._height = built.specimen.dimensions["height"]
+        self._bottom = self._lowest()
         width = _BAND * built.specimen.mean_diameter
         self._sections = [
-            built.solver.sectionNodes(self._bottom + part * self._height, (0.0, 1.0, 0.0), width)
+            built.solver.sectionNodes(self._bottom + part * self._height, unit(self._along), width)
             for part in _SECTIONS
         ]
 
@@ -94,14 +99,14 @@ class WaveRig(GrainRig):
     def expected_speed(self) -> float:
         """Speed of the wave in a continuum with the specimen's elastic constants [m/s]."""
         young, poisson = self.built.solver.elasticConstants()
-        modulus = waves.modulus("p" if self._moved == _ALONG else "s", young, poisson)
-        return math.sqrt(modulus / self._density())
+        return math.sqrt(self._modulus(young, poisson) / self._density())
 
     def _begin_wave(self) -> Span:
-        crossing = self._height / self.expected_speed()
-        for side in (LEFT, RIGHT):  # across the wave's motion, so that it is plane
-            self.built.solver.holdSide(side, x=self._moved == _ALONG, y=self._moved == _ACROSS)
-        self._move_bottom()
+        speed = self.expected_speed()  # what is held would change the constants of a solid
+        crossing = self._height / speed
+        if not self._free:
+            self._hold_sides()
+        self._move_bottom(speed)
         solver = self.built.solver
         solver.resetEnergyBalance()
         steps = math.ceil(crossing / yade.O.dt)
@@ -109,29 +114,49 @@ class WaveRig(GrainRig):
         solver.measurePeriod, solver.mirrorPeriod = period, solver.checkPeriod
         recorder = self._recorder
         recorder.leastPeak = 1e300  # nothing ends the test but its time
-        direction = (0.0, 1.0, 0.0) if self._moved == _ALONG else (1.0, 0.0, 0.0)
+        direction = unit(self._moved)
         for name, (nodes, _) in zip(waves.DISPLACEMENTS, self._sections, strict=True):
             recorder.addGauge(wrapper.Gauge(name=name, nodes=nodes, direction=direction))
         self.built.add_engines(after=(recorder,))
         rows = -(-steps // period)
         return Span(rows * period, rows * period)
 
-    def _move_bottom(self) -> None:
+    def _move_bottom(self, expected: float) -> None:
         """Give the lower end the velocities of a pulse. Deviation D48.
 
         By the free end's mirror half of them goes up as a pulse of twice their length.
         """
         reach = 0.5 * PULSE * self._height
-        largest = 2.0 * _STRAIN * self.expected_speed()
+        largest = 2.0 * _STRAIN * expected
         for grain in range(len(self.built.solver.bodyIds)):
             shape = self._shape(grain)
-            places = shape.positions[:, 1] - self._bottom
+            places = shape.positions[:, self._along] - self._bottom
             velocity = largest * _pulse(places / reach)
             if shape.rigid:
-                speed = float(velocity[-1])
-                shape.setMotion((0.0, speed, 0.0) if self._moved else (speed, 0.0, 0.0), 0.0)
+                self._set_motion(shape, float(velocity[-1]))
             else:
                 shape.velocities[:, self._moved] = velocity
+
+    # What depends on the space that grains are in
+
+    def _lowest(self) -> float:
+        """Place of the bottom along the height [m]."""
+        return float(np.asarray(self.built.specimen.outline)[:, 1].min())
+
+    def _modulus(self, young: float, poisson: float) -> float:
+        """Stress over strain in the wave [Pa]."""
+        return young if self._free else waves.modulus(self._wave, young, poisson)
+
+    def _hold_sides(self) -> None:
+        """Hold the sides across the wave's motion, so that it is plane."""
+        across = self._moved == ACROSS
+        for side in (LEFT, RIGHT):
+            self.built.solver.holdSide(side, x=not across, y=across)
+
+    def _set_motion(self, shape: wrapper.LaguerreCell, speed: float) -> None:
+        """Let a rigid grain move with the wave, without a spin."""
+        x, y, z = unit(self._moved)
+        shape.setMotion((speed * x, speed * y, speed * z), 0.0)
 
     def _press(self, pressure: float, ramp: int) -> NoReturn:
         self._refuse("confine")
@@ -161,6 +186,11 @@ class WaveRig(GrainRig):
 
     def _standing(self) -> str:
         return f"{1e6 * yade.O.iter * yade.O.dt:.1f} us"
+
+
+def unit(axis: int) -> tuple[float, float, float]:
+    """Unit vector along an axis."""
+    return (float(axis == 0), float(axis == 1), float(axis == 2))
 
 
 def _pulse(place: FloatArray) -> FloatArray:

@@ -193,6 +193,8 @@ def _check_solid(run: RunInputs) -> None:
         return
     for name in OF_THE_PLANE[1:]:
         value, usual = getattr(run, name), getattr(type(run), name, None)
+        if name == "dynamic" and run.kind.dynamic:
+            continue
         if value != usual and (name, value) != ("start", "rest"):
             raise InputError(
                 f"run: {with_unit(name, value)}, must be left out for a {run.specimen.kind}"

@@ -77,8 +77,40 @@ TEST_CASE("A side that cannot be held is refused", "[solids]")
     SolidState s = prisms(plane_cells(), 2e-3);
     CHECK_THROWS_WITH(hold_side(s, 9, 1), Catch::Contains("nodes of side 9 = 0"));
     CHECK_THROWS_WITH(hold_side(s, 4, 3), Catch::Contains("axis = 3, must be 0, 1 or 2"));
+}
+
+TEST_CASE("A push on a held face stops it and does no more than a plastic impact", "[solids]")
+{
     const Packing p = packing(12, 2);
-    SolidState rigid =
-        make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
-    CHECK_THROWS_WITH(hold_side(rigid, 4, 1), Catch::Contains("rigid grains = 12, must be 0"));
+    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
+    set_real_masses(s);
+    const int axis = GENERATE(0, 1, 2);
+    hold_side(s, 4, axis);  // the front, across y
+    if (axis == 1) {
+        CHECK(s.held_faces.empty());
+        CHECK(side_nodes(s, SolidSide::front).size() > 3);
+        return;
+    }
+    REQUIRE(s.held_faces.size() > 2);
+    const HeldFace face = s.held_faces.back();
+    s.held_faces = { face };
+    const int centre = s.grains.centre(face.grain);
+    const Vector spin { 2e-4, -1e-4, 3e-4 }, velocity { 1e-6, 2e-6, -3e-6 };
+    set_motion(s, face.grain, velocity, spin);
+    const Vector before = s.bodies[face.grain].angular_momentum;
+    const double kinetic = kinetic_of_velocities(s);
+    hold_faces(s);
+    const Vector now = space_vector(s.grains.velocity, centre), turn = s.bodies[face.grain].spin;
+    const auto along = [&](Vector v) { return axis == 0 ? v.x : v.z; };
+    const double moving = along(velocity + cross(spin, face.arm));
+    CHECK(std::fabs(along(now + cross(turn, face.arm))) < 1e-12 * std::fabs(moving));
+    CHECK(now.y == velocity.y);
+    // momenta change by one push in the middle of the face, half of whose work is lost
+    const double mass = 1.0 / s.grains.inverse_mass[s.grains.scalar_index(centre)];
+    const double push = mass * along(now - velocity);
+    const Vector pushed = axis == 0 ? Vector { push, 0.0, 0.0 } : Vector { 0.0, 0.0, push };
+    const Vector moment = s.bodies[face.grain].angular_momentum - before;
+    CHECK(norm(moment - cross(face.arm, pushed)) < 1e-9 * norm(moment));
+    CHECK(kinetic - kinetic_of_velocities(s) == Approx(-0.5 * push * moving).epsilon(1e-9));
+    CHECK_THROWS_WITH(elastic_field(s), Catch::Contains("held faces of rigid grains = 1"));
 }

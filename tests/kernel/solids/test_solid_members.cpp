@@ -43,6 +43,7 @@ TEST_CASE("Each saved part of a solid lists all its members", "[solids]")
     check_members(FaceContacts());
     check_members(SurfaceTriangles());
     check_members(RigidBody());
+    check_members(HeldFace());
     const SolidState s;
     CHECK(in_order(s));
     CHECK(size_of_members(s) + sizeof(SolidPlan) == sizeof(SolidState));

@@ -30,7 +30,7 @@ VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --po
     --interaction-range --pixel --edge --smallest
     --halvings --misorientation --scale --short-edge --confinements""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
-NAMED = """--model --material --mesh --start --loading --wave --control --film --specimen
+NAMED = """--model --material --mesh --start --loading --wave --sides --control --film --specimen
     --joints --name --network --phases --shape
     --models --unindexed""".split()
 #: Options that are given below, or that lead to other files, long work or other machines.
@@ -49,7 +49,7 @@ COMMANDS = st.sampled_from(
         *(("run", test) for test in ("bending", "scb", "shear", "punch", "sonic")),
         *(
             ("run", test, "--shape", "box")
-            for test in ("uniaxial", "tension", "biaxial", "triaxial")
+            for test in ("uniaxial", "tension", "biaxial", "triaxial", "sonic")
         ),
         ("run", "triaxial"),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box", "cylinder")),
@@ -70,6 +70,7 @@ SIZES = {
     "run tension --shape box": [*BOX, *FEW],
     "run biaxial --shape box": [*BOX, *FEW],
     "run triaxial --shape box": [*BOX, *FEW],
+    "run sonic --shape box": BOX,
     "run triaxial": ["--diameter", "0.009", "--height", "0.012", *FEW],
     "specimen cylinder": ["--diameter", "0.009", "--height", "0.012", "--out", "made"],
     "run brazilian": ["--diameter", "0.012", *FEW],

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace flexpm {
 
@@ -182,6 +184,34 @@ void take_mean(SolidState& s, double time, double fastest)
     }
 }
 
+/// Faces of a grain on a side.
+struct SideFaces {
+    Vector area;    ///< along the normal, outwards [m^2]
+    Vector middle;  ///< [m]
+};
+
+/// Cosine between a face's normal and an axis from which on it lies across that.
+constexpr double steep = 0.5;
+
+/// Those on a side by their grains.
+std::map<int, SideFaces> faces_on(const SolidState& s, int side)
+{
+    std::map<int, SideFaces> faces;
+    std::map<int, double> areas;
+    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
+        if (s.surface.side[t] != side) continue;
+        const Vector area = area_vector(s, t);
+        SideFaces& own = faces[s.surface.grain[t]];
+        own.area = own.area + area;
+        areas[s.surface.grain[t]] += norm(area);
+        for (int n : s.surface.nodes[t])
+            own.middle = own.middle + norm(area) / 3.0 * space_vector(s.grains.reference, n);
+    }
+    for (auto& [grain, own] : faces)
+        own.middle = (1.0 / areas[grain]) * own.middle;
+    return faces;
+}
+
 }  // namespace
 
 void hold_ends(SolidState& s, const EndHold& how)
@@ -222,13 +252,20 @@ void hold_against_sliding(SolidState& s)
 
 void hold_side(SolidState& s, int side, int axis)
 {
-    if (!s.bodies.empty()) {
-        refuse("hold_side: rigid grains", s.grains.count, "",
-            "must be 0; nodes of deformable grains are held");
-    }
     if (axis < 0 || axis >= s.grains.layout.dimension)
         refuse("hold_side: axis", axis, "", "must be 0, 1 or 2");
-    prescribe(s, need_nodes(s, static_cast<SolidSide>(side)), axis, 0.0);
+    const std::vector<int> nodes = need_nodes(s, static_cast<SolidSide>(side));
+    if (s.bodies.empty()) return prescribe(s, nodes, axis, 0.0);
+    for (const auto& [grain, faces] : faces_on(s, side)) {
+        const double across[] = { faces.area.x, faces.area.y, faces.area.z };
+        const int centre = s.grains.centre(grain);
+        if (std::fabs(across[axis]) > steep * norm(faces.area)) {
+            prescribe(s, { centre }, axis, 0.0);
+        } else {
+            s.held_faces.push_back(
+                { grain, axis, faces.middle - space_vector(s.grains.reference, centre) });
+        }
+    }
 }
 
 void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,

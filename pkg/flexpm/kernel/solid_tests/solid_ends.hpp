@@ -31,8 +31,10 @@ void hold_end(SolidState& s, SolidSide side, const EndHold& how);
 void hold_against_sliding(SolidState& s);
 
 /// Hold the nodes of a side along an axis (0: x), as a smooth plane that they may not leave does
-/// along its normal. Front and back held along y make plane strain of a box.
-/// @throws std::invalid_argument  if there is no such side or axis, or grains are rigid
+/// along its normal. Front and back held along y make plane strain of a box. Of rigid grains the
+/// centre is held where the side lies across the axis, the middle of their faces where it runs
+/// along it.
+/// @throws std::invalid_argument  if there is no such side or axis
 void hold_side(SolidState& s, int side, int axis);
 
 /// Begin from a linear solution at a strain, positive in tension, with the top at a velocity, by

@@ -136,6 +136,11 @@ void integrate_turn(
     sums.kinetic[0] += 0.25 * (dot(old, body.angular_momentum) + dot(body.spin, momentum));
 }
 
+Vector axis_vector(int axis)
+{
+    return { axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0 };
+}
+
 }  // namespace
 
 void move_body(SolidState& s, int block, double dt)
@@ -216,6 +221,25 @@ void set_motion(SolidState& s, int grain, Vector velocity, Vector spin)
     }
     set_space_vector(s.grains.velocity, s.grains.centre(grain), velocity);
     set_spin(s, grain, spin, s.bodies[grain].spin_held);
+}
+
+void hold_faces(SolidState& s)
+{
+    Grains& grains = s.grains;
+    for (const HeldFace& face : s.held_faces) {
+        RigidBody& body = s.bodies[face.grain];
+        const int centre = grains.centre(face.grain);
+        const Vector along = axis_vector(face.axis);
+        const Quaternion back = inverse(body.turn);
+        const Vector lever = cross(turned(body.turn, face.arm), along);
+        const Vector turns = turned(body.turn, solve(body.inertia, turned(back, lever)));
+        const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
+        const int i = grains.component(centre, face.axis);
+        const double push =
+            -(grains.velocity[i] + dot(body.spin, lever)) / (inverse_mass + dot(lever, turns));
+        grains.velocity[i] += push * inverse_mass;
+        set_spin(s, face.grain, body.spin + push * turns, false);
+    }
 }
 
 double least_moment(const SpaceTensor& i)

@@ -41,6 +41,11 @@ void set_spin(SolidState& s, int grain, Vector spin, bool held);
 /// @throws std::invalid_argument  unless the grain is rigid and all are finite
 void set_motion(SolidState& s, int grain, Vector velocity, Vector spin);
 
+/// Stop the faces that are held along an axis: each gets the push in its middle that takes its
+/// velocity along the axis away, which changes the grain's motion and does no work on what it
+/// holds. Comes after the velocities of a step.
+void hold_faces(SolidState& s);
+
 /// A lower bound of the smallest principal moment of an inertia.
 double least_moment(const SpaceTensor& inertia);
 

@@ -284,6 +284,22 @@ struct RigidBody {
     }
 };
 
+/// Faces of a rigid grain on a side that must not move along an axis, see hold_side().
+struct HeldFace {
+    int grain = 0;
+    int axis = 0;
+    Vector arm;  ///< from the centre to the middle of the faces, at the reference [m]
+
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("grain", s.grain);
+        visit("axis", s.axis);
+        visit("arm_x", s.arm.x);
+        visit("arm_y", s.arm.y);
+        visit("arm_z", s.arm.z);
+    }
+};
+
 /// Contact of a plate.
 struct PlateTouch {
     int plate;
@@ -330,6 +346,7 @@ struct SolidState {
     FaceContacts contacts;
     SurfaceTriangles surface;
     std::vector<Plate> plates;  ///< on ends of rigid grains; facets are surface triangles
+    std::vector<HeldFace> held_faces;
     EnergyLedger ledger;
     /// Motions as of the plane; `spin` is [grain][x y z], `angle` the turn, [grain][w x y z].
     LoadingMotion loading;
@@ -351,6 +368,7 @@ struct SolidState {
         visit("contacts", s.contacts);
         visit("surface", s.surface);
         visit("plates", s.plates);
+        visit("held_faces", s.held_faces);
         visit("ledger", s.ledger);
         visit("loading", s.loading);
         visit("steady", s.steady);

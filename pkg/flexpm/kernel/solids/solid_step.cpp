@@ -179,6 +179,7 @@ void step(SolidState& s, const StepOptions& options)
         update_shared_grains(s, own, options);
     };
     team.run(share);
+    hold_faces(s);
     sum_plates(s, options.dt);
     sum_pressure_work(s);
     ++s.step;

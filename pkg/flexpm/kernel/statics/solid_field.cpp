@@ -200,6 +200,9 @@ RigidSolid rigid_solid(const SolidState& s, const LinearSolid& solid)
 SolidField elastic_field(const SolidState& s)
 {
     const bool rigid = !s.bodies.empty();
+    if (!s.held_faces.empty())
+        refuse("elastic_field: held faces of rigid grains",
+            static_cast<double>(s.held_faces.size()), "", "must be 0; hold sides across an axis");
     if (rigid && s.plates.size() != 2) {
         refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
             "must be 2 of rigid grains; call hold_ends() first");

@@ -13,7 +13,7 @@ namespace flexpm {
 /// (hold_ends()): of deformable grains as solid_extension() has it, of rigid ones between their
 /// plates, and of a disc between those that touch it (add_disc_plates()). The bottom stays.
 ///
-/// @throws std::invalid_argument  unless ends are held
+/// @throws std::invalid_argument  unless ends are held, or if faces of rigid grains are
 /// @throws std::runtime_error  if the forces do not come to balance
 SolidField elastic_field(const SolidState& s);
 

@@ -130,6 +130,11 @@ void begin_from(SolidState& s, const SolidField& field, double extent, double ra
     }
     for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g)
         begin_body(s, g, field, extent, rate);
+    begin_balance(s);
+}
+
+void begin_balance(SolidState& s)
+{
     find_forces(s);
     std::fill(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
     s.ledger.kinetic[0] = kinetic_of_velocities(s);

@@ -37,6 +37,10 @@ struct SolidField {
 ///         rigid grain
 void begin_from(SolidState& s, const SolidField& field, double extent, double rate);
 
+/// Let the balance of energies begin with the present places and velocities, before the first step.
+/// Points of contacts follow.
+void begin_balance(SolidState& s);
+
 /// Add `rate` times a field to the velocities of what is free to move, at the present places, and
 /// let damping leave these alone.
 /// @throws std::invalid_argument  as begin_from()

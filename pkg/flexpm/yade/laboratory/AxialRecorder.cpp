@@ -86,7 +86,7 @@ void AxialRecorder::action()
 	for (Real own : testFrame().values(now.axial_stress, now.axial_strain))
 		values.push_back(own);
 	for (const auto& gauge : gauges)
-		values.push_back(gauge->reading(solver->forEngines()));
+		values.push_back(solver->solid() ? gauge->reading(*solver->solid()) : gauge->reading(solver->forEngines()));
 	if (!controlled.empty()) values.push_back(setPoint);
 	stress       = now.axial_stress;
 	strain       = now.axial_strain;
@@ -99,13 +99,13 @@ void AxialRecorder::action()
 void AxialRecorder::postLoad(AxialRecorder&)
 {
 	if (!fromNow) return;
-	fromNow              = false;
-	const auto  solver   = GrainSolver::ofScene(*Omega::instance().getScene());
-	const auto& assembly = solver->current();
-	const auto  now      = observed(*solver);
-	zero                 = Vector2r(now.axial_strain, now.lateral_strain);
+	fromNow           = false;
+	const auto solver = GrainSolver::ofScene(*Omega::instance().getScene());
+	solver->current();
+	const auto now = observed(*solver);
+	zero           = Vector2r(now.axial_strain, now.lateral_strain);
 	for (const auto& gauge : gauges)
-		gauge->setZero(assembly);
+		solver->onState([&](const auto& state) { gauge->setZero(state); });
 }
 
 py::list AxialRecorder::names() const
@@ -151,8 +151,10 @@ py::list AxialRecorder::gaugeList() const
 
 py::list AxialRecorder::lostGauges() const
 {
-	const auto& assembly = GrainSolver::ofScene(*Omega::instance().getScene())->current();
-	py::list    lost;
+	const auto solver = GrainSolver::ofScene(*Omega::instance().getScene());
+	py::list   lost;
+	if (solver->solid()) return lost; // a solid keeps its grains
+	const auto& assembly = solver->current();
 	for (const auto& gauge : gauges)
 		if (gauge->lost(assembly)) lost.append(gauge->name);
 	return lost;

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
+#include <flexpm/kernel/solid_tests/solid_gauge.hpp>
 
 #include <algorithm>
 
@@ -26,6 +27,12 @@ Real Gauge::moved(const flexpm::Assembly& assembly) const
 	if (reads == "crosshead") return flexpm::crosshead_way(assembly, plate, along);
 	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : way(assembly.grains.displacement);
 }
+
+Real Gauge::moved(const flexpm::SolidState& solid) const { return flexpm::mean_way(solid, nodes, { direction[0], direction[1], direction[2] }); }
+
+void Gauge::setZero(const flexpm::SolidState& solid) { zero = moved(solid); }
+
+Real Gauge::reading(const flexpm::SolidState& solid) const { return perLength(moved(solid) - zero); }
 
 bool Gauge::isState() const { return reads == "machine_energy" || reads == "contact_angle" || reads == "angle"; }
 

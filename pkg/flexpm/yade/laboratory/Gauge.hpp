@@ -2,7 +2,7 @@
 /// @file  A reading of a specimen by its name: how far two points open, a strain, the way of a plate or a section.
 #pragma once
 
-#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/solids/solid_state.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 
@@ -17,6 +17,9 @@ public:
 	void setZero(const flexpm::Assembly& assembly);
 	/// Opening or way, less that at its zero [m], or a strain [-], or what `reads` names.
 	Real reading(const flexpm::Assembly& assembly) const;
+	/// The same of a solid, of which sections alone are read.
+	void setZero(const flexpm::SolidState& solid);
+	Real reading(const flexpm::SolidState& solid) const;
 	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.
 	Real rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const;
 	/// Whether a grain that it reads has been erased.
@@ -24,6 +27,7 @@ public:
 
 private:
 	Real moved(const flexpm::Assembly& assembly) const;
+	Real moved(const flexpm::SolidState& solid) const;
 	/// Whether it reads what the plate has now, not how far something has gone.
 	bool isState() const;
 	/// What nodes move that move so.

@@ -4,9 +4,11 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_gauge.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/solids/solid_step.hpp>
@@ -53,6 +55,30 @@ void SolidSolver::holdEnds(bool bonded, Real friction)
 {
 	flexpm::hold_ends(state, { bonded, friction > 0. });
 	if (friction > 0.) flexpm::roughen_plates(state, friction);
+}
+
+Real SolidSolver::useRealMasses()
+{
+	flexpm::set_real_masses(state);
+	massStep    = flexpm::stable_step(state, damping);
+	massDamping = damping;
+	scaled      = false;
+	return massStep;
+}
+
+void SolidSolver::resetEnergyBalance()
+{
+	if (state.step > 0) flexpm::refuse("SolidSolver.resetEnergyBalance: steps", double(state.step), "", "must be 0; call it before the first step");
+	flexpm::begin_balance(state);
+}
+
+py::tuple SolidSolver::sectionNodes(Real place, Vector3r direction, Real width)
+{
+	const auto section = flexpm::section_at(state, place, { direction[0], direction[1], direction[2] }, width / 2);
+	py::list   nodes;
+	for (int node : section.nodes)
+		nodes.append(node);
+	return py::make_tuple(nodes, section.place);
 }
 
 bool SolidSolver::holds(int place) const { return !isInScene() || hasInteraction(place); }

@@ -30,6 +30,9 @@ public:
 	py::tuple elasticConstants();
 	void      clearPressure(int side);
 	void      holdSide(int side, bool x, bool y, bool z);
+	Real      useRealMasses();
+	void      resetEnergyBalance();
+	py::tuple sectionNodes(Real place, Vector3r direction, Real width);
 	py::dict  snapshot();
 	py::dict  counts();
 	py::dict  overlaps();
@@ -57,7 +60,11 @@ public:
 		.def("balance", WithGrains<&SolidSolver::balance>::call,
 			"How far the specimen is in balance at the last step, by name: mean_stress and outside_stress [Pa], each (xx, yy, zz, yz, xz, xy), missing_force [N], plate_share, 0.")
 		.def("holdSide", WithGrains<&SolidSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
-			"Hold the nodes of deformable grains on a side along the axes named. Sides: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends: plane strain of a box.")
+			"Hold the nodes of deformable grains on a side along the axes named, of rigid ones the centres behind it across it and the middles of their faces along it. Sides: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends: plane strain of a box.")
+		.def("useRealMasses", WithGrains<&SolidSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
+		.def("resetEnergyBalance", WithGrains<&SolidSolver::resetEnergyBalance>::call, "Let the balance of energies begin with the present velocities, before the first step.")
+		.def("sectionNodes", WithGrains<&SolidSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
+			"Nodes of a gauge that reads the mean way of a section: those in a band of a width across a unit vector, about a place along it [m]; and where they lie along it in the mean.")
 		.def("snapshot", WithGrains<&SolidSolver::snapshot>::call, "The state as plain arrays, by name.")
 		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")
 		.def("overlaps", WithGrains<&SolidSolver::overlaps>::call, "The deepest overlap of grains that share no contact, which nothing keeps apart, as a dictionary: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")

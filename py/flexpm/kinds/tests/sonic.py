@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A plane pulse through a rectangle, from its bottom to its top. Deviations D48 and D49."""
+"""A plane pulse through a rectangle or a solid, from its bottom to its top. D48, D49, D98."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ...errors import InputError
 from ..model_names import BLOCK_MODELS
 from ..option import Asked, Option, Value
-from ..pulse import WAVES, require_pulse
+from ..pulse import FREE, HELD, SIDES, WAVES, require_pulse
 from ..test_kind import Rig, Stage, TestKind
 from ..words import Drawn, Words
 
@@ -15,17 +16,34 @@ from ..words import Drawn, Words
 def _settle(asked: Asked) -> Mapping[str, Value]:
     if asked.diameter is not None:
         require_pulse(asked.sizes["height"], asked.diameter)
-    return {"wave": asked.word("wave", WAVES)}
+    wave, sides = asked.word("wave", WAVES), asked.word(SIDES, (HELD, FREE))
+    if sides == FREE and wave != WAVES[0]:
+        raise InputError(
+            f"run: {SIDES} = {FREE}, must be {HELD} for wave = {wave}: a bar that is bent has no "
+            "speed of its own; leave it out"
+        )
+    return {"wave": wave, SIDES: None if sides == HELD else sides}
 
 
 KIND = TestKind(
     name="sonic",
     order=9,
-    about="a plane pulse through a rectangle, from its bottom to its top, with real masses and "
-    "without damping, for the speed of its wave",
+    about="a plane pulse through a rectangle or a solid, from its bottom to its top, with real "
+    "masses and without damping, for the speed of its wave",
+    solids=("box", "cylinder"),
+    solid_models=BLOCK_MODELS,
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 2),  # a cosine that is the same on all machines
-    options=(Option("wave", "Pressure or shear wave", choices=WAVES, default=WAVES[0]),),
+    options=(
+        Option("wave", "Pressure or shear wave", choices=WAVES, default=WAVES[0]),
+        Option(
+            SIDES,
+            "Sides, held across the motion of the wave, or free: a thin bar",
+            choices=(HELD, FREE),
+            default=HELD,
+            open=HELD,
+        ),
+    ),
     without=(
         *("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start", "loading"),
     ),
