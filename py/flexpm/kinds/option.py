@@ -75,6 +75,8 @@ def control_of(*measures: str) -> Option:
     )
 
 
+#: Name of the radius of the jaws in which a disc is split.
+JAW_RADIUS = "jaw_radius"
 #: Friction of the ends of a solid.
 END_FRICTION = Option(
     "end_friction",

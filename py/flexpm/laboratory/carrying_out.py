@@ -9,7 +9,7 @@ from pathlib import Path
 
 import yade
 
-from ..kinds.option import END_FRICTION
+from ..kinds.option import END_FRICTION, JAW_RADIUS
 from ..kinds.pulse import FREE, SIDES
 from ..kinds.test_kind import Rig, Stage
 from ..models.grains import Model, build
@@ -21,6 +21,7 @@ from ..rigs.fitting import rig as rig_of
 from ..rigs.frames import FrameWriter, show_frames
 from ..rigs.outcome.folder import lines_in
 from ..rigs.rig import TestRig
+from ..rigs.solids.disc_rig import SolidDiscRig
 from ..rigs.solids.end_rig import EndRig
 from ..rigs.solids.wave_rig import SolidWaveRig
 from ..rigs.wave_rig import WaveRig
@@ -158,6 +159,9 @@ def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRi
     friction = spec.own.get(END_FRICTION.name)
     if isinstance(rig, EndRig) and isinstance(friction, float):
         rig.roughen(friction)
+    radius = spec.own.get(JAW_RADIUS)
+    if isinstance(rig, SolidDiscRig) and isinstance(radius, float):
+        rig.bend(radius)
     return rig
 
 

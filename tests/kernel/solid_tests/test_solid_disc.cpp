@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
@@ -109,5 +110,60 @@ TEST_CASE("Both plates bear what is pressed, which is the work that is stored", 
         CHECK(std::fabs(e.kinetic + e.elastic + e.damping + e.drag - e.boundary_work - e.initial)
             < 1e-4 * e.elastic);
         CHECK(pressed_area(s.plates[0]) == Approx(facet_area(p)).epsilon(0.2));
+    }
+}
+
+TEST_CASE("A jaw has the gaps and normals of two circles, and a wide one is flat", "[solids]")
+{
+    const Packing p = disc();
+    const SolidState flat = between_plates(p, false);
+    const double rim = std::fabs(flat.plates[0].position.z), radius = 1.5 * rim;
+    SolidState wide = make_solid(p.cells, p.solid, granite());
+    add_disc_plates(wide, 1e5 * rim);
+    SolidState bent = make_solid(p.cells, p.solid, granite());
+    add_disc_plates(bent, radius);
+    for (int side = 0; side < 2; ++side) {
+        const Plate &plate = bent.plates[side], &like = wide.plates[side];
+        REQUIRE(plate.facets == flat.plates[side].facets);
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+            const Vector outwards = area_vector(bent, plate.facets[i]);
+            const double cosine = -dot(outwards, plate.normal) / norm(outwards);
+            // the triangle of both centres and the place on the rim
+            const double apart = radius - rim;
+            const double way = std::sqrt(rim * rim + apart * apart + 2.0 * rim * apart * cosine);
+            CHECK(std::fabs(plate.gap[i] - (radius - way)) < 1e-8 * rim);
+            CHECK(std::fabs(like.gap[i] - rim * (1.0 - cosine)) < 1e-4 * rim);
+            CHECK(norm(normal_at(plate, i)) == Approx(1.0));
+            CHECK(norm(normal_at(like, i) - plate.normal) < 1e-4);
+            CHECK(dot(normal_at(plate, i), outwards) < 0.0);
+            CHECK((plate.gap[i] == 0.0) == (flat.plates[side].gap[i] == 0.0));
+        }
+    }
+    SolidState other = make_solid(p.cells, p.solid, granite());
+    CHECK_THROWS_WITH(add_disc_plates(other, 0.9 * rim), Catch::Contains("radius of a jaw"));
+    CHECK(other.plates.empty());
+}
+
+TEST_CASE("Jaws bear the same below and on top, and energies sum", "[solids]")
+{
+    const Packing p = disc();
+    const double diameter = 6.0 * solid_samples::side, depth = 3.0 * solid_samples::side;
+    for (const bool rigid : { false, true }) {
+        SolidState s =
+            make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+        add_disc_plates(s, 1.001 * p.solid.walls[2].offset);  // nearly its own
+        scale_masses(s, damping);
+        start_ends(s, elastic_field(s), 0.0, -8e-7 * diameter, true, dt);
+        for (int k = 0; k < 600; ++k)
+            step(s, { dt, damping, 1, true });
+        const AxialObservation now = observe(s, solid_disc_frame(s, diameter, depth));
+        CHECK(now.axial_stress > 0.0);
+        CHECK(now.end_mismatch < 0.05);
+        // more than one facet lies in a jaw by now
+        CHECK(pressed_area(s.plates[0]) > 1.5 * facet_area(p));
+        const Energies& e = now.energies;
+        const double lost = e.damping + e.drag + e.damage + e.friction;
+        CHECK(std::fabs(e.kinetic + e.elastic + lost - e.boundary_work - e.initial)
+            < 1e-3 * e.boundary_work);
     }
 }

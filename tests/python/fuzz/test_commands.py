@@ -25,7 +25,7 @@ KEYS = st.sampled_from(
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
     --thickness --depth --origin --diameters --points --gravity --diameter --length --span --notch
-    --distance --normal-stress --second-confinement --end-friction
+    --distance --normal-stress --second-confinement --end-friction --jaw-radius
     --max-displacement --network-seed --seeds --frames --workers --damping
     --interaction-range --pixel --edge --smallest
     --halvings --misorientation --scale --short-edge --confinements""".split()

@@ -184,3 +184,28 @@ def test_a_calibration_takes_boxes_and_discs(tmp_path, monkeypatch):
         for file in (tmp_path / "out/runs").rglob("result.json")
     }
     assert kinds == {"box", "solid-disc"}
+
+
+def test_jaws_bear_on_a_wider_strip_and_change_no_bit_on_threads(small, tmp_path, monkeypatch):
+    asked = {"model": "rigid", "max_strain": 2.5e-3, "rate": 2.0, "report": False}
+    flat = flexpm.run("brazilian", small, **asked)
+    asked["jaw_radius"] = 0.00701
+    whole = flexpm.run("brazilian", small, **asked)
+    assert whole.contact_width > flat.contact_width
+    assert whole.energy_error < 1e-3
+    assert same(flexpm.run("brazilian", small, threads=2, **asked), whole)
+    assert same(taken_up(monkeypatch, tmp_path, 60, "brazilian", small, **asked), whole)
+
+
+def test_jaws_that_fit_no_disc_are_refused(small):
+    with pytest.raises(InputError, match="jaw_radius = 0.005 m, must be > 0.007 m, the disc's"):
+        flexpm.run("brazilian", small, jaw_radius=0.005)
+    with pytest.raises(InputError, match="jaw_radius = 100 m, must be > 0.007 m"):
+        flexpm.run("brazilian", small, jaw_radius=100.0)
+    plane = Specimen.disc(0.014, 0.008, seed=1)
+    with pytest.raises(InputError, match="must be left out for a disc of the plane; lay jaws"):
+        flexpm.run("brazilian", plane, jaw_radius=0.0105)
+    yade.O.reset()
+    rig = flexpm.rig(flexpm.build(small, model="rigid"))
+    with pytest.raises(InputError, match="bend: radius = 0.006 m, must be > 0.007"):
+        rig.bend(0.006)

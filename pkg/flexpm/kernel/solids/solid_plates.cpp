@@ -72,6 +72,15 @@ Vector rub(Plate& plate, int index, Vector way)
     return force;
 }
 
+/// Sum of the forces of a jaw's contacts on the grains [N].
+Vector force_of_jaw(const Plate& plate)
+{
+    Vector sum;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+        sum = sum + push(plate, i) * normal_at(plate, i);
+    return sum;
+}
+
 /// Let a plate press as the pressure has done that acts on its side, and store what that takes.
 /// Deviation D93.
 void take_over_pressure(SolidState& s, Plate& p)
@@ -107,6 +116,27 @@ void add_contact(const SolidState& s, Plate& p, int triangle)
 constexpr double facing = 0.5;
 /// Gap over the way from end to end that is none: round-off [-].
 constexpr double no_gap = 1e-9;
+
+/// Bend a plate that touches a disc to a jaw: gaps and normals are those of two circles, the inner
+/// one touching each facet (deviation D95).
+void bend(const SolidState& s, Plate& p, double radius)
+{
+    p.disc_radius = std::fabs(p.position.z);
+    p.jaw_radius = radius;
+    if (!(radius > p.disc_radius))
+        refuse("radius of a jaw", radius, "m",
+            "must be > " + std::to_string(p.disc_radius) + " m, the disc's");
+    const Vector centre = (radius - p.disc_radius) * p.normal;
+    p.normals.assign(3 * p.facets.size(), 0.0);
+    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
+        const Vector outwards = area_vector(s, p.facets[i]);
+        const Vector from = (p.disc_radius / norm(outwards)) * outwards - centre;
+        const double gap = radius - norm(from);
+        p.gap[i] = gap < no_gap * radius ? 0.0 : gap;
+        set_axes(p.normals, i, (-1.0 / norm(from)) * from);
+    }
+    p.opening = p.gap;
+}
 
 /// A plate that touches the mantle where this reaches farthest against its normal.
 Plate touching_plate(const SolidState& s, SolidSide side)
@@ -177,12 +207,18 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     prepare_step(s);
 }
 
-void add_disc_plates(SolidState& s)
+void add_disc_plates(SolidState& s, double jaw_radius)
 {
+    check_not_negative("radius of a jaw", jaw_radius, "m");
     if (!s.plates.empty())
         refuse("add_disc_plates: plates", static_cast<double>(s.plates.size()), "", "must be 0");
+    std::vector<Plate> plates;
     for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
-        s.plates.push_back(touching_plate(s, side));
+        plates.push_back(touching_plate(s, side));
+    if (jaw_radius > 0.0)
+        for (Plate& plate : plates)
+            bend(s, plate, jaw_radius);
+    s.plates = plates;
     keep_from_rolling(s, s.plates.back());
     hold(s, keep_from_rolling(s, s.plates.front()), 1);
     prepare_step(s);
@@ -228,6 +264,11 @@ double point_stiffness(const Plate& plate, int index)
     return plate.stiffness * plate.area[index];
 }
 
+Vector normal_at(const Plate& plate, int index)
+{
+    return plate.normals.empty() ? plate.normal : axes_of(plate.normals, index);
+}
+
 double sliding_stiffness(const Plate& plate, int index)
 {
     return plate.friction > 0.0 ? plate.shear_stiffness * plate.area[index] : 0.0;
@@ -241,8 +282,9 @@ void add_plate_forces(SolidState& s, int block)
         Plate& plate = s.plates[touch.plate];
         const auto& nodes = s.surface.nodes[plate.facets[touch.index]];
         const Vector way = middle(s.grains.displacement, nodes) - plate.displacement;
-        plate.opening[touch.index] = plate.gap[touch.index] + dot(plate.normal, way);
-        Vector force = push(plate, touch.index) * plate.normal;
+        const Vector normal = normal_at(plate, touch.index);
+        plate.opening[touch.index] = plate.gap[touch.index] + dot(normal, way);
+        Vector force = push(plate, touch.index) * normal;
         if (plate.friction > 0.0) force = force + rub(plate, touch.index, way);
         const Vector third = (1.0 / 3.0) * force;
         for (int n : nodes)
@@ -257,7 +299,7 @@ void sum_plates(SolidState& s, double dt)
         double sum = 0.0;
         for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
             sum += push(plate, i);
-        plate.force = sum * plate.normal;
+        plate.force = plate.normals.empty() ? sum * plate.normal : force_of_jaw(plate);
         plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }
 }

@@ -19,8 +19,10 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded);
 /// Lay plates below and on top of a disc, as bottom and top, that touch it and press alone. What
 /// they touch at first does not move along x, else the disc would roll (deviation D28), and one
 /// place of it not along y. Masses must be scaled again afterwards.
-/// @throws std::invalid_argument  if there are plates, or no mantle faces them
-void add_disc_plates(SolidState& s);
+/// @param jaw_radius  of curved jaws [m]; 0: plates are flat
+/// @throws std::invalid_argument  if there are plates, no mantle faces them, or a radius is no
+///         larger than the disc's
+void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
 
 /// Let grains stick to the plates from their present places on, as far as friction bears it.
 /// @param friction  coefficient [-]
@@ -34,6 +36,9 @@ int find_plate(const SolidState& s, SolidSide side);
 double point_stiffness(const Plate& plate, int index);
 /// The same along its face; 0: it is smooth [N/m].
 double sliding_stiffness(const Plate& plate, int index);
+
+/// Normal of contact `index`, into the specimen; of a jaw its own.
+Vector normal_at(const Plate& plate, int index);
 
 /// Add the forces of plates on the nodes of a block of grains, at their present places.
 void add_plate_forces(SolidState& s, int block);

@@ -80,7 +80,7 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             for (int& n : nodes)
                 n = numbers.of(grain, n);
             const bool touches = plate.bonded || plate.opening[i] <= 0.0;
-            solid.presses.push_back({ number, touches, nodes, plate.normal,
+            solid.presses.push_back({ number, touches, nodes, normal_at(plate, i),
                 point_stiffness(plate, i), sliding_stiffness(plate, i) });
         }
     }

@@ -89,7 +89,7 @@ void SolidSolver::holdBottom(bool plate)
 	flexpm::hold_against_sliding(state);
 }
 
-void SolidSolver::holdDisc() { flexpm::add_disc_plates(state); }
+void SolidSolver::holdDisc(Real jawRadius) { flexpm::add_disc_plates(state, jawRadius); }
 
 py::tuple SolidSolver::elasticConstants()
 {

@@ -1,12 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compression of a disc between two plates. Paper Sec. 4.1."""
+"""Compression of a disc between two plates, or two jaws. Paper Sec. 4.1, deviations D28, D95."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...errors import InputError
+from ..model_names import BLOCK_MODELS
+from ..option import JAW_RADIUS, Asked, Option, Value
 from ..rates import Rates
 from ..test_kind import TestKind
 from ..words import Words, strain, stress
 
+#: Largest radius of a jaw over that of the disc, beyond which it is flat [-].
+_WIDEST = 1e4
 _INNER = Rates(0.01, 0.005)
 _SPHERES = Rates(0.0025, 0.02)
+
+
+def _settle(asked: Asked) -> Mapping[str, Value]:
+    name = JAW_RADIUS
+    if asked.values.get(name) is None:
+        return {}
+    least = 0.5 * asked.sizes["diameter"]
+    radius = asked.number(name, least)
+    if "depth" not in asked.sizes:
+        raise InputError(
+            f"run: {name} = {radius:g} m, must be left out for a disc of the plane; lay jaws with "
+            "flexpm.PartRig, or give a depth"
+        )
+    if not least < radius <= _WIDEST * least:
+        raise InputError(
+            f"run: {name} = {radius:g} m, must be > {least:g} m, the disc's radius, and <= "
+            f"{_WIDEST:g} times it; 1.5 times it by the ISRM"
+        )
+    return {name: radius}
+
 
 KIND = TestKind(
     name="brazilian",
@@ -15,6 +44,17 @@ KIND = TestKind(
     "force, D the diameter, t the thickness",
     shape="disc",
     solids=("solid-disc",),
+    options=(
+        Option(
+            JAW_RADIUS,
+            "Of curved jaws in place of the plates, of a solid disc",
+            "m",
+            default="flat plates",
+            open="flat plates",
+            models=BLOCK_MODELS,
+        ),
+    ),
+    settle=_settle,
     results={
         **dict.fromkeys(("flexible", "rigid"), 5),
         **dict.fromkeys(("inner", "inner-un"), 4),

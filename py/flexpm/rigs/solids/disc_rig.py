@@ -8,12 +8,16 @@ from yade import wrapper
 
 from ...errors import InputError
 from ...models.grains import Model
+from ...require import Bounds, require_number
 from ...runs.runner import Runner
 from .end_rig import EndRig
 
 
 class SolidDiscRig(EndRig):
     """A disc about the y axis between smooth plates, of which the upper one goes down along z."""
+
+    #: Radius of the jaws [m]; 0: plates are flat.
+    _radius: float = 0.0
 
     def __init__(
         self, built: Model, *, tension: bool = False, runner: Runner | None = None
@@ -26,6 +30,20 @@ class SolidDiscRig(EndRig):
         if tension:
             raise InputError("rig: tension = True, must be False for a disc; plates press it")
         super().__init__(built, tension=tension, runner=runner)
+
+    def bend(self, radius: float) -> None:
+        """Press with curved jaws in place of flat plates. It comes before the loading.
+
+        Gaps and normals are those of two circles (deviation D95).
+
+        Args:
+            radius: That of the jaws, above the disc's; 1.5 times that by the ISRM [m].
+
+        Raises:
+            InputError: for a radius that is no larger than the disc's.
+        """
+        least = 0.5 * self.built.specimen.dimensions["diameter"]
+        self._radius = require_number("bend: radius", radius, Bounds(above=least), "m")
 
     def roughen(self, friction: float) -> None:
         """Refuse friction: what the plates touch at first does not slide.
@@ -54,7 +72,7 @@ class SolidDiscRig(EndRig):
         return wrapper.SolidDiscFrame(diameter=sizes["diameter"], depth=sizes["depth"])
 
     def _take_hold(self) -> wrapper.LoadingController:
-        self._solid.holdDisc()
+        self._solid.holdDisc(self._radius)
         self.built.set_masses()
         upper = wrapper.SolidEndsController()
         self.built.add_engines(before=(upper,))
