@@ -3,6 +3,7 @@
 #include <flexpm/yade/solver/SolidSolver.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
@@ -64,6 +65,11 @@ void SolidSolver::holdBottom(bool plate)
 }
 
 void SolidSolver::holdDisc() { flexpm::add_disc_plates(state); }
+
+void SolidSolver::layLine(int side, Real x, Real z, Real width, bool pinned)
+{
+	flexpm::add_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
+}
 
 py::tuple SolidSolver::elasticConstants()
 {
