@@ -117,7 +117,7 @@ def measure(result: Result, rig: PartRig | SolidBeamRig, spec: RunSpec) -> None:
     frame = _frame_of(spec, rig.built)
     across = min(frame.width, spec.kind.ligament(frame))
     # the thickness of the plane is no row of grains
-    result.grains_across = min(across, *_depths(rig.built)) / frame.grain
+    result.grains_across = min([across, *_depths(rig.built)]) / frame.grain
     for name, value in spec.kind.measure(frame, result.curve, result.peak_stress).items():
         setattr(result, name, value)
 
