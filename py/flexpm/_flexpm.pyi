@@ -258,7 +258,11 @@ def grain_meshes(
 def sphere_count(volume: float, d_min: float, d_max: float, porosity: float) -> int: ...
 def insert_spheres(radii: FloatArray, solid: Solid, shrink: float, seed: int) -> FloatArray: ...
 def polyhedra(
-    spheres: FloatArray, solid: Solid, short_edge: float, allow_hidden: bool
+    spheres: FloatArray,
+    solid: Solid,
+    short_edge: float,
+    allow_hidden: bool,
+    notch: tuple[float, float] | None = ...,
 ) -> Polyhedra: ...
 def own_polyhedra(
     vertices: FloatArray,

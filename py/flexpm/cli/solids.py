@@ -42,8 +42,8 @@ def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
             type=Name(*shapes),
             metavar="|".join(shapes),
             help=f"Take a solid{of}. Sizes of a solid that are not given [m]: {sizes}.  [default: "
-            "that of the test in the plane; a solid-disc for a disc with --depth; a cylinder for "
-            "tests of solids alone]",
+            "that of the test in the plane; with --depth a solid-disc for a disc, a box for a "
+            "beam; a cylinder for tests of solids alone]",
         ),
         length_option("--depth", _BOX["depth"], "Depth of a box or a disc, along y"),
     )

@@ -12,15 +12,17 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import InputError, SimulationError
-from ..kinds.layout import Frame, Plate
+from ..kinds.layout import Frame, Lines, Plate
 from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..results.result import Result
 from ..rigs.part_rig import PartRig
 from ..rigs.parts import Part
+from ..rigs.solids.beam_rig import SolidBeamRig
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Runner
+from ..specimens.space.notch import NotchedSolid, notched
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 
@@ -40,29 +42,54 @@ def prepared(
             its name and is none.
     """
     kind = spec.kind
-    if kind.cut is None or isinstance(specimen, SolidSpecimen):
+    if kind.cut is None:
         return specimen, material
     lines = kind.cut(_frame(spec, specimen, material))
+    if isinstance(specimen, SolidSpecimen):
+        return _notched(spec, specimen, material, lines), material
     if _NOTCH in (specimen.spec.joint_names or ()):
         _require_notch(spec, specimen, material, bool(lines))
     if not lines:
         return specimen, material
     cut = specimen.with_joints({_NOTCH: lines})
     law = {f"joint.{_NOTCH}.{key}": value for key, value in kind.notch_law.items()}
+    _require_ligament(spec, cut, material)
+    return cut, material.with_set(law, spec.model)
+
+
+def _notched(
+    spec: RunSpec, specimen: SolidSpecimen, material: Material, lines: Lines
+) -> SolidSpecimen:
+    """The solid with the notch of its test, if that has one."""
+    if not lines:
+        return specimen
+    [[(place, _), (_, top)]] = lines
+    cut = notched(specimen, place, top)
+    if cut.notch_depth == 0.0:
+        raise InputError(
+            f"run: notch = {top:g} m, ends within the first grains, must pass half of one; take a "
+            "longer notch or smaller grains"
+        )
+    _require_ligament(spec, cut, material)
+    return cut
+
+
+def _require_ligament(spec: RunSpec, cut: Specimen | SolidSpecimen, material: Material) -> None:
     frame = _frame(spec, cut, material)
-    if not kind.ligament(frame) > 0.0:
+    if not spec.kind.ligament(frame) > _TOUCHES * frame.height:
         raise InputError(
             f"run: notch = {frame.number('notch'):g} m, goes on to the end of the last grain "
             "(D35), must leave a ligament; take a shorter notch or smaller grains"
         )
-    return cut, material.with_set(law, spec.model)
 
 
-def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
+def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig | SolidBeamRig:
     """A built specimen between the parts of its test."""
-    rig = PartRig(built, kind=spec.test, runner=runner)
     assert spec.kind.layout is not None, spec.test
     layout = spec.kind.layout(_frame_of(spec, built))
+    if spec.is_solid:
+        return SolidBeamRig(built, layout, test=spec.test, runner=runner)
+    rig = PartRig(built, kind=spec.test, runner=runner)
     parts = {name: _lay(rig, plate) for name, plate in layout.plates.items()}
     if layout.pressed:
         rig.pressed = parts[layout.pressed]
@@ -83,12 +110,14 @@ def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
     return rig
 
 
-def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
+def measure(result: Result, rig: PartRig | SolidBeamRig, spec: RunSpec) -> None:
     """Fill what the test measures beside its peak."""
     if spec.kind.measure is None:
         return
     frame = _frame_of(spec, rig.built)
-    result.grains_across = min(frame.width, spec.kind.ligament(frame)) / frame.grain
+    across = min(frame.width, spec.kind.ligament(frame))
+    # the thickness of the plane is no row of grains
+    result.grains_across = min([across, *_depths(rig.built)]) / frame.grain
     for name, value in spec.kind.measure(frame, result.curve, result.peak_stress).items():
         setattr(result, name, value)
 
@@ -115,11 +144,18 @@ def _frame_of(spec: RunSpec, built: Model) -> Frame:
     return _frame(spec, built.specimen, built.material)
 
 
-def _frame(spec: RunSpec, specimen: Specimen, material: Material) -> Frame:
+def _depths(built: Model) -> list[float]:
+    """Depth of a solid [m]; of the plane none."""
+    specimen: Specimen | SolidSpecimen = built.specimen
+    return [specimen.dimensions["depth"]] if isinstance(specimen, SolidSpecimen) else []
+
+
+def _frame(spec: RunSpec, specimen: Specimen | SolidSpecimen, material: Material) -> Frame:
+    solid = isinstance(specimen, SolidSpecimen)
     (left, bottom), (right, top) = _corners(specimen)
     return Frame(
         *(left, bottom, right, top),
-        thickness=specimen.thickness,
+        thickness=specimen.dimensions["depth"] if solid else specimen.thickness,
         grain=specimen.mean_diameter,
         values={"confinement": spec.confinement, **spec.options},
         notch=_notch(specimen),
@@ -130,8 +166,13 @@ def _frame(spec: RunSpec, specimen: Specimen, material: Material) -> Frame:
     )
 
 
-def _notch(specimen: Specimen) -> FloatArray:
+def _notch(specimen: Specimen | SolidSpecimen) -> FloatArray:
     """Ends (n, 2, 2) [m] of the contacts of the notches."""
+    if isinstance(specimen, NotchedSolid):
+        x = specimen.place
+        return np.array([[[x, 0.0], [x, specimen.notch_depth]]])
+    if isinstance(specimen, SolidSpecimen):
+        return np.empty((0, 2, 2))
     names = specimen.spec.joint_names or ()
     return specimen.joint_lines()[names.index(_NOTCH)] if _NOTCH in names else np.empty((0, 2, 2))
 
@@ -162,10 +203,16 @@ def _require_notch(spec: RunSpec, specimen: Specimen, material: Material, cuts: 
 
 
 def _shear_strength(
-    specimen: Specimen, material: Material, model: str, pressure: float, notches: tuple[str, ...]
+    specimen: Specimen | SolidSpecimen,
+    material: Material,
+    model: str,
+    pressure: float,
+    notches: tuple[str, ...],
 ) -> float:
     """The least c + mu sigma_n [Pa] of the rock and of the specimen's joints but its notches."""
     rock = _mean(material, model, lambda law: law["cohesion"] + law["friction"] * pressure)
+    if isinstance(specimen, SolidSpecimen):
+        return rock
     joints = zip(specimen.spec.joint_names or (), specimen.joint_lines(), strict=True)
     there = [name for name, contacts in joints if len(contacts) and name not in notches]
     laws = material.joint_laws(model)
@@ -178,8 +225,12 @@ def _mean(material: Material, model: str, value: Callable[[Law], float]) -> floa
     return float(np.mean([value(kind.law(model)) for kind in mineral_materials(material)]))
 
 
-def _corners(specimen: Specimen) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Lower left and upper right corner of the rectangle around a specimen [m]."""
+def _corners(
+    specimen: Specimen | SolidSpecimen,
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Lower left and upper right corner of the rectangle around a specimen, or its section [m]."""
+    if isinstance(specimen, SolidSpecimen):
+        return (0.0, 0.0), (specimen.dimensions["width"], specimen.dimensions["height"])
     if not isinstance(specimen.outline, np.ndarray):
         raise SimulationError("outline = a circle, must be a polygon for a test between parts")
     (left, bottom), (right, top) = specimen.outline.min(axis=0), specimen.outline.max(axis=0)

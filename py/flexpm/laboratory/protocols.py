@@ -75,7 +75,7 @@ def run(
             peak or the strain reaches `max_strain`.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc, of the plane or
             of space; for ``uniaxial``, ``tension`` and ``sonic`` also, for ``triaxial`` only a box
-            or a cylinder, z is the axial direction.
+            or a cylinder, for ``bending`` also a box, z is the axial direction.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.

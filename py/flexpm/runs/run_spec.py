@@ -78,12 +78,11 @@ class RunSpec(RunInputs):
         known = set(field_names(shape))
         packing = [name for name in PACKING if name in known]
         given = {name: options.get(name) for name in (*SIZES[shape], *packing)}
-        if is_solid(shape):
-            return spec_type(shape)(shape, **_named(given))
         given |= {
             one.size: options.get(one.name) or given[one.size] for one in kind.options if one.size
         }
-        return spec_type(shape)(kind.shape, **{**kind.sizes, **_named(given)})
+        made = shape if is_solid(shape) else kind.shape
+        return spec_type(shape)(made, **{**kind.sizes, **_named(given)})
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:

@@ -12,6 +12,7 @@ from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.mixing import description
+from .space.notch import NotchedSolid
 from .space.specimen import SolidSpecimen
 from .specimen import Specimen
 
@@ -51,6 +52,9 @@ def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntAr
         InputError: if the specimen has more minerals than the material, or names one that the
             material has at another place.
     """
+    if isinstance(specimen, NotchedSolid):  # pieces of a grain are of its mineral
+        before = minerals_of(specimen.before, material)
+        return None if before is None else np.ascontiguousarray(before[specimen.parents])
     given, count = specimen.minerals, len(material.minerals)
     if given is not None and (count == 0 or given.max() >= count):
         raise InputError(

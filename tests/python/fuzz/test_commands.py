@@ -52,6 +52,7 @@ COMMANDS = st.sampled_from(
             for test in ("uniaxial", "tension", "biaxial", "triaxial", "sonic")
         ),
         ("run", "triaxial"),
+        ("run", "bending", "--shape", "box"),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box", "cylinder")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
@@ -75,6 +76,7 @@ SIZES = {
     "specimen cylinder": ["--diameter", "0.009", "--height", "0.012", "--out", "made"],
     "run brazilian": ["--diameter", "0.012", *FEW],
     "run bending": [*BEAM, *FEW],
+    "run bending --shape box": [*BEAM, "--depth", "0.008", *FEW],
     "run scb": ["--diameter", "0.024", *FEW],
     "run shear": [*RECTANGLE, "--max-displacement", "1e-8", "--rate", "50"],
     "run punch": ["--width", "0.03", "--height", "0.024", "--max-displacement", "1e-8"],

@@ -60,7 +60,9 @@ struct Plate {
     std::vector<double> shear_force;
     std::vector<double> slid;    ///< in space [facet][axis]: where a contact with friction is [m]
     std::vector<double> rubbed;  ///< in space [facet]: energy of friction [J]
-    Vector force;                ///< on the specimen at the last step [N]
+    /// In space [facet][corner]: shares of a triangle's corners in a contact; empty: equal ones.
+    std::vector<double> shares;
+    Vector force;  ///< on the specimen at the last step [N]
 
     // energy [J]
     double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows
@@ -111,6 +113,7 @@ struct Plate {
         visit("shear_force", s.shear_force);
         visit("slid", s.slid);
         visit("rubbed", s.rubbed);
+        visit("shares", s.shares);
         visit("force_x", s.force.x);
         visit("force_y", s.force.y);
         visit("force_z", s.force.z);
@@ -128,6 +131,12 @@ struct Plate {
 
 /// Place of point `point` along its facet, 0 to 1.
 inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
+
+/// Share of a corner of its triangle in a contact of space.
+inline double corner_share(const Plate& p, int index, int corner)
+{
+    return p.shares.empty() ? 1.0 / 3.0 : p.shares[3 * static_cast<std::size_t>(index) + corner];
+}
 
 /// Into the specimen at a point of a plate, a unit vector.
 inline Vector point_normal(const Plate& p, int index)

@@ -353,10 +353,12 @@ void add_surface(Building& b)
     for (std::size_t f = 0; f < b.cells.faces.size(); ++f) {
         const PolyhedronFace& on = b.cells.faces[f];
         if (on.cell_b >= 0) continue;
+        const bool is_flank = on.wall >= static_cast<int>(b.solid.walls.size());
+        const SolidSide side = is_flank ? SolidSide::notch : b.solid.walls[on.wall].side;
         const auto corners = b.cells.corners(static_cast<int>(f));
         for (const auto& [p, q, r] : face_triangles(b.cells.vertices, corners)) {
             surface.grain.push_back(on.cell_a);
-            surface.side.push_back(static_cast<int>(b.solid.walls[on.wall].side));
+            surface.side.push_back(static_cast<int>(side));
             surface.nodes.push_back(
                 { b.node(on.cell_a, p), b.node(on.cell_a, q), b.node(on.cell_a, r) });
         }

@@ -102,14 +102,17 @@ void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& b
 {
     const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
     if (!s.grains.is_rigid(grain)) {
-        for (int n : s.surface.nodes[triangle])
-            bound.node[s.grains.scalar_index(n)] += point_stiffness(plate, index) / 3.0;
+        for (int k = 0; k < 3; ++k)
+            bound.node[s.grains.scalar_index(s.surface.nodes[triangle][k])] +=
+                3.0 * corner_share(plate, index, k) * (point_stiffness(plate, index) / 3.0);
         return;
     }
     const double r = s.grains.radius[grain];
     Vector place;
-    for (int n : s.surface.nodes[triangle])
-        place = place + (1.0 / 3.0) * space_vector(s.grains.reference, n);
+    for (int k = 0; k < 3; ++k)
+        place = place
+            + corner_share(plate, index, k)
+                * space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
     const double arm = norm(place - space_vector(s.grains.reference, s.grains.centre(grain))) / r;
     const double all = point_stiffness(plate, index) * (1.0 + arm);
     bound.node[s.grains.scalar_index(s.grains.centre(grain))] += all;

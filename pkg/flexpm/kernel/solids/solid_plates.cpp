@@ -32,6 +32,17 @@ Vector middle(const Array<double>& values, const std::array<int, 3>& nodes)
             + space_vector(values, nodes[2]));
 }
 
+/// A vector where a contact lies on its triangle.
+Vector touched(
+    const Plate& plate, int index, const Array<double>& values, const std::array<int, 3>& nodes)
+{
+    if (plate.shares.empty()) return middle(values, nodes);
+    Vector sum;
+    for (int k = 0; k < 3; ++k)
+        sum = sum + corner_share(plate, index, k) * space_vector(values, nodes[k]);
+    return sum;
+}
+
 /// Force of a contact along the plate's normal on the grain [N].
 double push(const Plate& plate, int index)
 {
@@ -95,17 +106,6 @@ void take_over_pressure(SolidState& s, Plate& p)
     s.ledger.initial += solid_plate_energy(p);
 }
 
-/// A plate without contacts yet.
-Plate plate_on(const SolidState& s, SolidSide side)
-{
-    Plate p;
-    p.side = static_cast<int>(side);
-    p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
-    p.stiffness = mean_stiffness(s, &LawParameters::normal_stiffness);
-    p.shear_stiffness = mean_stiffness(s, &LawParameters::shear_stiffness);
-    return p;
-}
-
 void add_contact(const SolidState& s, Plate& p, int triangle)
 {
     p.facets.push_back(triangle);
@@ -141,7 +141,7 @@ void bend(const SolidState& s, Plate& p, double radius)
 /// A plate that touches the mantle where this reaches farthest against its normal.
 Plate touching_plate(const SolidState& s, SolidSide side)
 {
-    Plate p = plate_on(s, side);
+    Plate p = plain_plate(s, side);
     for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
         if (s.surface.side[t] != static_cast<int>(SolidSide::mantle)) continue;
         const Vector outwards = area_vector(s, t);
@@ -185,6 +185,16 @@ int keep_from_rolling(SolidState& s, const Plate& p)
 
 }  // namespace
 
+Plate plain_plate(const SolidState& s, SolidSide side)
+{
+    Plate p;
+    p.side = static_cast<int>(side);
+    p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
+    p.stiffness = mean_stiffness(s, &LawParameters::normal_stiffness);
+    p.shear_stiffness = mean_stiffness(s, &LawParameters::shear_stiffness);
+    return p;
+}
+
 void add_end_plate(SolidState& s, SolidSide side, bool bonded)
 {
     const int number = static_cast<int>(side);
@@ -192,7 +202,7 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
         refuse("add_end_plate: side", number, "", "must be 0, the bottom, or 2, the top");
     if (find_plate(s, side) >= 0)
         refuse("add_end_plate: side", number, "", "must be without a plate; it has one");
-    Plate p = plate_on(s, side);
+    Plate p = plain_plate(s, side);
     p.bonded = bonded;
     for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t)
         if (s.surface.side[t] == number) add_contact(s, p, t);
@@ -281,14 +291,17 @@ void add_plate_forces(SolidState& s, int block)
         const PlateTouch touch = plan.presses[i];
         Plate& plate = s.plates[touch.plate];
         const auto& nodes = s.surface.nodes[plate.facets[touch.index]];
-        const Vector way = middle(s.grains.displacement, nodes) - plate.displacement;
+        const Vector way =
+            touched(plate, touch.index, s.grains.displacement, nodes) - plate.displacement;
         const Vector normal = normal_at(plate, touch.index);
         plate.opening[touch.index] = plate.gap[touch.index] + dot(normal, way);
         Vector force = push(plate, touch.index) * normal;
         if (plate.friction > 0.0) force = force + rub(plate, touch.index, way);
-        const Vector third = (1.0 / 3.0) * force;
-        for (int n : nodes)
-            set_space_vector(s.grains.force, n, space_vector(s.grains.force, n) + third);
+        for (int k = 0; k < 3; ++k) {
+            const Vector part = corner_share(plate, touch.index, k) * force;
+            set_space_vector(
+                s.grains.force, nodes[k], space_vector(s.grains.force, nodes[k]) + part);
+        }
     }
 }
 

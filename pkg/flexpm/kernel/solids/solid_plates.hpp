@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Plates on the ends of a specimen in space, and against the mantle of a disc:
-/// plate_contact.hpp there. A contact lies in the middle of each surface triangle. SI units; forces
-/// of a plate on the specimen are positive along its normal, which points into it.
+/// plate_contact.hpp there. A contact lies in the middle of each surface triangle, or where its
+/// shares say. SI units; forces of a plate on the specimen are positive along its normal, which
+/// points into it.
 /// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area, and
 /// along the plate, if that is not smooth, K_s.
 #pragma once
@@ -29,7 +30,10 @@ void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
 /// @throws std::invalid_argument  if it is below 0, or there are no two plates that press
 void roughen_plates(SolidState& s, double friction);
 
-/// Number of the plate on a side; -1 if there is none.
+/// A smooth plate for a side, with the stiffnesses of the grains' contacts, that touches nothing.
+Plate plain_plate(const SolidState& s, SolidSide side);
+
+/// Number of the first plate on a side; -1 if there is none.
 int find_plate(const SolidState& s, SolidSide side);
 
 /// Contact `index` of a plate along its normal [N/m].

@@ -20,6 +20,10 @@ constexpr double zero_volume = 1e-12;
 /// Distance of a centre from the faces of its cell over the cell's size below which it is moved.
 constexpr double well_inside = 0.02;
 
+/// Depth over the mean diameter, and volume over the mean one, of the least piece that a notch cuts
+/// off: as slivers of the plane, deviation D33.
+constexpr double least_depth = 0.15, least_volume = 0.02;
+
 /// Numbers of the spheres without a cell.
 std::vector<int> find_hidden(const CellComplex& complex, const std::vector<double>& volumes)
 {
@@ -97,10 +101,12 @@ void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>&
         p.sphere_of_cell.push_back(s);
         p.centres.push_back(centres[s]);
     }
-    std::sort(complex.faces.begin(), complex.faces.end(), [](const CellFace& a, const CellFace& b) {
-        return std::tuple(a.second < 0, a.first, a.second, a.wall)
-            < std::tuple(b.second < 0, b.first, b.second, b.wall);
-    });
+    // a cell may have several faces on a notch
+    std::stable_sort(
+        complex.faces.begin(), complex.faces.end(), [](const CellFace& a, const CellFace& b) {
+            return std::tuple(a.second < 0, a.first, a.second, a.wall)
+                < std::tuple(b.second < 0, b.first, b.second, b.wall);
+        });
     p.face_offsets.push_back(0);
     for (const CellFace& face : complex.faces) {
         const int second = face.second < 0 ? -1 : cell_of_sphere[face.second];
@@ -150,33 +156,62 @@ void finish_cells(
     add_volumes(p);
 }
 
-Polyhedra polyhedra(
-    const std::vector<Sphere>& spheres, const Solid& solid, const PolyhedraOptions& options)
+namespace {
+
+/// Cut cells by a notch; returns the spheres of the pieces that are added.
+std::vector<int> cut_notch(CellComplex& complex, const std::vector<Sphere>& spheres,
+    const Solid& solid, const NotchPlane& notch)
 {
-    require_spheres_inside(spheres, solid);
+    const double diameter = mean_diameter(spheres), close = zero_edge * diameter;
+    check_finite("place of a notch", notch.x + notch.top, "m");
+    const NotchCut cut = { notch.x, notch.top, close, least_depth * diameter,
+        least_volume * solid.volume / static_cast<double>(spheres.size()),
+        static_cast<int>(solid.walls.size()) };
+    std::vector<int> sources = cut_by_notch(complex, cut);
+    merge_close_vertices(complex, close);
+    return sources;
+}
+
+}  // namespace
+
+Polyhedra polyhedra(
+    const std::vector<Sphere>& given, const Solid& solid, const PolyhedraOptions& options)
+{
+    require_spheres_inside(given, solid);
     require_short_edge(options.short_edge);
-    const double diameter = mean_diameter(spheres);
-    CellComplex complex = power_cells(spheres, solid);
+    const double diameter = mean_diameter(given);
+    CellComplex complex = power_cells(given, solid);
     cut_by_walls(complex, solid, zero_edge * diameter);
     merge_close_vertices(complex, zero_edge * diameter);
+    std::vector<Sphere> spheres = given;
+    std::vector<bool> moved(given.size());
+    std::vector<int> sources;
+    if (options.notch) sources = cut_notch(complex, given, solid, *options.notch);
+    for (int source : sources) {
+        spheres.push_back(given[source]);
+        moved[source] = true;  // both pieces are meshed from their centroids
+        moved.push_back(true);
+    }
 
     Polyhedra p;
     const auto volumes = cell_volumes(complex);
     p.hidden_spheres = find_hidden(complex, volumes);
     if (!options.allow_hidden) refuse_hidden(spheres, p.hidden_spheres);
-    const double mean_volume = solid.volume / static_cast<double>(spheres.size());
+    const double mean_volume = solid.volume / static_cast<double>(given.size());
     require_volumes(spheres, p.hidden_spheres, volumes, zero_volume * mean_volume);
 
     std::vector<Vector> centres = centroids(complex, spheres, volumes);
     const auto depth = depths(complex, spheres);
-    std::vector<bool> moved(spheres.size());
     for (std::size_t s = 0; s < spheres.size(); ++s) {
-        moved[s] = depth[s] < well_inside * std::cbrt(volumes[s]);
+        if (depth[s] < well_inside * std::cbrt(volumes[s])) moved[s] = true;
         if (!moved[s]) centres[s] = spheres[s].centre;
     }
     finish_cells(p, complex, centres, options.short_edge);
-    for (int c = 0; c < p.cells(); ++c)
-        if (moved[p.sphere_of_cell[c]]) p.moved_centres.push_back(c);
+    for (int c = 0; c < p.cells(); ++c) {
+        int& sphere = p.sphere_of_cell[c];
+        if (moved[sphere]) p.moved_centres.push_back(c);
+        if (sphere >= static_cast<int>(given.size())) sphere = sources[sphere - given.size()];
+    }
     return p;
 }
 

@@ -5,6 +5,7 @@
 #include <flexpm/kernel/space/cell_complex.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace flexpm {
@@ -13,7 +14,7 @@ namespace flexpm {
 struct PolyhedronFace {
     int cell_a;  ///< its corners are counter-clockwise as seen from outside this cell
     int cell_b;  ///< larger than `cell_a`, or -1 on a wall
-    int wall;    ///< of the solid, or -1 between cells
+    int wall;    ///< of the solid, its number of walls on a notch's flank, or -1 between cells
 };
 
 /// Cells over shared vertices. Faces between cells come first, in order of (cell_a, cell_b).
@@ -24,7 +25,7 @@ struct Polyhedra {
     std::vector<PolyhedronFace> faces;
     std::vector<int> face_offsets;  ///< of each face in `face_vertices`, and the end
     std::vector<int> face_vertices;
-    std::vector<int> sphere_of_cell;
+    std::vector<int> sphere_of_cell;  ///< both pieces of a cell that a notch has cut have one
     std::vector<int> hidden_spheres;  ///< without a cell
     std::vector<int>
         moved_centres;  ///< cells whose centre is their centroid: the sphere's is not well inside
@@ -40,9 +41,16 @@ struct Polyhedra {
     }
 };
 
+/// Notch from below across a solid, along y. Deviation D99.
+struct NotchPlane {
+    double x = 0.0;    ///< [m]
+    double top = 0.0;  ///< z of its front [m]
+};
+
 struct PolyhedraOptions {
     double short_edge = 0.0;    ///< edges below this length are collapsed [m]
     bool allow_hidden = false;  ///< drop spheres without a cell (counted) instead of refusing them
+    std::optional<NotchPlane> notch = {};
 };
 
 /// Cells of the spheres inside the solid, in the order of the spheres, short edges collapsed.

@@ -8,8 +8,18 @@
 
 namespace flexpm {
 
-/// Side of a specimen that a wall belongs to; the mantle of a cylinder or a disc is one.
-enum class SolidSide { bottom = 0, right = 1, mantle = 1, top = 2, left = 3, front = 4, back = 5 };
+/// Side of a specimen that a wall belongs to; the mantle of a cylinder or a disc is one, and so are
+/// the flanks of a notch.
+enum class SolidSide {
+    bottom = 0,
+    right = 1,
+    mantle = 1,
+    top = 2,
+    left = 3,
+    front = 4,
+    back = 5,
+    notch = 6
+};
 
 /// Plane that bounds a solid: points p with dot(normal, p) > offset lie outside.
 struct Wall {

@@ -87,12 +87,12 @@ void LinearSolid::add(const double* u, double* forces) const
     }
     for (const Press& p : presses) {
         Vector way;
-        for (int n : p.nodes)
-            way = way + (1.0 / 3.0) * triple_at(u, n);
+        for (int k = 0; k < 3; ++k)
+            way = way + p.shares[k] * triple_at(u, p.nodes[k]);
         const Vector across = dot(p.normal, way) * p.normal;
         const Vector force = p.stiffness * across + p.sliding * (way - across);
-        for (int n : p.nodes)
-            add_triple(forces, n, (1.0 / 3.0) * force);
+        for (int k = 0; k < 3; ++k)
+            add_triple(forces, p.nodes[k], p.shares[k] * force);
     }
 }
 
@@ -111,8 +111,8 @@ std::vector<SpaceGradient> LinearSolid::diagonal_blocks() const
         }
     }
     for (const Press& p : presses)
-        for (int n : p.nodes)
-            add_block(blocks[n], 1.0 / 9.0, press_block(p));
+        for (int k = 0; k < 3; ++k)
+            add_block(blocks[p.nodes[k]], p.shares[k] * p.shares[k], press_block(p));
     return blocks;
 }
 
@@ -159,8 +159,8 @@ std::vector<SpaceGradient> RigidSolid::diagonal_blocks() const
     }
     for (const LinearSolid::Press& p : solid.presses) {
         Vector place;
-        for (int n : p.nodes)
-            place = place + (1.0 / 3.0) * solid.places[n];
+        for (int k = 0; k < 3; ++k)
+            place = place + p.shares[k] * solid.places[p.nodes[k]];
         add_to(grain[p.nodes[0]], place, press_block(p));
     }
     return blocks;

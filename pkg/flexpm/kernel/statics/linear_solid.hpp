@@ -26,11 +26,12 @@ struct LinearSolid : LinearForces {
         double normal_stiffness, shear_stiffness;  ///< [Pa/m]
         std::vector<Spring> springs;
     };
-    /// A plate before the middle of a surface triangle; it bears both ways, and grains stick to it.
+    /// A plate before a place of a surface triangle; it bears both ways, and grains stick to it.
     struct Press {
         int plate;
         bool touches;
         std::array<int, 3> nodes;
+        std::array<double, 3> shares;  ///< of the nodes in that place
         Vector normal;
         double stiffness;  ///< [N/m]
         double sliding;    ///< the same along its face; 0: smooth [N/m]

@@ -80,7 +80,9 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             for (int& n : nodes)
                 n = numbers.of(grain, n);
             const bool touches = plate.bonded || plate.opening[i] <= 0.0;
-            solid.presses.push_back({ number, touches, nodes, normal_at(plate, i),
+            const std::array<double, 3> shares = { corner_share(plate, i, 0),
+                corner_share(plate, i, 1), corner_share(plate, i, 2) };
+            solid.presses.push_back({ number, touches, nodes, shares, normal_at(plate, i),
                 point_stiffness(plate, i), sliding_stiffness(plate, i) });
         }
     }
@@ -103,8 +105,9 @@ std::vector<double> push_of_top(const SolidState& s, const LinearSolid& solid, V
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0);
     for (const LinearSolid::Press& p : solid.presses) {
         if (s.plates[p.plate].side != static_cast<int>(SolidSide::top)) continue;
-        for (int n : p.nodes)
-            add_triple(on_nodes.data(), n, (p.stiffness * dot(p.normal, way) / 3.0) * p.normal);
+        for (int k = 0; k < 3; ++k)
+            add_triple(on_nodes.data(), p.nodes[k],
+                (3.0 * p.shares[k] * (p.stiffness * dot(p.normal, way) / 3.0)) * p.normal);
     }
     return on_nodes;
 }
@@ -203,9 +206,9 @@ SolidField elastic_field(const SolidState& s)
     if (!s.held_faces.empty())
         refuse("elastic_field: held faces of rigid grains",
             static_cast<double>(s.held_faces.size()), "", "must be 0; hold sides across an axis");
-    if (rigid && s.plates.size() != 2) {
+    if (rigid && s.plates.size() < 2) {
         refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
-            "must be 2 of rigid grains; call hold_ends() first");
+            "must be 2 or more of rigid grains; call hold_ends() first");
     }
     return rigid ? field_of_bodies(s) : field_of_nodes(s);
 }

@@ -72,9 +72,11 @@ namespace {
 		return dense_view(reinterpret_cast<const double*>(centres.data()), centres.size(), 3, py::object(), Access::readOnly).attr("copy")();
 	}
 
-	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden)
+	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::object notch)
 	{
-		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, { shortEdge, allowHidden }));
+		flexpm::PolyhedraOptions options { shortEdge, allowHidden };
+		if (!notch.is_none()) options.notch = flexpm::NotchPlane { py::extract<double>(notch[0]), py::extract<double>(notch[1]) };
+		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, options));
 	}
 
 	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
@@ -196,8 +198,8 @@ void register_space_bindings()
 	        "Random centres without overlap, (n, 3) [m].");
 	py::def("polyhedra",
 	        polyhedra,
-	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden")),
-	        "Laguerre cells of rows x, y, z, radius.");
+	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden"), py::arg("notch") = py::object()),
+	        "Laguerre cells of rows x, y, z, radius; notch: x and z of the front of one from below, whose flanks have the number of walls as their wall.");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
 	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge")),

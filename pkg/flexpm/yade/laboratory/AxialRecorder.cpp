@@ -83,7 +83,7 @@ void AxialRecorder::action()
 	now.lateral_strain -= zero[1];
 	for (const Column& column : recorded)
 		values.push_back(column.value(now));
-	for (Real own : testFrame().values(now.axial_stress, now.axial_strain))
+	for (Real own : testFrame().values(*solver, now.axial_stress, now.axial_strain))
 		values.push_back(own);
 	for (const auto& gauge : gauges)
 		values.push_back(solver->solid() ? gauge->reading(*solver->solid()) : gauge->reading(solver->forEngines()));

@@ -14,7 +14,7 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(SolidEndsController, LoadingController,
-		"Moves the top of a solid, whose ends :yref:`SolidSolver.holdEnds` has taken hold of, along z; no friction on either. "
+		"Moves the top of a solid, whose ends :yref:`SolidSolver.holdEnds` has taken hold of, or the head that :yref:`SolidSolver.layLine` has laid, along z. "
 		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen, from where pressures have brought it. Place it before :yref:`SolidSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom [m/s, or m per step with scaled masses]."))
 		((bool, gripped, false, Attr::readonly, "The top has begun to move |yupdate|."))

@@ -12,7 +12,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame)(SolidDiscFrame));
+YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame)(SolidDiscFrame)(SolidBeamFrame));
 
 TestFrame::~TestFrame()           = default;
 RectangleFrame::~RectangleFrame() = default;
@@ -20,11 +20,12 @@ DiscFrame::~DiscFrame()           = default;
 PartFrame::~PartFrame()           = default;
 EndFrame::~EndFrame()             = default;
 SolidDiscFrame::~SolidDiscFrame() = default;
+SolidBeamFrame::~SolidBeamFrame() = default;
 
 flexpm::TestFrame TestFrame::frame(const flexpm::Assembly&) const
 {
-	throw std::invalid_argument(
-	        "AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame or SolidDiscFrame of a solid");
+	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame, SolidDiscFrame or "
+	                            "SolidBeamFrame of a solid");
 }
 
 flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) const
@@ -154,5 +155,18 @@ flexpm::AxialObservation SolidDiscFrame::observed(GrainSolver& solver) const
 }
 
 flexpm::TestScales SolidDiscFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_disc_scales(solidOf(solver), diameter, depth, dt); }
+
+flexpm::AxialObservation SolidBeamFrame::observed(GrainSolver& solver) const
+{
+	const auto& state = solidOf(solver);
+	return flexpm::observe(state, flexpm::solid_beam_frame(state, sizes()));
+}
+
+flexpm::TestScales SolidBeamFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_beam_scales(solidOf(solver), sizes(), strength, dt); }
+
+vector<Real> SolidBeamFrame::values(GrainSolver& solver, Real stress, Real strain) const
+{
+	return { stress * area, strain * length, flexpm::mouth_opening(solidOf(solver), sizes()) };
+}
 
 } // namespace yade

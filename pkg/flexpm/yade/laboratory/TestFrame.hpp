@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 
@@ -29,7 +30,7 @@ public:
 	/// Names of the columns that a record has because of it.
 	virtual vector<string> columns() const { return {}; }
 	/// Their values, of the record's stress and strain.
-	virtual vector<Real> values(Real, Real) const { return {}; }
+	virtual vector<Real> values(GrainSolver&, Real, Real) const { return {}; }
 	/// A measure of its own that a servo may follow, where nodes move so; none of that name.
 	virtual std::optional<Measure> measure(const string&, const flexpm::Assembly&, const flexpm::Array<double>&) const { return {}; }
 
@@ -89,7 +90,7 @@ public:
 	flexpm::TestFrame      frame(const flexpm::Assembly& assembly) const override;
 	flexpm::TestScales     scales(const flexpm::Assembly& assembly, Real dt) const override;
 	vector<string>         columns() const override { return { "load", "displacement" }; }
-	vector<Real>           values(Real stress, Real strain) const override { return { stress * area, strain * length }; }
+	vector<Real>           values(GrainSolver&, Real stress, Real strain) const override { return { stress * area, strain * length }; }
 	std::optional<Measure> measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
 	boost::python::dict    elasticState(vector<int> pressed, vector<Real> pressures, Real way, boost::python::object load) const;
 
@@ -150,5 +151,30 @@ public:
 	// clang-format on
 };
 REGISTER_SAVED(SolidDiscFrame);
+
+class SolidBeamFrame : public TestFrame {
+public:
+	~SolidBeamFrame() override;
+	flexpm::AxialObservation observed(GrainSolver& solver) const override;
+	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+	vector<string>           columns() const override { return { "load", "displacement", "cmod" }; }
+	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(SolidBeamFrame, TestFrame,
+		"A beam of space, or half a disc, on two rollers and under a head, lines that :yref:`SolidSolver.layLine` has laid.",
+		((Real, area, 0.,, "Load over the record's stress [m2]."))
+		((Real, length, 0.,, "Way of the head over the record's strain [m]."))
+		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
+		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
+		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is cmod [m]."))
+		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it."))
+	);
+	// clang-format on
+
+private:
+	flexpm::BeamSizes sizes() const { return { area, length, middle, reach }; }
+};
+REGISTER_SAVED(SolidBeamFrame);
 
 } // namespace yade

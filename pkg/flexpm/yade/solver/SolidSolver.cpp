@@ -3,6 +3,7 @@
 #include <flexpm/yade/solver/SolidSolver.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solid_tests/solid_gauge.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
@@ -90,6 +91,11 @@ void SolidSolver::holdBottom(bool plate)
 }
 
 void SolidSolver::holdDisc(Real jawRadius) { flexpm::add_disc_plates(state, jawRadius); }
+
+void SolidSolver::layLine(int side, Real x, Real z, Real width, bool pinned)
+{
+	flexpm::add_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
+}
 
 py::tuple SolidSolver::elasticConstants()
 {

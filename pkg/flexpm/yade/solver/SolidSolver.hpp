@@ -26,6 +26,7 @@ public:
 	void holdEnds(bool bonded, Real friction);
 	void holdBottom(bool plate);
 	void holdDisc(Real jawRadius);
+	void layLine(int side, Real x, Real z, Real width, bool pinned);
 	py::list  pressedAreas();
 	py::tuple elasticConstants();
 	void      clearPressure(int side);
@@ -54,6 +55,8 @@ public:
 			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. With a friction above 0 [-] by plates of any grains, to which they stick from now on as far as it bears. Scale the masses afterwards.")
 		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, (py::arg("plate") = false), "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile. plate: by a plate of any grains.")
 		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Lay a smooth plate below a disc and one on top, which touch it, or jaws of a radius [m]. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
+		.def("layLine", WithGrains<&SolidSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
+			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Scale the masses afterwards.")
 		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")
 		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")

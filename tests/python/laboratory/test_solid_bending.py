@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bending of solid beams: whole tests, notches, same bits, folders, what is refused."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+from stopped_runs import same, taken_up
+
+import flexpm
+from flexpm import Specimen
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.kinds import toughness
+from flexpm.materials.mineral import Mineral
+from flexpm.specimens.mineral_map import minerals_of
+from flexpm.specimens.space.notch import notched
+
+import yade  # isort: skip  (flexpm tells Python where YADE is)
+
+#: Some hundred grains.
+LENGTH, DEPTH, HEIGHT = 0.036, 0.008, 0.008
+SPAN, NOTCH = 4.0 * HEIGHT, 0.003
+
+
+@pytest.fixture(scope="module")
+def beam():
+    return Specimen.box(LENGTH, DEPTH, HEIGHT, seed=1)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_beam_breaks_in_the_middle(beam, model):
+    result = flexpm.run("bending", beam, model=model, rate=4.0)
+    assert result.energy_error < 0.02
+    curve = result.curve
+    area = 2.0 * DEPTH * HEIGHT**2 / (3.0 * SPAN)
+    assert curve["load"] == pytest.approx(area * curve["axial_stress"])
+    assert curve["displacement"] == pytest.approx(SPAN**2 / (6.0 * HEIGHT) * curve["axial_strain"])
+    assert result.peak_load == pytest.approx(area * result.peak_stress)
+    assert 3e6 < result.peak_stress < 60e6
+    assert result.tensile_cracks > result.shear_cracks
+    assert result.fracture_energy > 0.0
+    assert (result.notch_depth, result.fracture_toughness) == (0.0, None)
+    assert (result.youngs_modulus, result.poissons_ratio) == (None, None)
+    assert curve["cmod"][-1] > curve["cmod"][0]
+    assert curve["axial_stress"][-1] <= 0.1 * result.peak_stress
+    # both rollers and the head bear along lines: nothing of the load is lost
+    loaded = curve["load"] > 0.2 * result.peak_load
+    assert sorted(curve["end_mismatch"][loaded])[int(0.5 * loaded.sum())] < 0.1
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_crack_runs_up_from_the_notch(beam, model):
+    result = flexpm.run("bending", beam, model=model, rate=16.0, notch=NOTCH)
+    depth = result.notch_depth
+    assert depth == pytest.approx(NOTCH, abs=0.35 * beam.mean_diameter)
+    sizes = {"span": SPAN, "height": HEIGHT, "thickness": DEPTH, "notch": depth}
+    told = toughness.bending_toughness(result.peak_load, **sizes)
+    assert result.fracture_toughness == pytest.approx(told)
+    area = 2.0 * DEPTH * (HEIGHT - depth) ** 2 / (3.0 * SPAN)
+    assert result.peak_load == pytest.approx(area * result.peak_stress)
+    places = np.array([(one.x, one.z) for one in result.cracks])
+    assert np.abs(places[:, 0] - 0.5 * LENGTH).max() < 0.2 * LENGTH
+    assert places[:, 1].max() > 0.6 * HEIGHT
+    assert result.fracture_energy > 0.0
+    assert result.curve["cmod"][-1] > 10.0 * result.curve["cmod"][1]
+
+
+def test_pieces_of_a_grain_are_of_its_mineral_and_its_size_counts_once(beam):
+    cut = notched(beam, 0.5 * LENGTH, NOTCH)
+    assert cut.cells.cells > beam.cells.cells
+    assert cut.cells.contacts != beam.cells.contacts
+    assert cut.cells.volumes.sum() == pytest.approx(beam.cells.volumes.sum(), rel=1e-12)
+    assert cut.mean_diameter == beam.mean_diameter
+    assert len(cut.spheres) == cut.cells.cells
+    whole = np.flatnonzero(np.bincount(cut.parents)[cut.parents] == 1)
+    assert np.array_equal(cut.spheres[whole], beam.spheres[cut.parents[whole]])
+    rock = flexpm.materials.load("augig-table7")
+    halves = tuple(Mineral(name, 0.5, {}) for name in ("light", "dark"))
+    mixed = dataclasses.replace(rock, minerals=halves)
+    assert np.array_equal(minerals_of(cut, mixed), minerals_of(beam, mixed)[cut.parents])
+    given = beam.with_minerals([k % 2 for k in range(len(beam.spheres))])
+    assert np.array_equal(notched(given, 0.5 * LENGTH, NOTCH).minerals, given.minerals[cut.parents])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("model", "notch"), [("flexible", None), ("rigid", NOTCH)])
+def test_threads_and_a_stop_change_no_bit(beam, model, notch, tmp_path, monkeypatch):
+    asked = {"model": model, "max_strain": 4e-4, "notch": notch}
+    whole = flexpm.run("bending", beam, threads=2, **asked)
+    assert same(taken_up(monkeypatch, tmp_path, 60, "bending", beam, **asked), whole)
+
+
+@pytest.mark.long
+def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sizes = ["--length", "0.03", "--height", "0.008", "--depth", "0.008"]
+    asked = ["bending", *sizes, "--max-strain", "3e-4", "--rate", "4"]
+    assert cli.main(["run", *asked, "--quiet", "--out", "beam"]) in (0, 3)
+    inputs = json.loads((tmp_path / "beam/result.json").read_text())["inputs"]
+    assert inputs["specimen"]["kind"] == "box"
+    assert inputs["span"] == pytest.approx(8.0 / 9.0 * 0.03)
+    assert "--shape box" in (tmp_path / "beam/report.html").read_text()
+    capsys.readouterr()
+    assert cli.main(["rerun", "beam", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
+    assert "the same as in" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        (["--depth", "0.02", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
+        (["--depth", "0.02", "--diameter", "0.1"], "diameter = 0.1 m, must not be given for"),
+        (["--depth", "0.02", "--confinement", "1e6"], "confinement = 1000000.0 Pa, must"),
+        (["--depth", "0.02", "--model", "jcfpm"], "must be one of flexible, rigid"),
+        (["--depth", "0.02", "--control", "cmod"], "control = cmod, must be left out for a box"),
+        (["--depth", "0.02", "--span", "0.2"], "span = 0.2 m, must be"),
+        (["--depth", "0.02", "--notch", "0.04"], "notch = 0.04 m, must be"),
+        (["--depth", "0.02", "--notch", "0.01", "--span", "0.05"], "2.5 times the height"),
+        (["--depth", "0.02", "--joints", "no.csv"], "joints = no.csv, must not be given for a box"),
+        (["--shape", "cylinder"], "must be a rectangle for bending, or a box"),
+    ],
+)
+def test_what_does_not_fit_a_beam_is_refused(asked, told, tmp_path, capsys):
+    assert cli.main(["run", "bending", *asked, "--out", str(tmp_path / "none")]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert told in error
+    assert not (tmp_path / "none").exists()
+
+
+def test_the_plane_keeps_rigs_of_parts(beam):
+    yade.O.reset()
+    with pytest.raises(InputError, match="PartRig: specimen = box, must be plane"):
+        flexpm.PartRig(flexpm.build(beam))
