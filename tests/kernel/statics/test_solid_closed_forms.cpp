@@ -60,7 +60,7 @@ bool at(double place, double level) { return std::fabs(place - level) < 1e-9; }
 
 }  // namespace
 
-TEST_CASE("A cylinder twists as Saint-Venant says", "[solids]")
+TEST_CASE("A cylinder twists as Saint-Venant says", "[solids][elastic_bodies]")
 {
     const LinearSolid solid =
         stiff(Solid::cylinder(2.0 * radius, height, solid_samples::side), 420);
@@ -81,7 +81,7 @@ TEST_CASE("A cylinder twists as Saint-Venant says", "[solids]")
     CHECK(moment == Approx(shear * polar * angle / height).epsilon(0.02));
 }
 
-TEST_CASE("A solid held sideways has the modulus of uniaxial strain", "[solids]")
+TEST_CASE("A solid held sideways has the modulus of uniaxial strain", "[solids][elastic_bodies]")
 {
     const LinearSolid solid = stiff(Solid::box(edge, edge, edge), 100);
     constexpr double strain = 1e-6;
