@@ -118,6 +118,7 @@ specimen.add_command(cli_images.tess)
 specimen.add_command(cli_solids.box)
 specimen.add_command(cli_solids.cylinder)
 specimen.add_command(cli_solids.solid_disc)
+specimen.add_command(cli_solids.solid_half_disc)
 
 
 @command.command(short_help="Time a step of each model.")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that make solids: ``flexpm specimen box``, ``cylinder``, ``solid-disc``; options."""
+"""Commands that make solids, as ``flexpm specimen box``, and their options."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +22,7 @@ from .parameters import Name
 if TYPE_CHECKING:
     from ..specimens.space.specimen import SolidSpecimen
 
-_BOX, _CYLINDER, _DISC = SIZES["box"], SIZES["cylinder"], SIZES["solid-disc"]
+_BOX, _CYLINDER = SIZES["box"], SIZES["cylinder"]
 box_options = combined(
     length_option("--width", _BOX["width"], "Width, along x"),
     length_option("--depth", _BOX["depth"], "Depth, along y"),
@@ -42,10 +42,10 @@ def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
             type=Name(*shapes),
             metavar="|".join(shapes),
             help=f"Take a solid{of}. Sizes of a solid that are not given [m]: {sizes}.  [default: "
-            "that of the test in the plane; with --depth a solid-disc for a disc, a box for a "
-            "beam; a cylinder for tests of solids alone]",
+            "that of the test in the plane; with --depth a solid-disc for a disc, half of one for "
+            "half a disc, a box for a beam; a cylinder for tests of solids alone]",
         ),
-        length_option("--depth", _BOX["depth"], "Depth of a box or a disc, along y"),
+        length_option("--depth", _BOX["depth"], "Depth of a box, a disc or half of one, along y"),
     )
 
 
@@ -68,10 +68,13 @@ cylinder_options = combined(
     cylinder_diameter,
     length_option("--height", _CYLINDER["height"], "Height, along z"),
 )
-disc_options = combined(
-    length_option("--diameter", _DISC["diameter"], "Diameter"),
-    length_option("--depth", _DISC["depth"], "Depth, along y"),
-)
+
+
+def _disc_options(sizes: Mapping[str, float]) -> cli_options.Decorator:
+    return combined(
+        length_option("--diameter", sizes["diameter"], "Diameter of the disc"),
+        length_option("--depth", sizes["depth"], "Depth, along y"),
+    )
 
 
 def _command(kind: str, sizes: cli_options.Decorator, about: str) -> click.Command:
@@ -90,7 +93,16 @@ def _command(kind: str, sizes: cli_options.Decorator, about: str) -> click.Comma
 
 box = _command("box", box_options, "A box of polyhedral grains.")
 cylinder = _command("cylinder", cylinder_options, "An upright cylinder of polyhedral grains.")
-solid_disc = _command("solid-disc", disc_options, "A disc of polyhedral grains, about the y axis.")
+solid_disc = _command(
+    "solid-disc",
+    _disc_options(SIZES["solid-disc"]),
+    "A disc of polyhedral grains, about the y axis.",
+)
+solid_half_disc = _command(
+    "solid-half-disc",
+    _disc_options(SIZES["solid-half-disc"]),
+    "The upper half of a disc of polyhedral grains, about the y axis.",
+)
 
 
 def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:

@@ -230,7 +230,11 @@ def _corners(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Lower left and upper right corner of the rectangle around a specimen, or its section [m]."""
     if isinstance(specimen, SolidSpecimen):
-        return (0.0, 0.0), (specimen.dimensions["width"], specimen.dimensions["height"])
+        sizes = specimen.dimensions
+        if specimen.kind == "solid-half-disc":
+            radius = 0.5 * sizes["diameter"]
+            return (-radius, 0.0), (radius, radius)
+        return (0.0, 0.0), (sizes["width"], sizes["height"])
     if not isinstance(specimen.outline, np.ndarray):
         raise SimulationError("outline = a circle, must be a polygon for a test between parts")
     (left, bottom), (right, top) = specimen.outline.min(axis=0), specimen.outline.max(axis=0)

@@ -134,9 +134,10 @@ def size_text(result: Result) -> str:
     """Size of a specimen, its grains and its seed in one line."""
     specimen = (result.inputs or {}).get("specimen") or {}
     parts = []
-    if specimen.get("kind") == "solid-disc":
+    half = "half a " if "half" in specimen.get("kind", "") else ""
+    if specimen.get("kind") in ("solid-disc", "solid-half-disc"):
         sizes = (specimen[name] for name in ("diameter", "depth"))
-        parts.append("disc of " + " x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
+        parts.append(f"{half}disc of " + " x ".join(f"{1e3 * size:g}" for size in sizes) + " mm")
     elif specimen.get("depth"):
         sizes = (specimen[name] for name in ("width", "depth", "height"))
         parts.append(" x ".join(f"{1e3 * size:.4g}" for size in sizes) + " mm")
@@ -147,7 +148,6 @@ def size_text(result: Result) -> str:
     elif specimen.get("width") and specimen.get("height"):
         parts.append(f"{1e3 * specimen['width']:.4g} x {1e3 * specimen['height']:.4g} mm")
     elif specimen.get("diameter"):
-        half = "half a " if specimen.get("kind") == "half-disc" else ""
         parts.append(f"{half}disc of {1e3 * specimen['diameter']:.4g} mm")
     parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")

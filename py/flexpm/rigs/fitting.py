@@ -6,10 +6,12 @@ from __future__ import annotations
 from typing import Unpack
 
 from ..errors import InputError
+from ..kinds.registry import KINDS
+from ..kinds.test_kind import Rig
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..runs.runner import Runner
-from ..specimens.space.any_spec import SOLIDS, is_solid
+from ..specimens.space.any_spec import is_solid
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig
@@ -18,6 +20,16 @@ from .solids.end_rig import EndRig
 from .sphere_rig import SphereRig
 from .statics.end_state import NodeEnds, PlateEnds
 
+#: Shapes of the plane, then of space, that some test holds between ends or two plates.
+_HELD = tuple(
+    dict.fromkeys(
+        shape
+        for of in (lambda kind: (kind.shape,), lambda kind: kind.solids)
+        for kind in KINDS.values()
+        if kind.rig is Rig.ENDS
+        for shape in of(kind)
+    )
+)
 #: Rigs that note what a script calls, for its folder.
 _RIGS = [recording(kind) for kind in (NodeEnds, PlateEnds, EndRig, SolidDiscRig, SphereRig)]
 
@@ -52,10 +64,11 @@ def rig(
         InputError: for a specimen of another outline, or a folder that holds something else.
         BusyError: if another process uses the folder.
     """
-    if built.specimen.kind not in ("rectangle", "disc", *SOLIDS):
+    if built.specimen.kind not in _HELD:
+        other = "no rig holds" if is_solid(built.specimen.kind) else "flexpm.PartRig holds"
         raise InputError(
-            f"rig: specimen = {built.specimen.kind}, must be a rectangle, a disc or a solid; "
-            "flexpm.PartRig holds any other"
+            f"rig: specimen = {built.specimen.kind}, must be one of {', '.join(_HELD)}; {other} "
+            "any other"
         )
     kept = KeptTest.of(built, "rig", leaves, pull=tension)
     made = _fitting(built, tension, runner if kept is None else kept.runner)

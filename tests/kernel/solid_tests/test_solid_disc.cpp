@@ -63,6 +63,28 @@ TEST_CASE("A disc has its section's area, and a facet below and on top", "[space
     CHECK_THROWS_WITH(Solid::disc(0.05, 0.0, 3e-3), Catch::Contains("disc: depth = 0 m"));
 }
 
+TEST_CASE("Half a disc has half its area, lies flat and has a facet on top", "[space]")
+{
+    const Solid half = Solid::half_disc(0.05, 0.02, 3e-3);
+    CHECK(half.volume == Approx(0.125 * pi * 0.05 * 0.05 * 0.02));
+    const std::size_t facets = half.walls.size() - 3;
+    REQUIRE(facets % 2 == 1);
+    CHECK(facets == 27);
+    CHECK(half.walls[2].side == SolidSide::bottom);
+    CHECK(half.walls[3].side == SolidSide::top);
+    const double apothem = half.walls[3].offset;
+    const double chord = 2.0 * apothem * std::tan(0.5 * pi / static_cast<double>(facets));
+    Vector sum = 2.0 * half.high.x * half.walls[2].normal;
+    for (std::size_t k = 3; k < half.walls.size(); ++k) {
+        CHECK(norm(half.walls[k].normal) == Approx(1.0));
+        CHECK(half.walls[k].offset == apothem);
+        sum = sum + chord * half.walls[k].normal;
+    }
+    CHECK(norm(sum) < 1e-12);  // as of a closed ring
+    CHECK(0.5 * static_cast<double>(facets) * chord * apothem * 0.02 == Approx(half.volume));
+    CHECK_THROWS_WITH(Solid::half_disc(0.0, 0.02, 3e-3), Catch::Contains("diameter = 0 m"));
+}
+
 TEST_CASE("Plates touch a facet of a disc each, which does not move across", "[solids]")
 {
     const Packing p = disc();

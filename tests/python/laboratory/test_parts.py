@@ -339,7 +339,10 @@ def test_a_watch_that_takes_the_scene_away_ends_in_one_line():
 
 def test_rigs_of_two_ends_are_for_rectangles_and_discs():
     triangle = Specimen.polygon([(0.0, 0.0), (0.02, 0.0), (0.01, 0.017)], 0.01)
-    refused("rig: specimen = polygon, must be a rectangle", lambda: flexpm.rig(built(triangle)))
+    refused(
+        "rig: specimen = polygon, must be one of rectangle, disc",
+        lambda: flexpm.rig(built(triangle)),
+    )
 
 
 def test_every_rig_has_warnings_and_gives_its_record_to_yade():

@@ -18,11 +18,11 @@ struct Section {
     double half;  ///< of the angle of a facet [rad]
     double apothem, corner, area;
 
-    /// @param multiple  of which the number of facets is one
-    Section(double diameter, double grain, int multiple)
+    /// @param multiple  of which the number of facets is one, and `more`
+    Section(double diameter, double grain, int multiple, int more = 0)
     {
         const double around = std::min(pi * diameter / grain, most_facets) / multiple;
-        facets = std::max(fewest_facets, multiple * static_cast<int>(std::lround(around)));
+        facets = std::max(fewest_facets, multiple * static_cast<int>(std::lround(around))) + more;
         half = pi / facets;
         area = 0.25 * pi * diameter * diameter;
         // from the section's area: facets * apothem^2 * tan(half)
@@ -76,6 +76,25 @@ Solid Solid::disc(double diameter, double depth, double grain)
                       { { 0.0, 0.0, 1.0 }, of.apothem, SolidSide::mantle } },
         { -of.corner, 0.0, -of.corner }, { of.corner, depth, of.corner }, of.area * depth };
     for (int k = 1; 2 * k < of.facets; ++k) {
+        const double sine = std::sin(2 * k * of.half), cosine = std::cos(2 * k * of.half);
+        solid.walls.push_back({ { sine, 0.0, cosine }, of.apothem, SolidSide::mantle });
+        solid.walls.push_back({ { -sine, 0.0, cosine }, of.apothem, SolidSide::mantle });
+    }
+    return solid;
+}
+
+Solid Solid::half_disc(double diameter, double depth, double grain)
+{
+    check_positive("half_disc: diameter", diameter, "m");
+    check_positive("half_disc: depth", depth, "m");
+    check_positive("half_disc: size of a grain", grain, "m");
+    const Section of(diameter, grain, 4, 2);
+    Solid solid { { { { 0.0, -1.0, 0.0 }, 0.0, SolidSide::front },
+                      { { 0.0, 1.0, 0.0 }, depth, SolidSide::back },
+                      { { 0.0, 0.0, -1.0 }, 0.0, SolidSide::bottom },
+                      { { 0.0, 0.0, 1.0 }, of.apothem, SolidSide::top } },
+        { -of.corner, 0.0, 0.0 }, { of.corner, depth, of.apothem }, 0.5 * of.area * depth };
+    for (int k = 1; 4 * k < of.facets; ++k) {
         const double sine = std::sin(2 * k * of.half), cosine = std::cos(2 * k * of.half);
         solid.walls.push_back({ { sine, 0.0, cosine }, of.apothem, SolidSide::mantle });
         solid.walls.push_back({ { -sine, 0.0, cosine }, of.apothem, SolidSide::mantle });

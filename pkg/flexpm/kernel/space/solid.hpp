@@ -45,6 +45,10 @@ struct Solid {
     /// around it, an even number, one below and one on top. Tests load it along z.
     /// @throws std::invalid_argument  unless all are finite and above 0
     static Solid disc(double diameter, double depth, double grain);
+    /// Upper half of a disc about the y axis from y = 0, flat below at z = 0, as a prism of half
+    /// its area: a facet for each grain around it, an odd number, the middle one the top.
+    /// @throws std::invalid_argument  unless all are finite and above 0
+    static Solid half_disc(double diameter, double depth, double grain);
 };
 
 /// Distance from the nearest wall, positive inside [m].

@@ -177,6 +177,11 @@ void register_space_bindings()
 	             (py::arg("diameter"), py::arg("depth"), py::arg("grain")),
 	             "Prism about the y axis, from y = 0, with a facet below and one on top.")
 	        .staticmethod("disc")
+	        .def("half_disc",
+	             Solid::half_disc,
+	             (py::arg("diameter"), py::arg("depth"), py::arg("grain")),
+	             "Upper half of a prism about the y axis, from y = 0, flat below at z = 0, with a facet on top.")
+	        .staticmethod("half_disc")
 	        .add_property("walls", walls, "Rows nx, ny, nz, offset: outside where n . p > offset.")
 	        .add_property("sides", sides, "Side of each wall: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back.")
 	        .def_readonly("volume", &Solid::volume, "[m^3]");

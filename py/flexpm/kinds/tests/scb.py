@@ -46,6 +46,7 @@ KIND = TestKind(
     order=6,
     about="half a disc with a notch on two supports, pressed on top",
     shape="half-disc",
+    solids=("solid-half-disc",),
     models=BLOCK_MODELS,
     results={"flexible": 6, "rigid": 5},
     options=(
@@ -66,6 +67,12 @@ KIND = TestKind(
             0.01, 0.006, (0.0055, 0.012), 0.01, waiting_constant=0.08, likely_crossings=400
         ),
         "rigid": Rates(0.01, 0.003, (0.006, 0.02), 0.01, likely_crossings=180),
+    },
+    solid_rates={
+        "flexible": Rates(
+            0.01, 0.006, (0.0055, 0.012), 0.01, waiting_constant=0.08, likely_crossings=400
+        ),
+        "rigid": Rates(0.01, 0.003, (0.012, 0.02), 0.01, likely_crossings=180),
     },
     stop_ratio=0.1,
     largest_strain=20.0,

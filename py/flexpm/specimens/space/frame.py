@@ -16,14 +16,20 @@ from .spec import SolidSpec
 
 #: Length of facets beyond top and bottom, in largest sizes of the frame.
 _BEYOND = 0.05
+#: Makers of the outlines that are round.
+_ROUND = {
+    "cylinder": Solid.cylinder,
+    "solid-disc": Solid.disc,
+    "solid-half-disc": Solid.half_disc,
+}
 
 
 @dataclass(frozen=True)
 class SolidFrame:
-    """Box from the origin, upright cylinder about the z axis, disc about the y axis, both from 0.
+    """Box from the origin, cylinder about the z axis, disc or half of one about the y axis, from 0.
 
     Attributes:
-        kind: ``box``, ``cylinder`` or ``solid-disc``.
+        kind: ``box``, ``cylinder``, ``solid-disc`` or ``solid-half-disc``.
         sizes: Width, depth and height, diameter and height, or diameter and depth [m].
         grain: Mean diameter of the spheres, which the facets of a mantle follow [m].
     """
@@ -47,8 +53,7 @@ class SolidFrame:
         if self.kind == "box":
             return Solid.box(*self.sizes)
         diameter, length = self.sizes
-        make = Solid.cylinder if self.kind == "cylinder" else Solid.disc
-        return make(diameter, length, self.grain)
+        return _ROUND[self.kind](diameter, length, self.grain)
 
     def insert(self, radii: FloatArray, shrink: float, seed: int) -> FloatArray:
         """Return random places at which shrunken spheres do not overlap, (n, 3) [m]."""
@@ -73,14 +78,16 @@ class SolidFrame:
     def _mantle(self, material: wrapper.Material) -> list[wrapper.Body]:
         walls = self.solid().walls
         apothem = walls[-1, 3]
-        count = len(walls) - 2
-        corner = apothem / math.cos(math.pi / count)
+        halved = self.kind == "solid-half-disc"
+        count = len(walls) - (3 if halved else 2)
+        around = 2 * count if halved else count
+        corner = apothem / math.cos(math.pi / around)
         low = -_BEYOND * max(self.sizes)
         high = self.sizes[1] - low
         # numpy has cosines of its own on some processors: spheres would differ between machines
         upright = self.kind == "cylinder"
-        first = 0.0 if upright else math.pi / count
-        angles = [first + 2.0 * math.pi * k / count for k in range(count + 1)]
+        first = {"cylinder": 0.0, "solid-half-disc": -0.5 * math.pi}.get(self.kind, math.pi / count)
+        angles = [first + 2.0 * math.pi * k / around for k in range(count + 1)]
         rim = [(corner * math.cos(angle), corner * math.sin(angle)) for angle in angles]
 
         def place(point: tuple[float, float], along: float) -> tuple[float, float, float]:

@@ -63,6 +63,22 @@ class SolidShapes:
         return _packed("solid-disc", {"diameter": diameter, "depth": depth}, packing)
 
     @staticmethod
+    def solid_half_disc(diameter: float, depth: float, **packing: Unpack[Packing]) -> SolidSpecimen:
+        """Pack the upper half of a disc about the y axis, from y = 0, flat below at z = 0.
+
+        It is a prism of half the disc's area, with a facet on top.
+
+        Args:
+            diameter: Diameter of the disc [m].
+            depth: Along y [m]; the load is along z.
+            packing: As for ``box``.
+
+        Raises:
+            InputError: as for ``box``.
+        """
+        return _packed("solid-half-disc", {"diameter": diameter, "depth": depth}, packing)
+
+    @staticmethod
     def from_spheres(
         spheres: npt.ArrayLike | Path | str,
         *,

@@ -25,6 +25,7 @@ SIZES: dict[str, dict[str, float]] = {
     "box": {"width": 0.025, "depth": 0.025, "height": 0.05},
     "cylinder": {"diameter": 0.05, "height": 0.1},
     "solid-disc": {"diameter": 0.05, "depth": 0.025},
+    "solid-half-disc": {"diameter": 0.05, "depth": 0.02},
 }
 #: Edges of cells below this share of the mean diameter are collapsed.
 SHORT_EDGE = 0.10
@@ -38,11 +39,11 @@ class SolidSpec:
     """Shape, size and packing of a solid, or a checksum of what was given instead of a packing.
 
     Attributes:
-        kind: ``box``, ``cylinder`` or ``solid-disc``.
+        kind: ``box``, ``cylinder``, ``solid-disc`` or ``solid-half-disc``.
         width: Width of a box, along x [m]; if None its default, and None for another shape.
-        depth: Depth of a box or a disc, along y [m]; None as for `width`.
+        depth: Depth of a box, a disc or half of one, along y [m]; None as for `width`.
         height: That of a box or a cylinder, along z, the axis of tests [m]; None as for `width`.
-        diameter: Diameter of a cylinder or a disc [m]; None as for `width`.
+        diameter: Diameter of a cylinder, a disc or half of one [m]; None as for `width`.
         diameters: Smallest and largest diameter of the packed spheres [m]; None for given ones.
         porosity: Sets the number of packed spheres [-]; None for given ones.
         seed: Seed of the packing; None for given spheres.
@@ -119,7 +120,8 @@ class SolidSpec:
         if self.kind == "box":
             return math.prod(sizes.values())
         diameter, length = sizes.values()
-        return 0.25 * math.pi * diameter**2 * length
+        whole = 0.25 * math.pi * diameter**2 * length
+        return 0.5 * whole if self.kind == "solid-half-disc" else whole
 
     def _require_memory(self, where: str) -> None:
         """Refuse a packing that the machine has no memory for, before it is begun."""

@@ -28,10 +28,10 @@ from .spec import SHORT_EDGE, SIZES, SolidSpec
 
 @dataclass(frozen=True, eq=False)
 class SolidSpecimen:
-    """Bonded polyhedral grains that fill a box, a cylinder or a disc.
+    """Bonded polyhedral grains that fill a box, a cylinder, a disc or half of one.
 
-    Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``from_spheres``,
-    ``from_tess_solid`` or ``load_solid``.
+    Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``solid_half_disc``,
+    ``from_spheres``, ``from_tess_solid`` or ``load_solid``.
 
     Attributes:
         spheres: Rows x, y, z, radius [m], one per grain: its sphere, or the centroid of a cell that
@@ -187,7 +187,7 @@ class SolidSpecimen:
 
     @property
     def kind(self) -> str:
-        """``box``, ``cylinder`` or ``solid-disc``."""
+        """``box``, ``cylinder``, ``solid-disc`` or ``solid-half-disc``."""
         return self.spec.kind
 
     @property
@@ -202,7 +202,7 @@ class SolidSpecimen:
 
     @property
     def thickness(self) -> float:
-        """Depth of a disc, else the root of the section's area [m].
+        """Depth of a disc or half of one, else the root of the section's area [m].
 
         With the scales' width it gives the area that the stress refers to.
         """
